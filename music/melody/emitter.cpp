@@ -142,7 +142,7 @@ int Emitter::free_voice(std::int64_t onset) {
         if (held_[at] || (at < busy_until_.size() && busy_until_[at] > onset)) continue;
         if (voice >= options_.most_voices) {
             throw ScoreError(
-                fmt::format("too many voices: more than {} branches sound at once; a smaller n has fewer", voice));
+                fmt::format("too many voices: more than {} at once; a smaller n has fewer branches", voice));
         }
         held_[at] = true;
         return voice;
@@ -176,14 +176,8 @@ Emitter::Placed Emitter::within_range(double raw, std::int64_t degree, bool fall
         case Range::reflect:
             break;
     }
-    find_bounds();
-    std::int64_t inside = std::clamp(degree, low_, high_);
-    if (melody_.range == Range::reflect && high_ > low_) {
-        const std::int64_t width = high_ - low_;
-        std::int64_t phase = (degree - low_) % (2 * width);
-        if (phase < 0) phase += 2 * width;
-        inside = low_ + (phase <= width ? phase : 2 * width - phase);
-    }
+    if (!range_) range_.emplace(melody_);
+    const std::int64_t inside = range_->inside(degree);
     return {std::clamp(melody_.key(inside, falling).value_or(60.0), melody_.lowest, melody_.highest), true, false};
 }
 
@@ -192,24 +186,6 @@ void Emitter::refuse(std::int64_t degree, const std::string& key) const {
         fmt::format("degree {} of the scale would be {}, beyond the keys {:.0f} to {:.0f}: `range: fold`, another "
                     "tonic or a smaller n helps",
                     degree, key, melody_.lowest, melody_.highest));
-}
-
-/// The degrees around the tonic whose keys are within.
-void Emitter::find_bounds() {
-    if (low_ <= high_) return;
-    const auto fits = [&](std::int64_t degree) {
-        const auto up = melody_.key(degree, false);
-        const auto down = melody_.key(degree, true);
-        return up && down && is_within(*up) && is_within(*down);
-    };
-    low_ = 0;
-    // The tonic may itself be beyond: go to where the keys are.
-    const auto tonic = melody_.key(0, false);
-    const std::int64_t towards = tonic && *tonic > melody_.highest ? -1 : 1;
-    while (std::abs(low_) < 10'000 && !fits(low_)) low_ += towards;
-    high_ = low_;
-    while (high_ < 10'000 && fits(high_ + 1)) ++high_;
-    while (low_ > -10'000 && fits(low_ - 1)) --low_;
 }
 
 }  // namespace sikku::mapping

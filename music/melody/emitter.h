@@ -2,6 +2,7 @@
 #pragma once
 
 #include "music/melody/accompaniment.h"
+#include "music/melody/degree_range.h"
 #include "music/melody/mapping.h"
 #include "music/melody/shaper.h"
 
@@ -104,6 +105,7 @@ private:
             if (at >= shaped_.size()) shaped_.resize(at + 1);
             shaped_[at].voice = note.voice;
             depth = note.depth;
+            if (note.is_moved && note.end > options_.from && note.onset < options_.to) ++report.moved;
             if (note.is_fixed()) {
                 place_fixed(shaped_[at], note);
                 continue;
@@ -210,7 +212,6 @@ private:
     /// @param raw  the key of the degree, perhaps beyond the range
     Placed within_range(double raw, std::int64_t degree, bool falling);
     [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
-    void find_bounds();
 
     static constexpr std::size_t notes_in_block = 1024;
     static constexpr std::int64_t cached_degrees = 8192;
@@ -219,8 +220,7 @@ private:
     const PlayOptions& options_;
     std::vector<Note> block_;
     std::array<std::vector<Placed>, 2> keys_;
-    std::int64_t low_ = 1;
-    std::int64_t high_ = 0;
+    std::optional<DegreeRange> range_;  // once a note is beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
     std::int64_t accompanied_ = 0;          // until that tick of the score

@@ -59,10 +59,10 @@ bool Chord::has(std::int64_t degree) const {
     return is_tone[static_cast<std::size_t>(within(degree, size))] != 0;
 }
 
-std::int64_t Chord::nearest(std::int64_t degree) const {
+std::int64_t Chord::nearest(std::int64_t degree, std::int64_t low, std::int64_t high) const {
     for (std::int64_t by = 0; by <= static_cast<std::int64_t>(is_tone.size()); ++by) {
-        if (has(degree - by)) return degree - by;
-        if (has(degree + by)) return degree + by;
+        if (degree - by >= low && has(degree - by)) return degree - by;
+        if (degree + by <= high && has(degree + by)) return degree + by;
     }
     return degree;
 }

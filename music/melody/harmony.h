@@ -18,8 +18,9 @@ enum class Harmony { none, drone, triads, bass, progression };
 struct Chord {
     std::vector<double> cents;  ///< the root first, within a period
     std::vector<char> is_tone;  ///< for each degree of the scale
-    /// The degree nearest to `degree` that is a tone of the chord; of two, the lower.
-    std::int64_t nearest(std::int64_t degree) const;
+    /// The degree nearest to `degree` that is a tone of the chord and lies from `low` to `high`; of two, the lower.
+    /// If there is none, `degree`.
+    std::int64_t nearest(std::int64_t degree, std::int64_t low = INT64_MIN, std::int64_t high = INT64_MAX) const;
     bool has(std::int64_t degree) const;
 };
 

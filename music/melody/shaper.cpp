@@ -33,12 +33,29 @@ std::int64_t nearest_in(std::int64_t degree, std::int64_t place, std::int64_t pe
 Shaper::Shaper(const Melody& melody)
     : melody_(melody), held_(melody.cadence == Cadence::none ? 1 : notes_of_cadence), fifth_(fifth_of(melody.scale)) {
     if (melody.harmony == Harmony::triads) triads_ = triads_of(melody.scale);
+    const bool changes_degrees = melody.has_chords() || melody.cadence != Cadence::none;
+    const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
+    if (changes_degrees && is_bounded) range_.emplace(melody);
+}
+
+/// What is beyond the range is brought into it first, so that chords and cadences are those of what sounds.
+void Shaper::keep_within(Draft& note) const {
+    if (!range_ || note.is_fixed()) return;
+    const std::int64_t inside = range_->inside(note.degree);
+    note.is_moved = note.is_moved || inside != note.degree;
+    note.degree = inside;
+    note.goal = range_->inside(note.goal);
+}
+
+std::int64_t Shaper::tone_of(const Chord& chord, std::int64_t degree) const {
+    return range_ ? chord.nearest(degree, range_->low(), range_->high()) : chord.nearest(degree);
 }
 
 void Shaper::add(int voice, Draft note) {
     const auto at = static_cast<std::size_t>(voice);
     if (at >= pending_.size()) pending_.resize(at + 1);
     note.voice = voice;
+    keep_within(note);
     pending_[at].push_back(note);
     if (pending_[at].size() <= held_) return;
     release(pending_[at].front());
@@ -91,7 +108,9 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
     if (melody_.cadence == Cadence::none) return;
     const bool is_open = melody_.cadence == Cadence::alternate && !is_odd;
     const auto period = static_cast<std::int64_t>(melody_.scale.size());
-    const std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
+    std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
+    if (range_ && goal < range_->low() && goal + period <= range_->high()) goal += period;
+    if (range_ && goal > range_->high() && goal - period >= range_->low()) goal -= period;
     const bool from_above = notes.front().degree >= goal;
     std::int64_t distance = static_cast<std::int64_t>(notes.size()) - 1;
     for (Draft& note : notes) {
@@ -105,6 +124,7 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
         } else {
             note.degree = std::clamp(note.degree, std::min(goal, farthest), std::max(goal, farthest));
         }
+        if (range_) note.degree = range_->inside(note.degree);
         --distance;
     }
     notes.back().glide = 0;  // the goal is held
@@ -131,7 +151,7 @@ void Shaper::release(Draft note) {
 
 void Shaper::harmonise(Draft note) {
     if (const Chord* chord = given_chord(note.onset)) {
-        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = chord->nearest(note.degree);
+        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*chord, note.degree);
         return perform(note);
     }
     if (note.voice != 0) return perform(note);
@@ -158,7 +178,7 @@ void Shaper::close_bar() {
     const std::int64_t bar = melody_.meter.bar();
     chords_.push_back({bar_.front().onset / bar * bar, best});
     for (Draft& note : bar_) {
-        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = best->nearest(note.degree);
+        if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*best, note.degree);
         perform(note);
     }
     bar_.clear();

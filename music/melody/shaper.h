@@ -1,12 +1,13 @@
 // music/melody/shaper.h: shapes the notes of a melody between the curve and the scale: cadences, articulation, swing.
 #pragma once
 
-#include "music/melody/melody.h"
+#include "music/melody/degree_range.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,6 +31,7 @@ public:
         std::uint64_t symbol = 0;
         int voice = 0;
         bool is_last = false;    ///< of its phrase
+        bool is_moved = false;   ///< its degree was brought into the range
         double key = by_degree;  ///< of notes that cadences and chords leave as they are; else by_degree
         bool is_drum = false;
         std::int64_t glide = 0;  ///< ticks at its end in which its pitch slides to the next note
@@ -57,6 +59,8 @@ public:
     std::span<const Draft> take();
 
 private:
+    void keep_within(Draft& note) const;
+    std::int64_t tone_of(const Chord& chord, std::int64_t degree) const;
     void cadence(std::vector<Draft>& notes, bool is_odd) const;
     void release(Draft note);
     void harmonise(Draft note);
@@ -66,6 +70,7 @@ private:
     std::int64_t swung(std::int64_t tick) const;
 
     const Melody& melody_;
+    std::optional<DegreeRange> range_;         // where it changes degrees by other than whole periods
     std::size_t held_;                         // notes of a voice that are held back
     std::int64_t fifth_;                       // degrees from the tonic to the fifth
     std::vector<std::vector<Draft>> pending_;  // by voice

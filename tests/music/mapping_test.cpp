@@ -933,6 +933,76 @@ TEST(Harmonies, StrongBeatsAreTonesOfTheChord) {
     }
 }
 
+/// What is beyond the range is brought into it before its chord is chosen: the chord is that of what sounds.
+TEST(Harmonies, FollowTheMelodyWithinItsRange) {
+    std::string problem;
+    for (const Range range : {Range::fold, Range::reflect, Range::clamp}) {
+        for (const Harmony harmony : {Harmony::progression, Harmony::triads}) {
+            Melody melody = plain();
+            melody.scale = *find_scale("major");
+            melody.tonic = 60;
+            melody.anchor = Anchor::centre;
+            melody.range = range;
+            melody.lowest = 57;
+            melody.highest = 74;
+            melody.harmony = harmony;
+            if (harmony == Harmony::progression) {
+                melody.progression = read_progression("I-IV-V-II", melody.scale, problem);
+            }
+            Collector found;
+            EXPECT_GT(play(hilbert(6), melody, found, {}).moved, 500u);
+            std::map<std::int64_t, std::set<int>> chords;  // pitch classes by bar
+            std::map<std::int64_t, std::map<int, std::int64_t>> sounding;
+            const std::int64_t bar = melody.meter.bar();
+            for (const Note& note : found.all) {
+                const int pitch = static_cast<int>(note.key) % 12;
+                const std::int64_t at = note.onset / bar;
+                if (note.voice != 0) {
+                    chords[at].insert(pitch);
+                    continue;
+                }
+                EXPECT_GE(note.key, 57);
+                EXPECT_LE(note.key, 74);
+                const bool is_strong = note.onset % (bar / 2) == 0;
+                sounding[at][pitch] += (is_strong ? 2 : 1) * note.duration;
+            }
+            for (const Note& note : found.all) {
+                if (note.voice != 0 || note.onset % (bar / 2) != 0) continue;
+                EXPECT_TRUE(chords[note.onset / bar].contains(static_cast<int>(note.key) % 12)) << note.onset / bar;
+            }
+            if (harmony == Harmony::progression) continue;
+            // The chord has at least half of what sounds: a triad that fits worse than another is not chosen.
+            for (const auto& [at, pitches] : sounding) {
+                std::int64_t fits = 0;
+                std::int64_t all = 0;
+                for (const auto& [pitch, weight] : pitches) {
+                    all += weight;
+                    if (chords[at].contains(pitch)) fits += weight;
+                }
+                EXPECT_GE(2 * fits, all) << at;
+            }
+            expect_pieces(hilbert(6), melody, {0, 64, 1024});
+        }
+        Melody melody = plain();
+        melody.scale = *find_scale("major");
+        melody.tonic = 60;
+        melody.range = range;
+        melody.lowest = 57;
+        melody.highest = 74;
+        melody.phrase_order = 2;
+        melody.breath = unit;
+        melody.cadence = Cadence::tonic;
+        const Collector closed = played(hilbert(5), melody);
+        for (std::size_t i = 0; i < closed.all.size(); ++i) {
+            const bool is_last =
+                i + 1 == closed.all.size() || closed.all[i + 1].onset > closed.all[i].onset + closed.all[i].duration;
+            if (is_last) {
+                EXPECT_EQ(std::remainder(closed.all[i].key - 60, 12), 0) << i;
+            }
+        }
+    }
+}
+
 TEST(Harmonies, ADroneSoundsTonicAndFifth) {
     Melody melody = plain();
     melody.scale = *find_scale("hamsadhwani");

@@ -1,0 +1,32 @@
+#include "music/melody/degree_range.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace sikku::mapping {
+
+DegreeRange::DegreeRange(const Melody& melody) : is_mirror_(melody.range == Range::reflect) {
+    constexpr std::int64_t farthest = 10'000;
+    const auto is_within = [&](double key) { return key >= melody.lowest && key <= melody.highest; };
+    const auto fits = [&](std::int64_t degree) {
+        const auto up = melody.key(degree, false);
+        const auto down = melody.key(degree, true);
+        return up && down && is_within(*up) && is_within(*down);
+    };
+    const auto tonic = melody.key(0, false);
+    const std::int64_t towards = tonic && *tonic > melody.highest ? -1 : 1;
+    while (std::abs(low_) < farthest && !fits(low_)) low_ += towards;
+    high_ = low_;
+    while (high_ < farthest && fits(high_ + 1)) ++high_;
+    while (low_ > -farthest && fits(low_ - 1)) --low_;
+}
+
+std::int64_t DegreeRange::inside(std::int64_t degree) const {
+    if (!is_mirror_ || high_ == low_) return std::clamp(degree, low_, high_);
+    const std::int64_t width = high_ - low_;
+    std::int64_t phase = (degree - low_) % (2 * width);
+    if (phase < 0) phase += 2 * width;
+    return low_ + (phase <= width ? phase : 2 * width - phase);
+}
+
+}  // namespace sikku::mapping

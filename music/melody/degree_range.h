@@ -1,0 +1,26 @@
+// music/melody/degree_range.h: the degrees of a scale that a melody may sound.
+#pragma once
+
+#include "music/melody/melody.h"
+
+#include <cstdint>
+
+namespace sikku::mapping {
+
+/// The degrees around the tonic whose keys, rising and falling, lie within the range of a melody; where the tonic
+/// lies beyond it, those nearest to the tonic. Cost: O(degrees), at most 30,000.
+class DegreeRange {
+public:
+    explicit DegreeRange(const Melody& melody);
+    std::int64_t low() const { return low_; }
+    std::int64_t high() const { return high_; }
+    /// The degree that sounds for `degree`: mirrored at the ends for Range::reflect, else the nearest.
+    std::int64_t inside(std::int64_t degree) const;
+
+private:
+    bool is_mirror_;
+    std::int64_t low_ = 0;
+    std::int64_t high_ = 0;
+};
+
+}  // namespace sikku::mapping
