@@ -76,10 +76,11 @@ void add(PlayReport& all, const PlayReport& one) {
 }
 
 /// Passes the parts on as they are read.
-PlayReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
-    PlayReport all;
+EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
+    EnsembleReport all;
     all.past = true;
     for (const Player& player : ensemble.players) {
+        std::uint64_t& moved = all.moved_of.emplace_back();
         const std::int64_t start = start_of(player, ensemble.meter);
         const std::int64_t later = std::max<std::int64_t>(0, start - playing.from);
         PartSink part(sink, player.first_voice, later, to_score(player));
@@ -94,6 +95,7 @@ PlayReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink
         PlayReport report = play(player.document.grammar(), player.melody, part, options);
         report.end = to_score(player).of(std::min(report.end, std::int64_t{1} << 50));
         add(all, report);
+        moved = report.moved;
         all.end = std::max(all.end, report.end + (report.notes > 0 ? later : 0));
     }
     return all;
@@ -159,6 +161,7 @@ private:
             PlayReport one;
             part.block = play_block(player.document.grammar(), player.melody, options, one);
             add(report_, one);
+            report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
             if (!layout.form.empty()) part.block = in_form(part.block, player.melody, layout.form);
             if (layout.is_retrograde) reverse(part.block);
@@ -435,9 +438,7 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
 
 EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
     if (ensemble.needs_whole()) return WholeScore(ensemble, playing).play(sink);
-    EnsembleReport all;
-    static_cast<PlayReport&>(all) = stream(ensemble, playing, sink);
-    return all;
+    return stream(ensemble, playing, sink);
 }
 
 EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {

@@ -5,6 +5,7 @@
 #include "music/melody/layout.h"
 #include "music/players.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace sikku {
@@ -31,6 +32,7 @@ struct Ensemble {
 
 /// What playing all parts reports.
 struct EnsembleReport : PlayReport {
+    std::vector<std::uint64_t> moved_of;  ///< `moved`, by player
     CounterpointReport counterpoint;
     bool is_strict = false;  ///< some part is
     double seconds = 0;      ///< with all changes of tempo; 0: unknown

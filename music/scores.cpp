@@ -152,7 +152,7 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         part.signature = print_signature(melody.scale, melody.tonic_spelling);
         player.first_voice = voices;
         PlayOptions counting = playing;
-        counting.most_voices = most - voices;
+        counting.most_voices = most_voices;
         if (ensemble.needs_whole()) {
             counting.from = 0;
             counting.to = INT64_MAX;
@@ -168,12 +168,8 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         player.drums_from = is_drums_alone ? 0 : own_voices + melody.accompanying_voices();
         voices += player.drums_from + (sounds.has_drums ? own_voices : 0);
         pitched += is_drums_alone ? 0 : own_voices + melody.accompanying_voices();
-        if ((most == most_channels ? pitched : voices) > most) {
-            throw ScoreError(fmt::format("too many voices: the patterns have {} together, {}", voices,
-                                         most == most_channels
-                                             ? fmt::format("microtones and bends have MIDI channels for {}", most)
-                                             : fmt::format("a score can have {}", most)));
-        }
+        if (voices > most_voices)
+            throw ScoreError(fmt::format("too many voices: a score has at most {}", most_voices));
         if (!is_drums_alone) head.parts.push_back(part);
         if (melody.accompanying_voices() > 0) {
             part.has_chords = false;
@@ -183,6 +179,16 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
             head.parts.push_back(part);
         }
         if (sounds.has_drums) head.parts.push_back(drum_part(own_voices, has_chords));
+    }
+    if (pitched > most) {
+        throw ScoreError(
+            fmt::format("too many voices: {} at once; {} need a channel of MIDI for each voice, and there are {} "
+                        "beside the drums'",
+                        pitched,
+                        ensemble.has_glides()  ? "glissandi"
+                        : ensemble.has_bends() ? "gamakas"
+                                               : "notes between the keys",
+                        most_channels));
     }
     if (head.title.empty()) head.title = fmt::format("{}", fmt::join(titles, ", "));
     return head;
@@ -202,6 +208,50 @@ bool has_drum_voices(const ScoreHead& head) {
     return voices > 1;
 }
 
+/// What became of notes beyond the range of a melody.
+std::string_view fate_of(const Melody& melody) {
+    const double period = std::fabs(melody.scale.period) / 100;
+    if (melody.range == Range::reflect) return "reflected";
+    // A range narrower than a period has no other octave for most notes.
+    return melody.range == Range::fold && period <= melody.highest - melody.lowest ? "folded back"
+                                                                                   : "held at the last key";
+}
+
+/// A remark for each range that notes were beyond.
+void report_moved(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
+    struct Moved {
+        const Melody* melody;
+        std::uint64_t notes;
+        std::vector<std::string_view> instruments;
+        bool is_anchored;  // on the first note of the whole
+    };
+    std::vector<Moved> ranges;
+    for (std::size_t i = 0; i < report.moved_of.size(); ++i) {
+        if (report.moved_of[i] == 0) continue;
+        const Melody& melody = ensemble.players[i].melody;
+        const auto is_same = [&](const Moved& one) {
+            return one.melody->lowest == melody.lowest && one.melody->highest == melody.highest &&
+                   fate_of(*one.melody) == fate_of(melody);
+        };
+        auto known = std::find_if(ranges.begin(), ranges.end(), is_same);
+        if (known == ranges.end()) known = ranges.insert(known, {&melody, 0, {}, false});
+        known->notes += report.moved_of[i];
+        known->is_anchored = known->is_anchored || melody.anchor != Anchor::piece;
+        const std::string_view name = instrument_names()[static_cast<std::size_t>(melody.program)];
+        auto& names = known->instruments;
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    for (const Moved& one : ranges) {
+        const auto spelling = spell(one.melody->scale, one.melody->tonic_spelling);
+        made.warn(fmt::format(
+            "{}{} {} beyond {} to {} and {}{}", counted(one.notes, "note"),
+            ranges.size() > 1 ? fmt::format(" of {}", fmt::join(one.instruments, ", ")) : "",
+            one.notes == 1 ? "was" : "were", note_name(one.melody->lowest, spelling),
+            note_name(one.melody->highest, spelling), fate_of(*one.melody),
+            playing.from > 0 && one.is_anchored ? "; with `anchor: piece` the piece begins on the tonic" : ""));
+    }
+}
+
 void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
     const Melody& first = ensemble.players.front().melody;
     made.fact(fmt::format("{}, {}, {}, {}", counted(report.notes, "note"),
@@ -212,17 +262,7 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
         made.fact(fmt::format("counterpoint: {} moved, {} left", counted(report.counterpoint.moved, "note"),
                               counted(report.counterpoint.left, "fault")));
     }
-    if (report.moved > 0) {
-        const auto spelling = spell(first.scale, first.tonic_spelling);
-        made.warn(fmt::format(
-            "{} beyond {} to {} and {}{}", report.moved == 1 ? "1 note was" : counted(report.moved, "note") + " were",
-            note_name(first.lowest, spelling), note_name(first.highest, spelling),
-            first.range == Range::fold      ? "folded back"
-            : first.range == Range::reflect ? "reflected"
-                                            : "held at the last key",
-            playing.from > 0 && first.anchor != Anchor::piece ? "; with `anchor: piece` the piece begins on the tonic"
-                                                              : ""));
-    }
+    report_moved(ensemble, playing, report, made);
     if (report.lost > 0) {
         made.warn(counted(report.lost, "note") + " too short for a tick, or without a key, left out");
     }
