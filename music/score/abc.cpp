@@ -94,17 +94,17 @@ public:
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
         put("M:{}\nL:1/8\nQ:1/4={}\n{}", meter_name(head_.meter), std::max<long long>(1, std::llround(head_.tempo)),
             score());
-        put("K:{}\n", key_name(head_.parts.empty() ? std::nullopt : printed_key(head_.parts.front())));
+        put("K:{}\n", key_name(notation_.parts.front().keys.front().key));
         int number = 0;
-        for (std::size_t i = 0; i < notation_.parts.size(); ++i) {
-            const Part& part = head_.parts[i];
-            for (const Staff& staff : notation_.parts[i].staves) {
+        for (const NotatedPart& notated : notation_.parts) {
+            const Part& part = notated.part;
+            for (const Staff& staff : notated.staves) {
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
                     put("V:{} clef={}{}\n{}\n[K:{}] ", ++number, clef_name(staff.changes.front().clef),
                         part.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(part.name)),
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
-                        key_name(printed_key(part)));
-                    write_voice(staff, k, part);
+                        key_name(notated.keys.front().key));
+                    write_voice(staff, k, notated.keys);
                 }
             }
         }
@@ -180,10 +180,11 @@ private:
         return text;
     }
 
-    void write_voice(const Staff& staff, std::size_t index, const Part& part) {
+    void write_voice(const Staff& staff, std::size_t index, const std::vector<KeyChange>& keys) {
         const NotatedVoice& voice = staff.voices[index];
         const std::int64_t bar = notation_.bar_length;
-        const std::array<int, 7> signs = signs_of(printed_key(part));
+        std::array<int, 7> signs = signs_of(keys.front().key);
+        auto key = keys.begin() + 1;
         const bool is_first = index == 0;
         std::size_t change = 0;
         std::size_t mark = 0;
@@ -192,6 +193,10 @@ private:
         std::string_view hairpin;
         std::set<int> altered;  // letters whose sign is not that of the key
         for (const NotatedSymbol& symbol : voice.symbols) {
+            for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
+                signs = signs_of(key->key);
+                put("[K:{}] ", key_name(key->key));
+            }
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {
                 const StaffChange& next = staff.changes[change];
@@ -220,7 +225,13 @@ private:
             altered.clear();
             const bool is_last = end / bar == notation_.bars;
             if (is_last) put("{}", line_of_octaves(octaves, ')'));
-            put("{}", is_last ? " |]\n" : end / bar % bars_on_a_line == 0 ? " |\n" : " | ");
+            const std::vector<std::int64_t>& doubled = notation_.double_bars;
+            const bool is_double = std::binary_search(doubled.begin(), doubled.end(), end);
+            put(" {}{}",
+                is_last     ? "|]"
+                : is_double ? "||"
+                            : "|",
+                is_last || end / bar % bars_on_a_line == 0 ? "\n" : " ");
         }
     }
 

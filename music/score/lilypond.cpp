@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -223,8 +224,8 @@ public:
         if (!head_.title.empty()) put("  title = {}\n", lilypond_string(head_.title));
         if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
         // The name of a single part stands above it, as in printed music; those of several stand before their staves.
-        const bool is_solo = head_.parts.size() == 1;
-        if (is_solo) put("  instrument = {}\n", lilypond_string(head_.parts.front().name));
+        const bool is_solo = notation_.parts.size() == 1;
+        if (is_solo) put("  instrument = {}\n", lilypond_string(notation_.parts.front().part.name));
         if (!head_.source.empty()) put("  copyright = {}\n", lilypond_string(head_.source));
         put("  tagline = ##f\n}}\n\n");
         write_drum_table();
@@ -253,8 +254,8 @@ private:
                 }
             }
         }
-        const bool has_drums =
-            std::any_of(head_.parts.begin(), head_.parts.end(), [](const Part& part) { return part.is_drums; });
+        const bool has_drums = std::any_of(notation_.parts.begin(), notation_.parts.end(),
+                                           [](const NotatedPart& one) { return one.part.is_drums; });
         if (!has_drums) return;
         put("#(define sikkuDrums (alist->hash-table '(\n");
         for (const int key : used) {
@@ -299,8 +300,8 @@ private:
     /// Millimetres that the longest line of a name takes in LilyPond's font, with a gap before the bracket.
     std::size_t indent() const {
         std::size_t longest = 0;
-        for (const Part& part : head_.parts) {
-            for (const std::string& line : lines_of(part.name)) longest = std::max(longest, line.size());
+        for (const NotatedPart& one : notation_.parts) {
+            for (const std::string& line : lines_of(one.part.name)) longest = std::max(longest, line.size());
         }
         return std::min<std::size_t>(10 + 2 * longest, 80);
     }
@@ -315,8 +316,8 @@ private:
 
     void write_part(std::size_t index) {
         const NotatedPart& part = notation_.parts[index];
-        const Part& told = head_.parts[index];
-        const bool is_named = head_.parts.size() > 1;
+        const Part& told = part.part;
+        const bool is_named = notation_.parts.size() > 1;
         const std::string name = is_named ? fmt::format("instrumentName = {} ", name_of(told.name)) : "";
         const std::string with =
             told.is_drums
@@ -326,7 +327,7 @@ private:
                       lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
         const std::string_view staff = told.is_drums ? "DrumStaff" : "Staff";
         if (part.staves.size() == 1) {
-            write_staff(part.staves.front(), told, fmt::format("\\new {} {}", staff, with), index == 0);
+            write_staff(part.staves.front(), part, fmt::format("\\new {} {}", staff, with), index == 0);
             return;
         }
         // MIDI programs belong to staves, the name to the group.
@@ -336,22 +337,23 @@ private:
         for (std::size_t i = 0; i < part.staves.size(); ++i) {
             const std::string opening =
                 told.is_drums ? "\\new DrumStaff \\with { drumStyleTable = #sikkuDrums }" : "\\new Staff";
-            write_staff(part.staves[i], told, opening, index == 0 && i == 0, !is_piano);
+            write_staff(part.staves[i], part, opening, index == 0 && i == 0, !is_piano);
             if (is_piano && i == 0) write_dynamics(part.staves[i].dynamics);
             if (!is_piano && part.staves[i].voices.size() > 1) write_dynamics(part.staves[i].dynamics);
         }
         put("    >>\n");
     }
 
-    void write_staff(const Staff& staff, const Part& told, std::string_view opening, bool has_tempo,
+    void write_staff(const Staff& staff, const NotatedPart& part, std::string_view opening, bool has_tempo,
                      bool has_dynamics = true) {
+        const Part& told = part.part;
         put("    {} <<\n", opening);
         for (std::size_t i = 0; i < staff.voices.size(); ++i) {
             static constexpr std::array<std::string_view, 4> numbers = {"One", "Two", "Three", "Four"};
             put("      \\new {} {{\n", told.is_drums ? "DrumVoice" : "Voice");
             if (told.is_drums) put("        \\drummode {{\n");
             if (i == 0) {
-                const std::optional<KeySignature> key = printed_key(told);
+                const std::optional<KeySignature>& key = part.keys.front().key;
                 put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
                     key ? " " : "", meter_name(head_.meter));
                 if (has_tempo) {
@@ -361,6 +363,7 @@ private:
             }
             if (staff.voices.size() > 1) put("        \\voice{}\n", numbers[i % 4]);
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
+                        i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
                         has_dynamics && staff.voices.size() == 1 ? staff.dynamics : std::vector<DynamicMark>{});
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
@@ -405,16 +408,21 @@ private:
         octaves = change.octaves;
     }
 
+    /// @param keys  after the first, which is written already
     void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
-                     const std::vector<DynamicMark>& marks) {
+                     std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks) {
         const std::int64_t bar = notation_.bar_length;
         auto change = changes.begin();
         auto mark = marks.begin();
+        auto key = keys.begin();
         Clef clef = changes.empty() ? Clef::treble : changes.front().clef;
         int octaves = 0;
         int tuplet = -1;
         put("        ");
         for (const NotatedSymbol& symbol : voice.symbols) {
+            for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
+                put("{} ", key->key ? key_name(*key->key) : "\\key c \\major");
+            }
             for (; change != changes.end() && change->onset <= symbol.onset; ++change) {
                 write_change(*change, clef, octaves);
             }
@@ -432,7 +440,12 @@ private:
             if (end % bar != 0) continue;
             const bool is_last = end / bar == notation_.bars;
             if (is_last && octaves != 0) put("\\ottava #0 ");
-            put("{}| % {}\n", is_last ? "\\bar \"|.\" " : "", end / bar);
+            const std::vector<std::int64_t>& doubled = notation_.double_bars;
+            put("{}| % {}\n",
+                is_last                                                   ? "\\bar \"|.\" "
+                : std::binary_search(doubled.begin(), doubled.end(), end) ? "\\bar \"||\" "
+                                                                          : "",
+                end / bar);
             if (!is_last) put("        ");
             if (text_.size() > flush_bytes) flush();
         }

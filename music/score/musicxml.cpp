@@ -113,8 +113,8 @@ private:
         put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", xml_escaped(head_.made));
         put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", xml_escaped(head_.pattern));
         put("</miscellaneous>\n</identification>\n<part-list>\n");
-        for (std::size_t i = 0; i < head_.parts.size(); ++i) {
-            const Part& part = head_.parts[i];
+        for (std::size_t i = 0; i < notation_.parts.size(); ++i) {
+            const Part& part = notation_.parts[i].part;
             if (part.is_drums) {
                 write_drum_part(i);
                 continue;
@@ -143,7 +143,8 @@ private:
                 }
             }
         }
-        put("<score-part id=\"P{}\"><part-name>{}</part-name>", index + 1, xml_escaped(head_.parts[index].name));
+        put("<score-part id=\"P{}\"><part-name>{}</part-name>", index + 1,
+            xml_escaped(notation_.parts[index].part.name));
         for (const int key : used) {
             put("<score-instrument id=\"P{}-I{}\"><instrument-name>{}</instrument-name></score-instrument>",
                 index + 1, key, drum_of(key).name);
@@ -166,11 +167,19 @@ private:
             next.emplace_back(staff.voices.size(), 0);
             states.push_back({&staff, states.size(), staff.changes.front().clef});
         }
+        std::size_t key = 0;
+        const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
             put("<measure number=\"{}\">\n", bar + 1);
-            if (bar == 0) write_attributes(part, head_.parts[index]);
+            if (bar == 0) write_attributes(part);
+            const std::int64_t begin = bar * notation_.bar_length;
+            if (key + 1 < part.keys.size() && part.keys[key + 1].onset == begin) {
+                put("<attributes>\n");
+                write_key(part.keys[++key].key);
+                put("</attributes>\n");
+            }
             if (bar == 0 && index == 0) write_tempo();
-            here_ = bar * notation_.bar_length;
+            here_ = begin;
             for (std::size_t staff = 0; staff < part.staves.size(); ++staff) {
                 for (std::size_t voice = 0; voice < part.staves[staff].voices.size(); ++voice) {
                     staff_ = part.staves.size() > 1 ? staff + 1 : 0;
@@ -183,6 +192,8 @@ private:
             go_to((bar + 1) * notation_.bar_length);
             if (bar + 1 == notation_.bars) {
                 put("<barline location=\"right\"><bar-style>light-heavy</bar-style></barline>\n");
+            } else if (std::binary_search(doubled.begin(), doubled.end(), here_)) {
+                put("<barline location=\"right\"><bar-style>light-light</bar-style></barline>\n");
             }
             put("</measure>\n");
             if (text_.size() > flush_bytes) flush();
@@ -190,16 +201,16 @@ private:
         put("</part>\n");
     }
 
-    void write_attributes(const NotatedPart& part, const Part& told) {
+    void write_key(const std::optional<KeySignature>& key) {
+        static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
+                                                                  "minor",  "phrygian", "locrian"};
+        put("<key><fifths>{}</fifths>{}</key>\n", key ? key->fifths : 0,
+            key ? fmt::format("<mode>{}</mode>", modes[static_cast<std::size_t>(key->mode)]) : "");
+    }
+
+    void write_attributes(const NotatedPart& part) {
         put("<attributes>\n<divisions>{}</divisions>\n", ticks_per_quarter / unit_);
-        if (const auto key = printed_key(told)) {
-            static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
-                                                                      "minor",  "phrygian", "locrian"};
-            put("<key><fifths>{}</fifths><mode>{}</mode></key>\n", key->fifths,
-                modes[static_cast<std::size_t>(key->mode)]);
-        } else {
-            put("<key><fifths>0</fifths></key>\n");
-        }
+        write_key(part.keys.front().key);
         put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats(), head_.meter.unit);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
         if (part.bracket == Bracket::bracket) put("<part-symbol>bracket</part-symbol>\n");

@@ -21,7 +21,7 @@ constexpr double unheard = 0.01;  // semitones
 
 /// Says which notes need their sign printed: signs hold to the end of the bar, for their octave, in all voices of the
 /// staff; a note tied over the bar line needs none and sets none.
-void set_signs(Staff& staff, const std::array<int, 7>& key, std::int64_t bar) {
+void set_signs(Staff& staff, const PrintedPart& part, std::int64_t bar) {
     struct Head {
         std::int64_t onset;
         const Pitch* pitch;
@@ -38,9 +38,11 @@ void set_signs(Staff& staff, const std::array<int, 7>& key, std::int64_t bar) {
     std::stable_sort(notes.begin(), notes.end(), [](const Head& a, const Head& b) { return a.onset < b.onset; });
     std::int64_t current_bar = -1;
     std::map<std::pair<int, int>, int> in_force;
+    std::array<int, 7> key{};
     for (const Head& note : notes) {
         if (note.onset / bar != current_bar) {
             current_bar = note.onset / bar;
+            key = signs_of(part.key_at(note.onset).key);
             in_force.clear();
         }
         const Pitch& pitch = *note.pitch;
@@ -248,9 +250,9 @@ void Notator::notes(std::span<const Note> notes) {
 
 void Notator::finish(std::int64_t end) {
     std::size_t first_voice = 0;
-    for (const Part& part : parts_) {
-        if (part.has_chords) gather_chords(part, first_voice);
-        first_voice += static_cast<std::size_t>(part.voices);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (parts_[i].has_chords) gather_chords(i, first_voice);
+        first_voice += static_cast<std::size_t>(parts_[i].voices);
     }
     std::int64_t last = (end + shortest_value / 2) / shortest_value * shortest_value;
     for (auto& voice : voices_) {
@@ -263,20 +265,21 @@ void Notator::finish(std::int64_t end) {
         throw ScoreError(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
                                      notation_.bars, most_bars));
     }
-    first_voice = 0;
-    for (const Part& part : parts_) {
-        notate_part(part, first_voice);
-        first_voice += static_cast<std::size_t>(part.voices);
-    }
+    printed_ = share_parts(parts_, voices_, bar);
+    share_chords();
+    for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
+    std::vector<std::int64_t>& bars = notation_.double_bars;
+    std::sort(bars.begin(), bars.end());
+    bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
 }
 
 /// Takes notes that begin with the same symbol as one of a voice before out of their voices.
-void Notator::gather_chords(const Part& part, std::size_t first_voice) {
+void Notator::gather_chords(std::size_t part, std::size_t first_voice) {
     std::map<ChordPlace, const Note*> first;
-    for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(part.voices); ++i) {
+    for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(parts_[part].voices); ++i) {
         std::vector<Note> kept;
         for (const Note& note : voices_[i]) {
-            const ChordPlace place(&part, note.symbol, note.onset);
+            const ChordPlace place(part, note.symbol, note.onset);
             const auto known = first.find(place);
             if (note.symbol == 0 || known == first.end() || known->second->duration != note.duration) {
                 kept.push_back(note);
@@ -285,12 +288,39 @@ void Notator::gather_chords(const Part& part, std::size_t first_voice) {
             }
         }
         voices_[i] = std::move(kept);
-        for (const Note& note : voices_[i]) first.try_emplace({&part, note.symbol, note.onset}, &note);
+        for (const Note& note : voices_[i]) first.try_emplace({part, note.symbol, note.onset}, &note);
     }
 }
 
+/// Parts that share staves begin no notes at the same time.
+void Notator::share_chords() {
+    if (chords_.empty()) return;
+    std::vector<std::size_t> index(parts_.size());
+    for (std::size_t i = 0; i < printed_.size(); ++i) {
+        for (const std::size_t source : printed_[i].sources) index[source] = i;
+    }
+    std::map<ChordPlace, std::vector<double>> shared;
+    for (auto& [place, keys] : chords_) {
+        shared[{index[std::get<0>(place)], std::get<1>(place), std::get<2>(place)}] = std::move(keys);
+    }
+    chords_ = std::move(shared);
+}
+
+NotatedPart& Notator::begin_part(const PrintedPart& printed) {
+    NotatedPart& notated = notation_.parts.emplace_back();
+    notated.part = printed.part;
+    for (const KeyOfBars& key : printed.keys) {
+        const bool is_new = notated.keys.empty() || signs_of(key.key) != signs_of(notated.keys.back().key);
+        if (!is_new) continue;
+        notated.keys.push_back({key.onset, key.key});
+        if (key.onset > 0) notation_.double_bars.push_back(key.onset);
+    }
+    return notated;
+}
+
 /// Drums have one staff for up to four voices, the highest first.
-void Notator::notate_drums(const Part& part, std::size_t first_voice) {
+void Notator::notate_drums(std::size_t index) {
+    const PrintedPart& printed = printed_[index];
     constexpr std::size_t voices_per_staff = 4;
     const auto height = [](const std::vector<Note>& notes) {
         double sum = 0;
@@ -301,20 +331,20 @@ void Notator::notate_drums(const Part& part, std::size_t first_voice) {
         return sum / static_cast<double>(notes.size());
     };
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(part.voices); ++i) {
-        if (!voices_[i].empty()) order.emplace_back(-height(voices_[i]), i);
+    for (std::size_t i = 0; i < printed.voices.size(); ++i) {
+        if (!printed.voices[i].empty()) order.emplace_back(-height(printed.voices[i]), i);
     }
-    if (order.empty()) order.emplace_back(0, first_voice);
+    if (order.empty()) order.emplace_back(0, 0);
     std::sort(order.begin(), order.end());
-    NotatedPart& notated = notation_.parts.emplace_back();
+    NotatedPart& notated = begin_part(printed);
     if (order.size() > voices_per_staff) notated.bracket = Bracket::bracket;
     for (std::size_t begin = 0; begin < order.size(); begin += voices_per_staff) {
         Staff& staff = notated.staves.emplace_back();
         staff.changes = {{0, Clef::percussion, 0}};
         std::vector<Note> together;
         for (std::size_t i = begin; i < std::min(order.size(), begin + voices_per_staff); ++i) {
-            const std::vector<Note>& notes = voices_[order[i].second];
-            staff.voices.push_back(fill(static_cast<int>(order[i].second), notes, part));
+            const std::vector<Note>& notes = printed.voices[order[i].second];
+            staff.voices.push_back(fill(printed.first_voice + static_cast<int>(order[i].second), notes, index));
             together.insert(together.end(), notes.begin(), notes.end());
         }
         hide_rests(staff, notation_.bars, notation_.bar_length);
@@ -324,25 +354,26 @@ void Notator::notate_drums(const Part& part, std::size_t first_voice) {
     }
 }
 
-void Notator::notate_part(const Part& part, std::size_t first_voice) {
-    if (part.is_drums) return notate_drums(part, first_voice);
-    const auto voices = std::span(voices_).subspan(first_voice, static_cast<std::size_t>(part.voices));
-    PartPlan plan = plan_staves(part, voices, static_cast<int>(first_voice), notation_.bar_length);
+void Notator::notate_part(std::size_t index) {
+    const PrintedPart& printed = printed_[index];
+    const Part& part = printed.part;
+    if (part.is_drums) return notate_drums(index);
+    PartPlan plan = plan_staves(part, printed.voices, printed.first_voice, notation_.bar_length);
     notation_.merged += plan.merged;
-    if (plan.staves.empty()) plan.staves.push_back({{{static_cast<int>(first_voice), {}}}, {}});
-    NotatedPart& notated = notation_.parts.emplace_back();
+    if (plan.staves.empty()) plan.staves.push_back({{{printed.first_voice, {}}}, {}});
+    NotatedPart& notated = begin_part(printed);
     notated.bracket = plan.bracket;
     std::vector<Note> together;  // of all staves for two hands
     for (const StaffPlan& planned : plan.staves) {
         Staff& staff = notated.staves.emplace_back();
         if (plan.bracket != Bracket::brace) together.clear();
         for (const StaffVoice& voice : planned.voices) {
-            staff.voices.push_back(fill(voice.voice, voice.notes, part));
+            staff.voices.push_back(fill(voice.voice, voice.notes, index));
             together.insert(together.end(), voice.notes.begin(), voice.notes.end());
         }
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
         hide_rests(staff, notation_.bars, notation_.bar_length);
-        set_signs(staff, signs_of(printed_key(part)), notation_.bar_length);
+        set_signs(staff, printed, notation_.bar_length);
         set_cents(staff, notation_.bar_length);
         std::stable_sort(together.begin(), together.end(),
                          [](const Note& a, const Note& b) { return a.onset < b.onset; });
@@ -351,11 +382,12 @@ void Notator::notate_part(const Part& part, std::size_t first_voice) {
     }
 }
 
-NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part) {
+NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t index) {
+    const PrintedPart& part = printed_[index];
     const Grid grid = grid_of(notes, meter_);
     std::vector<std::vector<double>> chords(notes.size());
     for (std::size_t i = 0; i < notes.size() && !chords_.empty(); ++i) {
-        const auto chord = chords_.find({&part, notes[i].symbol, notes[i].onset});
+        const auto chord = chords_.find({index, notes[i].symbol, notes[i].onset});
         if (chord != chords_.end()) chords[i] = chord->second;
     }
     // Notes that come from several voices may lie on several grids.
@@ -379,7 +411,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part
         symbol.begins_slide = meets(i);
         if (note.glide.semitones != 0 && !symbol.begins_slide) symbol.leaves = note.glide.semitones > 0 ? 1 : -1;
         symbol.ends_slide = i > 0 && meets(i - 1);
-        if (part.is_drums) {
+        if (part.part.is_drums) {
             const Drum& drum = drum_of(static_cast<int>(std::lround(note.key)));
             symbol.drum = drum.key;
             symbol.pitch = {drum.letter, drum.octave, 0};
@@ -391,10 +423,11 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, const Part& part
             writer.add(note.onset + note.duration, &symbol);
             continue;
         }
-        symbol.pitch = spelled(note.key, part.spelling);
+        const std::array<Spelling, 12>& spelling = part.key_at(note.onset).spelling;
+        symbol.pitch = spelled(note.key, spelling);
         const double away = note.key - symbol.pitch.key();
         if (std::fabs(away) > unheard) symbol.cents = static_cast<int>(std::lround(100 * away));
-        for (const double key : chords[i]) symbol.chord.push_back({spelled(key, part.spelling), 0, false});
+        for (const double key : chords[i]) symbol.chord.push_back({spelled(key, spelling), 0, false});
         writer.add(note.onset, nullptr);
         writer.add(note.onset + note.duration, &symbol);
     }

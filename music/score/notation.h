@@ -3,6 +3,7 @@
 
 #include "music/score/rhythm.h"
 #include "music/score/score.h"
+#include "music/score/turns.h"
 
 #include <array>
 #include <cstddef>
@@ -101,14 +102,23 @@ struct Staff {
 /// How the staves of a part are joined at the left.
 enum class Bracket { none, brace, bracket };
 
+/// A key signature from a bar line on.
+struct KeyChange {
+    std::int64_t onset = 0;
+    std::optional<KeySignature> key;  ///< nullopt: no signs
+};
+
 struct NotatedPart {
-    std::vector<Staff> staves;  ///< at least one
+    Part part;                    ///< its name, its instrument
+    std::vector<KeyChange> keys;  ///< ascending, the first at 0
+    std::vector<Staff> staves;    ///< at least one
     Bracket bracket = Bracket::none;
 };
 
-/// A score as it is printed; parts in the order of ScoreHead::parts.
+/// A score as it is printed; parts in the order of ScoreHead::parts, but those that take turns are one.
 struct Notation {
     std::vector<NotatedPart> parts;
+    std::vector<std::int64_t> double_bars;  ///< bar lines at which a part changes its key: ticks, ascending
     std::int64_t bars = 1;
     std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
@@ -120,7 +130,8 @@ struct Notation {
 ///
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
 /// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
-/// Staves: each voice has its own; see staves.h. Voices that never sound are left out.
+/// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
+/// take turns share staves; see turns.h.
 /// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
 /// have their deviation in cents.
 /// Memory: O(notes + bars).
@@ -137,17 +148,20 @@ public:
     const Notation& notation() const { return notation_; }
 
 private:
-    using ChordPlace = std::tuple<const Part*, std::uint64_t, std::int64_t>;
+    using ChordPlace = std::tuple<std::size_t, std::uint64_t, std::int64_t>;
 
-    void notate_part(const Part& part, std::size_t first_voice);
-    void gather_chords(const Part& part, std::size_t first_voice);
-    void notate_drums(const Part& part, std::size_t first_voice);
-    NotatedVoice fill(int number, std::vector<Note> notes, const Part& part);
+    void notate_part(std::size_t index);
+    void gather_chords(std::size_t part, std::size_t first_voice);
+    void share_chords();
+    void notate_drums(std::size_t index);
+    NotatedPart& begin_part(const PrintedPart& printed);
+    NotatedVoice fill(int number, std::vector<Note> notes, std::size_t index);
 
     std::vector<Part> parts_;
     Meter meter_;
     std::vector<std::vector<Note>> voices_;
-    /// Other notes of chords, by the part, symbol and onset of their first note.
+    std::vector<PrintedPart> printed_;
+    /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.
     std::map<ChordPlace, std::vector<double>> chords_;
     std::size_t count_ = 0;
     Notation notation_;

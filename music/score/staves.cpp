@@ -18,10 +18,6 @@ constexpr std::size_t most_shared_staves = 12;  // of two voices
 
 // ---- instruments
 
-bool is_keyboard(int program) {
-    return program <= 8 || (program >= 16 && program <= 21) || program == 23 || program == 46;
-}
-
 /// A clef with what each note in it costs, so that a usual one is preferred.
 struct Candidate {
     Clef clef;
@@ -239,6 +235,10 @@ PartPlan share_staves(const std::vector<StaffVoice>& voices) {
 }
 
 }  // namespace
+
+bool is_keyboard(int program) {
+    return program <= 8 || (program >= 16 && program <= 21) || program == 23 || program == 46;
+}
 
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
                      std::int64_t bar_length) {

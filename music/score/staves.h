@@ -25,6 +25,9 @@ struct PartPlan {
     std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
 };
 
+/// True for pianos, organs, the celesta, the accordion and the harp, which are written for two hands.
+bool is_keyboard(int program);
+
 /// Distributes voices (of the score from `first_voice` on) over staves.
 ///
 /// Each voice has a staff of its own, up to four voices of a part in the order of their height. Parts for keyboards

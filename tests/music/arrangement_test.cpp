@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <pugixml.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,7 @@ const std::string hilbert =
 Arrangement read(const std::string& text) {
     return read_arrangement("a.toml", text, [](const std::string& name) {
         if (name == "steps") return NamedPattern{name, steps};
+        if (name == "branches") return NamedPattern{name, "heading: 0\naxiom: [FF][FF]\n"};
         if (name == "hilbert") return NamedPattern{name, hilbert};
         throw std::runtime_error("no pattern named '" + name + "'");
     });
@@ -131,6 +133,113 @@ TEST(Arrangement, SectionsFollowTheForm) {
     EXPECT_EQ(list.end, 3600);
     EXPECT_EQ(std::count_if(list.notes.begin(), list.notes.end(), [](const Note& note) { return note.voice == 2; }),
               12);
+}
+
+/// The remarks of a score in memory.
+std::vector<std::string> remarks_of(const std::string& text, std::string_view format = "mid") {
+    MemoryDestination memory;
+    std::vector<std::string> remarks;
+    for (const Remark& remark : plan_score(read(text), format, {})->make(memory, "score", {}).remarks) {
+        if (remark.is_warning) remarks.push_back(remark.text);
+    }
+    return remarks;
+}
+
+TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
+    using Remarks = std::vector<std::string>;
+    // Degrees 0 1 2 1: C D E D.
+    EXPECT_EQ(remarks_of(track("") + track("range = \"reflect C4-D4\"\n")),
+              (Remarks{"1 note was beyond C4 to D4 and reflected"}));
+    EXPECT_EQ(remarks_of(track("range = \"fold C3-C4\"\ninstrument = \"Violin\"\n") +
+                         track("range = \"clamp C4-D4\"\ninstrument = \"Cello\"\n") +
+                         track("range = \"fold C3-C4\"\ninstrument = \"Viola\"\n")),
+              (Remarks{"6 notes of Violin, Viola were beyond C3 to C4 and folded back",
+                       "1 note of Cello was beyond C4 to D4 and held at the last key"}));
+    // No octave of D and E lies within: they are not folded.
+    EXPECT_EQ(remarks_of(track("range = \"fold C4-C#4\"\n")),
+              (Remarks{"3 notes were beyond C4 to Db4 and held at the last key"}));
+    EXPECT_EQ(remarks_of(track("transposition = -60\ninstrument = \"Violin\"\n") + track(""), "musicxml"),
+              (Remarks{"4 notes were beyond C0 to G9 and folded back"}));
+    // Also where parts are played to their ends before.
+    EXPECT_EQ(remarks_of(track("") + track("range = \"fold C3-C4\"\nretrograde = true\n")),
+              (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
+}
+
+TEST(Arrangement, TooManyVoicesAreCountedWithTheirCause) {
+    const auto error_of = [](const std::string& keys, int tracks, const std::string& pattern = "steps") {
+        std::string text;
+        for (int i = 0; i < tracks; ++i) text += track(keys, pattern);
+        try {
+            remarks_of(text);
+        } catch (const std::exception& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string end = " need a channel of MIDI for each voice, and there are 15 beside the drums'";
+    EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 15), "");
+    EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 16), "too many voices: 16 at once; gamakas" + end);
+    EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 15, "branches"), "too many voices: 45 at once; gamakas" + end);
+    EXPECT_EQ(error_of("scale = \"22-shruti\"\n", 40), "too many voices: 40 at once; notes between the keys" + end);
+    EXPECT_EQ(error_of("vertical = \"glissando\"\n", 20), "too many voices: 20 at once; glissandi" + end);
+}
+
+pugi::xml_document xml_of(const std::string& text) {
+    MemoryDestination memory;
+    plan_score(read(text), "musicxml", {})->make(memory, "score.musicxml", {});
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(memory.take("score.musicxml").c_str()));
+    return document;
+}
+
+/// The letter of the first note of each bar of a part; `-` for rests.
+std::string bars_of(const pugi::xml_document& document, int part) {
+    std::string text;
+    for (const auto& measure : document.select_nodes(fmt::format("//part[@id='P{}']/measure", part).c_str())) {
+        const std::string letter = measure.node().select_node("note/pitch/step").node().child_value();
+        text += letter.empty() ? "-" : letter;
+    }
+    return text;
+}
+
+TEST(Arrangement, PartsThatTakeTurnsShareAStaff) {
+    const std::string flute = "unit = \"1/2\"\ninstrument = \"Flute\"\n";
+    const auto names = [](const pugi::xml_document& document) {
+        std::string text;
+        for (const auto& part : document.select_nodes("//score-part/part-name")) {
+            text += std::string(part.node().child_value()) + " ";
+        }
+        return text;
+    };
+    // Three bars of C D E D: in halves, two to a bar.
+    const std::string sections = "form = \"A B A\"\n" + track(flute + "section = \"A\"\n") +
+                                 track(flute + "section = \"B\"\nscale = \"major\"\ntonic = \"A4\"\n") +
+                                 track("unit = \"1/2\"\ninstrument = \"Cello\"\nsection = \"A\"\n") +
+                                 track(
+                                     "unit = \"1/2\"\ninstrument = \"Cello\"\nsection = \"B\"\nstart = 1\n"
+                                     "scale = \"major\"\ntonic = \"A2\"\n");
+    const pugi::xml_document document = xml_of(sections);
+    EXPECT_EQ(names(document), "Flute Cello ");
+    EXPECT_EQ(bars_of(document, 1), "CEDACB-CED");
+    EXPECT_EQ(bars_of(document, 2), "CED-ACBCED");
+    // Both parts change their key where the section begins, though one of them rests there.
+    for (const int part : {1, 2}) {
+        std::string keys;
+        for (const auto& fifths : document.select_nodes(fmt::format("//part[@id='P{}']//fifths", part).c_str())) {
+            keys += fmt::format("{}:{} ", fifths.node().parent().parent().parent().attribute("number").value(),
+                                fifths.node().child_value());
+        }
+        EXPECT_EQ(keys, "1:0 4:3 8:0 ");
+    }
+    EXPECT_EQ(document.select_nodes("//part[@id='P1']//bar-style[text()='light-light']").size(), 2u);
+    // What sounds in one bar has staves of its own, and so has another instrument.
+    EXPECT_EQ(names(xml_of(track(flute) + track(flute))), "Flute Flute ");
+    EXPECT_EQ(names(xml_of(track(flute) + track(flute + "start = 8\n"))), "Flute ");
+    EXPECT_EQ(names(xml_of(track(flute) + track("instrument = \"Oboe\"\nstart = 8\n"))), "Flute Oboe ");
+    // Two lines of a keyboard are for two hands.
+    const pugi::xml_document keyboard = xml_of(track("") + track("transposition = -24\n"));
+    EXPECT_EQ(names(keyboard), "Acoustic Grand Piano ");
+    EXPECT_EQ(keyboard.select_node("//staves").node().text().as_int(), 2);
 }
 
 TEST(Arrangement, PiecesFromTheMiddle) {

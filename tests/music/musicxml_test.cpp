@@ -298,7 +298,7 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
 
 TEST(MusicXml, PartsHaveChannelsOfTheirOwn) {
     TestScore score;
-    for (int i = 0; i < 15; ++i) score.head.parts.push_back(plain_part("P", 1));
+    for (int i = 0; i < 15; ++i) score.head.parts.push_back(plain_part("P" + std::to_string(i), 1));
     const auto document = parsed(xml_of(score));
     std::vector<int> channels;
     for (const auto part : document.child("score-partwise").child("part-list").children("score-part")) {

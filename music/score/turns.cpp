@@ -1,0 +1,276 @@
+#include "music/score/turns.h"
+
+#include "music/score/notation.h"
+#include "music/score/staves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+/// Bars from the first to the last, both included.
+struct Stretch {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+};
+
+/// A part of the score, with what is known of where it sounds.
+struct Source {
+    std::size_t index = 0;
+    int first_voice = 0;
+    std::span<const std::vector<Note>> voices;
+    std::vector<Stretch> bars;  ///< in which it sounds, ascending and apart
+    double height = 60;         ///< mean key
+};
+
+/// Sources that take turns.
+struct Line {
+    std::vector<const Source*> sources;
+    std::vector<Stretch> bars;
+    double keys = 0;  ///< sum of the heights of the sources
+    double height() const { return keys / static_cast<double>(sources.size()); }
+};
+
+/// A source and the bars in which it has the staves.
+struct Turn {
+    Stretch bars;
+    const Source* source = nullptr;
+};
+
+/// Sorts stretches and joins those that touch.
+std::vector<Stretch> joined(std::vector<Stretch> all) {
+    std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
+    std::vector<Stretch> result;
+    for (const Stretch& one : all) {
+        if (!result.empty() && one.first <= result.back().last + 1) {
+            result.back().last = std::max(result.back().last, one.last);
+        } else {
+            result.push_back(one);
+        }
+    }
+    return result;
+}
+
+bool share_a_bar(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
+    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+        if (a[i].first <= b[j].last && b[j].first <= a[i].last) return true;
+        ++(a[i].last < b[j].last ? i : j);
+    }
+    return false;
+}
+
+Source source_of(std::size_t index, int first_voice, std::span<const std::vector<Note>> voices, std::int64_t bar) {
+    Source source{index, first_voice, voices, {}, 60};
+    double sum = 0;
+    for (const auto& voice : voices) {
+        for (const Note& note : voice) {
+            source.bars.push_back({note.onset / bar, (note.onset + note.duration - 1) / bar});
+            sum += note.key;
+        }
+    }
+    if (!source.bars.empty()) source.height = sum / static_cast<double>(source.bars.size());
+    source.bars = joined(std::move(source.bars));
+    return source;
+}
+
+/// @return false if one of them has other staves
+bool is_same_instrument(const Part& a, const Part& b) {
+    return a.name == b.name && a.program == b.program && a.is_drums == b.is_drums;
+}
+
+std::vector<Line> lines_of(std::span<const Part> parts, const std::vector<Source>& sources) {
+    std::vector<Line> lines;
+    for (const Source& source : sources) {
+        Line* best = nullptr;
+        for (Line& line : lines) {
+            if (!is_same_instrument(parts[line.sources.front()->index], parts[source.index]) ||
+                share_a_bar(line.bars, source.bars)) {
+                continue;
+            }
+            const auto distance = [&](const Line& one) { return std::fabs(one.height() - source.height); };
+            if (!best || distance(line) < distance(*best)) best = &line;
+        }
+        if (!best) best = &lines.emplace_back();
+        best->sources.push_back(&source);
+        best->keys += source.height;
+        std::vector<Stretch> bars = std::move(best->bars);
+        bars.insert(bars.end(), source.bars.begin(), source.bars.end());
+        best->bars = joined(std::move(bars));
+    }
+    return lines;
+}
+
+std::vector<Turn> turns_of(const Line& line) {
+    std::vector<Turn> all;
+    for (const Source* source : line.sources) {
+        for (const Stretch& bars : source->bars) all.push_back({bars, source});
+    }
+    std::sort(all.begin(), all.end(), [](const Turn& a, const Turn& b) { return a.bars.first < b.bars.first; });
+    std::vector<Turn> turns;
+    for (const Turn& one : all) {
+        if (!turns.empty() && turns.back().source == one.source) {
+            turns.back().bars.last = one.bars.last;
+        } else {
+            turns.push_back(one);
+        }
+    }
+    return turns;
+}
+
+/// True if the notes of a turn need no signs in a key.
+bool fits(const Turn& turn, const KeyOfBars& key, std::int64_t bar) {
+    const std::array<int, 7> signs = signs_of(key.key);
+    for (const auto& voice : turn.source->voices) {
+        auto note = std::lower_bound(voice.begin(), voice.end(), turn.bars.first * bar,
+                                     [](const Note& one, std::int64_t tick) { return one.onset < tick; });
+        for (; note != voice.end() && note->onset / bar <= turn.bars.last; ++note) {
+            const Pitch pitch = spelled(note->key, key.spelling);
+            if (pitch.quarters != 2 * signs[static_cast<std::size_t>(pitch.letter)]) return false;
+        }
+    }
+    return true;
+}
+
+/// A change of key that is due when a source begins, and may come as soon as the one before has ended.
+struct DueChange {
+    Stretch bars;
+    std::size_t part = 0;
+    std::size_t key = 0;  ///< of its keys
+};
+
+/// @return the keys of a line @param due  receives the changes
+std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, std::size_t index, std::int64_t bar,
+                               std::vector<DueChange>& due) {
+    const std::vector<Turn> turns = turns_of(line);
+    const auto key_of = [&](const Source& source, std::int64_t onset) {
+        const Part& part = parts[source.index];
+        return KeyOfBars{onset, printed_key(part), part.spelling};
+    };
+    std::vector<KeyOfBars> keys = {key_of(turns.empty() ? *line.sources.front() : *turns.front().source, 0)};
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+        KeyOfBars next = key_of(*turns[i].source, turns[i].bars.first * bar);
+        const bool is_same = signs_of(next.key) == signs_of(keys.back().key);
+        if (!is_same && fits(turns[i], keys.back(), bar)) continue;
+        if (is_same) {
+            next.key = keys.back().key;
+        } else {
+            due.push_back({{turns[i - 1].bars.last + 1, turns[i].bars.first}, index, keys.size()});
+        }
+        keys.push_back(next);
+    }
+    return keys;
+}
+
+/// Moves changes to as few bar lines as possible.
+void gather_changes(std::vector<DueChange> due, std::int64_t bar, std::vector<PrintedPart>& printed) {
+    std::stable_sort(due.begin(), due.end(),
+                     [](const DueChange& a, const DueChange& b) { return a.bars.last < b.bars.last; });
+    std::int64_t at = -1;
+    for (const DueChange& change : due) {
+        if (at < change.bars.first) at = change.bars.last;
+        printed[change.part].keys[change.key].onset = at * bar;
+    }
+}
+
+double mean_key(const std::vector<Note>& notes) {
+    double sum = 0;
+    for (const Note& note : notes) sum += note.key;
+    return sum / static_cast<double>(notes.size());
+}
+
+/// The notes of a line, by voice: those of several sources from the highest to the lowest.
+std::vector<std::vector<Note>> voices_of(const Line& line) {
+    if (line.sources.size() == 1) {
+        const auto& voices = line.sources.front()->voices;
+        return {voices.begin(), voices.end()};
+    }
+    std::vector<std::vector<Note>> result;
+    for (const Source* source : line.sources) {
+        std::vector<const std::vector<Note>*> order;
+        for (const auto& voice : source->voices) {
+            if (!voice.empty()) order.push_back(&voice);
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [](const auto* a, const auto* b) { return mean_key(*a) > mean_key(*b); });
+        result.resize(std::max(result.size(), std::max<std::size_t>(order.size(), 1)));
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            result[i].insert(result[i].end(), order[i]->begin(), order[i]->end());
+        }
+    }
+    for (auto& voice : result) {
+        std::stable_sort(voice.begin(), voice.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
+    }
+    return result;
+}
+
+bool has_same_keys(const PrintedPart& a, const PrintedPart& b) {
+    return std::equal(a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(),
+                      [](const KeyOfBars& one, const KeyOfBars& other) {
+                          return one.onset == other.onset && signs_of(one.key) == signs_of(other.key);
+                      });
+}
+
+/// Two lines of one keyboard are for two hands.
+void join_hands(std::vector<PrintedPart>& printed) {
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+        PrintedPart& upper = printed[i];
+        if (upper.part.is_drums || !is_keyboard(upper.part.program) || upper.voices.size() != 1) continue;
+        std::vector<std::size_t> others;
+        for (std::size_t k = 0; k < printed.size(); ++k) {
+            if (k != i && is_same_instrument(upper.part, printed[k].part)) others.push_back(k);
+        }
+        if (others.size() != 1 || others.front() < i) continue;
+        const PrintedPart& lower = printed[others.front()];
+        if (lower.voices.size() != 1 || !has_same_keys(upper, lower)) continue;
+        upper.voices.push_back(lower.voices.front());
+        upper.part.voices = 2;
+        upper.sources.insert(upper.sources.end(), lower.sources.begin(), lower.sources.end());
+        printed.erase(printed.begin() + static_cast<std::ptrdiff_t>(others.front()));
+    }
+}
+
+}  // namespace
+
+const KeyOfBars& PrintedPart::key_at(std::int64_t onset) const {
+    const auto next = std::upper_bound(keys.begin(), keys.end(), onset,
+                                       [](std::int64_t tick, const KeyOfBars& key) { return tick < key.onset; });
+    return next == keys.begin() ? keys.front() : *(next - 1);
+}
+
+std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
+                                     std::int64_t bar_length) {
+    std::vector<Source> sources;
+    std::size_t first_voice = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto count = static_cast<std::size_t>(parts[i].voices);
+        sources.push_back(
+            source_of(i, static_cast<int>(first_voice), voices.subspan(first_voice, count), bar_length));
+        first_voice += count;
+    }
+    std::vector<PrintedPart> printed;
+    std::vector<DueChange> due;
+    for (const Line& line : lines_of(parts, sources)) {
+        const auto* const sounding = std::find_if(line.sources.data(), line.sources.data() + line.sources.size(),
+                                                  [](const Source* source) { return !source->bars.empty(); });
+        PrintedPart one;
+        one.part =
+            parts[(sounding == line.sources.data() + line.sources.size() ? line.sources.front() : *sounding)->index];
+        one.first_voice = line.sources.front()->first_voice;
+        one.voices = voices_of(line);
+        one.part.voices = static_cast<int>(one.voices.size());
+        for (const Source* source : line.sources) {
+            one.sources.push_back(source->index);
+            one.part.has_chords = one.part.has_chords || parts[source->index].has_chords;
+        }
+        one.keys = keys_of(parts, line, printed.size(), bar_length, due);
+        printed.push_back(std::move(one));
+    }
+    gather_changes(std::move(due), bar_length, printed);
+    join_hands(printed);
+    return printed;
+}
+
+}  // namespace sikku

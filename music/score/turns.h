@@ -1,0 +1,41 @@
+// music/score/turns.h: parts that take turns, as sections of an arrangement do, share staves in print.
+#pragma once
+
+#include "music/score/score.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// A key signature, and how pitches are written, from a bar line on.
+struct KeyOfBars {
+    std::int64_t onset = 0;           ///< ticks
+    std::optional<KeySignature> key;  ///< nullopt: no signs
+    std::array<Spelling, 12> spelling{};
+};
+
+/// What is printed as one part: a part of the score, or several that take turns.
+struct PrintedPart {
+    Part part;                         ///< of the first that sounds; its voices are those of `voices`
+    int first_voice = 0;               ///< of the score
+    std::vector<std::size_t> sources;  ///< indices of parts of the score
+    std::vector<std::vector<Note>> voices;
+    std::vector<KeyOfBars> keys;  ///< ascending, the first at 0; neighbours may have the same signs
+    const KeyOfBars& key_at(std::int64_t onset) const;
+};
+
+/// Puts parts of the same instrument (the same name, if it is set) together if they sound in no bar together, each
+/// with those of about its height. Two lines of one keyboard, of a voice each, become one part for two hands. What
+/// can be written in the key before it without signs keeps that key. Keys of several parts change at one bar line
+/// where their rests allow that.
+/// Cost: O(parts^2 + notes log notes).
+/// @param voices  of all parts in order: notes by onset
+std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
+                                     std::int64_t bar_length);
+
+}  // namespace sikku
