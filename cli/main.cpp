@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <new>
 #include <sstream>
 #include <string>
@@ -24,6 +26,54 @@ int fail(int status, std::string_view message) {
     return status;
 }
 
+using Adder = void (*)(CLI::App& app, bool& quiet);
+
+/// Adapts the commands that have nothing to be quiet about.
+template <void (*Add)(CLI::App&)>
+void add_without_quiet(CLI::App& app, bool& /*quiet*/) {
+    Add(app);
+}
+
+struct CommandRow {
+    std::string_view name;
+    Adder add;
+};
+
+/// The commands, in the order of the help.
+constexpr CommandRow commands[] = {
+    {"draw", sikku::add_draw},
+    {"sheet", sikku::add_sheet},
+    {"kolam", sikku::add_kolam},
+    {"tiling", sikku::add_tiling},
+    {"play", sikku::add_play},
+    {"gallery", sikku::add_gallery},
+    {"derive", sikku::add_derive},
+    {"measure", sikku::add_measure},
+    {"patterns", add_without_quiet<sikku::add_patterns>},
+    {"plotters", add_without_quiet<sikku::add_plotters>},
+    {"ports", add_without_quiet<sikku::add_ports>},
+    {"import", sikku::add_import},
+    {"scales", add_without_quiet<sikku::add_scales>},
+    {"show", sikku::add_show},
+    {"check", add_without_quiet<sikku::add_check>},
+    {"studio", sikku::add_studio},
+    {"completion", add_without_quiet<sikku::add_completion>},
+    {"manual", sikku::add_manual},
+};
+
+/// Adds the command that the arguments begin with. Adds all of them where it cannot be told or where the command
+/// describes the others: they have some 600 options, which take longer to set up than a small drawing.
+void add_commands(CLI::App& app, bool& quiet, const std::vector<std::string>& arguments) {
+    const std::string_view first = arguments.empty() ? "" : std::string_view(arguments.front());
+    const bool describes_all = first == "completion" || first == "manual";
+    const auto* const row = std::find_if(std::begin(commands), std::end(commands),
+                                         [&](const CommandRow& command) { return command.name == first; });
+    const bool is_alone = row != std::end(commands) && !describes_all;
+    for (const CommandRow& command : commands) {
+        if (!is_alone || &command == row) command.add(app, quiet);
+    }
+}
+
 /// Executes the command line, reports errors, and returns the exit status.
 int run(int argc, char** argv) {
     using namespace sikku;
@@ -35,24 +85,6 @@ int run(int argc, char** argv) {
     app.formatter(std::make_shared<HelpFormatter>());
     app.require_subcommand(1);
     app.fallthrough();
-    add_draw(app, quiet);
-    add_sheet(app, quiet);
-    add_kolam(app, quiet);
-    add_tiling(app, quiet);
-    add_play(app, quiet);
-    add_gallery(app, quiet);
-    add_derive(app, quiet);
-    add_measure(app, quiet);
-    add_patterns(app);
-    add_plotters(app);
-    add_ports(app);
-    add_import(app, quiet);
-    add_scales(app);
-    add_show(app, quiet);
-    add_check(app);
-    add_studio(app, quiet);
-    add_completion(app);
-    add_manual(app, quiet);
     app.footer(
         "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
         "Exit status: 0 on success; 2 for wrong usage, unknown names and faulty patterns; 1 for other failures; 130, "
@@ -60,13 +92,14 @@ int run(int argc, char** argv) {
         "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
         "once. Output files appear whole or not at all.");
     std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && arguments.front() == "help") {
+        arguments.erase(arguments.begin());
+        arguments.emplace_back("--help");
+    }
+    add_commands(app, quiet, arguments);
     if (arguments.empty()) {
         std::fputs(app.help().c_str(), stdout);
         return 2;
-    }
-    if (arguments.front() == "help") {
-        arguments.erase(arguments.begin());
-        arguments.emplace_back("--help");
     }
     try {
         check_arguments(app, arguments);
