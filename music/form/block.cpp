@@ -1,5 +1,6 @@
 #include "music/form/block.h"
 
+#include "music/melody/degree_range.h"
 #include "music/score/glides.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 
 namespace sikku {
@@ -121,6 +123,19 @@ void turn_glides(std::vector<FormNote>& notes) {
         notes.end());
 }
 
+/// Reports a section that the curve lacks.
+[[noreturn]] void refuse_section(const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
+                                 const FormSection& missing, std::size_t sub_curves) {
+    int last = 0;
+    for (const FormSection& section : form) last = std::max(last, static_cast<int>(section.letter));
+    const auto steps = smallest_steps(grammar, melody, last + 1);
+    throw ScoreError(fmt::format(
+        "section {} of the form is missing: the curve has {} sub-curve{} of this order; {}a lower order has more: "
+        "`form: A B order 2`",
+        static_cast<char>('A' + missing.letter), sub_curves, sub_curves == 1 ? "" : "s",
+        steps ? fmt::format("n = {} has enough, and ", *steps) : ""));
+}
+
 }  // namespace
 
 Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report) {
@@ -159,7 +174,8 @@ void reverse(Block& block) {
     std::reverse(block.ends.begin(), block.ends.end());
 }
 
-Block in_form(const Block& block, const Melody& melody, const std::vector<FormSection>& form) {
+Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
+              const std::vector<FormSection>& form) {
     std::vector<std::int64_t> borders = {0};
     for (const std::int64_t end : block.ends) {
         if (end > borders.back() && end < block.length) borders.push_back(end);
@@ -168,12 +184,7 @@ Block in_form(const Block& block, const Melody& melody, const std::vector<FormSe
     Block result;
     for (const FormSection& section : form) {
         const auto at = static_cast<std::size_t>(section.letter);
-        if (at + 1 >= borders.size()) {
-            throw ScoreError(fmt::format(
-                "section {} of the form is missing: the curve has {} sub-curve{} of this "
-                "order; a lower order has more: `form: A B order 2`",
-                static_cast<char>('A' + section.letter), borders.size() - 1, borders.size() == 2 ? "" : "s"));
-        }
+        if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
         end_on(piece, melody, section.ending);
         if (piece.notes.size() > most_block_notes - result.notes.size()) {
@@ -202,10 +213,15 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     const std::int64_t place = ending == Ending::open ? fifth_of(melody.scale) : 0;
     std::int64_t above = (last[0]->degree - place) % period;
     if (above < 0) above += period;
-    const std::int64_t goal = 2 * above <= period ? last[0]->degree - above : last[0]->degree + period - above;
+    std::int64_t goal = 2 * above <= period ? last[0]->degree - above : last[0]->degree + period - above;
     const std::int64_t side = last.size() > 1 && last[1]->degree < goal ? -1 : 1;
+    const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
+    const auto range = is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
+    if (range && goal < range->low() && goal + period <= range->high()) goal += period;
+    if (range && goal > range->high() && goal - period >= range->low()) goal -= period;
     for (std::size_t i = 0; i < last.size(); ++i) {
         last[i]->degree = goal + side * static_cast<std::int64_t>(i);
+        if (range) last[i]->degree = range->inside(last[i]->degree);
         last[i]->note.key = key_within(melody, last[i]->degree, side > 0);
     }
 }
@@ -225,10 +241,7 @@ void scale_times(Block& block, Ratio by) {
 }
 
 double key_within(const Melody& melody, std::int64_t degree, bool falling) {
-    double key = melody.key(degree, falling).value_or(melody.tonic);
-    if (key > melody.highest) key -= 12 * std::ceil((key - melody.highest) / 12);
-    if (key < melody.lowest) key += 12 * std::ceil((melody.lowest - key) / 12);
-    return std::clamp(key, melody.lowest, melody.highest);
+    return mapping::folded(melody, melody.key(degree, falling).value_or(melody.tonic));
 }
 
 }  // namespace sikku

@@ -39,8 +39,9 @@ void link_glides(std::vector<FormNote>& notes);
 void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second.
+/// @param grammar  of the block, whose derivation length is too small if sub-curves are missing
 /// @throws ScoreError if the curve has fewer
-Block in_form(const Block& block, const Melody& melody, const std::vector<FormSection>& form);
+Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form);
 
 /// Leads the last notes of the first voice by step to the fifth or the tonic; as many as three.
 void end_on(Block& block, const Melody& melody, Ending ending);
@@ -48,7 +49,7 @@ void end_on(Block& block, const Melody& melody, Ending ending);
 /// Multiplies all times.
 void scale_times(Block& block, Ratio by);
 
-/// The MIDI key of a degree, moved by octaves into the range of the melody.
+/// The MIDI key of a degree, moved by periods of the scale into the range of the melody.
 double key_within(const Melody& melody, std::int64_t degree, bool falling);
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 #include "music/melody/degree_range.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace sikku::mapping {
@@ -27,6 +28,15 @@ std::int64_t DegreeRange::inside(std::int64_t degree) const {
     std::int64_t phase = (degree - low_) % (2 * width);
     if (phase < 0) phase += 2 * width;
     return low_ + (phase <= width ? phase : 2 * width - phase);
+}
+
+double folded(const Melody& melody, double key) {
+    const double period = std::fabs(melody.scale.period) / 100;
+    if (std::isfinite(key) && period > 0 && period <= melody.highest - melody.lowest) {
+        if (key > melody.highest) key -= period * std::ceil((key - melody.highest) / period);
+        if (key < melody.lowest) key += period * std::ceil((melody.lowest - key) / period);
+    }
+    return std::clamp(key, melody.lowest, melody.highest);
 }
 
 }  // namespace sikku::mapping

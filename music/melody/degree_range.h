@@ -23,4 +23,8 @@ private:
     std::int64_t high_ = 0;
 };
 
+/// The key moved by whole periods of the scale into the range of the melody; the nearest end of the range if the
+/// range is narrower than a period.
+double folded(const Melody& melody, double key);
+
 }  // namespace sikku::mapping

@@ -163,15 +163,8 @@ Emitter::Placed Emitter::within_range(double raw, std::int64_t degree, bool fall
     switch (melody_.range) {
         case Range::refuse:
             refuse(degree, fmt::format("key {:.0f}", raw));
-        case Range::fold: {
-            const double period = std::fabs(melody_.scale.period) / 100;
-            double key = raw;
-            if (std::isfinite(key) && period > 0 && period <= melody_.highest - melody_.lowest) {
-                key += key > melody_.highest ? -period * std::ceil((key - melody_.highest) / period)
-                                             : period * std::ceil((melody_.lowest - key) / period);
-            }
-            return {std::clamp(key, melody_.lowest, melody_.highest), true, false};
-        }
+        case Range::fold:
+            return {folded(melody_, raw), true, false};
         case Range::clamp:
         case Range::reflect:
             break;

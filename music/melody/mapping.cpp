@@ -316,4 +316,17 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     return result;
 }
 
+std::optional<std::int64_t> smallest_steps(const Grammar& given, const Melody& melody, std::int64_t phrases) {
+    constexpr std::int64_t farthest = 24;
+    for (std::int64_t steps = given.steps() + 1; steps <= given.steps() + farthest; ++steps) {
+        const auto longer = given.with_steps(steps);
+        if (!longer || !longer->is_plain() || longer->whole_word_steps() > 0) return std::nullopt;
+        const Grammar grammar = marked(shorten(*longer), melody);
+        const auto fold = fold_of(grammar, melody);
+        if (!fold) return std::nullopt;
+        if (fold->whole().marks >= phrases) return steps;
+    }
+    return std::nullopt;
+}
+
 }  // namespace sikku

@@ -97,6 +97,20 @@ TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
     EXPECT_EQ(told(list, 3), "600:48/240 840:50/240 1080:52/240 1320:50/480");
 }
 
+TEST(Arrangement, EndingsLieWithinTheRange) {
+    const auto last_key = [](const std::string& keys) {
+        return notes_of(track("form = \"A B2\"\n" + keys, "hilbert")).notes.back().key;
+    };
+    // The tonic above C6 is one or more periods of 3/1 above C4, not octaves.
+    const double twelfth = 12 * std::log2(3.0);
+    const double periods = (last_key("scale = \"bohlen-pierce\"\nrange = \"fold C6-A7\"\n") - 60) / twelfth;
+    EXPECT_GE(periods, 1);
+    EXPECT_NEAR(periods, std::round(periods), 1e-6);
+    // The tonic nearest to the end may lie beyond the range; its octave within is the goal then.
+    EXPECT_EQ(last_key("range = \"reflect G4-E5\"\n"), 72);
+    EXPECT_EQ(last_key("range = \"clamp F3-E4\"\n"), 60);
+}
+
 TEST(Arrangement, FormsAreMadeOfSubCurves) {
     const NoteList plain = notes_of(track("", "hilbert"));
     const NoteList formed = notes_of(track("form = \"ABCD\"\n", "hilbert"));
@@ -121,6 +135,22 @@ TEST(Arrangement, FormsAreMadeOfSubCurves) {
         std::equal(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(first.size()) - 3, first.begin()));
     for (std::size_t i = keys.size() - 2; i < keys.size(); ++i) EXPECT_LE(std::fabs(keys[i] - keys[i - 1]), 2);
     EXPECT_THROW(notes_of(track("form = \"AZ\"\n", "hilbert")), ScoreError);
+    // Order 3 of n = 4 has 4 sub-curves, of n = 5 has 16; the largest are 4 at any n, but at n = 1 there is only one.
+    const auto refusal = [](const std::string& text) -> std::string {
+        try {
+            notes_of(track(text, "hilbert"));
+        } catch (const ScoreError& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    EXPECT_NE(refusal("form = \"ABCDE order 3\"\n").find("has 4 sub-curves of this order; n = 5 has enough, and"),
+              std::string::npos);
+    EXPECT_EQ(refusal("n = 5\nform = \"ABCDE order 3\"\n"), "none");
+    EXPECT_NE(refusal("form = \"ABCDE\"\n").find("has 4 sub-curves of this order; a lower order"), std::string::npos);
+    EXPECT_NE(refusal("n = 1\nform = \"AB\"\n").find("has 1 sub-curve of this order; n = 2 has enough"),
+              std::string::npos);
+    EXPECT_EQ(refusal("n = 2\nform = \"AB\"\n"), "none");
     EXPECT_NO_THROW(notes_of(track("form = \"AZ order 1\"\n", "hilbert")));
 }
 
