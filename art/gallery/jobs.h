@@ -42,6 +42,7 @@ struct GalleryJob {
     OptionValues values() const;
     /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides. @throws
     /// PatternError, GalleryError
+    /// For a piece, the document of its first part.
     Document document() const;
     /// The planned work, cached unless there are too many. @throws what Interpreter::plan() and document() throw
     std::shared_ptr<Work> work() const;
