@@ -377,8 +377,7 @@ void add_gallery(CLI::App& app, bool& quiet) {
     auto options = std::make_shared<Options>();
     command->add_option(
         "PATTERNS", options->request.patterns,
-        "names, kinds, globs, folders or files of patterns, or arrangements (.toml) (all bundled patterns "
-        "that draw)");
+        "patterns by name, kind, glob, folder or file, and arrangements (all bundled patterns that draw)");
     auto* output = command->add_option("-o,--output", options->output, "folder of the gallery")
                        ->type_name("FOLDER")
                        ->capture_default_str();
