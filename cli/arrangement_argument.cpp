@@ -26,10 +26,7 @@ std::filesystem::path path_of(const std::string& name) {
     return name;
 }
 
-}  // namespace
-
-NamedArrangement read_arrangement_argument(const std::string& name) {
-    const std::filesystem::path path = path_of(name);
+NamedArrangement read_from(const std::filesystem::path& path, const std::string& name, bool reads_input) {
     std::string text;
     try {
         text = read_file(path, name, most_toml_bytes, stop_monitor());
@@ -38,6 +35,8 @@ NamedArrangement read_arrangement_argument(const std::string& name) {
     }
     const std::filesystem::path folder = path.parent_path();
     const auto read = [&](const std::string& pattern) {
+        if (pattern == "-" && !reads_input)
+            throw UsageError(name + ": a gallery reads no pattern from standard input");
         std::error_code missing;
         const std::filesystem::path beside = folder / pattern;
         const bool is_beside = pattern != "-" && std::filesystem::exists(beside, missing);
@@ -45,6 +44,16 @@ NamedArrangement read_arrangement_argument(const std::string& name) {
         return NamedPattern{std::move(found.name), std::move(found.text)};
     };
     return {read_arrangement(name, text, read), folder};
+}
+
+}  // namespace
+
+NamedArrangement read_arrangement_argument(const std::string& name) {
+    return read_from(path_of(name), name, true);
+}
+
+NamedArrangement read_arrangement_file(const std::filesystem::path& path, const std::string& name) {
+    return read_from(path, name, false);
 }
 
 std::vector<std::filesystem::path> files_of_arrangement(const std::string& name) {

@@ -2,6 +2,7 @@
 #include "art/gallery/gallery.h"
 #include "art/gallery/process.h"
 #include "art/prints.h"
+#include "cli/arrangement_argument.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
@@ -44,8 +45,33 @@ struct Options {
     std::size_t slurm = 0;
 };
 
+/// Values that name files beside the gallery file, as seen from the folder of an arrangement.
+OptionValues moved(OptionValues values, const std::filesystem::path& from, const std::filesystem::path& to) {
+    if (from == to) return values;
+    for (OptionValue& value : values) {
+        const bool is_file =
+            value.name == "keyboard" || (value.name == "scale" && lower_case(value.text).ends_with(".scl"));
+        std::error_code error;
+        const auto path = std::filesystem::proximate(from / value.text, to.empty() ? "." : to, error);
+        if (is_file && !error) value.text = path.string();
+    }
+    return values;
+}
+
+GalleryPiece read_piece(const std::filesystem::path& file, const std::string& name) {
+    auto [arrangement, beside] = read_arrangement_file(file, name);
+    GalleryPiece piece{arrangement.title, arrangement.source, arrangement.text, {}, {}};
+    for (const Track& track : arrangement.tracks) piece.documents.push_back(track.document);
+    const auto shared = std::make_shared<const Arrangement>(std::move(arrangement));
+    piece.plan = [shared, beside = std::move(beside)](std::string_view format, const OptionValues& values,
+                                                      const std::filesystem::path& folder) {
+        return plan_score(*shared, format, moved(values, folder, beside), beside);
+    };
+    return piece;
+}
+
 const GalleryKeys& gallery_keys() {
-    static const GalleryKeys keys({&prints(), &scores()});
+    static const GalleryKeys keys({&prints(), &scores()}, {&scores(), read_piece});
     return keys;
 }
 
@@ -349,8 +375,9 @@ void add_gallery(CLI::App& app, bool& quiet) {
     auto* command =
         app.add_subcommand("gallery", "Make many prints and scores in parallel; resumes where it stopped");
     auto options = std::make_shared<Options>();
-    command->add_option("PATTERNS", options->request.patterns,
-                        "names, kinds, globs, folders or files (all bundled patterns that draw)");
+    command->add_option(
+        "PATTERNS", options->request.patterns,
+        "patterns by name, kind, glob, folder or file, and arrangements (all bundled patterns that draw)");
     auto* output = command->add_option("-o,--output", options->output, "folder of the gallery")
                        ->type_name("FOLDER")
                        ->capture_default_str();

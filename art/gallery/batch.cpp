@@ -177,7 +177,15 @@ FinishedJob Batch::make_job(const Turn& turn) {
         const Monitor monitor([](void* batch) { return static_cast<Batch*>(batch)->monitor_.stop_requested(); },
                               [](void* batch, std::uint64_t) { static_cast<Batch*>(batch)->listener_.watch(); },
                               this);
-        for (const Diagnostic& warning : job.document().warnings()) file.warnings.push_back(warning.text());
+        const auto documents = job.pattern->piece ? job.pattern->piece->documents : std::vector{job.document()};
+        for (const Document& document : documents) {
+            for (const Diagnostic& warning : document.warnings()) {
+                // Several parts may play the same pattern.
+                const std::string text = warning.text();
+                if (std::find(file.warnings.begin(), file.warnings.end(), text) == file.warnings.end())
+                    file.warnings.push_back(text);
+            }
+        }
         const auto work = job.work();
         job.works->forget(job.file());
         for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {

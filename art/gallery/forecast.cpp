@@ -25,7 +25,7 @@ JobForecast forecast_job(const GalleryJob& job, bool exact) {
         return result;
     }
     try {
-        if (exact) result.symbols = length_of(job.document().grammar());
+        if (exact && !job.pattern->piece) result.symbols = length_of(job.document().grammar());
         const Cost cost = job.work()->forecast();
         result.seconds = cost.seconds;
         result.bytes = cost.bytes;

@@ -9,7 +9,7 @@ namespace sikku {
 
 /// Rough, and the same on every machine.
 struct JobForecast {
-    std::string symbols;  ///< of the word: digits, "about 10^k", or "?" where only deriving tells
+    std::string symbols;  ///< of the word: digits, "about 10^k", or "?" where only deriving tells, and for pieces
     double seconds = 0;   ///< on one core of a usual machine
     double bytes = 0;     ///< of the file
     double memory = 0;    ///< bytes while it is made on one thread, beside what the program takes

@@ -130,7 +130,10 @@ private:
 class Expansion {
 public:
     Expansion(std::vector<GalleryItem> items, const GalleryRequest& request, const GalleryKeys& keys)
-        : items_(std::move(items)), keys_(keys), monitor_(request.monitor), shelf_(request.bundled_only, monitor_) {
+        : items_(std::move(items)),
+          keys_(keys),
+          monitor_(request.monitor),
+          shelf_(request.bundled_only, keys.pieces(), monitor_) {
         patterns_.reserve(items_.size());
         for (const GalleryItem& item : items_) patterns_.push_back(patterns_of(item));
     }
@@ -220,7 +223,9 @@ private:
     static const std::vector<std::string>& formats_of(const GalleryItem& item, const GalleryPattern& pattern) {
         static const std::vector<std::string> print = {"svg"};
         static const std::vector<std::string> both = {"svg", "mid"};
+        static const std::vector<std::string> score = {"mid"};
         if (!item.formats.empty()) return item.formats;
+        if (pattern.is_piece) return score;
         return pattern.kind == "melodies" ? both : print;
     }
 
@@ -255,8 +260,30 @@ private:
         return name;
     }
 
+    /// The tracks of a piece set the keys of their patterns, and nothing of it is drawn. @throws GalleryError
+    void check_piece(const GalleryItem& item, const GalleryPattern& piece, const std::string& format) const {
+        const Interpreter& player = *keys_.pieces().interpreter;
+        const std::string name = printable(piece.shown, 200);
+        if (&keys_.interpreter_of(format) != &player) {
+            fail(item.place, fmt::format("{}: '{}' is an arrangement, which has no drawing; its formats are "
+                                         "those of scores, such as mid and wav",
+                                         format, name));
+        }
+        for (const GalleryItem::Axis& axis : item.axes) {
+            if (!matters(*axis, player)) continue;
+            const GalleryKey* row = axis->in_set ? nullptr : keys_.find(axis->key);
+            const bool is_of_pattern =
+                !row || row->overrides || axis->key == "n" || axis->key == "seed" || axis->key == "variant";
+            if (!is_of_pattern) continue;
+            fail(axis->place.empty() ? item.place : axis->place,
+                 fmt::format("{}: '{}' is an arrangement, whose tracks set the keys of their patterns",
+                             printable(axis->key, 80), name));
+        }
+    }
+
     std::vector<Choice> choices_of(const GalleryItem& item, const GalleryPattern& pattern,
                                    const std::string& format) {
+        if (pattern.is_piece) check_piece(item, pattern, format);
         std::vector<Choice> choices;
         for (const GalleryItem::Axis& axis : item.axes) {
             if (!matters(*axis, keys_.interpreter_of(format))) continue;
@@ -299,7 +326,7 @@ private:
     /// it, found by bisection. Errors of the pattern itself are left to its jobs.
     void check_pattern(const GalleryItem& item, const GalleryJob& job, const std::vector<Choice>& choices,
                        const std::vector<std::uint64_t>& at) {
-        if (!job.pattern->text) return;
+        if (!job.pattern->text || job.pattern->is_piece) return;
         const auto problem_with = [&](std::size_t count) {
             return compilations_.of(job_at(item, job.pattern, job.format, choices, at, count)).problem;
         };
@@ -380,7 +407,7 @@ private:
             if (axis.key == key || axis.key == written) return axis.value(at[i]);
         }
         // Use the pattern's value with the changes of the job; if there is none, the job itself reports why.
-        if (key == "n") return job.pattern->text ? compilations_.of(job).steps : "";
+        if (key == "n") return job.pattern->text && !job.pattern->is_piece ? compilations_.of(job).steps : "";
         for (const GalleryItem::Axis& axis : item.axes) {
             if (axis->key == key || axis->key == written) return axis->value(0);
         }
@@ -575,6 +602,7 @@ OptionValues GalleryJob::values() const {
 
 Document GalleryJob::document() const {
     if (!pattern->text) throw std::runtime_error(pattern->problem);
+    if (pattern->piece) return pattern->piece->documents.front();
     Overrides settings;
     for (const auto& [key, value] : overrides) settings.settings.push_back({"set", key, value});
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
@@ -598,7 +626,10 @@ Document GalleryJob::document() const {
 
 std::shared_ptr<Work> GalleryJob::work() const {
     const std::size_t bytes = pattern->text ? pattern->text->text.size() : 0;
-    return works->get(file(), bytes, [&] { return interpreter().plan(document(), format, values(), folder); });
+    return works->get(file(), bytes, [&] {
+        return pattern->piece ? pattern->piece->plan(format, values(), folder)
+                              : interpreter().plan(document(), format, values(), folder);
+    });
 }
 
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys) {

@@ -40,8 +40,8 @@ struct GalleryJob {
     const Interpreter& interpreter() const { return language->interpreter_of(format); }
     /// Its options, for the interpreter.
     OptionValues values() const;
-    /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides. @throws
-    /// PatternError, GalleryError
+    /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides; for a piece,
+    /// the document of its first part. @throws PatternError, GalleryError
     Document document() const;
     /// The planned work, cached unless there are too many. @throws what Interpreter::plan() and document() throw
     std::shared_ptr<Work> work() const;

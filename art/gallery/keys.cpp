@@ -7,7 +7,8 @@
 
 namespace sikku {
 
-GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters) : interpreters_(std::move(interpreters)) {
+GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters, PieceReader pieces)
+    : interpreters_(std::move(interpreters)), pieces_(std::move(pieces)) {
     using enum OptionKind;
     for (const Interpreter* interpreter : interpreters_) {
         for (const FormatName& row : interpreter->formats()) {

@@ -1,6 +1,7 @@
 // art/gallery/keys.h: the keys and formats that galleries accept, derived from the interpreters' tables.
 #pragma once
 
+#include "art/gallery/patterns.h"
 #include "engine/base/option.h"
 #include "engine/interpreter.h"
 
@@ -28,7 +29,8 @@ struct GalleryKey {
 class GalleryKeys {
 public:
     /// @param interpreters  in order of precedence for formats of the same name: prints, then scores
-    explicit GalleryKeys(std::vector<const Interpreter*> interpreters);
+    /// @param pieces  reads arrangements; without it, galleries make files of patterns only
+    explicit GalleryKeys(std::vector<const Interpreter*> interpreters, PieceReader pieces = {});
 
     const std::vector<GalleryKey>& list() const { return keys_; }
     /// Null if the name is unknown.
@@ -42,6 +44,7 @@ public:
     /// Label of a format in a link, `MIDI`. @param format  one of formats()
     std::string_view label(std::string_view format) const;
     std::span<const Interpreter* const> interpreters() const { return interpreters_; }
+    const PieceReader& pieces() const { return pieces_; }
 
 private:
     struct Known {
@@ -54,6 +57,7 @@ private:
     const Interpreter* reader_of(KeyOwner owner) const;
 
     std::vector<const Interpreter*> interpreters_;
+    PieceReader pieces_;
     std::vector<Known> known_;
     std::vector<std::string_view> formats_;
     std::vector<GalleryKey> keys_;

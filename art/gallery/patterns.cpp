@@ -1,6 +1,7 @@
 #include "art/gallery/patterns.h"
 
 #include "engine/base/text.h"
+#include "engine/language/arrangement_library.h"
 
 #include "art/gallery/values.h"
 
@@ -65,7 +66,7 @@ public:
     Walk(std::size_t& entries, const std::string& place, const Monitor& monitor)
         : entries_(entries), place_(place), monitor_(monitor) {}
 
-    /// Files that end in `.lsys`, sorted.
+    /// Files that end in `.lsys`, or in `.toml` if the last part does, sorted.
     std::vector<std::filesystem::path> find(const std::filesystem::path& folder, const std::string& word) {
         const std::filesystem::path form = word;
         std::vector<std::filesystem::path> reached = {form.is_absolute() ? "/" : folder};
@@ -110,7 +111,7 @@ private:
         const auto add = [&](const std::filesystem::path& path) {
             count();
             struct stat status {};
-            if (is_last && path.extension() != ".lsys") return;
+            if (is_last && path.extension() != (part.ends_with(".toml") ? ".toml" : ".lsys")) return;
             if (::stat(path.c_str(), &status) != 0) return;
             // A named pipe would wait for its writer.
             if (is_last ? !S_ISREG(status.st_mode) : !S_ISDIR(status.st_mode)) return;
@@ -218,6 +219,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
             }
         }
     }
+    if (found.empty()) find_bundled_pieces(word, found);
     if (!found.empty()) {
         list = std::make_shared<const std::vector<Pointer>>(std::move(found));
         return list;
@@ -228,6 +230,19 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
     const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};
     fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80), did_you_mean(similar)));
+}
+
+void PatternShelf::find_bundled_pieces(const std::string& word, std::vector<Pointer>& found) {
+    if (!pieces_.interpreter) return;
+    constexpr std::string_view folder = "arrangements";
+    for (const std::string& name : bundled_arrangements()) {
+        if (word != folder && word != name && word != fmt::format("{}/{}", folder, name)) continue;
+        found.push_back(read(*bundled_arrangement(name), name, name + ".toml"));
+    }
+}
+
+bool PatternShelf::is_piece(const std::filesystem::path& file) const {
+    return pieces_.interpreter && lower_case(file.extension().string()) == ".toml";
 }
 
 PatternShelf::List PatternShelf::all() {
@@ -249,9 +264,15 @@ PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, cons
     pattern.kind = file.parent_path().filename().string();
     pattern.path = file.string();
     pattern.shown = shown;
+    pattern.is_piece = is_piece(file);
     try {
-        pattern.text =
-            std::make_shared<PatternText>(PatternText{called, read_pattern({file.string(), file}, monitor_)});
+        if (pattern.is_piece) {
+            pattern.piece = std::make_shared<const GalleryPiece>(pieces_.read(file, called));
+            pattern.text = std::make_shared<PatternText>(PatternText{called, pattern.piece->text});
+        } else {
+            pattern.text =
+                std::make_shared<PatternText>(PatternText{called, read_pattern({file.string(), file}, monitor_)});
+        }
         bytes_ += pattern.text->text.size();
     } catch (const std::runtime_error& error) {
         pattern.problem = error.what();

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "engine/base/monitor.h"
+#include "engine/interpreter.h"
 #include "engine/language/document.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,7 +21,26 @@ struct PatternText {
     std::string text;
 };
 
-/// A pattern of a gallery, read once.
+/// A file that plays several patterns as one piece: an arrangement.
+struct GalleryPiece {
+    std::string title;
+    std::string source;
+    std::string text;                 ///< with every pattern in it
+    std::vector<Document> documents;  ///< of its parts; at least one
+    /// Plans a work. The folder is that of files that `values` name. Thread-safe. @throws as Interpreter::plan()
+    std::function<std::unique_ptr<Work>(std::string_view format, const OptionValues& values,
+                                        const std::filesystem::path& folder)>
+        plan;
+};
+
+/// Reads pieces for galleries. This library knows no music, so its caller supplies one.
+struct PieceReader {
+    const Interpreter* interpreter = nullptr;  ///< makes their files; null: there are no pieces
+    /// Takes a file and its name in messages. @throws std::runtime_error with the place of the error
+    std::function<GalleryPiece(const std::filesystem::path& file, const std::string& name)> read{};
+};
+
+/// A pattern or a piece of a gallery, read once.
 struct GalleryPattern {
     std::string name;                         ///< without folder and ending
     std::string kind;                         ///< the folder it lies in
@@ -27,6 +48,8 @@ struct GalleryPattern {
     std::string shown;                        ///< as a manifest names it
     std::shared_ptr<const PatternText> text;  ///< null if it cannot be read
     std::string problem;                      ///< then: why
+    bool is_piece = false;
+    std::shared_ptr<const GalleryPiece> piece;  ///< null for patterns, and if it cannot be read
 };
 
 /// True if the whole of `name` matches `form`, in which `*` stands for any bytes, `?` for one, `[a-z]` and `[!a-z]`
@@ -40,7 +63,8 @@ public:
     using List = std::shared_ptr<const std::vector<Pointer>>;
 
     /// @param bundled_only  do not search files
-    explicit PatternShelf(bool bundled_only, Monitor monitor = {}) : bundled_only_(bundled_only), monitor_(monitor) {}
+    explicit PatternShelf(bool bundled_only, PieceReader pieces = {}, Monitor monitor = {})
+        : bundled_only_(bundled_only), pieces_(std::move(pieces)), monitor_(monitor) {}
 
     /// @throws GalleryError if none is found, or there are too many entries to search; Stopped
     List find(const std::string& word, const std::filesystem::path& folder, const std::string& place);
@@ -55,7 +79,12 @@ private:
     Pointer of_file(const std::filesystem::path& file) { return read(file, file.string(), file.string()); }
     Pointer read(const std::filesystem::path& file, const std::string& shown, const std::string& called);
 
+    /// Adds the bundled arrangement of that name, or all of them for the name of their folder.
+    void find_bundled_pieces(const std::string& word, std::vector<Pointer>& found);
+    bool is_piece(const std::filesystem::path& file) const;
+
     bool bundled_only_;
+    PieceReader pieces_;
     Monitor monitor_;
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;

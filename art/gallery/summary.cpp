@@ -100,14 +100,17 @@ GalleryEntry entry_of(const NamedJobs& item) {
     const Document loaded = first.document();
     GalleryEntry entry;
     entry.name = first.name;
-    entry.title = loaded.pattern().text("title");
+    const auto& piece = first.pattern->piece;
+    entry.title = piece ? piece->title : loaded.pattern().text("title");
     if (entry.title.empty()) entry.title = first.pattern->name;
-    entry.source = loaded.pattern().text("source");
-    entry.description = loaded.pattern().text("description");
+    entry.source = piece ? piece->source : loaded.pattern().text("source");
+    if (!piece) entry.description = loaded.pattern().text("description");
     entry.kind = first.pattern->kind;
-    entry.n = std::to_string(loaded.grammar().steps());
-    entry.angle = angle_of(loaded.pattern());
-    entry.growth = growth_of(loaded.grammar());
+    if (!piece) {
+        entry.n = std::to_string(loaded.grammar().steps());
+        entry.angle = angle_of(loaded.pattern());
+        entry.growth = growth_of(loaded.grammar());
+    }
     entry.settings = settings_of(first, nullptr);
     entry.pattern = first.pattern->text ? first.pattern->text->text : std::string();
     // What a browser shows comes first; a picture is the quickest thumbnail.
