@@ -137,8 +137,8 @@ public:
 
 private:
     [[noreturn]] static void refuse_key(const std::string& place, const std::string& key, bool is_head) {
-        std::vector<std::string_view> known = {"n",       "seed",    "variant",   "set",
-                                               "pattern", "section", "transpose", "tempo ratio"};
+        std::vector<std::string_view> known = {"n",       "seed", "variant",   "set",        "pattern",
+                                               "section", "name", "transpose", "tempo ratio"};
         for (const std::string_view name : keys_of(KeyOwner::music)) known.push_back(name);
         if (is_head) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
         fail(place, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(nearest(folded(key), known))));
@@ -183,18 +183,31 @@ private:
         return known_.emplace(name, std::move(found)).first->second;
     }
 
+    static std::string part_name(const FileValue& value) {
+        constexpr std::size_t most_bytes = 100;
+        const auto is_control = [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F; };
+        if (value.type != FileValue::Type::text || value.text.empty() || value.text.size() > most_bytes ||
+            std::any_of(value.text.begin(), value.text.end(), is_control)) {
+            fail(value.place, fmt::format("name: expected a line of 1 to {} bytes of text", most_bytes));
+        }
+        return value.text;
+    }
+
     void read_track(const FileValue& track) {
         if (track.type != FileValue::Type::table) fail(track.place, "track: expected [[track]] tables");
         std::vector<PlacedSetting> settings = shared_;
         Overrides overrides;
-        std::string name;
+        std::string pattern_name;
         std::string name_place;
+        std::string name;
         char section = 0;
         for (const auto& [key, value] : track.table) {
             const std::string known = folded(key);
             if (known == "pattern") {
-                name = text_of(known, value);
+                pattern_name = text_of(known, value);
                 name_place = value.place;
+            } else if (known == "name") {
+                name = part_name(value);
             } else if (known == "section") {
                 const auto letters = read_form(text_of(known, value));
                 if (letters.size() != 1 || letters.front().ending != Ending::none) {
@@ -219,15 +232,15 @@ private:
                 refuse_key(value.place, key, false);
             }
         }
-        if (name.empty()) fail(track.place, "this track has no pattern");
-        const NamedPattern& found = pattern(name, name_place);
+        if (pattern_name.empty()) fail(track.place, "this track has no pattern");
+        const NamedPattern& found = pattern(pattern_name, name_place);
         Diagnostics diagnostics;
         Document document = Document::compile(found.name, found.text, overrides, diagnostics);
         if (!diagnostics.is_unreadable()) read_melody(document.pattern(), {}, diagnostics);
         diagnostics.throw_if_errors();
         for (const PlacedSetting& one : settings) document = with(document, one);
         require_turtle(document, "it has no melody");
-        result_.tracks.push_back({std::move(document), name, section});
+        result_.tracks.push_back({std::move(document), std::move(pattern_name), section, std::move(name)});
     }
 
     /// @throws FileError at the place of the setting
@@ -347,7 +360,7 @@ Arrangement arrangement_of(std::span<const Document> documents) {
             result.text += fmt::format("set = {{ {} }}\n", list);
         }
         result.text = shared + (shared.empty() ? "" : "\n") + result.text;
-        result.tracks.push_back({document, name, 0});
+        result.tracks.push_back({document, name, 0, {}});
     }
     result.text += patterns;
     return result;

@@ -21,6 +21,7 @@ struct Track {
     Document document;
     std::string pattern;  ///< as the arrangement names it
     char section = 0;     ///< `A` to `Z`; 0: it plays from the beginning of the piece
+    std::string name;     ///< of its staff and its MIDI track; empty: that of the instrument
 };
 
 /// Several patterns as one piece.

@@ -29,6 +29,7 @@ struct Player {
     bool is_bass = false;               ///< of the player before it: `harmony: bass`
     bool is_follower = false;           ///< in the canon of a player before it
     char section = 0;                   ///< of the score, `A` to `Z`; 0: it plays from the beginning
+    std::string name;                   ///< of its part; empty: that of the instrument
     std::vector<std::string> warnings;  ///< warnings about values of options
 };
 

@@ -111,10 +111,10 @@ void add_texts(const Player& player, std::vector<std::string>& titles, ScoreHead
     if (head.source.empty()) head.source = pattern.text("source");
 }
 
-Part drum_part(int voices, bool has_chords) {
+Part drum_part(const std::string& name, int voices, bool has_chords) {
     Part part;
     part.has_chords = has_chords;
-    part.name = "Drums";
+    part.name = name.empty() ? "Drums" : name;
     part.is_drums = true;
     part.voices = voices;
     part.spelling = spell(*find_scale("major"), {});
@@ -144,7 +144,8 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         const Melody& melody = player.melody;
         if (!player.is_bass) add_texts(player, titles, head);
         Part part;
-        part.name = instrument_names()[static_cast<std::size_t>(melody.program)];
+        const std::string& own_name = player.name;
+        part.name = own_name.empty() ? instrument_names()[static_cast<std::size_t>(melody.program)] : own_name;
         part.scale = scale_of(melody);
         part.program = melody.program;
         part.key = key_signature(melody.scale, melody.tonic_spelling);
@@ -178,7 +179,8 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
             part.name = instrument_names()[static_cast<std::size_t>(part.program)];
             head.parts.push_back(part);
         }
-        if (sounds.has_drums) head.parts.push_back(drum_part(own_voices, has_chords));
+        if (sounds.has_drums)
+            head.parts.push_back(drum_part(is_drums_alone ? player.name : "", own_voices, has_chords));
     }
     if (pitched > most) {
         throw ScoreError(
@@ -317,12 +319,12 @@ public:
     ScoreWork(const Document& document, ScoreFormat format, PlaySettings settings,
               const std::filesystem::path& folder)
         : format_(format), settings_(std::move(settings)), folder_(folder) {
-        add(document, 0);
+        add(document, 0, "");
         complete();
     }
     ScoreWork(Arrangement arrangement, ScoreFormat format, PlaySettings settings, const std::filesystem::path& folder)
         : format_(format), settings_(std::move(settings)), folder_(folder), arrangement_(std::move(arrangement)) {
-        for (const Track& track : arrangement_->tracks) add(track.document, track.section);
+        for (const Track& track : arrangement_->tracks) add(track.document, track.section, track.name);
         ensemble_.form = arrangement_->form;
         complete();
     }
@@ -368,13 +370,14 @@ public:
     }
 
 private:
-    void add(const Document& document, char section) {
+    void add(const Document& document, char section, const std::string& part_name) {
         const auto witness = [this](const std::string& name, const std::string& text) {
             files_.emplace_back(name, text);
         };
         Player player = read_player(settings_, document, folder_, witness);
         Melody& melody = player.melody;
         player.section = section;
+        player.name = part_name;
         if (is_printed(format_)) {
             melody.swing = 0.5;
             melody.articulation = Articulation::legato;

@@ -97,6 +97,21 @@ TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
     EXPECT_EQ(told(list, 3), "600:48/240 840:50/240 1080:52/240 1320:50/480");
 }
 
+TEST(Arrangement, TracksHaveNames) {
+    const auto names = [](const std::string& text) {
+        MemoryDestination memory;
+        plan_score(read(text), "musicxml", {})->make(memory, "score.musicxml", {});
+        pugi::xml_document document;
+        document.load_string(memory.take("score.musicxml").c_str());
+        std::string all;
+        for (const auto& name : document.select_nodes("//part-name"))
+            all += std::string(name.node().text().get()) + ";";
+        return all;
+    };
+    EXPECT_EQ(names(track("name = \"Left <&> right\"\n") + track("instrument = \"Flute\"\n")),
+              "Left <&> right;Flute;");
+}
+
 TEST(Arrangement, EndingsLieWithinTheRange) {
     const auto last_key = [](const std::string& keys) {
         return notes_of(track("form = \"A B2\"\n" + keys, "hilbert")).notes.back().key;
@@ -328,6 +343,8 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused(track("rhythm = \"\"\n"), "a.toml:3:1: rhythm: ");
     refused(track("canon = \"2 x\"\n"), "canon: expected bars and an interval");
     refused(track("canon = \"" + std::string(100, ',') + "\"\n"), "canon: expected");
+    refused(track("name = \"\"\n"), "name: expected a line of 1 to 100 bytes");
+    refused(track("name = \"two\\nlines\"\n"), "name: expected a line of 1 to 100 bytes");
     refused(track("form = \"aaba\"\n"), "form: expected the order of sub-curves");
     refused(track("instrument = \"kazooo\"\n"), "a.toml:3:1: instrument: ");
     refused(track("n = -1\n"), "a.toml:3:1: derivation length: expected");
