@@ -20,6 +20,7 @@ public:
     Humaniser(NoteSink& sink, double amount, std::uint64_t seed, std::int64_t from)
         : sink_(sink), amount_(amount), seed_(seed), from_(from) {}
     void curves(const Curves& curves) override { sink_.curves(curves); }
+    void controls(std::span<const ControlPoint> points) override { sink_.controls(points); }
     void notes(std::span<const Note> notes) override {
         changed_.assign(notes.begin(), notes.end());
         for (Note& note : changed_) {

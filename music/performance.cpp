@@ -147,21 +147,27 @@ std::vector<double> middles(const Parts& parts) {
     return result;
 }
 
-/// Adds points where the rounded value changes.
+/// Adds the points of a note where the rounded value changes.
+/// @param part  of the source, from 0 to 1, where the note begins and ends
+/// @param last  value of the voice so far
+void add_control(const Note& note, std::pair<double, double> part, const ExpressionCurve& curve, int number,
+                 std::optional<int>& last, std::vector<ControlPoint>& points) {
+    const auto [begin, end] = part;
+    for (std::int64_t at = 0; at < note.duration; at += control_ticks) {
+        const double here = begin + (end - begin) * static_cast<double>(at) / static_cast<double>(note.duration);
+        const int value = static_cast<int>(std::floor(std::clamp(curve.at(here), 0.0, 127.0) + 0.5));
+        if (last != value) points.push_back({note.onset + at, note.voice, number, static_cast<double>(value)});
+        last = value;
+        if (begin == end) break;
+    }
+}
+
+/// The same for all notes of a part.
 void add_control(const std::vector<Note*>& notes, const Parts& parts, const ExpressionCurve& curve, int number,
                  std::vector<ControlPoint>& points) {
-    std::map<std::int16_t, double> last;
+    std::map<std::int16_t, std::optional<int>> last;
     for (std::size_t i = 0; i < notes.size(); ++i) {
-        const Note& note = *notes[i];
-        const auto [begin, end] = parts[i];
-        for (std::int64_t at = 0; at < note.duration; at += control_ticks) {
-            const double part = begin + (end - begin) * static_cast<double>(at) / static_cast<double>(note.duration);
-            const double value = std::floor(std::clamp(curve.at(part), 0.0, 127.0) + 0.5);
-            const auto [known, is_new] = last.try_emplace(note.voice, value);
-            if (is_new || known->second != value) points.push_back({note.onset + at, note.voice, number, value});
-            known->second = value;
-            if (begin == end) break;
-        }
+        add_control(*notes[i], parts[i], curve, number, last[notes[i]->voice], points);
     }
 }
 
@@ -263,60 +269,83 @@ private:
 
 }  // namespace
 
-bool streams_velocities(const Ensemble& ensemble) {
+bool streams_expression(const Ensemble& ensemble, bool with_controls) {
     const std::vector<Player>& players = ensemble.players;
-    return std::all_of(players.begin(), players.end(), [](const Player& player) {
+    return std::all_of(players.begin(), players.end(), [&](const Player& player) {
         MelodicExpression others = player.melody.expression;
-        const bool is_level = others.velocity.source == ExpressionSource::level;
+        if (others.uses(ExpressionSource::level)) return false;
         others.velocity = {};
-        return !is_level && !others.any();
+        if (with_controls) others.pan = others.control = {};
+        return !others.any();
     });
 }
 
-VelocitySink::VelocitySink(const Ensemble& ensemble)
-    : ensemble_(ensemble), ranges_(ensemble.players.size(), {INFINITY, -INFINITY}) {
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-        if (source_of(i) == ExpressionSource::turn) ranges_[i] = {-1, 1};
+ExpressionSink::ExpressionSink(const Ensemble& ensemble, bool is_printed) : ensemble_(ensemble) {
+    for (const Player& player : ensemble.players) {
+        const MelodicExpression& expression = player.melody.expression;
+        std::vector<Followed>& curves = followed_.emplace_back();
+        has_turns_.push_back(0);
+        const auto follow = [&](const ExpressionCurve& curve, int number) {
+            if (!curve.is_on()) return;
+            const bool is_turn = curve.source == ExpressionSource::turn;
+            curves.push_back({curve, number, is_turn ? -1 : INFINITY, is_turn ? 1 : -INFINITY});
+            if (is_turn) has_turns_.back() = 1;
+        };
+        follow(expression.velocity, velocity);
+        if (is_printed) continue;
+        follow(expression.pan, ControlPoint::pan);
+        follow(expression.control, expression.controller);
     }
 }
 
-ExpressionSource VelocitySink::source_of(std::size_t player) const {
-    return ensemble_.players[player].melody.expression.velocity.source;
-}
-
-void VelocitySink::notes(std::span<const Note> notes) {
+void ExpressionSink::notes(std::span<const Note> notes) {
     if (sink_) changed_.assign(notes.begin(), notes.end());
+    points_.clear();
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];
         if (!is_of_curve(note)) continue;
         const std::size_t player = player_of(note.voice);
-        const ExpressionSource source = source_of(player);
-        if (source == ExpressionSource::none) continue;
+        if (followed_[player].empty()) continue;
         const auto voice = static_cast<std::size_t>(note.voice);
-        if (source == ExpressionSource::turn && voice >= before_.size()) before_.resize(voice + 1);
-        const Note* before = source == ExpressionSource::turn && before_[voice] ? &*before_[voice] : nullptr;
-        const auto [begin, end] = values_of(source, before, note);
-        if (source == ExpressionSource::turn) before_[voice] = note;
-        auto& [low, high] = ranges_[player];
+        if (voice >= lines_.size()) lines_.resize(voice + 1);
+        express(followed_[player], lines_[voice], note, i);
+        if (has_turns_[player]) lines_[voice].before = note;
+    }
+    if (!sink_) return;
+    if (!points_.empty()) sink_->controls(points_);
+    sink_->notes(changed_);
+}
+
+void ExpressionSink::express(std::vector<Followed>& curves, Line& line, const Note& note, std::size_t index) {
+    const std::size_t first_point = points_.size();
+    line.last.resize(curves.size());
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        auto& [curve, number, low, high] = curves[i];
+        const auto [begin, end] = values_of(curve.source, line.before ? &*line.before : nullptr, note);
         if (!sink_) {
             low = std::min({low, begin, end});
             high = std::max({high, begin, end});
             continue;
         }
         const SourceRange range{low, high};
-        const double part = (range.part(begin) + range.part(end)) / 2;
-        const double velocity = ensemble_.players[player].melody.expression.velocity.at(part);
-        changed_[i].velocity = static_cast<std::uint8_t>(std::lround(std::clamp(velocity, 1.0, 127.0)));
+        const std::pair<double, double> part{range.part(begin), range.part(end)};
+        if (number != velocity) {
+            add_control(note, part, curve, number, line.last[i], points_);
+            continue;
+        }
+        const double value = std::clamp(curve.at((part.first + part.second) / 2), 1.0, 127.0);
+        changed_[index].velocity = static_cast<std::uint8_t>(std::lround(value));
     }
-    if (sink_) sink_->notes(changed_);
+    std::stable_sort(points_.begin() + static_cast<std::ptrdiff_t>(first_point), points_.end(),
+                     [](const ControlPoint& a, const ControlPoint& b) { return a.tick < b.tick; });
 }
 
-void VelocitySink::write_to(NoteSink& sink) {
+void ExpressionSink::write_to(NoteSink& sink) {
     sink_ = &sink;
-    before_.clear();
+    lines_.clear();
 }
 
-std::size_t VelocitySink::player_of(int voice) const {
+std::size_t ExpressionSink::player_of(int voice) const {
     const std::vector<Player>& players = ensemble_.players;
     const auto next = std::upper_bound(players.begin(), players.end(), voice,
                                        [](int one, const Player& player) { return one < player.first_voice; });

@@ -48,15 +48,18 @@ private:
     Curves curves_;
 };
 
-/// True if nothing but velocities follows the curve, by sources that are known note by note.
-bool streams_velocities(const Ensemble& ensemble);
+/// True if nothing but velocities, and pan and controllers `with_controls`, follows the curve, by sources that are
+/// known note by note.
+bool streams_expression(const Ensemble& ensemble, bool with_controls);
 
-/// Gives notes the velocities of the curve as they pass, the same as PerformanceSink. The parts are played twice:
-/// before write_to() for the least and greatest values, after it for the notes. Memory: O(voices).
-class VelocitySink : public NoteSink {
+/// Gives notes the velocities of the curve as they pass, and hands on the points of pan and controllers before them,
+/// the same as PerformanceSink. The parts are played twice: before write_to() for the least and greatest values,
+/// after it for the notes. Memory: O(voices).
+class ExpressionSink : public NoteSink {
 public:
+    /// @param is_printed  velocities alone
     /// `ensemble` has to outlive it.
-    explicit VelocitySink(const Ensemble& ensemble);
+    ExpressionSink(const Ensemble& ensemble, bool is_printed);
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override {
         if (sink_) sink_->finish(end);
@@ -65,14 +68,29 @@ public:
     void write_to(NoteSink& sink);
 
 private:
-    ExpressionSource source_of(std::size_t player) const;
+    /// A curve of a player, from the least to the greatest value of its source.
+    struct Followed {
+        ExpressionCurve curve;
+        int number;  ///< of the controller, or `velocity`
+        double low;
+        double high;
+    };
+    static constexpr int velocity = -1;
+    struct Line {
+        std::optional<Note> before;            ///< where turns are wanted
+        std::vector<std::optional<int>> last;  ///< values of the controllers
+    };
+
     std::size_t player_of(int voice) const;
+    void express(std::vector<Followed>& curves, Line& line, const Note& note, std::size_t index);
 
     const Ensemble& ensemble_;
     NoteSink* sink_ = nullptr;
-    std::vector<std::pair<double, double>> ranges_;  // by player
-    std::vector<std::optional<Note>> before_;        // by voice, where turns are wanted
+    std::vector<std::vector<Followed>> followed_;  // by player
+    std::vector<char> has_turns_;                  // by player
+    std::vector<Line> lines_;                      // by voice
     std::vector<Note> changed_;
+    std::vector<ControlPoint> points_;
 };
 
 }  // namespace sikku

@@ -435,6 +435,10 @@ private:
         return head_of(settings_, ensemble_, arrangement_ ? &*arrangement_ : nullptr, playing, most);
     }
 
+    /// True for MIDI files and for sound, which is made of them.
+    bool is_midi() const {
+        return format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
+    }
     void check_size(const PlayOptions& playing) const;
     void write(const ScoreHead& head, const PlayOptions& playing, Output& output, Made& made);
     void write_notation(const Notation& notation, const ScoreHead& head, Output& output) const;
@@ -454,11 +458,12 @@ private:
     EnsembleReport express_into(NoteSink& sink, const PlayOptions& playing) const {
         Curves curves;
         EnsembleReport report;
-        if (ensemble_.has_expression() && streams_velocities(ensemble_)) {
-            VelocitySink velocities(ensemble_);
-            play_parts(ensemble_, playing, velocities);
-            velocities.write_to(sink);
-            report = play_all(ensemble_, playing, velocities);
+        const bool is_print = is_printed(format_);
+        if (ensemble_.has_expression() && streams_expression(ensemble_, is_midi() || is_print)) {
+            ExpressionSink expressive(ensemble_, is_print);
+            play_parts(ensemble_, playing, expressive);
+            expressive.write_to(sink);
+            report = play_all(ensemble_, playing, expressive);
         } else if (ensemble_.has_expression()) {
             PerformanceSink performance(sink, ensemble_, playing, is_printed(format_));
             report = play_all(ensemble_, playing, performance);
@@ -484,8 +489,7 @@ private:
 
 /// @throws BudgetError for more notes than a MIDI file can contain
 void ScoreWork::check_size(const PlayOptions& playing) const {
-    const bool as_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
-    if (!as_midi || playing.to < INT64_MAX) return;
+    if (!is_midi() || playing.to < INT64_MAX) return;
     for (const Player& player : ensemble_.players) {
         const auto known = census(player.document.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
@@ -598,9 +602,8 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
     monitor.expect(0);
     check_size(playing);
-    const bool is_midi = format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
     const bool is_mpe = midi_.tuning == Tuning::mpe;
-    const bool is_limited = is_midi && midi_.microtonal && !is_mpe;
+    const bool is_limited = is_midi() && midi_.microtonal && !is_mpe;
     const ScoreHead head = make_head(playing, is_limited ? most_channels : most_voices);
     midi_.share_channels = !midi_.microtonal && !is_mpe && pitched_voices(head) > most_channels;
     const auto output = destination.open(name);

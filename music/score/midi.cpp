@@ -146,6 +146,7 @@ struct Voice {
     int bend = centre;
     bool has_new_program = false;            ///< with MPE, before the next note
     std::span<const ControlPoint> controls;  ///< that are still to come
+    std::vector<ControlPoint> own_controls;  ///< those of NoteSink::controls()
     std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
     std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
     std::uint64_t full_bytes = 0;            ///< of all of them
@@ -246,10 +247,18 @@ public:
 
     void curves(const Curves& curves) override { curves_ = &curves; }
 
+    void controls(std::span<const ControlPoint> points) override {
+        if (is_mpe_) return;
+        coming_.resize(voices_.size());
+        for (const ControlPoint& point : points) coming_.at(static_cast<std::size_t>(point.voice)).push_back(point);
+        has_coming_ = has_coming_ || !points.empty();
+    }
+
     void notes(std::span<const Note> notes) override {
         if (is_mpe_) return collect(notes);
         while (!notes.empty()) {
             Voice& voice = voice_of(notes.front());
+            if (has_coming_) take_controls(voice);
             if (!voice.controls.empty() || has_glide(notes.front())) {
                 notes = notes.subspan(write_curved(voice, notes));
                 continue;
@@ -296,6 +305,16 @@ private:
         auto& voice = voices_[static_cast<std::size_t>(note.voice)];
         if (!voice) voice = begin_voice(note.voice);
         return *voice;
+    }
+
+    /// Adds the points that came with controls() to those of the voice.
+    void take_controls(Voice& voice) {
+        std::vector<ControlPoint>& coming = coming_[static_cast<std::size_t>(voice.number)];
+        if (coming.empty()) return;
+        coming.insert(coming.begin(), voice.controls.begin(), voice.controls.end());
+        voice.own_controls.swap(coming);
+        coming.clear();
+        voice.controls = voice.own_controls;
     }
 
     static bool has_glide(const Note& note) { return note.glide.semitones != 0; }
@@ -809,6 +828,8 @@ private:
     const ScoreHead& head_;
     Output& sink_;
     const Curves* curves_ = nullptr;
+    std::vector<std::vector<ControlPoint>> coming_;  ///< points of controls(), by voice
+    bool has_coming_ = false;
     const MidiOptions options_;
     const bool is_mpe_;
     const int bend_range_;

@@ -45,6 +45,7 @@ struct Note {
 };
 
 struct Curves;
+struct ControlPoint;
 
 /// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any order
 /// to each other. Spans die with the call.
@@ -54,6 +55,9 @@ public:
     /// Called once before the first notes, or not at all. `curves` outlives the sink. Without an implementation they
     /// are left out.
     virtual void curves(const Curves& /*curves*/) {}
+    /// Points of controllers within the notes that come next, in each voice by tick: instead of curves(), for sinks
+    /// that write notes as they come. Without an implementation they are left out.
+    virtual void controls(std::span<const ControlPoint> /*points*/) {}
     virtual void notes(std::span<const Note> notes) = 0;
     /// Called once after the last note. `end`: where the score ends, rests included.
     virtual void finish(std::int64_t end) = 0;

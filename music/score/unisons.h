@@ -19,6 +19,7 @@ public:
     UnisonMerger(NoteSink& sink, const ScoreHead& head, std::size_t most, bool merges_all = true);
 
     void curves(const Curves& curves) override { sink_.curves(curves); }
+    void controls(std::span<const ControlPoint> points) override { sink_.controls(points); }
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override;
 

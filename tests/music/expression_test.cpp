@@ -93,8 +93,9 @@ TEST(Expression, VelocityFollowsTheCurve) {
     EXPECT_EQ(velocities(steps + "velocity: by x 1-101\n"), (std::vector<int>{11, 31, 51, 81}));
 }
 
-/// Velocities alone are given as the notes pass, with a pan they are collected: by two ways the same.
-TEST(Expression, VelocitiesAreTheSameInStreams) {
+/// Velocities, pan and controllers are given as the notes pass; with a tempo they are collected: by two ways the
+/// same.
+TEST(Expression, CurvesAreTheSameInStreams) {
     const std::string curve =
         "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 4\nunit: 1/16\n";
     for (const char* source : {"x", "y", "depth", "turn 20-90", "length 20-90"}) {
@@ -102,16 +103,20 @@ TEST(Expression, VelocitiesAreTheSameInStreams) {
                                  "harmony: bass 2\n", "retrograde: yes\n", "canon: 2 -12\n"}) {
             const std::string range = std::string(source).find(' ') == std::string::npos ? " 20-90" : "";
             const std::string text = curve + more + "velocity: by " + source + range + "\n";
-            const auto notes = [](const MidiFile& file) {
-                std::vector<std::tuple<std::int64_t, int, int, int>> all;
-                for (const MidiNote& note : file.notes) {
-                    all.emplace_back(note.onset, note.channel, note.key, note.velocity);
+            const auto events = [](const MidiFile& file) {
+                std::vector<std::tuple<std::int64_t, int, std::string>> all;
+                for (const MidiEvent& event : file.events) {
+                    if (event.status < 0xF0) all.emplace_back(event.tick, event.status, event.data);
                 }
                 return all;
             };
-            const auto streamed = notes(midi_of(text));
-            EXPECT_EQ(streamed, notes(midi_of(text + "pan: by x\n"))) << text;
-            EXPECT_GT(streamed.size(), 100u);
+            const OptionValues options = {{"humanise", "0.4"}};
+            for (const std::string& other :
+                 {std::string(), "pan: by x\n" + fmt::format("controller: 74 by {}\n", source)}) {
+                const auto streamed = events(midi_of(text + other, options));
+                EXPECT_EQ(streamed, events(midi_of(text + other + "tempo: 96 by y 80-112\n", options))) << text;
+                EXPECT_GT(streamed.size(), 200u);
+            }
         }
     }
 }
