@@ -163,7 +163,8 @@ private:
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
-            if (!layout.form.empty()) part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form);
+            if (!layout.form.empty())
+                part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form);
             if (layout.is_retrograde) reverse(part.block);
             const std::int64_t bar = player.melody.meter.bar();
             const std::int64_t length = player.is_bass ? leading : part.block.length;
