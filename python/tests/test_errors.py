@@ -144,7 +144,10 @@ LONG_CALLS = [
 
 @pytest.mark.parametrize("call", LONG_CALLS)
 def test_long_calls_stop_on_an_interrupt(call: str, tmp_path: Path) -> None:
-    code = f"import sikku\nprint('ready', flush=True)\ntry:\n    {call}\nexcept KeyboardInterrupt:\n    print('stopped')\n"
+    # A shell lets what it starts in the background ignore the signal.
+    heeds = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    attempt = f"try:\n    {call}\nexcept KeyboardInterrupt:\n    print('stopped')\n"
+    code = f"{heeds}import sikku\nprint('ready', flush=True)\n{attempt}"
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, cwd=tmp_path)
     assert child.stdout is not None
     assert child.stdout.readline() == b"ready\n"
