@@ -149,12 +149,15 @@ def test_long_calls_stop_on_an_interrupt(call: str, tmp_path: Path) -> None:
     attempt = f"try:\n    {call}\nexcept KeyboardInterrupt:\n    print('stopped')\n"
     code = f"{heeds}import sikku\nprint('ready', flush=True)\n{attempt}"
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, cwd=tmp_path)
-    assert child.stdout is not None
-    assert child.stdout.readline() == b"ready\n"
-    time.sleep(0.4)
-    began = time.monotonic()
-    child.send_signal(signal.SIGINT)
-    output, _ = child.communicate(timeout=60)
+    try:
+        assert child.stdout is not None
+        assert child.stdout.readline() == b"ready\n"
+        time.sleep(0.4)
+        began = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        output, _ = child.communicate(timeout=60)
+    finally:
+        child.kill()
     assert (output, child.returncode) == (b"stopped\n", 0)
     assert time.monotonic() - began < 5
     assert list(tmp_path.iterdir()) == []
