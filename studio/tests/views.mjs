@@ -31,7 +31,7 @@ const pattern = (path) => readFileSync(join(root, "patterns", `${path}.lsys`), "
 async function open(path, { settings = [], place = null, panel = "map", reducedMotion = "reduce" } = {}) {
     const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion });
     const page = await context.newPage();
-    page.setDefaultTimeout(15_000);
+    page.setDefaultTimeout(60_000);
     page.problems = [];
     page.on("pageerror", (error) => page.problems.push(error.message));
     const work = {
