@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <optional>
 
@@ -51,6 +52,51 @@ std::vector<Tile> peel(const TileNeighbours& neighbours, std::vector<char>& is_r
     return order;
 }
 
+/// A set of numbers below a limit, as bits, with the bits of words that are not 0, and so on. Cost of each call: a
+/// few nanoseconds.
+class IndexSet {
+public:
+    explicit IndexSet(std::size_t limit) {
+        do {
+            limit = limit / 64 + 1;
+            levels_.emplace_back(limit, 0);
+        } while (limit > 1);
+    }
+    void insert(std::uint32_t index) {
+        for (auto& level : levels_) {
+            std::uint64_t& word = level[index / 64];
+            const bool was_empty = word == 0;
+            word |= std::uint64_t{1} << index % 64;
+            if (!was_empty) return;
+            index /= 64;
+        }
+    }
+    /// False if it was not in the set.
+    bool erase(std::uint32_t index) {
+        if ((levels_.front()[index / 64] >> index % 64 & 1U) == 0) return false;
+        for (auto& level : levels_) {
+            std::uint64_t& word = level[index / 64];
+            word &= ~(std::uint64_t{1} << index % 64);
+            if (word != 0) break;
+            index /= 64;
+        }
+        return true;
+    }
+    /// Removes the least number; `none` if there is none.
+    std::uint32_t pop_least() {
+        if (levels_.back().front() == 0) return none;
+        std::uint32_t index = 0;
+        for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+            index = 64 * index + static_cast<std::uint32_t>(std::countr_zero((*level)[index]));
+        }
+        erase(index);
+        return index;
+    }
+
+private:
+    std::vector<std::vector<std::uint64_t>> levels_;
+};
+
 /// A search for three colours that learns from each conflict which choices exclude each other.
 /// Source: Marques-Silva & Sakallah 1999, "GRASP"; Moskewicz et al. 2001, "Chaff".
 class ThreeColours {
@@ -67,12 +113,13 @@ public:
           phase_(value_.size(), 1),
           level_(value_.size(), 0),
           activity_(value_.size(), 0.0),
+          idle_(value_.size()),
           place_(value_.size(), none),
           watches_(2 * value_.size()) {}
 
     Colourable search() {
         for (Variable v = 0; v < value_.size(); ++v) {
-            if (!is_removed_[v / 3]) push_heap(v);
+            if (!is_removed_[v / 3]) push(v);
         }
         if (!fix_first_tiles()) return Colourable::no;
         std::uint64_t conflicts = 0, since_restart = 0, restart = 100;
@@ -90,7 +137,7 @@ public:
                 continue;
             }
             if (steps_ > budget_.steps) return Colourable::undecided;
-            const Variable next = pop_heap();
+            const Variable next = pop();
             if (next == none) return Colourable::yes;
             if (value_[next] != unknown) continue;
             level_begin_.push_back(trail_.size());
@@ -304,24 +351,28 @@ private:
             trail_.pop_back();
             phase_[v] = value_[v];
             value_[v] = unknown;
-            if (place_[v] == none) push_heap(v);
+            push(v);
         }
         level_begin_.resize(target);
         next_ = trail_.size();
     }
 
-    // --- a heap of variables by activity -----------------------------------------------------------------------
+    // --- variables by activity, then by number: those without activity in a set, others in a heap ----------------
     bool before(Variable a, Variable b) const {
         return activity_[a] != activity_[b] ? activity_[a] > activity_[b] : a < b;
     }
     void bump(Variable v) {
+        const bool waits = idle_.erase(v);
         activity_[v] += increment_;
         if (activity_[v] > 1e100) {
             steps_ += activity_.size();
             for (double& each : activity_) each *= 1e-100;
             increment_ *= 1e-100;
         }
-        if (place_[v] != none) rise(place_[v]);
+        if (waits)
+            push(v);
+        else if (place_[v] != none)
+            rise(place_[v]);
     }
     void put(std::size_t at, Variable v) {
         heap_[at] = v;
@@ -332,13 +383,15 @@ private:
         for (; at > 0 && before(v, heap_[(at - 1) / 2]); at = (at - 1) / 2) put(at, heap_[(at - 1) / 2]);
         put(at, v);
     }
-    void push_heap(Variable v) {
+    void push(Variable v) {
+        if (activity_[v] == 0) return idle_.insert(v);
+        if (place_[v] != none) return;
         heap_.push_back(v);
         place_[v] = static_cast<std::uint32_t>(heap_.size() - 1);
         rise(heap_.size() - 1);
     }
-    Variable pop_heap() {
-        if (heap_.empty()) return none;
+    Variable pop() {
+        if (heap_.empty()) return idle_.pop_least();
         const Variable top = heap_.front();
         const Variable last = heap_.back();
         heap_.pop_back();
@@ -367,6 +420,7 @@ private:
     std::vector<std::uint32_t> level_;
     std::vector<double> activity_;
     double increment_ = 1;
+    IndexSet idle_;
     std::vector<Variable> heap_;
     std::vector<std::uint32_t> place_;  // in the heap
     std::vector<Variable> trail_;

@@ -3,7 +3,10 @@
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/place_grid.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -53,35 +56,47 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
         lists.add(grid.cell(plane.at(point)), {plane.at(point), point});
     }
 
-    Pulse pulse(monitor);
-    std::uint64_t compared = 0;
-    const auto cut = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t to) {
-        const glm::dvec2 start = plane.at(from), side = plane.at(to) - start;
-        const double square = scalar_product(side, side);
-        const double margin = plane.tolerance();
-        const double most = 4 * margin * margin * square;
-        grid.along(start, plane.at(to), margin, [&](std::size_t cell) {
-            compared += lists.size(cell) + 1;
-            lists.visit(cell, [&](const Entry& entry) {
-                const glm::dvec2 offset = entry.at - start;
-                const double height = determinant(side, offset);
-                if (height * height > most) return;
-                const double along = scalar_product(side, offset);
-                if (along <= 0 || along >= square || entry.point == from || entry.point == to) return;
-                if (plane.side(from, to, entry.point) == 0) cuts.push_back({edge, entry.point, along});
+    std::atomic<std::uint64_t> compared = 0;
+    // Of the tiles from `first` on, up to `end`.
+    const auto find = [&](std::uint32_t first, std::uint32_t end, std::vector<Cut>& found) {
+        Pulse pulse(monitor);
+        std::uint64_t visited = 0;
+        const auto cut = [&](std::uint32_t edge, std::uint32_t from, std::uint32_t to) {
+            const glm::dvec2 start = plane.at(from), side = plane.at(to) - start;
+            const double square = scalar_product(side, side);
+            const double margin = plane.tolerance();
+            const double most = 4 * margin * margin * square;
+            grid.along(start, plane.at(to), margin, [&](std::size_t cell) {
+                visited += lists.size(cell) + 1;
+                lists.visit(cell, [&](const Entry& entry) {
+                    const glm::dvec2 offset = entry.at - start;
+                    const double height = determinant(side, offset);
+                    if (height * height > most) return;
+                    const double along = scalar_product(side, offset);
+                    if (along <= 0 || along >= square || entry.point == from || entry.point == to) return;
+                    if (plane.side(from, to, entry.point) == 0) found.push_back({edge, entry.point, along});
+                });
             });
-        });
+        };
+        for (std::uint32_t tile = first; tile < end; ++tile) {
+            pulse();
+            const std::uint32_t last = tiles.begin[tile + 1];
+            for (std::uint32_t i = tiles.begin[tile]; i < last; ++i) {
+                cut(i, tiles.corner[i], tiles.corner[i + 1 < last ? i + 1 : tiles.begin[tile]]);
+            }
+            if (compared + visited > most_compared) break;
+        }
+        compared += visited;
     };
-    for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
-        pulse();
-        const std::uint32_t end = tiles.begin[tile + 1];
-        for (std::uint32_t i = tiles.begin[tile]; i < end; ++i) {
-            cut(i, tiles.corner[i], tiles.corner[i + 1 < end ? i + 1 : tiles.begin[tile]]);
-        }
-        if (compared > most_compared) {
-            throw BudgetError("the tiles are too many for their very different sizes; use a shorter derivation");
-        }
+    constexpr std::uint32_t share = 1 << 14;
+    std::vector<std::vector<Cut>> found(tiles.tiles() / share + 1);
+    oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(found.size()), [&](std::uint32_t i) {
+        find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
+    });
+    if (compared > most_compared) {
+        throw BudgetError("the tiles are too many for their very different sizes; use a shorter derivation");
     }
+    for (const std::vector<Cut>& part : found) cuts.insert(cuts.end(), part.begin(), part.end());
     std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
         return a.edge != b.edge ? a.edge < b.edge : a.along != b.along ? a.along < b.along : a.point < b.point;
     });

@@ -15,8 +15,9 @@ constexpr double cell_in_tolerances = 64;
 /// Relative error of determinants in doubles that counts as certain.
 constexpr double certain = 1e-9;
 
-std::uint64_t hash_of_cell(std::int64_t x, std::int64_t y) {
-    return scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
+std::uint32_t tag_of_cell(std::int64_t x, std::int64_t y) {
+    const std::uint64_t hash = scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
+    return static_cast<std::uint32_t>(hash >> 32U);
 }
 std::int64_t cell_of(double value, double width) {
     return static_cast<std::int64_t>(std::floor(std::clamp(value / width, -9e18, 9e18)));
@@ -24,29 +25,28 @@ std::int64_t cell_of(double value, double width) {
 
 }  // namespace
 
-PlaceTable::PlaceTable(std::size_t rank, double tolerance) : rank_(rank), tolerance_(tolerance), table_(64) {}
+PlaceTable::PlaceTable(std::size_t rank, double tolerance)
+    : rank_(rank), tolerance_(tolerance), table_(64), shift_(32 - 6) {}
 
-std::uint64_t PlaceTable::hash_of(const std::int32_t* coordinates) const {
+std::uint32_t PlaceTable::tag_of(const std::int32_t* coordinates, glm::dvec2 place) const {
+    if (rank_ == 0) {
+        const double width = cell_in_tolerances * tolerance_;
+        return tag_of_cell(cell_of(place.x, width), cell_of(place.y, width));
+    }
     std::uint64_t hash = 0;
     for (std::size_t i = 0; i < rank_; i += 2) {
         const auto low = static_cast<std::uint32_t>(coordinates[i]);
         const auto high = static_cast<std::uint32_t>(coordinates[i + 1]);
         hash = scrambled(hash + 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(high) << 32U | low));
     }
-    return hash;
+    return static_cast<std::uint32_t>(hash >> 32U);
 }
 
-std::uint64_t PlaceTable::own_hash(std::uint32_t number) const {
-    if (rank_ > 0) return hash_of(coordinates(number));
-    const double width = cell_in_tolerances * tolerance_;
-    return hash_of_cell(cell_of(places_[number].x, width), cell_of(places_[number].y, width));
-}
-
-std::uint32_t PlaceTable::find_exact(const std::int32_t* coordinates, std::uint64_t hash) const {
-    for (std::size_t at = slot(hash);; at = slot(at + 1)) {
+std::uint32_t PlaceTable::find_exact(const std::int32_t* coordinates, std::uint32_t tag) const {
+    for (std::size_t at = home(tag);; at = after(at)) {
         const Slot& found = table_[at];
         if (found.number == no_number) return no_number;
-        if (found.tag == tag_of(hash) && equals(found.number, coordinates)) return found.number;
+        if (found.tag == tag && equals(found.number, coordinates)) return found.number;
     }
 }
 
@@ -58,9 +58,9 @@ std::uint32_t PlaceTable::find_near(glm::dvec2 place) const {
     double least = tolerance_;
     for (std::int64_t x = left; x <= right; ++x) {
         for (std::int64_t y = low; y <= high; ++y) {
-            const std::uint64_t hash = hash_of_cell(x, y);
-            for (std::size_t at = slot(hash); table_[at].number != no_number; at = slot(at + 1)) {
-                if (table_[at].tag != tag_of(hash)) continue;
+            const std::uint32_t tag = tag_of_cell(x, y);
+            for (std::size_t at = home(tag); table_[at].number != no_number; at = after(at)) {
+                if (table_[at].tag != tag) continue;
                 const glm::dvec2 gap = places_[table_[at].number] - place;
                 const double distance = std::sqrt(scalar_product(gap, gap));
                 if (distance > least || (distance == least && nearest != no_number)) continue;
@@ -73,27 +73,36 @@ std::uint32_t PlaceTable::find_near(glm::dvec2 place) const {
 }
 
 std::uint32_t PlaceTable::find(const std::int32_t* coordinates, glm::dvec2 place) const {
-    return rank_ > 0 ? find_exact(coordinates, hash_of(coordinates)) : find_near(place);
+    return rank_ > 0 ? find_exact(coordinates, tag_of(coordinates, place)) : find_near(place);
 }
 
-void PlaceTable::insert(std::uint32_t number, std::uint64_t hash) {
-    std::size_t at = slot(hash);
-    while (table_[at].number != no_number) at = slot(at + 1);
-    table_[at] = {number, tag_of(hash)};
+void PlaceTable::insert(const Slot& entry) {
+    std::size_t at = home(entry.tag);
+    while (table_[at].number != no_number) at = after(at);
+    table_[at] = entry;
 }
 
-std::uint32_t PlaceTable::add(const std::int32_t* coordinates, glm::dvec2 place) {
-    const std::uint64_t hash = rank_ > 0 ? hash_of(coordinates) : 0;
-    const std::uint32_t known = rank_ > 0 ? find_exact(coordinates, hash) : find_near(place);
+/// Doubles the table. Both are walked in order, from a free slot on, so that no run of entries is torn apart.
+void PlaceTable::grow() {
+    std::vector<Slot> entries(2 * table_.size());
+    entries.swap(table_);
+    --shift_;
+    std::size_t start = 0;
+    while (entries[start].number != no_number) ++start;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const Slot& entry = entries[(start + i) & (entries.size() - 1)];
+        if (entry.number != no_number) insert(entry);
+    }
+}
+
+std::uint32_t PlaceTable::add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag) {
+    const std::uint32_t known = rank_ > 0 ? find_exact(coordinates, tag) : find_near(place);
     if (known != no_number) return known;
     const auto number = static_cast<std::uint32_t>(places_.size());
     if (rank_ > 0) coordinates_.insert(coordinates_.end(), coordinates, coordinates + rank_);
     places_.push_back(place);
-    if (2 * places_.size() >= table_.size()) {
-        table_.assign(2 * table_.size(), Slot());
-        for (std::uint32_t each = 0; each < number; ++each) insert(each, own_hash(each));
-    }
-    insert(number, rank_ > 0 ? hash : own_hash(number));
+    if (2 * places_.size() >= table_.size()) grow();
+    insert({number, tag});
     return number;
 }
 
@@ -108,13 +117,39 @@ TilePlane::TilePlane(const Lattice& lattice, bool exact)
 TilePlane::TilePlane(double tolerance)
     : rank_(0), tolerance_(tolerance), points_(0, tolerance), vectors_(0, 4 * tolerance) {}
 
-std::uint32_t TilePlane::point(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
-    std::array<std::int32_t, 8> small{};
+TilePlane::Coordinates TilePlane::small(std::span<const std::int64_t> coordinates) const {
+    Coordinates small{};
     for (std::size_t i = 0; i < rank_; ++i) {
         if (coordinates[i] > largest_coordinate || coordinates[i] < -largest_coordinate) throw OutOfRange();
         small[i] = static_cast<std::int32_t>(coordinates[i]);
     }
-    return points_.add(small.data(), place);
+    return small;
+}
+
+std::uint32_t TilePlane::point(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
+    return points_.add(small(coordinates).data(), place);
+}
+
+void TilePlane::points(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
+                       std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& numbers) {
+    // The table is larger than the caches: all places of a tile are fetched at once, instead of one after another.
+    struct Wanted {
+        Coordinates coordinates;
+        std::uint32_t tag;
+    };
+    std::array<Wanted, 16> wanted;
+    while (!chosen.empty()) {
+        const std::size_t count = std::min(chosen.size(), wanted.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            wanted[i].coordinates = small(coordinates.subspan(chosen[i] * rank_, rank_));
+            wanted[i].tag = points_.tag_of(wanted[i].coordinates.data(), {});
+            points_.prefetch(wanted[i].tag);
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            numbers.push_back(points_.add(wanted[i].coordinates.data(), places[chosen[i]], wanted[i].tag));
+        }
+        chosen = chosen.subspan(count);
+    }
 }
 
 std::uint32_t TilePlane::find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {

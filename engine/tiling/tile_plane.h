@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -23,9 +24,17 @@ public:
     /// @param rank  whole coordinates of a place; 0: places are doubles, and those within the tolerance are equal
     PlaceTable(std::size_t rank, double tolerance);
 
-    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place);
+    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place) {
+        return add(coordinates, place, tag_of(coordinates, place));
+    }
+    /// The same for a known tag.
+    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag);
     /// no_number, if it was not added.
     std::uint32_t find(const std::int32_t* coordinates, glm::dvec2 place) const;
+    /// A hash. Equal whole coordinates have equal tags.
+    std::uint32_t tag_of(const std::int32_t* coordinates, glm::dvec2 place) const;
+    /// Has memory read where a place with that tag will be looked for.
+    void prefetch(std::uint32_t tag) const { __builtin_prefetch(&table_[home(tag)]); }
     std::size_t size() const { return places_.size(); }
     glm::dvec2 at(std::uint32_t number) const { return places_[number]; }
     const std::int32_t* coordinates(std::uint32_t number) const { return coordinates_.data() + number * rank_; }
@@ -33,10 +42,11 @@ public:
 private:
     struct Slot {
         std::uint32_t number = no_number;
-        std::uint32_t tag = 0;  ///< upper half of the hash
+        std::uint32_t tag = 0;
     };
-    static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32U); }
-    std::size_t slot(std::uint64_t hash) const { return hash & (table_.size() - 1); }
+    /// The upper bits of tags, so that a table of twice the size has the same order.
+    std::size_t home(std::uint32_t tag) const { return tag >> shift_; }
+    std::size_t after(std::size_t slot) const { return (slot + 1) & (table_.size() - 1); }
     bool equals(std::uint32_t number, const std::int32_t* coordinates) const {
         const std::int32_t* known = this->coordinates(number);
         for (std::size_t i = 0; i < rank_; ++i) {
@@ -44,17 +54,17 @@ private:
         }
         return true;
     }
-    std::uint64_t hash_of(const std::int32_t* coordinates) const;
-    std::uint32_t find_exact(const std::int32_t* coordinates, std::uint64_t hash) const;
+    std::uint32_t find_exact(const std::int32_t* coordinates, std::uint32_t tag) const;
     std::uint32_t find_near(glm::dvec2 place) const;
-    void insert(std::uint32_t number, std::uint64_t hash);
-    std::uint64_t own_hash(std::uint32_t number) const;
+    void insert(const Slot& entry);
+    void grow();
 
     std::size_t rank_;
     double tolerance_;
     std::vector<std::int32_t> coordinates_;
     std::vector<glm::dvec2> places_;
-    std::vector<Slot> table_;  // numbers by hash, open addressing
+    std::vector<Slot> table_;  // numbers by tag, open addressing
+    unsigned shift_;           // 32 less the bits of the table's size
 };
 
 /// Points and edges of tiles in the plane. Exact on a lattice: equality and collinearity are decided by whole
@@ -83,6 +93,10 @@ public:
 
     /// The number of a point. @param coordinates  those of the lattice; ignored if the plane is not exact
     std::uint32_t point(std::span<const std::int64_t> coordinates, glm::dvec2 place);
+    /// The same for several points of an exact plane, and faster. @param chosen  which of the points  @param numbers
+    /// receives their numbers
+    void points(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
+                std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& numbers);
     /// The number of a known point, or no_number. An exact plane ignores `place`, another one `coordinates`.
     std::uint32_t find(const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
     std::size_t points() const { return points_.size(); }
@@ -111,6 +125,8 @@ public:
     std::uint32_t direction(std::uint32_t vector) const { return direction_[vector]; }
 
 private:
+    using Coordinates = std::array<std::int32_t, 8>;
+    Coordinates small(std::span<const std::int64_t> coordinates) const;
     Cyclotomic::Number number(const std::int32_t* coordinates) const;
     std::uint32_t find_in(const PlaceTable& table, const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
     glm::dvec2 place(const Cyclotomic::Number& coordinates) const;

@@ -6,6 +6,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/geometry/turtle.h"
+#include "engine/tiling/tile_anchors.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -116,7 +117,7 @@ public:
             if (at->second.key != key_) continue;
             ++tiles_.polygons;
             corners_.clear();
-            for (const std::uint32_t corner : at->second.corners) corners_.push_back(point(corner));
+            plane_.points(coordinates, places, at->second.corners, corners_);
             return keep_tile(at->second.in_class, colour);
         }
         outline_points_.clear();
@@ -180,7 +181,7 @@ private:
     static constexpr std::size_t most_outlines = 100'000;
 
     void keep_tile(std::uint32_t in_class, std::int32_t colour) {
-        const std::uint32_t earlier = keep(in_class, corners_.front());
+        const std::uint32_t earlier = anchors_.add(in_class, corners_.front());
         if (earlier != no_number) return fault(TileFault::duplicate, corners_.front(), tiles_.number[earlier]);
         if (static_cast<double>(tiles_.corner.size() + corners_.size()) > most_corners_) {
             throw BudgetError(
@@ -300,30 +301,6 @@ private:
         return found->second;
     }
 
-    /// Keeps the tile that is added next; an earlier one at the same place, or no_number.
-    std::uint32_t keep(std::uint32_t in_class, std::uint32_t anchor) {
-        if (2 * (tiles_.in_class.size() + 1) >= table_.size()) {
-            table_.assign(std::max<std::size_t>(64, 2 * table_.size()), no_number);
-            for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
-                table_[slot_of(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]])] = tile;
-            }
-        }
-        const std::size_t slot = slot_of(in_class, anchor);
-        if (table_[slot] != no_number) return table_[slot];
-        table_[slot] = tiles_.tiles();
-        return no_number;
-    }
-    /// Of the tile of that class and first corner, or an empty one.
-    std::size_t slot_of(std::uint32_t in_class, std::uint32_t anchor) const {
-        std::size_t slot = scrambled(std::uint64_t{in_class} << 32U | anchor) & (table_.size() - 1);
-        while (table_[slot] != no_number) {
-            const std::uint32_t tile = table_[slot];
-            if (tiles_.in_class[tile] == in_class && tiles_.corner[tiles_.begin[tile]] == anchor) break;
-            slot = (slot + 1) & (table_.size() - 1);
-        }
-        return slot;
-    }
-
     TilePlane& plane_;
     TileSet& tiles_;
     double most_corners_;
@@ -336,7 +313,7 @@ private:
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::unordered_map<std::int64_t, std::uint32_t> angles_;
     RoughNumbers rough_angles_;
-    std::vector<std::uint32_t> table_;  // tiles by class and first corner, open addressing
+    TileAnchors anchors_;
 };
 
 TileCollector::TileCollector(TilePlane& plane, TileSet& tiles, double most_corners, const Monitor& monitor)

@@ -1,6 +1,6 @@
 #include "engine/tiling/tile_symmetry.h"
 
-#include "engine/base/chance.h"
+#include "engine/tiling/tile_anchors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,37 +23,10 @@ struct Motion {
 /// Rotations that differ by fewer radians are one.
 constexpr double same_turn = 1e-3;
 
-/// A set of pairs of numbers.
-class PairSet {
-public:
-    explicit PairSet(std::size_t most) : keys_(table_size(most), free) {}
-    void add(std::uint32_t a, std::uint32_t b) { keys_[slot(key(a, b))] = key(a, b); }
-    bool has(std::uint32_t a, std::uint32_t b) const { return keys_[slot(key(a, b))] != free; }
-
-private:
-    static constexpr std::uint64_t free = ~std::uint64_t{0};
-    static std::size_t table_size(std::size_t most) {
-        std::size_t size = 64;
-        while (size < 2 * most) size *= 2;
-        return size;
-    }
-    static std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32U | b; }
-    std::size_t slot(std::uint64_t key) const {
-        std::size_t at = scrambled(key) & (keys_.size() - 1);
-        while (keys_[at] != free && keys_[at] != key) at = (at + 1) & (keys_.size() - 1);
-        return at;
-    }
-    std::vector<std::uint64_t> keys_;
-};
-
 class SymmetryFinder {
 public:
     SymmetryFinder(const TilePlane& plane, const TileSet& tiles, const Monitor& monitor)
-        : plane_(plane),
-          tiles_(tiles),
-          pulse_(monitor),
-          placed_(tiles.tiles()),
-          count_(static_cast<std::int64_t>(tiles.corner.size())) {
+        : plane_(plane), tiles_(tiles), pulse_(monitor), count_(static_cast<std::int64_t>(tiles.corner.size())) {
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
             placed_.add(tiles_.in_class[tile], tiles_.corner[tiles_.begin[tile]]);
         }
@@ -184,7 +157,7 @@ private:
             pulse_();
             const ClassImage& image = images[tiles_.in_class[tile]];
             const std::uint32_t point = moved(motion, tiles_.corner[tiles_.begin[tile] + image.corner]);
-            if (point == no_number || !placed_.has(image.in_class, point)) return false;
+            if (point == no_number || placed_.find(image.in_class, point) == no_number) return false;
         }
         return true;
     }
@@ -253,7 +226,7 @@ private:
     const TilePlane& plane_;
     const TileSet& tiles_;
     Pulse pulse_;
-    PairSet placed_;  ///< classes and first corners of tiles
+    TileAnchors placed_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::int64_t count_;  ///< corners, at most 2^32, so that products stay below 2^62
     Cyclotomic::Number sum_{};

@@ -1,11 +1,13 @@
 #include "engine/tiling/tiling.h"
 
+#include "engine/base/threads.h"
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/origins.h"
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/vertex_figures.h"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -53,6 +55,15 @@ void count_neighbours(const TileNeighbours& neighbours, TilingExamination& resul
     result.neighbour_counts.assign(counts.begin(), counts.end());
 }
 
+void examine_neighbours(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
+    patch.neighbours = TileNeighbours(patch.pieces);
+    count_neighbours(patch.neighbours, result);
+    TileColouring colouring = find_colours(patch.neighbours, options.colours, options.monitor);
+    result.least_colours = colouring.at_least;
+    result.most_colours = colouring.at_most;
+    patch.colours = std::move(colouring.colours);
+}
+
 void examine_border(TilingPatch& patch, const TileVertices& vertices, const Monitor& monitor,
                     TilingExamination& result) {
     patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
@@ -69,6 +80,29 @@ void examine_border(TilingPatch& patch, const TileVertices& vertices, const Moni
                        static_cast<std::int64_t>(result.tiles);
     result.euler_agrees = euler == static_cast<std::int64_t>(border.regions) - static_cast<std::int64_t>(border.gaps);
     result.figures = find_figures(patch.plane, patch.tiles, patch.pieces, patch.figure_of, monitor);
+}
+
+void examine_vertices(TilingPatch& patch, const Monitor& monitor, TilingExamination& result) {
+    const TileVertices vertices = check_vertices(patch.plane, patch.tiles, patch.pieces, monitor);
+    for (const TileViolation& overlap : vertices.overlaps) result.violations.add(overlap);
+    result.vertices = vertices.points;
+    result.inner_vertices = vertices.inner;
+    result.violations.count += vertices.overlap_count - vertices.overlaps.size();
+    result.has_border = vertices.overlap_count == 0;
+    if (result.has_border) examine_border(patch, vertices, monitor, result);
+}
+
+void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
+    patch.pieces = cut_into_pieces(patch.plane, patch.tiles, options.monitor);
+    const TilePieces& pieces = patch.pieces;
+    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
+        if (pieces.twin[side] == no_number) ++result.border_edges;
+    }
+    result.inner_edges = (pieces.sides() - result.border_edges) / 2;
+    result.edges = result.inner_edges + result.border_edges;
+    result.edges_cut = pieces.edges_cut;
+    oneapi::tbb::parallel_invoke([&] { examine_vertices(patch, options.monitor, result); },
+                                 [&] { examine_neighbours(patch, options, result); });
 }
 
 /// A result whose tiles are collected in a plane; then examine() finds the facts.
@@ -89,29 +123,11 @@ void examine(TilingResult& both, const TilingOptions& options) {
     result.shapes = shapes_of(patch.plane, tiles);
     for (const std::uint32_t in_class : tiles.in_class) result.area += tiles.classes[in_class].area;
 
-    patch.pieces = cut_into_pieces(patch.plane, tiles, options.monitor);
-    const TilePieces& pieces = patch.pieces;
-    for (std::uint32_t side = 0; side < pieces.sides(); ++side) {
-        if (pieces.twin[side] == no_number) ++result.border_edges;
-    }
-    result.inner_edges = (pieces.sides() - result.border_edges) / 2;
-    result.edges = result.inner_edges + result.border_edges;
-    result.edges_cut = pieces.edges_cut;
-
-    const TileVertices vertices = check_vertices(patch.plane, tiles, pieces, options.monitor);
-    for (const TileViolation& overlap : vertices.overlaps) result.violations.add(overlap);
-    result.vertices = vertices.points;
-    result.inner_vertices = vertices.inner;
-    result.violations.count += vertices.overlap_count - vertices.overlaps.size();
-    result.has_border = vertices.overlap_count == 0;
-    if (result.has_border) examine_border(patch, vertices, options.monitor, result);
-    patch.neighbours = TileNeighbours(pieces);
-    count_neighbours(patch.neighbours, result);
-    TileColouring colouring = find_colours(patch.neighbours, options.colours, options.monitor);
-    result.least_colours = colouring.at_least;
-    result.most_colours = colouring.at_most;
-    patch.colours = std::move(colouring.colours);
-    result.symmetry = find_symmetry(patch.plane, tiles, options.monitor);
+    // Both only read the points and tiles.
+    on_threads(0, [&] {
+        oneapi::tbb::parallel_invoke([&] { examine_pieces(patch, options, result); },
+                                     [&] { result.symmetry = find_symmetry(patch.plane, tiles, options.monitor); });
+    });
 }
 
 TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact, const TilingOptions& options) {

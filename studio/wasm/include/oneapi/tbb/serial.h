@@ -44,6 +44,11 @@ void parallel_for(Index first, Index last, const Body& body, simple_partitioner 
     for (Index i = first; i < last; ++i) body(i);
 }
 
+template <class... Work>
+void parallel_invoke(const Work&... work) {
+    (work(), ...);
+}
+
 template <class Value>
 class concurrent_queue {
 public:
