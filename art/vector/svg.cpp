@@ -280,10 +280,23 @@ private:
         Layer& layer = open_layer({LayerKind::polygons, 0}, [] { return LayerText{"fills", ""}; });
         if (layer.run != colour) {
             if (layer.run) layer.text.append("</g>\n");
-            layer.text.append(fmt::format("<g fill=\"{}\"{}>\n", hex(colour), opacity("fill-opacity", colour)));
+            layer.text.append(group_of(colour));
             layer.run = colour;
         }
         return layer;
+    }
+
+    /// The tag that begins a group of polygons. Tiles change their colour often.
+    const std::string& group_of(Colour colour) {
+        auto found =
+            std::find_if(groups_.begin(), groups_.end(), [&](const auto& one) { return one.first == colour; });
+        if (found == groups_.end()) {
+            constexpr std::size_t most = 64;
+            if (groups_.size() == most) groups_.clear();
+            found = groups_.emplace(groups_.end(), colour,
+                                    fmt::format("<g fill=\"{}\"{}>\n", hex(colour), opacity("fill-opacity", colour)));
+        }
+        return found->second;
     }
 
     void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
@@ -496,6 +509,7 @@ private:
     double drawn_length_ = 0.0;         ///< of all its pieces so far
     std::int64_t tiles_ = 0;            ///< polygons with names
     PolygonClasses tile_classes_;
+    std::vector<std::pair<Colour, std::string>> groups_;
     std::map<std::string, std::size_t> tile_colours_;  ///< numbers of their colours, from 1
     Micrometres piece_start_;
     PathData data_{Micrometres{}};
