@@ -158,14 +158,19 @@ private:
                                     1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
             }
             cut_excerpt(layout, player.melody.meter, options);
+            // A drone goes on evenly, whatever becomes of the melody.
+            const bool has_drone = player.melody.harmony == Harmony::drone;
+            Melody alone = player.melody;
+            if (has_drone) alone.harmony = Harmony::none;
             PlayReport one;
-            part.block = play_block(player.document.grammar(), player.melody, options, one);
+            part.block = play_block(player.document.grammar(), alone, options, one);
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
             if (!layout.form.empty())
                 part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form);
             if (layout.is_retrograde) reverse(part.block);
+            if (has_drone) add_drone(part.block, player.melody);
             const std::int64_t bar = player.melody.meter.bar();
             const std::int64_t length = player.is_bass ? leading : part.block.length;
             part.period = to_score(player).of((length + bar - 1) / bar * bar);

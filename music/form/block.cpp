@@ -1,5 +1,6 @@
 #include "music/form/block.h"
 
+#include "music/melody/accompaniment.h"
 #include "music/melody/degree_range.h"
 #include "music/score/glides.h"
 
@@ -42,16 +43,6 @@ void sort(std::vector<FormNote>& notes) {
     std::stable_sort(notes.begin(), notes.end(), [](const FormNote& a, const FormNote& b) {
         return std::tie(a.note.onset, a.note.voice) < std::tie(b.note.onset, b.note.voice);
     });
-}
-
-/// The degree nearest to a just fifth above the tonic.
-std::int64_t fifth_of(const Scale& scale) {
-    std::int64_t best = 0;
-    for (std::int64_t degree = 0; degree < static_cast<std::int64_t>(scale.size()); ++degree) {
-        const auto distance = [&](std::int64_t one) { return std::fabs(scale.cents(one, true) - 702); };
-        if (distance(degree) < distance(best)) best = degree;
-    }
-    return best;
 }
 
 /// What the notes of `block` from `begin` to `end` are, beginning at tick 0.
@@ -200,6 +191,19 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
     return result;
 }
 
+void add_drone(Block& block, const Melody& melody) {
+    const mapping::Accompaniment drone(melody);
+    const std::int64_t bar = melody.meter.bar();
+    for (std::int64_t begin = 0; begin < block.length; begin += bar) {
+        for (Note note : drone.bar(begin, nullptr)) {
+            note.voice = static_cast<std::int16_t>(note.voice + melody.own_voices());
+            block.notes.push_back({note, 0, false});
+        }
+    }
+    block.length = (block.length + bar - 1) / bar * bar;
+    sort(block.notes);
+}
+
 void end_on(Block& block, const Melody& melody, Ending ending) {
     if (ending == Ending::none) return;
     std::vector<FormNote*> last;  // the last one first
@@ -210,7 +214,7 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     last[0]->note.glide = {};
     last[0]->note.is_sliding = false;
     const auto period = static_cast<std::int64_t>(melody.scale.size());
-    const std::int64_t place = ending == Ending::open ? fifth_of(melody.scale) : 0;
+    const std::int64_t place = ending == Ending::open ? fifth_degree(melody.scale) : 0;
     std::int64_t above = (last[0]->degree - place) % period;
     if (above < 0) above += period;
     std::int64_t goal = 2 * above <= period ? last[0]->degree - above : last[0]->degree + period - above;

@@ -1,8 +1,11 @@
 #include "music/form/counterpoint.h"
 
+#include "music/score/rhythm.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -26,12 +29,6 @@ public:
         const Note& note = *std::prev(after);
         return note.onset + note.duration > tick ? std::optional(note.key) : std::nullopt;
     }
-    /// Onsets from `begin` to before `end`.
-    template <class Visit>
-    void onsets(std::int64_t begin, std::int64_t end, Visit visit) const {
-        for (auto note = first_after(begin - 1); note != notes_.end() && note->onset < end; ++note)
-            visit(note->onset);
-    }
     /// The key of the last note that began before `tick`.
     std::optional<Note> before(std::int64_t tick) const {
         const auto after = first_after(tick - 1);
@@ -50,58 +47,108 @@ private:
     std::vector<Note> notes_;
 };
 
-int interval_class(double a, double b) {
-    const auto semitones = static_cast<int>(std::lround(std::fabs(a - b)));
-    return semitones % 12;
-}
+using Lines = std::map<int, Line>;
 
-bool is_perfect(int interval) {
-    return interval == 0 || interval == 7;
-}
-
-/// Ticks of a bar that are strong: its beginning, and the beginnings of its groups or its middle.
-std::vector<std::int64_t> strong_beats(const Meter& meter) {
-    std::vector<std::int64_t> beats = {0};
-    const std::int64_t beat = meter.bar() / meter.beats;
-    for (std::size_t i = 0; i + 1 < meter.groups.size() && meter.groups[i + 1] != 0; ++i) {
-        beats.push_back(beats.back() + beat * meter.groups[i]);
-    }
-    if (meter.groups.front() == 0 && meter.beats % 2 == 0) beats.push_back(meter.bar() / 2);
-    return beats;
-}
-
+/// Finds what is wrong with a note among other voices.
 class Checker {
 public:
     explicit Checker(const Meter& meter) : bar_(meter.bar()), beats_(strong_beats(meter)) {}
 
-    /// Counts what is wrong if `note` sounds after `last` in its voice, against another voice.
-    int faults(const Note& note, const std::optional<Note>& last, const Line& other) const {
+    /// Counts dissonances on strong beats, and parallels twice, if `note` sounds after `last` in its voice.
+    int faults(const Note& note, const std::optional<Note>& last, const Lines& lines) const {
         int count = 0;
         const std::int64_t end = note.onset + note.duration;
         for (std::int64_t bar = note.onset / bar_ * bar_; bar < end; bar += bar_) {
             for (const std::int64_t beat : beats_) {
                 const std::int64_t tick = bar + beat;
-                if (tick < note.onset || tick >= end) continue;
-                const auto against = other.at(tick);
-                if (against && !is_consonant(std::min(*against, note.key), std::max(*against, note.key))) ++count;
+                if (tick >= note.onset && tick < end) count += dissonances(note.key, tick, lines);
             }
         }
-        // Parallels where both begin a note after another.
-        const auto now = other.at(note.onset);
-        if (last && now && other.begins_at(note.onset)) {
+        for (const auto& [voice, other] : lines) {
+            // Parallels where both begin a note after another.
+            const auto now = other.at(note.onset);
+            if (!last || !now || !other.begins_at(note.onset)) continue;
             const auto before = other.before(note.onset);
-            const bool both_move = before && before->key != *now && last->key != note.key;
-            if (both_move) {
-                const int interval = interval_class(note.key, *now);
-                if (is_perfect(interval) && interval == interval_class(last->key, before->key)) count += 2;
-            }
+            if (before && is_parallel(before->key, last->key, *now, note.key)) count += 2;
         }
         return count;
     }
 
 private:
+    /// A fourth is consonant above a lower voice.
+    static int dissonances(double key, std::int64_t tick, const Lines& lines) {
+        constexpr int fourth = 5;
+        std::vector<double> sounding;
+        for (const auto& [voice, other] : lines) {
+            if (const auto against = other.at(tick)) sounding.push_back(*against);
+        }
+        if (sounding.empty()) return 0;
+        const double lowest = *std::min_element(sounding.begin(), sounding.end());
+        return static_cast<int>(std::count_if(sounding.begin(), sounding.end(), [&](double against) {
+            const double low = std::min(against, key);
+            const double high = std::max(against, key);
+            const bool is_upper_fourth = low > std::min(lowest, key) && interval_class(low, high) == fourth;
+            return !is_consonant(low, high) && !is_upper_fourth;
+        }));
+    }
+
     std::int64_t bar_;
     std::vector<std::int64_t> beats_;
+};
+
+/// The notes of one voice, one after another, each where it clashes least.
+class Leader {
+public:
+    Leader(const Checker& checker, const Melody& melody, const Lines& lines, CounterpointReport& report)
+        : checker_(checker), melody_(melody), lines_(lines), report_(report) {}
+
+    void lead(FormNote& note) {
+        if (note.has_degree) settle(note);
+        last_ = &note;
+    }
+
+private:
+    void settle(FormNote& note) {
+        // A fault weighs more than any move, and a note that is repeated more than a degree.
+        constexpr int fault = 1000;
+        constexpr int repetition = 3;
+        constexpr int degree = 2;
+        const bool was_repeated = last_ && last_->note.key == note.note.key;
+        int least = std::numeric_limits<int>::max();
+        int faults_left = 0;
+        FormNote best = note;
+        for (const std::int64_t move : moves) {
+            const FormNote tried = moved(note, move);
+            // Folded into the range, it would leap.
+            if (static_cast<double>(move) * (tried.note.key - note.note.key) * melody_.scale.period < 0) continue;
+            const int faults = checker_.faults(tried.note, last_ ? std::optional(last_->note) : std::nullopt, lines_);
+            const bool repeats = !was_repeated && last_ && last_->note.key == tried.note.key;
+            const int cost = faults * fault + static_cast<int>(std::abs(move)) * degree + (repeats ? repetition : 0);
+            if (move == 0 && faults == 0) return;
+            if (cost >= least) continue;
+            least = cost;
+            faults_left = faults;
+            best = tried;
+        }
+        report_.moved += best.degree != note.degree ? 1 : 0;
+        report_.left += static_cast<std::uint64_t>(faults_left);
+        note = best;
+    }
+
+    FormNote moved(const FormNote& note, std::int64_t move) const {
+        FormNote result = note;
+        if (move == 0) return result;
+        result.degree += move;
+        const bool falling = last_ && last_->has_degree && result.degree < last_->degree;
+        result.note.key = key_within(melody_, result.degree, falling);
+        return result;
+    }
+
+    const Checker& checker_;
+    const Melody& melody_;
+    const Lines& lines_;
+    CounterpointReport& report_;
+    const FormNote* last_ = nullptr;
 };
 
 }  // namespace
@@ -115,39 +162,28 @@ CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<Form
                                const Meter& meter) {
     CounterpointReport report;
     const Checker checker(meter);
-    std::map<int, Line> lines;
+    Lines lines;
     for (const FormNote& one : fixed) lines[one.note.voice].add(one.note);
-    for (auto& [voice, line] : lines) line.sort();
     std::map<int, std::vector<FormNote*>> voices;
     for (FormNote& one : part) voices[one.note.voice].push_back(&one);
+    // Chords stay as they are, and the melody above them heeds them.
+    for (auto voice = voices.begin(); voice != voices.end();) {
+        const auto& notes = voice->second;
+        if (std::any_of(notes.begin(), notes.end(), [](const FormNote* one) { return one->has_degree; })) {
+            ++voice;
+            continue;
+        }
+        for (const FormNote* one : notes) lines[voice->first].add(one->note);
+        voice = voices.erase(voice);
+    }
+    for (auto& [voice, line] : lines) line.sort();
     for (auto& [voice, notes] : voices) {
         std::stable_sort(notes.begin(), notes.end(),
                          [](const FormNote* a, const FormNote* b) { return a->note.onset < b->note.onset; });
-        std::optional<Note> last;
-        std::int64_t last_degree = 0;
+        Leader leader(checker, melody, lines, report);
         Line line;
         for (FormNote* one : notes) {
-            if (one->has_degree) {
-                int best_faults = -1;
-                FormNote best = *one;
-                for (const std::int64_t move : moves) {
-                    FormNote tried = *one;
-                    tried.degree += move;
-                    const bool falling = last && tried.degree < last_degree;
-                    if (move != 0) tried.note.key = key_within(melody, tried.degree, falling);
-                    int faults = 0;
-                    for (const auto& [number, other] : lines) faults += checker.faults(tried.note, last, other);
-                    if (best_faults >= 0 && faults >= best_faults) continue;
-                    best_faults = faults;
-                    best = tried;
-                    if (faults == 0) break;
-                }
-                report.moved += best.degree != one->degree ? 1 : 0;
-                report.left += static_cast<std::uint64_t>(std::max(best_faults, 0));
-                *one = best;
-                last_degree = one->degree;
-            }
-            last = one->note;
+            leader.lead(*one);
             line.add(one->note);
         }
         lines[voice] = std::move(line);

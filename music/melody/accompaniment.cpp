@@ -1,17 +1,44 @@
 #include "music/melody/accompaniment.h"
 
+#include "music/score/rhythm.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sikku::mapping {
 namespace {
 
 constexpr std::uint8_t soft = 54;
-// Semitones from the tonic: where the octave of the bass and that of the other tones begin.
+constexpr double silent = -1;
+// Semitones from the tonic: where the octave of the bass begins, the range of the voices above it, and its middle.
 constexpr double bass_register = -21;
-constexpr double chord_register = -10;
+constexpr double lowest_tone = -12;
+constexpr double highest_tone = 7;
+constexpr double middle_tone = -3;
+constexpr double least_above_bass = 3;
+constexpr double widest_pair = 12;
+// Unrest of voices that move in parallel, and of a semitone that a pair of voices lies off the middle.
+constexpr double unrest_of_parallels = 100;
+constexpr double unrest_off_middle = 0.25;
+
+/// Ticks of a bar at which a tanpura is plucked: at its groups, if there are three, or else at three beats.
+std::array<std::int64_t, 3> plucks(const Meter& meter) {
+    const std::vector<std::int64_t> groups = groups_of(meter);
+    const std::int64_t bar = meter.bar();
+    if (groups.size() == 3) return {0, groups[0], groups[0] + groups[1]};
+    const std::int64_t beat = bar / meter.beats;
+    if (meter.beats % 4 == 0) return {0, bar / 4, bar / 2};
+    if (meter.beats % 3 == 0) return {0, bar / 3, 2 * bar / 3};
+    if (meter.beats >= 3) return {0, beat, 2 * beat};
+    return {0, bar / 4, bar / 2};
+}
 
 }  // namespace
+
+Accompaniment::Accompaniment(const Melody& melody) : melody_(melody) {
+    if (melody.harmony == Harmony::progression && !melody.progression.empty()) lead_progression();
+}
 
 double Accompaniment::key_above(double cents, double lowest) const {
     const double tonic = melody_.tonic + melody_.transpose;
@@ -23,8 +50,30 @@ double Accompaniment::key_above(double cents, double lowest) const {
 }
 
 std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) const {
+    if (melody_.harmony == Harmony::drone) return drone(begin);
     std::vector<Note> notes;
+    if (!chord) return notes;
     const std::int64_t length = melody_.meter.bar();
+    const Voicing keys = voicing_of(begin / length, *chord);
+    for (std::size_t voice = 0; voice < keys.size(); ++voice) {
+        if (keys[voice] == silent) continue;
+        Note note;
+        note.onset = begin;
+        note.duration = length;
+        note.key = keys[voice];
+        note.voice = static_cast<std::int16_t>(voice);
+        note.velocity = soft;
+        notes.push_back(note);
+    }
+    return notes;
+}
+
+/// As a tanpura is plucked: fifth, tonic, tonic above a low tonic that rings on.
+std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
+    const std::int64_t length = melody_.meter.bar();
+    const auto [first, second, third] = plucks(melody_.meter);
+    const double fifth = melody_.scale.cents(drone_degree(melody_.scale), false);
+    std::vector<Note> notes;
     const auto add = [&](std::int16_t voice, std::int64_t from, std::int64_t to, double key) {
         Note note;
         note.onset = begin + from;
@@ -34,22 +83,115 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) con
         note.velocity = soft;
         notes.push_back(note);
     };
-    if (melody_.harmony == Harmony::drone) {
-        // As a tanpura is plucked: fifth, tonic, tonic above a low tonic that rings on.
-        const double fifth = melody_.scale.cents(drone_degree(melody_.scale), false);
-        const std::int64_t beat = length / 4;
-        add(0, 0, beat, key_above(fifth, -12));
-        add(0, beat, 2 * beat, key_above(0, 0));
-        add(0, 2 * beat, length, key_above(0, 0));
-        add(1, 0, length, key_above(0, -12));
-        return notes;
-    }
-    if (!chord) return notes;
-    add(0, 0, length, key_above(chord->cents.front(), bass_register));
-    for (std::size_t tone = 1; tone < std::min<std::size_t>(chord->cents.size(), 3); ++tone) {
-        add(static_cast<std::int16_t>(tone), 0, length, key_above(chord->cents[tone], chord_register));
-    }
+    add(0, first, second, key_above(fifth, -12));
+    add(0, second, third, key_above(0, 0));
+    add(0, third, length, key_above(0, 0));
+    add(1, 0, length, key_above(0, -12));
     return notes;
+}
+
+/// Given chords have been led; the last bar of a piece, which has the first of them, follows the one before. Others
+/// change their position from bar to bar, so that each is known by itself: a fifth on top, then a third.
+Accompaniment::Voicing Accompaniment::voicing_of(std::int64_t bar, const Chord& chord) const {
+    const std::vector<Voicing> voicings = voicings_of(chord);
+    const auto least = [&](auto cost) {
+        return *std::min_element(voicings.begin(), voicings.end(),
+                                 [&](const Voicing& a, const Voicing& b) { return cost(a) < cost(b); });
+    };
+    if (progression_.empty()) {
+        const double top = chord.cents.size() < 3 ? 0 : chord.cents[bar % 2 == 0 ? 2 : 1];
+        return least([&](const Voicing& one) {
+            const double apart = std::remainder(one[2] - key_above(top, 0), 12);
+            return distance(one) + (one[2] != silent && std::fabs(apart) > 0.01 ? unrest_of_parallels : 0);
+        });
+    }
+    const auto size = static_cast<std::int64_t>(progression_.size());
+    const auto at = static_cast<std::size_t>(bar % size);
+    if (&chord == &melody_.progression[at]) return progression_[at];
+    const Voicing& before = progression_[static_cast<std::size_t>((bar + size - 1) % size)];
+    return least([&](const Voicing& one) { return unrest(before, one); });
+}
+
+/// All places of the upper tones of a chord within their range.
+std::vector<Accompaniment::Voicing> Accompaniment::voicings_of(const Chord& chord) const {
+    const double tonic = melody_.tonic + melody_.transpose;
+    const double bass = key_above(chord.cents.front(), bass_register);
+    const auto places = [&](std::size_t tone) {
+        std::vector<double> keys;
+        const double lowest = key_above(chord.cents[tone], lowest_tone);
+        for (double key = lowest; key <= std::min(tonic + highest_tone, 127.0); key += 12) keys.push_back(key);
+        if (keys.empty()) keys.push_back(lowest);
+        return keys;
+    };
+    if (chord.cents.size() < 2) return {{bass, silent, silent}};
+    std::vector<Voicing> voicings;
+    if (chord.cents.size() == 2) {
+        for (const double key : places(1)) voicings.push_back({bass, key, silent});
+        return voicings;
+    }
+    Voicing any{};
+    for (const double third : places(1)) {
+        for (const double fifth : places(2)) {
+            any = {bass, std::min(third, fifth), std::max(third, fifth)};
+            if (any[1] < bass + least_above_bass || any[2] - any[1] > widest_pair) continue;
+            voicings.push_back(any);
+        }
+    }
+    if (voicings.empty()) voicings.push_back(any);
+    return voicings;
+}
+
+double Accompaniment::distance(const Voicing& voicing) const {
+    const double top = voicing[2] == silent ? voicing[1] : voicing[2];
+    const double middle = melody_.tonic + melody_.transpose + middle_tone;
+    return unrest_off_middle * std::fabs((voicing[1] + top) / 2 - middle);
+}
+
+/// How far the upper voices move, with a penalty for parallels.
+double Accompaniment::unrest(const Voicing& before, const Voicing& voicing) const {
+    double sum = distance(voicing);
+    for (std::size_t i = 1; i < voicing.size(); ++i) {
+        if (before[i] != silent && voicing[i] != silent) sum += std::fabs(voicing[i] - before[i]);
+        for (std::size_t below = 0; below < i; ++below) {
+            if (is_parallel(before[below], before[i], voicing[below], voicing[i])) sum += unrest_of_parallels;
+        }
+    }
+    return sum;
+}
+
+/// Chooses the voicings of least unrest over all chords, from the last back to the first again.
+void Accompaniment::lead_progression() {
+    std::vector<std::vector<Voicing>> choices;
+    for (const Chord& chord : melody_.progression) choices.push_back(voicings_of(chord));
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t first = 0; first < choices.front().size(); ++first) {
+        std::vector<double> costs(choices.front().size(), std::numeric_limits<double>::infinity());
+        costs[first] = 0;
+        std::vector<std::vector<std::size_t>> origins;  // of each choice of each chord after the first
+        for (std::size_t i = 1; i <= choices.size(); ++i) {
+            const std::vector<Voicing>& from = choices[i - 1];
+            const std::vector<Voicing>& to = choices[i % choices.size()];
+            std::vector<double> next(to.size(), std::numeric_limits<double>::infinity());
+            std::vector<std::size_t>& origin = origins.emplace_back(to.size(), 0);
+            for (std::size_t a = 0; a < from.size(); ++a) {
+                for (std::size_t b = 0; b < to.size(); ++b) {
+                    const double cost = costs[a] + unrest(from[a], to[b]);
+                    if (cost >= next[b]) continue;
+                    next[b] = cost;
+                    origin[b] = a;
+                }
+            }
+            costs = std::move(next);
+        }
+        if (costs[first] >= least) continue;
+        least = costs[first];
+        progression_.assign(choices.size(), {});
+        std::size_t chosen = first;
+        for (std::size_t i = choices.size(); i-- > 0;) {
+            chosen = origins[i][chosen];
+            progression_[i] = choices[i][chosen];
+        }
+    }
 }
 
 }  // namespace sikku::mapping

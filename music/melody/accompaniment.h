@@ -3,25 +3,37 @@
 
 #include "music/melody/melody.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace sikku::mapping {
 
-/// Plays what accompanies a melody, bar by bar.
+/// Plays what accompanies a melody, bar by bar. Chords have their root in the bass, and two voices above it that move
+/// as little as they can; no two voices move in parallel fifths or octaves.
 class Accompaniment {
 public:
-    explicit Accompaniment(const Melody& melody) : melody_(melody) {}
+    explicit Accompaniment(const Melody& melody);
 
     /// The notes of a bar that begins at tick `begin`; voices are counted from 0.
     /// @param chord  of the bar, if there are chords
     std::vector<Note> bar(std::int64_t begin, const Chord* chord) const;
 
 private:
+    /// Keys of the bass, the lower and the upper voice above it; voices without a tone of their own are silent.
+    using Voicing = std::array<double, 3>;
+
+    std::vector<Note> drone(std::int64_t begin) const;
+    Voicing voicing_of(std::int64_t bar, const Chord& chord) const;
+    std::vector<Voicing> voicings_of(const Chord& chord) const;
+    void lead_progression();
+    double unrest(const Voicing& before, const Voicing& voicing) const;
+    double distance(const Voicing& voicing) const;
     /// The pitch of that many cents above the tonic, moved by octaves to within an octave above `lowest`.
     double key_above(double cents, double lowest) const;
 
     const Melody& melody_;
+    std::vector<Voicing> progression_;  // one for each chord of it
 };
 
 }  // namespace sikku::mapping

@@ -125,11 +125,30 @@ std::vector<Chord> read_progression(std::string_view text, const Scale& scale, s
     }
 }
 
+std::int64_t fifth_degree(const Scale& scale) {
+    std::int64_t best = 0;
+    for (std::int64_t degree = 0; degree < static_cast<std::int64_t>(scale.size()); ++degree) {
+        const auto distance = [&](std::int64_t one) { return std::fabs(scale.cents(one, true) - 702); };
+        if (distance(degree) < distance(best)) best = degree;
+    }
+    return best;
+}
+
 std::int64_t drone_degree(const Scale& scale) {
     for (const double interval : {702.0, 498.0}) {
         if (const auto degree = degree_at(scale, 0, interval, 50)) return *degree;
     }
     return 0;
+}
+
+int interval_class(double a, double b) {
+    return static_cast<int>(std::lround(std::fabs(a - b))) % 12;
+}
+
+bool is_parallel(double low, double high, double next_low, double next_high) {
+    if (low == next_low || high == next_high) return false;
+    const int interval = interval_class(next_low, next_high);
+    return (interval == 0 || interval == 7) && interval == interval_class(low, high);
 }
 
 }  // namespace sikku

@@ -35,7 +35,18 @@ std::vector<Chord> triads_of(const Scale& scale);
 /// @param problem  what is wrong, if the result is empty
 std::vector<Chord> read_progression(std::string_view text, const Scale& scale, std::string& problem);
 
+/// The degree nearest to a just fifth above the tonic, falling.
+std::int64_t fifth_degree(const Scale& scale);
+
 /// The degree nearest to a just fifth; 0 if none is within a quarter tone of it or of a fourth.
 std::int64_t drone_degree(const Scale& scale);
+
+/// Semitones between two keys, rounded, within an octave: 0 to 11.
+int interval_class(double a, double b);
+
+/// True if two voices that both move go on in unisons, octaves or fifths.
+/// @param low, high            keys before
+/// @param next_low, next_high  keys after
+bool is_parallel(double low, double high, double next_low, double next_high);
 
 }  // namespace sikku

@@ -1,5 +1,7 @@
 #include "music/melody/shaper.h"
 
+#include "music/score/rhythm.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,19 +9,6 @@ namespace sikku::mapping {
 namespace {
 
 constexpr std::size_t notes_of_cadence = 3;
-
-/// The degree nearest to a just fifth.
-std::int64_t fifth_of(const Scale& scale) {
-    std::int64_t best = 0;
-    double least = 1e9;
-    for (std::int64_t degree = 0; degree < static_cast<std::int64_t>(scale.size()); ++degree) {
-        const double distance = std::fabs(scale.cents(degree, true) - 702);
-        if (distance >= least) continue;
-        least = distance;
-        best = degree;
-    }
-    return best;
-}
 
 /// The member of `place` + whole periods that is nearest to `degree`; of two, the lower.
 std::int64_t nearest_in(std::int64_t degree, std::int64_t place, std::int64_t period) {
@@ -31,7 +20,10 @@ std::int64_t nearest_in(std::int64_t degree, std::int64_t place, std::int64_t pe
 }  // namespace
 
 Shaper::Shaper(const Melody& melody)
-    : melody_(melody), held_(melody.cadence == Cadence::none ? 1 : notes_of_cadence), fifth_(fifth_of(melody.scale)) {
+    : melody_(melody),
+      held_(melody.cadence == Cadence::none ? 1 : notes_of_cadence),
+      fifth_(fifth_degree(melody.scale)),
+      strong_beats_(strong_beats(melody.meter)) {
     if (melody.harmony == Harmony::triads) triads_ = triads_of(melody.scale);
     const bool changes_degrees = melody.has_chords() || melody.cadence != Cadence::none;
     const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
@@ -111,6 +103,8 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
     std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
     if (range_ && goal < range_->low() && goal + period <= range_->high()) goal += period;
     if (range_ && goal > range_->high() && goal - period >= range_->low()) goal -= period;
+    // A given chord decides first, so that the goal is approached by step all the same.
+    if (const Chord* chord = given_chord(notes.back().onset)) goal = tone_of(*chord, goal);
     const bool from_above = notes.front().degree >= goal;
     std::int64_t distance = static_cast<std::int64_t>(notes.size()) - 1;
     for (Draft& note : notes) {
@@ -137,11 +131,8 @@ const Chord* Shaper::given_chord(std::int64_t tick) const {
     return &melody_.progression[bar % melody_.progression.size()];
 }
 
-/// The first beat, and the middle of a bar of an even number of beats.
 bool Shaper::is_strong(const Draft& note) const {
-    const std::int64_t bar = melody_.meter.bar();
-    const std::int64_t within = note.onset % bar;
-    return within == 0 || (melody_.meter.beats % 2 == 0 && 2 * within == bar);
+    return std::binary_search(strong_beats_.begin(), strong_beats_.end(), note.onset % melody_.meter.bar());
 }
 
 void Shaper::release(Draft note) {

@@ -73,6 +73,7 @@ private:
     std::optional<DegreeRange> range_;         // where it changes degrees by other than whole periods
     std::size_t held_;                         // notes of a voice that are held back
     std::int64_t fifth_;                       // degrees from the tonic to the fifth
+    std::vector<std::int64_t> strong_beats_;   // ticks of a bar
     std::vector<std::vector<Draft>> pending_;  // by voice
     std::vector<Chord> triads_;
     std::vector<Draft> bar_;  // of the first voice, until its chord is known

@@ -94,6 +94,17 @@ std::vector<std::int64_t> groups_of(const Meter& meter) {
     return groups;
 }
 
+std::vector<std::int64_t> strong_beats(const Meter& meter) {
+    if (meter.groups[0] == 0 && !has_groups(meter)) {
+        if (meter.beats % 2 != 0) return {0};
+        return {0, meter.bar() / 2};
+    }
+    std::vector<std::int64_t> beats = {0};
+    const std::vector<std::int64_t> groups = groups_of(meter);
+    for (std::size_t i = 0; i + 1 < groups.size(); ++i) beats.push_back(beats.back() + groups[i]);
+    return beats;
+}
+
 Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
     const std::int64_t bar = meter.bar();
     const std::vector<std::int64_t> groups = groups_of(meter);

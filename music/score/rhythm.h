@@ -39,6 +39,9 @@ struct TupletSpan {
 /// Groups of a bar in ticks: those of the meter, or twos and a last three for 5/8, 7/8, …, or dotted beats for 6/8,
 /// 9/8 and 12/8, or else beats.
 std::vector<std::int64_t> groups_of(const Meter& meter);
+/// Ticks of a bar that are strong: its beginning and those of its groups if the meter has groups, else the beginning
+/// and, with an even number of beats, the middle.
+std::vector<std::int64_t> strong_beats(const Meter& meter);
 /// True where groups are neither beats nor dotted beats, so that readers have to be told.
 bool has_groups(const Meter& meter);
 
