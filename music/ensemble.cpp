@@ -86,6 +86,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
         PartSink part(sink, player.first_voice, later, to_score(player));
         PlayOptions options = playing;
         options.drums_from = player.drums_from;
+        options.chords_from = player.chords_from;
         if (player.is_bass) {
             if (all.end == 0) continue;
             options.to = std::min(playing.to, playing.from + all.end);
@@ -150,6 +151,7 @@ private:
             part.start = start_of(player, ensemble_.meter);
             PlayOptions options = playing_;
             options.drums_from = player.drums_from;
+            options.chords_from = player.chords_from;
             options.from = 0;
             options.to = player.is_bass ? leading : INT64_MAX;
             if (!layout.needs_whole() && player.section == 0 && playing_.to < INT64_MAX) {
@@ -170,7 +172,7 @@ private:
             if (!layout.form.empty())
                 part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form);
             if (layout.is_retrograde) reverse(part.block);
-            if (has_drone) add_drone(part.block, player.melody);
+            if (has_drone) add_drone(part.block, player.melody, options.chords_from);
             const std::int64_t bar = player.melody.meter.bar();
             const std::int64_t length = player.is_bass ? leading : part.block.length;
             part.period = to_score(player).of((length + bar - 1) / bar * bar);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -302,7 +303,9 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
     plain.progression.clear();
     plain.articulation = Articulation::legato;
     plain.swing = 0.5;
-    plain.range = Range::clamp;
+    // Degrees are wanted as they are, however far away.
+    plain.lowest = -std::numeric_limits<double>::infinity();
+    plain.highest = std::numeric_limits<double>::infinity();
     const PlayOptions whole = piece_of_part(player, meter, playing);
     for (std::int64_t length = meter.bar(); whole.from < whole.to; length *= 2) {
         PlayOptions options = whole;

@@ -94,10 +94,15 @@ std::vector<Player> followers_of(const Player& player) {
         follower.warnings.clear();
         follower.is_follower = true;
         follower.melody.layout.canon.clear();
-        follower.melody.layout.start += one.bars;
-        follower.melody.harmony = Harmony::none;
-        follower.melody.shift += one.degrees;
-        transpose(follower.melody, one.semitones);
+        Melody& melody = follower.melody;
+        melody.layout.start += one.bars;
+        // It repeats what the part plays, with the notes that chords and range have moved.
+        melody.is_accompanied = false;
+        if (!melody.has_chords()) melody.harmony = Harmony::none;
+        melody.answer += one.degrees;
+        melody.lowest = std::clamp(melody.lowest + one.semitones, 0.0, 127.0);
+        melody.highest = std::clamp(melody.highest + one.semitones, 0.0, 127.0);
+        transpose(melody, one.semitones);
         followers.push_back(std::move(follower));
     }
     return followers;
@@ -106,7 +111,7 @@ std::vector<Player> followers_of(const Player& player) {
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness) {
     require_turtle(given, "it has no melody");
-    Player player{given, {}, 0, 0, false, false, false, 0, {}, {}};
+    Player player{given, {}, 0, 0, 0, false, false, false, 0, {}, {}};
     for (const Setting& setting : settings.keys) {
         try {
             player.document = player.document.with({setting});

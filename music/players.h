@@ -24,7 +24,8 @@ struct Player {
     Document document;
     Melody melody;
     int first_voice = 0;
-    int drums_from = 0;  ///< voices of drums come so many later
+    int chords_from = 0;  ///< its voices before those of drone or chords
+    int drums_from = 0;   ///< voices of drums come so many later
     bool has_drums = false;
     bool is_bass = false;               ///< of the player before it: `harmony: bass`
     bool is_follower = false;           ///< in the canon of a player before it

@@ -166,6 +166,7 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         // Drums alone are the only part of their pattern.
         const bool is_drums_alone = sounds.has_drums && !sounds.has_pitches && melody.accompanying_voices() == 0;
         player.has_drums = sounds.has_drums;
+        player.chords_from = own_voices;
         player.drums_from = is_drums_alone ? 0 : own_voices + melody.accompanying_voices();
         voices += player.drums_from + (sounds.has_drums ? own_voices : 0);
         pitched += is_drums_alone ? 0 : own_voices + melody.accompanying_voices();

@@ -191,12 +191,13 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
     return result;
 }
 
-void add_drone(Block& block, const Melody& melody) {
+void add_drone(Block& block, const Melody& melody, int first_voice) {
+    if (first_voice == 0) first_voice = melody.own_voices();
     const mapping::Accompaniment drone(melody);
     const std::int64_t bar = melody.meter.bar();
     for (std::int64_t begin = 0; begin < block.length; begin += bar) {
         for (Note note : drone.bar(begin, nullptr)) {
-            note.voice = static_cast<std::int16_t>(note.voice + melody.own_voices());
+            note.voice = static_cast<std::int16_t>(note.voice + first_voice);
             block.notes.push_back({note, 0, false});
         }
     }

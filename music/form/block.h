@@ -44,7 +44,8 @@ void reverse(Block& block);
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form);
 
 /// Adds the drone of a melody, bar by bar up to the end, which it moves to the end of a bar.
-void add_drone(Block& block, const Melody& melody);
+/// @param first_voice  of the drone; 0: that after the melody's own
+void add_drone(Block& block, const Melody& melody, int first_voice);
 
 /// Leads the last notes of the first voice by step to the fifth or the tonic; as many as three.
 void end_on(Block& block, const Melody& melody, Ending ending);

@@ -41,7 +41,8 @@ void Emitter::accompany(std::int64_t begin, const Chord* chord) {
         if (from >= to) continue;
         note.onset = from - options_.from;
         note.duration = to - from;
-        note.voice = static_cast<std::int16_t>(note.voice + melody_.own_voices());
+        note.voice = static_cast<std::int16_t>(note.voice +
+                                               (options_.chords_from > 0 ? options_.chords_from : melody_.own_voices()));
         accompanied_ = std::max(accompanied_, to - options_.from);
         ++report.notes;
         block_.push_back(note);
@@ -60,7 +61,8 @@ void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
     }
     reserve(line, note.onset, note.end);
     if (note.end <= options_.from || note.onset >= options_.to) return;
-    const Placed placed = note.is_drum ? Placed{note.key, false, false} : within_range(note.key, note.degree, false);
+    const Placed placed =
+        note.is_drum ? Placed{note.key, false, false, 0} : within_range(note.key, note.degree, false);
     report.moved += placed.is_moved ? 1 : 0;
     ++report.notes;
     if (!note.is_drum) {
@@ -125,7 +127,7 @@ void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
     cut(result, options_.from, options_.to);
     result.onset -= options_.from;
     block_.push_back(result);
-    if (options_.degrees) options_.degrees->push_back(note.degree);
+    if (options_.degrees) options_.degrees->push_back(placed.degree);
     if (block_.size() == notes_in_block) flush();
 }
 
@@ -135,11 +137,20 @@ void Emitter::reserve(Line& line, std::int64_t onset, std::int64_t end) {
     busy_until_[static_cast<std::size_t>(line.voice)] = end;
 }
 
+void Emitter::take_time(Line& line, std::int64_t onset, std::int64_t end) {
+    if (line.voice < 0) line.voice = free_voice(onset);
+    if (!shaper_) return;
+    const auto at = static_cast<std::size_t>(line.voice);
+    if (at >= taken_until_.size()) taken_until_.resize(at + 1, 0);
+    taken_until_[at] = end;
+}
+
 int Emitter::free_voice(std::int64_t onset) {
+    const std::vector<std::int64_t>& until = shaper_ ? taken_until_ : busy_until_;
     for (int voice = 0;; ++voice) {
         const auto at = static_cast<std::size_t>(voice);
         if (at >= held_.size()) held_.resize(at + 1, false);
-        if (held_[at] || (at < busy_until_.size() && busy_until_[at] > onset)) continue;
+        if (held_[at] || (at < until.size() && until[at] > onset)) continue;
         if (voice >= options_.most_voices) {
             throw ScoreError(
                 fmt::format("too many voices: more than {} at once; a smaller n has fewer branches", voice));
@@ -153,25 +164,43 @@ Emitter::Placed Emitter::look_up(std::int64_t degree, bool falling) {
     const auto raw = melody_.key(degree, falling);
     if (!raw) {
         if (melody_.range == Range::refuse) refuse(degree, "no key at all");
-        return {0, false, true};
+        return {0, false, true, degree};
     }
-    return within_range(*raw, degree, falling);
+    return answered(within_range(*raw, degree, falling), falling);
 }
 
 Emitter::Placed Emitter::within_range(double raw, std::int64_t degree, bool falling) {
-    if (is_within(raw)) return {raw, false, false};
+    if (is_within(raw)) return {raw, false, false, degree};
     switch (melody_.range) {
         case Range::refuse:
             refuse(degree, fmt::format("key {:.0f}", raw));
-        case Range::fold:
-            return {folded(melody_, raw), true, false};
+        case Range::fold: {
+            const double key = folded(melody_, raw);
+            const double periods = (raw - key) * 100 / melody_.scale.period;
+            const bool is_whole = std::isfinite(periods) && std::fabs(periods) < 1e9;
+            const auto size = static_cast<std::int64_t>(melody_.scale.size());
+            return {key, true, false, degree - (is_whole ? std::llround(periods) * size : 0)};
+        }
         case Range::clamp:
         case Range::reflect:
             break;
     }
     if (!range_) range_.emplace(melody_);
     const std::int64_t inside = range_->inside(degree);
-    return {std::clamp(melody_.key(inside, falling).value_or(60.0), melody_.lowest, melody_.highest), true, false};
+    const double key = std::clamp(melody_.key(inside, falling).value_or(60.0), melody_.lowest, melody_.highest);
+    return {key, true, false, inside};
+}
+
+Emitter::Placed Emitter::answered(Placed placed, bool falling) const {
+    if (melody_.answer == 0) return placed;
+    const auto from = melody_.key(placed.degree, falling);
+    placed.degree += melody_.answer;
+    const auto to = melody_.key(placed.degree, falling);
+    if (!from || !to) return {0, false, true, placed.degree};
+    placed.key += *to - *from;
+    for (; placed.key > 127; placed.key -= 12) placed.is_moved = true;
+    for (; placed.key < 0; placed.key += 12) placed.is_moved = true;
+    return placed;
 }
 
 void Emitter::refuse(std::int64_t degree, const std::string& key) const {

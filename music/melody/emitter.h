@@ -45,7 +45,7 @@ public:
         if (melody_.is_inverted) degree = -degree;
         degree += melody_.shift;
         if (shaper_) {
-            if (line.voice < 0) line.voice = free_voice(onset);
+            take_time(line, onset, end);
             shaper_->add(line.voice, {degree, onset, end, velocity, depth, from, to, symbol});
             return hand_on();
         }
@@ -54,7 +54,7 @@ public:
 
     /// A note of a table of symbols: its key, if it is fixed, is what sounds.
     void note(Line& line, Shaper::Draft draft) {
-        if (line.voice < 0) line.voice = free_voice(draft.onset);
+        take_time(line, draft.onset, draft.end);
         draft.voice = line.voice;
         draft.depth = depth;
         if (!shaper_) return place_fixed(line, draft);
@@ -67,7 +67,7 @@ public:
         for (std::int64_t* degree : {&draft.degree, &draft.goal}) {
             *degree = (melody_.is_inverted ? -*degree : *degree) + melody_.shift;
         }
-        if (line.voice < 0) line.voice = free_voice(draft.onset);
+        take_time(line, draft.onset, draft.end);
         draft.voice = line.voice;
         draft.depth = depth;
         if (!shaper_) return place_gliding(line, draft);
@@ -163,7 +163,7 @@ private:
                           static_cast<std::int16_t>(line.voice),
                           static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol,
                           static_cast<std::uint8_t>(std::min(depth, 255))});
-        if (options_.degrees) options_.degrees->push_back(degree);
+        if (options_.degrees) options_.degrees->push_back(placed.degree);
         if (block_.size() == notes_in_block) flush();
     }
 
@@ -190,6 +190,7 @@ private:
         double key = std::numeric_limits<double>::quiet_NaN();  // not looked up yet
         bool is_moved = false;
         bool is_silent = false;
+        std::int64_t degree = 0;  // that sounds
     };
 
     void flush() {
@@ -198,6 +199,8 @@ private:
     }
 
     int free_voice(std::int64_t onset);
+    /// Gives a line its voice, which is not free until `end`.
+    void take_time(Line& line, std::int64_t onset, std::int64_t end);
 
     Placed key_of(std::int64_t degree, bool falling) {
         if (degree < -cached_degrees || degree >= cached_degrees) return look_up(degree, falling);
@@ -209,6 +212,8 @@ private:
     bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
 
     Placed look_up(std::int64_t degree, bool falling);
+    /// What sounds for a degree that lies within the range, higher by the answer of a canon.
+    Placed answered(Placed placed, bool falling) const;
     /// @param raw  the key of the degree, perhaps beyond the range
     Placed within_range(double raw, std::int64_t degree, bool falling);
     [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
@@ -225,7 +230,8 @@ private:
     std::optional<Accompaniment> accompaniment_;
     std::int64_t accompanied_ = 0;          // until that tick of the score
     std::vector<Line> shaped_;              // of each voice
-    std::vector<std::int64_t> busy_until_;  // of each voice
+    std::vector<std::int64_t> busy_until_;  // of each voice, by the notes that have been placed
+    std::vector<std::int64_t> taken_until_;  // by the notes before they are shaped, if they are
     std::vector<char> held_;                // by a branch that has not ended
     struct Gliding {
         Shaper::Draft note;

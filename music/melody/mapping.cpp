@@ -73,11 +73,11 @@ public:
             if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
         }
         has_voices_ = has_brackets_ && melody.branches == Branches::voices;
-        if (has_voices_ && (!melody.rhythm.empty() || melody.phrase_order > 0 || !melody.layout.form.empty() ||
-                            melody.is_shaped() || melody.accompanying_voices() > 0)) {
+        const bool has_phrases =
+            melody.phrase_order > 0 || !melody.layout.form.empty() || melody.cadence != Cadence::none;
+        if (has_voices_ && has_phrases) {
             throw ScoreError(
-                "rhythm, phrases, cadence, articulation, swing and harmony need a melody whose branches are no "
-                "voices: "
+                "phrases, forms and cadences come one after another, but branches that are voices sound at once: "
                 "`brackets: sequence` plays them one after another");
         }
         shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;

@@ -21,6 +21,7 @@ struct PlayOptions {
     std::int64_t to = INT64_MAX;  ///< ticks: the score ends here; notes at either end are cut
     int most_voices = 15;         ///< maximum number of voices at the same time; more are a ScoreError
     double budget = 200e6;        ///< maximum number of derivation nodes visited
+    int chords_from = 0;          ///< first voice of drone or chords; 0: that after the melody's own
     int drums_from = 0;           ///< added to the voices of drums, so that they belong to a part of their own
     static constexpr std::int64_t no_degree = INT64_MIN;
     std::vector<std::int64_t>* degrees = nullptr;      ///< receives the degree of each note, or no_degree

@@ -88,6 +88,8 @@ struct Melody {
     double transpose = 0;          ///< semitones, added to every key
     bool is_inverted = false;      ///< up and down change places around the tonic
     std::int64_t shift = 0;        ///< degrees of the scale, added to every degree
+    std::int64_t answer = 0;       ///< degrees added to what sounds, once it is shaped and within the range: of canons
+    bool is_accompanied = true;    ///< whether its drone or its chords sound
     Layout layout;                 ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
@@ -98,7 +100,9 @@ struct Melody {
     /// True if strong beats fall on tones of chords.
     bool has_chords() const { return harmony == Harmony::triads || harmony == Harmony::progression; }
     /// Voices of drone or chords.
-    int accompanying_voices() const { return has_chords() ? 3 : harmony == Harmony::drone ? 2 : 0; }
+    int accompanying_voices() const {
+        return !is_accompanied ? 0 : has_chords() ? 3 : harmony == Harmony::drone ? 2 : 0;
+    }
     /// Voices of the melody itself, if branches are none.
     int own_voices() const {
         if (mapping == Mapping::symbols) return table.most_notes();

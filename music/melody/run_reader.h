@@ -146,6 +146,14 @@ private:
         double pace = 1;         // what a step lasts, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
+    /// How many steps a run is that goes so far: as long as it is wide; with a rhythm off the square grid as long as it
+    /// is, so that each step takes a note of the template, whatever its angle.
+    Number steps_of(Number wide, Number high) const {
+        if constexpr (std::is_floating_point_v<Number>) {
+            if (!melody_.rhythm.empty() && step_length_ > 0) return std::hypot(wide, high) / step_length_;
+        }
+        return Walk::is_level(wide) ? high : wide;
+    }
     /// What so many steps last, in steps of the stem.
     Number lasting(Number steps) const {
         if constexpr (std::is_floating_point_v<Number>) {
@@ -230,6 +238,7 @@ private:
     /// @param symbol  position in the word
     void draw(const Step& step, std::uint64_t symbol) {
         if (step.x == 0 && step.y == 0) return;
+        if (step_length_ == 0) step_length_ = Walk::length(step);
         Pending& run = state_.run;
         if (!run.is_open || !Walk::same_direction(run.direction, step) || melody_.runs == Runs::each_step) {
             int turned = 0;
@@ -256,14 +265,13 @@ private:
         state_.at.x += step.x;
         state_.at.y += step.y;
         note_vertex();
-        const Number wide = lasting(step.x < 0 ? -step.x : step.x);
-        const Number high = lasting(step.y < 0 ? -step.y : step.y);
+        const Number wide = step.x < 0 ? -step.x : step.x;
+        const Number high = step.y < 0 ? -step.y : step.y;
+        const bool lasts = !Walk::is_level(step.x) ||
+                           (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice);
         release_held();
-        state_.time += wide;
-        if (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice && Walk::is_level(step.x)) {
-            state_.time += high;
-        }
-        if (melody_.vertical == Vertical::voice) state_.other_time += high;
+        if (lasts) state_.time += lasting(steps_of(wide, high));
+        if (melody_.vertical == Vertical::voice) state_.other_time += lasting(high);
     }
 
     /// A sub-curve ends: the phrase ends with the run that is under way, or with the last note.
@@ -301,11 +309,11 @@ private:
         const int velocity = loudness(melody_, run.turned, static_cast<double>(wide > high ? wide : high),
                                       stack_.depth(), ticks(state_.time));
         if (Walk::is_level(high)) {
-            sound(run.from.y + state_.at.y, wide, velocity, run);
+            sound(run.from.y + state_.at.y, steps_of(wide, high), velocity, run);
         } else if (Walk::is_level(wide)) {
-            vertical_run(run, high, velocity);
+            vertical_run(run, steps_of(wide, high), velocity);
         } else if (melody_.sloped == Sloped::project) {
-            sound(run.from.y + state_.at.y, wide, velocity, run);
+            sound(run.from.y + state_.at.y, steps_of(wide, high), velocity, run);
         } else if (melody_.sloped == Sloped::refuse) {
             throw ScoreError(fmt::format(
                 "before symbol {} of the word the curve slopes, and `sloped: refuse` is asked for", position_));
@@ -463,15 +471,16 @@ private:
             const Number before = state_.time;
             const bool is_note = Walk::is_level(high) || (!Walk::is_level(wide) && melody_.sloped == Sloped::project);
             // What sounds already counts as met before what the branch will play.
-            if (is_note) meet(run.from.y + state_.at.y, before + wide);
+            const Number steps = steps_of(wide, high);
+            if (is_note) meet(run.from.y + state_.at.y, before + steps);
             stack_.open(state_, position_);
             if (is_note) {
-                state_.time += wide;
+                state_.time += steps;
             } else if (Walk::is_level(wide)) {
                 if (melody_.vertical == Vertical::voice) {
-                    state_.other_time += high;
+                    state_.other_time += steps;
                 } else if (melody_.vertical != Vertical::ignore) {
-                    state_.time += high;
+                    state_.time += steps;
                 }
             }
         } else {
@@ -546,6 +555,7 @@ private:
     bool is_counted_ = true;  // nothing was skipped
     Number lowest_ = 0;
     Number highest_ = 0;
+    Number step_length_ = 0;  // of the first step that is drawn
     std::int64_t first_degree_ = unknown;
     std::int64_t lowest_degree_ = unknown;
 };

@@ -205,7 +205,7 @@ private:
         double key = *pitch.key + melody_.transpose + rise(pitch.degree, sounding) +
                      static_cast<double>(state_.octave) * melody_.scale.period / 100;
         if (melody_.is_inverted) key = 2 * (melody_.tonic + melody_.transpose) - key;
-        draft.key = key + rise(turned, draft.degree);
+        draft.key = key + rise(turned, draft.degree + melody_.answer);
         return draft;
     }
 
