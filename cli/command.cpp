@@ -20,13 +20,9 @@
 #include <system_error>
 
 namespace sikku {
-namespace {
-
-double now() {
+double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-}  // namespace
 
 void add_pattern_options(CLI::App& command, PatternOptions& options) {
     command
@@ -144,7 +140,7 @@ void make(Work& work, const std::string& output, bool quiet) {
         tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", with_dashes(remark.text));
 }
 
-Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds_now()), last_(started_) {}
 
 Progress::~Progress() {
     if (visible_) tell("\r\033[K");
@@ -153,7 +149,7 @@ Progress::~Progress() {
 void Progress::expect(double symbols) {
     expected_ = symbols;
     symbols_ = 0;
-    started_ = now();
+    started_ = seconds_now();
 }
 
 void Progress::add(std::uint64_t symbols) {
@@ -170,7 +166,7 @@ Monitor Progress::monitor() {
 }
 
 void Progress::show() {
-    const double time = now();
+    const double time = seconds_now();
     if (time - started_ < 0.5 || time - last_ < 0.1) return;
     last_ = time;
     visible_ = true;

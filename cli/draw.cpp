@@ -23,7 +23,7 @@ struct DrawCommand {
 };
 
 /// The name of the format with the file's extension. @throws UsageError
-std::string format_of(const std::string& output) {
+std::string print_format_of(const std::string& output) {
     if (const auto format = print_format(output)) return std::string(info(*format).extension);
     std::error_code error;
     if (std::filesystem::is_directory(output, error)) {
@@ -44,7 +44,7 @@ std::string format_of(const std::string& output) {
 }
 
 void run(const DrawCommand& command, bool quiet) {
-    const std::string format = format_of(command.output);
+    const std::string format = print_format_of(command.output);
     const OptionValues given = command.options.values();
     auto link = read_link_argument(command.pattern.pattern);
     if (link && has_option(given, "generations")) {

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -73,10 +72,6 @@ GalleryPiece read_piece(const std::filesystem::path& file, const std::string& na
 const GalleryKeys& gallery_keys() {
     static const GalleryKeys keys({&prints(), &scores()}, {&scores(), read_piece});
     return keys;
-}
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 /// Reads `--memory`; the default is half of the available memory.
@@ -208,12 +203,12 @@ void submit(const Options& options, std::size_t jobs) {
 class Reporter : public GalleryListener {
 public:
     explicit Reporter(bool quiet)
-        : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(now()), last_(started_) {}
+        : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds_now()), last_(started_) {}
 
     void begin(std::size_t jobs, double cost) override {
         jobs_ = jobs;
         cost_ = cost;
-        started_ = last_ = now();
+        started_ = last_ = seconds_now();
     }
     void end() override {
         if (std::exchange(visible_, false)) tell("\r\033[K");
@@ -244,7 +239,7 @@ public:
 private:
     void show() {
         if (!shown_) return;
-        const double time = now();
+        const double time = seconds_now();
         if (time - started_ < 0.5 || time - last_ < 0.1) return;
         last_ = time;
         visible_ = true;
@@ -329,13 +324,13 @@ void run(Options& options, bool quiet) {
         if (!print_forecast(gallery)) throw CLI::RuntimeError(1);
         return;
     }
-    const double started = now();
+    const double started = seconds_now();
     if (!options.names_folder && std::filesystem::is_symlink(options.output)) {
         throw UsageError(fmt::format("'{}' is a symbolic link; -o names the folder to write to", options.output));
     }
     Reporter reporter(quiet);
     const GalleryResult result = gallery.make(reporter);
-    if (!quiet) print_result(gallery, result, options, shard, now() - started);
+    if (!quiet) print_result(gallery, result, options, shard, seconds_now() - started);
     if (interrupted()) {
         throw Interrupted(fmt::format("interrupted; {} of {} jobs are finished; the same command resumes",
                                       result.finished.size(), gallery.chosen().size()));

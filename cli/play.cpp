@@ -24,7 +24,7 @@ struct PlayCommand {
 };
 
 /// The name of the format with the file's extension. @throws UsageError
-std::string format_of(const std::string& output) {
+std::string score_format_of(const std::string& output) {
     const std::string extension = std::filesystem::path(output).extension().string();
     const FormatName* format = find_format(scores().formats(), extension.substr(extension.empty() ? 0 : 1));
     if (format) return std::string(format->extension);
@@ -192,7 +192,7 @@ void play_to_port(const PlayCommand& command, const OptionValues& given, bool qu
 }
 
 void run(const PlayCommand& command, bool quiet) {
-    const std::string format = command.output.empty() ? "mid" : format_of(command.output);
+    const std::string format = command.output.empty() ? "mid" : score_format_of(command.output);
     const OptionValues given = command.options.values();
     const bool to_port = is_live(command.live, command.output);
     if (!command.pattern.seed.empty()) seed_of(command.pattern);  // throws if it is not a number

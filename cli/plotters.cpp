@@ -10,7 +10,7 @@
 namespace sikku {
 namespace {
 
-void list() {
+void print_profiles() {
     for (const BundledProfile& known : bundled_profiles()) {
         const PlotterProfile profile = bundled_profile(known.name).value();
         fmt::print("{:<10}{:<8}{}\n", known.name, language_name(profile.language), profile.title);
@@ -37,7 +37,7 @@ void add_plotters(CLI::App& app) {
         "To describe your own plotter, edit a copy of a bundled file and pass it to `sikku draw --profile`.\n\n"
         "Examples:\n  sikku plotters\n  sikku plotters marlin > mine.plotter\n"
         "  sikku draw snake-kolam --profile ./mine.plotter -o snake.gcode");
-    command->callback([name] { name->empty() ? list() : show(*name); });
+    command->callback([name] { name->empty() ? print_profiles() : show(*name); });
 }
 
 }  // namespace sikku

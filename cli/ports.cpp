@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-void list() {
+void print_ports() {
     const std::vector<live::PortInfo> ports = live::list_ports();
     std::size_t widest = 0;
     for (const live::PortInfo& port : ports) widest = std::max(widest, printable(port.name).size());
@@ -33,7 +33,7 @@ void add_ports(CLI::App& app) {
         "Each line has the address of a port of ALSA's sequencer, its name, whether music can be sent to it or comes "
         "from it, and the program or device that has it.\n\n"
         "Examples:\n  sikku ports\n  sikku play hilbert --port FLUID --repeat");
-    command->callback([] { list(); });
+    command->callback([] { print_ports(); });
 }
 
 }  // namespace sikku
