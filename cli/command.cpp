@@ -140,7 +140,8 @@ void make(Work& work, const std::string& output, bool quiet) {
         tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", with_dashes(remark.text));
 }
 
-Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds_now()), last_(started_) {}
+Progress::Progress(bool quiet)
+    : shown_(!quiet && isatty(STDERR_FILENO) == 1), started_(seconds_now()), last_(started_) {}
 
 Progress::~Progress() {
     if (visible_) tell("\r\033[K");
