@@ -23,6 +23,35 @@ void refuse_first(std::initializer_list<Conflict> conflicts) {
     }
 }
 
+void check_relief(const DrawSettings& settings, PrintFormat format) {
+    if (!is_relief(settings, format)) {
+        constexpr const char* reason = "applies only to a relief: needs 'relief', or STL";
+        return refuse_first({{!settings.ridges.empty(), "ridge", reason},
+                             {settings.base.has_value(), "base", reason},
+                             {settings.groove.has_value(), "groove", reason}});
+    }
+    if (info(format).kind != FormatKind::model) refuse_option("relief", "", "a relief is STL, OBJ or glTF");
+    constexpr const char* solid = "a relief is one solid";
+    refuse_first({{settings.tile.has_value(), "tile", "a relief is cut in the program that prints it"},
+                  {settings.lesson.has_value(), "lesson", "a lesson has several pages; a relief is one solid"},
+                  {settings.generations && !settings.frames, "generations",
+                   "a relief is one solid; 'frames' makes one of each generation"},
+                  {!settings.view.empty(), "view", solid},
+                  {!settings.light.empty(), "light", solid},
+                  {settings.press.bleed > 0, "bleed", "a relief is not trimmed"}});
+    const ReliefOptions options = relief_options(settings, format);
+    const auto check_depths = [&](const char* option, const std::vector<double>& heights) {
+        for (const double height : heights) {
+            if (height < 0 && !(options.base + height > 0.0005)) {
+                refuse_option(option, fmt::format("{:g}mm", height),
+                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
+            }
+        }
+    };
+    check_depths("relief", options.heights);
+    check_depths("ridge", options.ridges);
+}
+
 void check_model(const DrawSettings& settings) {
     constexpr const char* reason = "a model has no page and no camera; this option applies only to prints";
     refuse_first({{settings.window.has_value(), "window", reason},
@@ -225,9 +254,11 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
 }  // namespace
 
 void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
-    if (info(format).kind == FormatKind::model) return check_model(settings);
+    check_relief(settings, format);
+    const bool is_model = info(format).kind == FormatKind::model;
+    if (is_model && !is_relief(settings, format)) return check_model(settings);
     check_placement(settings);
-    if (!is_vector(format) && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
+    if (!is_vector(format) && !is_model && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
         refuse_option("dpi", fmt::format("{:g}", settings.dpi),
                       "the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
     }

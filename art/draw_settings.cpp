@@ -148,6 +148,51 @@ void set_hatch(DrawSettings& settings, const std::string& text) {
     }
 }
 
+/// Parses one or more heights, separated by commas.
+std::vector<double> heights(const char* option, const std::string& text, double dpi) {
+    constexpr std::size_t most_heights = 64;
+    constexpr double highest = 1000;
+    std::vector<double> result;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        result.push_back(length(option, text.substr(begin, end - begin), dpi));
+        if (!(std::fabs(result.back()) <= highest)) {
+            refuse_option(option, text, "expected heights of at most 1 m above or below the base");
+        }
+        begin = end + 1;
+    }
+    if (result.size() > most_heights) {
+        refuse_option(option, text, fmt::format("expected at most {} heights", most_heights));
+    }
+    return result;
+}
+
+void set_relief(DrawSettings& settings, const std::string& text) {
+    settings.relief.emplace();
+    if (!text.empty()) settings.relief = heights("relief", text, settings.dpi);
+}
+
+/// Parses the thickness, and how far the base reaches beyond the drawing.
+void set_base(DrawSettings& settings, const std::string& text) {
+    constexpr double most = 1000;
+    const std::size_t comma = text.find(',');
+    const auto part = [&](const std::string& of) {
+        const double value = length("base", of, settings.dpi);
+        if (!(value >= 0 && value <= most)) refuse_option("base", text, "expected lengths from 0 to 1 m");
+        return value;
+    };
+    settings.base = part(text.substr(0, comma));
+    settings.beyond.reset();
+    if (comma != std::string::npos) settings.beyond = part(text.substr(comma + 1));
+}
+
+void set_groove(DrawSettings& settings, const std::string& text) {
+    settings.groove = length("groove", text, settings.dpi);
+    if (!(*settings.groove >= 0 && *settings.groove <= longest)) {
+        refuse_option("groove", text, "expected a width from 0 to 10 m");
+    }
+}
+
 void set_pen_width(DrawSettings& settings, const std::string& text) {
     settings.pen_width = length("pen-width", text, settings.dpi);
     if (!(settings.pen_width >= 0.05 && settings.pen_width <= 100)) {
@@ -240,6 +285,7 @@ using Text = const std::string&;
 using enum OptionKind;
 
 constexpr const char* kolams = "Kolams and growth";
+constexpr const char* reliefs = "Reliefs";
 constexpr const char* plotters = "Plotters";
 constexpr const char* presses = "Press";
 constexpr const char* pictures = "Pictures";
@@ -421,6 +467,28 @@ const std::array own_rows = {
                .group = kolams,
                .is_alone = true},
               [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
+    Option<S>{{.name = "relief",
+               .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "
+                       "of the palette, such as 2mm,3mm; negative ones are depths (2mm)",
+               .value = "[HEIGHT[,HEIGHT]...]",
+               .group = reliefs},
+              set_relief},
+    Option<S>{{.name = "ridge",
+               .help = "heights of lines by colour (as --relief)",
+               .value = "HEIGHT[,HEIGHT]...",
+               .group = reliefs},
+              [](S& s, Text t) { s.ridges = heights("ridge", t, s.dpi); }},
+    Option<S>{{.name = "base",
+               .help = "thickness of the base, which is as large as the page, or reaches BEYOND the drawing by a "
+                       "length; 0: none (1.2mm)",
+               .value = "THICKNESS[,BEYOND]",
+               .group = reliefs},
+              set_base},
+    Option<S>{{.name = "groove",
+               .help = "width of the grooves between the polygons of a relief (0.4mm)",
+               .value = "WIDTH",
+               .group = reliefs},
+              set_groove},
     Option<S>{
         {.name = "plotter",
          .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL, G-code and DXF always do",
@@ -699,6 +767,21 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
     options.repeat = settings.repeat;
     options.composes = settings.composes;
     options.budget = settings.budget;
+    return options;
+}
+
+bool is_relief(const DrawSettings& settings, PrintFormat format) {
+    return settings.relief || format == PrintFormat::stl;
+}
+
+ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format) {
+    ReliefOptions options;
+    if (settings.relief && !settings.relief->empty()) options.heights = *settings.relief;
+    options.ridges = settings.ridges;
+    options.base = settings.base.value_or(options.base);
+    options.beyond = settings.beyond;
+    options.groove = settings.groove.value_or(options.groove);
+    options.format = format;
     return options;
 }
 

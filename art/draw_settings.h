@@ -61,6 +61,11 @@ struct DrawSettings {
     std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;          ///< sheet of a tiled print
     std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
+    std::optional<std::vector<double>> relief;  ///< heights of a relief; empty: the default
+    std::vector<double> ridges;                 ///< heights of its lines, instead of those of `relief`
+    std::optional<double> base;                 ///< thickness of its base
+    std::optional<double> beyond;               ///< how far the base reaches beyond the drawing; absent: it is the page
+    std::optional<double> groove;               ///< width between its polygons
     bool plotter = false;
     double split = 0.0;                     ///< maximum length of a stroke; 0: no limit
     std::optional<Hatch> hatch;             ///< hatching of filled shapes
@@ -99,6 +104,11 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
 
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
+
+/// Is the print a relief?
+bool is_relief(const DrawSettings& settings, PrintFormat format);
+/// The options of a relief. Call if is_relief().
+ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format);
 
 /// Combines the settings with those of the plotter's profile. Empty if the print is not for a plotter.
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);

@@ -58,6 +58,30 @@ bool has_translucent_colours(const Style& style) {
     return false;
 }
 
+void report_relief(const ReliefReport& report, Made& made) {
+    constexpr std::size_t most_named = 8;
+    constexpr double thin = 0.4;  // what the usual nozzle of a 3-D printer can draw
+    made.fact(fmt::format("{}, {:g} x {:g} x {:g} mm, {:.1f} cm³", counted(report.triangles, "triangle"), report.size.x,
+                          report.size.y, report.size.z, report.volume / 1000));
+    const auto tell = [&](const char* what, const std::vector<std::pair<Colour, double>>& heights) {
+        std::string list;
+        for (std::size_t i = 0; i < std::min(heights.size(), most_named); ++i) {
+            list += fmt::format("{}{} {:g} mm", list.empty() ? "" : ", ", hex(heights[i].first), heights[i].second);
+        }
+        if (!list.empty()) made.fact(what + list + (heights.size() > most_named ? ", …" : ""));
+    };
+    tell("heights: ", report.heights);
+    tell("heights of lines: ", report.ridges);
+    if (report.lost > 0) {
+        made.warn(fmt::format("{} narrower than the groove and left out",
+                              report.lost == 1 ? "1 polygon is" : fmt::format("{} polygons are", report.lost)));
+    }
+    if (report.narrowest > 0 && report.narrowest < thin - 1e-9) {
+        made.warn(fmt::format("lines are down to {:.2g} mm wide; many 3-D printers need {:g} mm", report.narrowest,
+                              thin));
+    }
+}
+
 /// A planned print or model.
 class PrintWork : public Work {
 public:
@@ -95,7 +119,8 @@ public:
 
 private:
     Cost forecast(const Grammar& grammar) const;
-    bool is_model() const { return info(format_).kind == FormatKind::model; }
+    bool is_relief() const { return sikku::is_relief(settings_, format_); }
+    bool is_model() const { return info(format_).kind == FormatKind::model && !is_relief(); }
     bool is_growth() const { return (format_ == PrintFormat::gif && !settings_.lesson) || settings_.frames; }
 
     std::string made_with(const Grammar& grammar) const {
@@ -108,7 +133,9 @@ private:
 
     void plan_drawing() {
         static_cast<DrawingOptions&>(drawing_) = drawing_options(settings_, document_);
-        drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_model() ? PrintFormat::svg : format_;
+        const bool is_solid = info(format_).kind == FormatKind::model;
+        drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_solid ? PrintFormat::svg : format_;
+        if (is_relief()) drawing_.relief = relief_options(settings_, format_);
         drawing_.dot_spacing = settings_.dot_spacing;
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
@@ -156,6 +183,7 @@ private:
         constexpr const char* plane =
             "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces";
         const auto refuse = [](const char* option, const char* why) { refuse_option(option, "", why); };
+        if (is_relief()) refuse("relief", plane);
         if (settings_.window) refuse("window", plane);
         if (settings_.dots || settings_.dot_spacing) refuse("dots", plane);
         if (settings_.border && *settings_.border != "none") refuse("border", plane);
@@ -343,6 +371,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
             print_.style.line_width({}, report.step), 25.4 / print_.dpi,
             print_.style.stroke.in_steps ? "a pen in millimetres (stroke: 0.3mm)" : "a wider pen (stroke: 0.5mm)"));
     }
+    if (report.relief) report_relief(*report.relief, made);
     if (report.plot) report_plot(*report.plot, settings_.speeds, settings_.pen_rules, made);
     if (report.plot && settings_.hatch && report.plot->fills == 0 && report.fields == 0) {
         made.warn("'hatch' has no effect: this drawing has no fills");
@@ -436,6 +465,14 @@ Cost PrintWork::forecast(const Grammar& given) const {
     const bool spline = print_.style.line == Line::spline;
     result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
     result.memory = cost.memory + text;
+    if (is_relief()) {
+        // A line becomes about 12 triangles, a curve 100.
+        const double triangles = cost.lines * (spline ? 100 : 12);
+        result.seconds += triangles * 1.5e-6;
+        result.memory += triangles * 150;
+        result.bytes = 100 + triangles * 50;
+        return result;
+    }
     switch (drawing_.format) {
         case PrintFormat::svg:
             result.seconds += cost.lines * (spline ? 60e-9 : 12e-9);

@@ -8,6 +8,7 @@
 #include "art/image/image_file.h"
 #include "art/plotter/dxf.h"
 #include "art/plotter/hpgl.h"
+#include "art/relief/relief.h"
 #include "art/space/model.h"
 #include "art/space/solids.h"
 #include "art/vector/vector_formats.h"
@@ -107,6 +108,16 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
     report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
 }
 
+ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawOptions& options,
+                         const std::filesystem::path& file, Destination& destination) {
+    constexpr std::size_t points_of_triangle = 2;  // some of them become none, such as those of edges
+    ReliefShapes shapes(print, points_of_triangle * most_relief_triangles);
+    drawing.read_visible(print, whole_page(print.page), shapes);
+    // Fields end at the middle of lines, which lie over them; edges of tiles give way to grooves.
+    if (!print.style.fields) shapes.drop_edges(options.monitor);
+    return write_relief(shapes, print, *options.relief, file, options.monitor, destination);
+}
+
 }  // namespace
 
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
@@ -122,6 +133,11 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
     DrawReport report = drawing->place(print);
     print.style = drawing->style();
     check_spots(print.press, print.style);
+    if (options.relief) {
+        report.relief = draw_relief(*drawing, print, options, file, destination);
+        drawing->report(report);
+        return report;
+    }
     const auto output = destination.open(file);
     if (options.plot || is_for_plotters(options.format)) {
         draw_plot(*drawing, print, options, *output, report);

@@ -10,6 +10,7 @@
 #include "art/print/repeat.h"
 #include "art/print/tiles.h"
 #include "art/raster/raster.h"
+#include "art/relief/relief_options.h"
 #include "engine/base/monitor.h"
 #include "engine/language/grammar.h"
 
@@ -77,6 +78,7 @@ struct DrawOptions : DrawingOptions, PlotSetup {
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.
     std::optional<TileOptions> tiles;
+    std::optional<ReliefOptions> relief;  ///< makes a relief in its format; `format` is that of the drawing, SVG
     /// Receives the pixels of a picture; the output file stays empty.
     std::function<void(Rendering& rendering, const PixelSize& size)> show_pixels;
     int threads = 0;       ///< for raster formats; 0: all cores
@@ -122,6 +124,7 @@ struct DrawReport {
     int sheet_rows = 0;              ///< rows of sheets
     glm::dvec2 left_out{0.0};        ///< margin of the page, in millimetres on each side, that the sheets do not show
     std::optional<PlotReport> plot;  ///< report of a plot
+    std::optional<ReliefReport> relief;  ///< report of a relief
     std::uint64_t replaced = 0;      ///< parts too small to be resolved, replaced by their appearance
     std::size_t cells = 0;           ///< number of cells of a map
     bool crosses_itself = false;     ///< the outline of a map crosses itself

@@ -25,6 +25,7 @@ constexpr auto table = std::to_array<FormatInfo>({
     {.format = dxf, .kind = plot, .label = "DXF", .extension = "dxf", .is_text = true},
     {.format = obj, .kind = model, .label = "OBJ", .extension = "obj", .is_text = true},
     {.format = glb, .kind = model, .label = "glTF", .extension = "glb"},
+    {.format = stl, .kind = model, .label = "STL", .extension = "stl"},
 });
 
 }  // namespace

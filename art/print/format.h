@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-enum class PrintFormat : std::uint8_t { svg, pdf, eps, png, tiff, jpeg, exr, gif, hpgl, gcode, dxf, obj, glb };
+enum class PrintFormat : std::uint8_t { svg, pdf, eps, png, tiff, jpeg, exr, gif, hpgl, gcode, dxf, obj, glb, stl };
 
 /// Contents of a format, which determine how it is drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };

@@ -1,5 +1,7 @@
 #include "art/space/triangles.h"
 
+#include "engine/geometry/simple_polygon.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -19,19 +21,6 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
 /// On its edges, too.
 bool contains(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point) {
     return cross(b - a, point - a) >= 0 && cross(c - b, point - b) >= 0 && cross(a - c, point - c) >= 0;
-}
-
-bool crosses_itself(const std::vector<glm::dvec2>& corners) {
-    const std::size_t count = corners.size();
-    const auto side = [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) { return cross(b - a, point - a); };
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
-        for (std::size_t j = i + 2; j < count; ++j) {
-            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
-            if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
-        }
-    }
-    return false;
 }
 
 }  // namespace

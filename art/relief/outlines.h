@@ -1,0 +1,45 @@
+// art/relief/outlines.h: the outlines of polygons, strokes and discs in whole micrometres.
+#pragma once
+
+#include "art/relief/regions.h"
+#include "engine/base/monitor.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Collects outlines as edges of layers. Each place that a shape covers is covered a positive number of times, so
+/// that shapes of one layer unite. Lengths are millimetres, y grows upwards; arcs are chords.
+class Outlines {
+public:
+    /// @param tolerance  by which chords deviate from arcs at most
+    Outlines(double tolerance, const Monitor& monitor) : tolerance_(tolerance), monitor_(monitor) {}
+
+    /// A polygon that may cross itself (non-zero winding rule).
+    void add_polygon(std::span<const glm::dvec2> corners, std::uint32_t layer);
+    /// The places in a polygon that are at least `distance` from its outline. @return false if there are none
+    bool add_inside(std::span<const glm::dvec2> corners, double distance, std::uint32_t layer);
+    /// A line with round joins and caps. @param points  at least one; of a closed line, the first again at the end
+    void add_stroke(std::span<const glm::dvec2> points, bool is_closed, double radius, std::uint32_t layer);
+    void add_disc(glm::dvec2 centre, double radius, std::uint32_t layer);
+
+    const std::vector<LayerEdge>& edges() const { return edges_; }
+
+private:
+    void add_ring(std::span<const glm::dvec2> corners, std::uint32_t layer);
+    void add_edges(const std::vector<LayerEdge>& edges, std::uint32_t layer);
+    void add_wedge(glm::dvec2 centre, glm::dvec2 first, glm::dvec2 last, double angle, std::uint32_t layer);
+
+    double tolerance_;
+    const Monitor& monitor_;
+    std::vector<LayerEdge> edges_;
+};
+
+/// Number of chords for an arc. @param angle  in radians, positive
+int chords_of(double angle, double radius, double tolerance);
+
+}  // namespace sikku

@@ -1,0 +1,48 @@
+// art/space/mesh_files.h: triangles of one material each, and their files: Wavefront OBJ and binary glTF 2.0.
+#pragma once
+
+#include "art/print/print.h"
+#include "art/style/colour.h"
+#include "engine/base/monitor.h"
+#include "engine/base/output.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// All triangles of one material.
+struct Mesh {
+    Colour colour;
+    std::string_view kind{};  ///< of the material, for its name
+    bool two_sided = false;
+    std::vector<glm::vec3> positions{};    ///< none: those of the last mesh that has some
+    std::vector<glm::vec3> normals{};      ///< of length 1, one for each position; or none: triangles are flat
+    std::vector<std::uint32_t> corners{};  ///< three for each triangle, anticlockwise from outside
+    std::vector<Colour> colours{};         ///< one for each position, or none: all have `colour`
+
+    /// @throws std::runtime_error if the position is not finite or the last of 2^32
+    std::uint32_t add(const glm::dvec3& position, const glm::dvec3& normal);
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { corners.insert(corners.end(), {a, b, c}); }
+};
+
+/// Where a mesh lies and how large it is.
+struct MeshPlacement {
+    glm::dvec3 origin{0.0};
+    bool is_solid = false;  ///< in millimetres, z up, while glTF has metres, y up
+};
+
+/// Beside NAME.obj its materials are written as NAME.mtl, which is in place first.
+/// @throws std::runtime_error if the file cannot be written; Stopped
+void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
+               const std::filesystem::path& file, const Monitor& monitor, Destination& destination);
+/// @throws std::runtime_error if the file cannot be written, or would be over 4 GB; Stopped
+void write_glb(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
+               const std::filesystem::path& file, const Monitor& monitor, Destination& destination);
+
+}  // namespace sikku

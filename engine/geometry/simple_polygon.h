@@ -1,0 +1,36 @@
+// engine/geometry/simple_polygon.h: areas of polygons, and whether they cross themselves.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace sikku {
+
+/// Positive if `point` lies on the left of the way from `a` to `b`.
+inline double side_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) {
+    return (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
+}
+
+/// Positive for anticlockwise corners.
+inline double signed_area(std::span<const glm::dvec2> corners) {
+    double area = 0;
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) area += side_of(corners[0], corners[i], corners[i + 1]);
+    return area / 2;
+}
+
+/// Do two sides of a polygon cross at inner points? Cost: quadratic.
+inline bool crosses_itself(std::span<const glm::dvec2> corners) {
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
+        for (std::size_t j = i + 2; j < count; ++j) {
+            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
+            if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace sikku
