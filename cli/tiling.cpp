@@ -7,6 +7,7 @@
 #include "engine/base/input_file.h"
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/cut_list.h"
+#include "engine/tiling/tile_origins.h"
 #include "engine/tiling/tiling_text.h"
 
 #include <fmt/format.h>
@@ -21,8 +22,9 @@ bool has_polygons(const std::string& name) {
 }
 
 void write_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
-                const TileGrowth& growth, const Monitor& monitor) {
-    write_tiling_json(title, n, result, growth, [&monitor](std::string_view text) {
+                const TileGrowth& growth, const TileOrigins* origins, const Monitor& monitor) {
+    const auto path = [origins](std::uint32_t number) { return origins ? origins->path_text(number) : ""; };
+    write_tiling_json(title, n, result, growth, path, [&monitor](std::string_view text) {
         monitor.check();
         std::fwrite(text.data(), 1, text.size(), stdout);
     });
@@ -58,7 +60,7 @@ void examine_file(const std::string& file, double tolerance, bool as_json, bool 
     const std::string title = result.first.empty() ? std::filesystem::path(file).filename().string() : result.first;
     TileGrowth growth;
     growth.unknown = growth.no_limit = growth.no_length = "a file of polygons has no productions";
-    if (as_json) return write_json(title, std::nullopt, result.second, growth, how.monitor);
+    if (as_json) return write_json(title, std::nullopt, result.second, growth, nullptr, how.monitor);
     fmt::print("{}", tiling_text(title, std::nullopt, result.second.examination, growth));
 }
 
@@ -167,11 +169,13 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "tolerance, lattice (k, rank, basis: where the coordinates' units point), polygons, tiles, violations, "
         "violation_list (fault: open, empty, crossing, duplicate or overlap; tile, other, at, origins: lines and "
         "columns "
-        "of the pattern), regions, gaps, area, "
-        "euler (V - E + F = regions - gaps), areas_agree, shapes, edges (pieces between corners), inner_edges, "
+        "of the pattern, with paths), regions, gaps, area, "
+        "euler (V - E + F = regions - gaps), areas_agree, shapes (area_4i: 4 i times the area in the lattice's "
+        "coordinates), edges (pieces between corners), inner_edges, "
         "border_edges, edges_cut, vertices, inner_vertices, figures, neighbours (pairs), neighbour_counts, "
         "least_colours, most_colours, symmetry, rotations, mirrors, centre, growth, border (loops of points), list "
-        "(tile, shape, reflected, orientation, colour, corners, exact, neighbours, neighbour_colour).\n\n"
+        "(tile, shape, reflected, orientation, colour, corners, exact, neighbours, neighbour_colour, path: the "
+        "symbols from the axiom to the tile, each with its place in the word that holds it).\n\n"
         "Examples:\n"
         "  sikku tiling penrose-rhombs\n"
         "  sikku tiling hat -n 4\n"
@@ -220,7 +224,7 @@ void add_tiling(CLI::App& app, bool& quiet) {
             fmt::print("{}", tiling_text(title, n, result.examination, growth));
             return;
         }
-        write_json(title, n, result, growth, how.monitor);
+        write_json(title, n, result, growth, TileOrigins::make(loaded, how.monitor).get(), how.monitor);
     });
 }
 

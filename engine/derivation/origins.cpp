@@ -41,9 +41,11 @@ std::vector<const ProductionText*> texts_of(const Pattern& pattern, const TableT
     return texts;
 }
 
-class Tracer {
+}  // namespace
+
+class OriginTracer::Implementation {
 public:
-    explicit Tracer(const Document& document)
+    explicit Implementation(const Document& document)
         : pattern_(document.pattern()),
           grammar_(document.grammar()),
           levels_(grammar_, true),
@@ -85,8 +87,10 @@ public:
         }
     }
 
-    Origin trace(std::uint64_t position, Pulse& pulse) const {
-        Origin found;
+    /// Descends to the symbol of the word at `position`, and reports each symbol on the way: its origin, and its place
+    /// in the word that holds it. Returns whether there is one.
+    template <class Report>
+    bool descend(std::uint64_t position, Pulse& pulse, const Report& report) const {
         std::uint64_t before = position - 1;  // symbols of the part that precede it
         std::int64_t level = levels_.count();
         const Word* word = &grammar_.axiom();
@@ -99,12 +103,12 @@ public:
                 ++item;
                 pulse();
             }
-            if (item == word->size() || item >= spans->size()) return {};
-            found = {(*spans)[item], production};
+            if (item == word->size() || item >= spans->size()) return false;
             const Symbol symbol = (*word)[item];
+            report(Origin{(*spans)[item], production}, PathStep{symbol, item + 1});
             const Word* successor = nullptr;
             while (level > 0 && !(successor = levels_.table(level).successor(symbol))) --level;
-            if (!successor) return found;
+            if (!successor) return true;
             const Made& made = made_.at(tables_index(levels_.table(level)))[symbol];
             word = successor;
             spans = &made.spans;
@@ -151,17 +155,42 @@ private:
     std::vector<std::uint64_t> lengths_;  // of the expansion of each symbol at each level
 };
 
-}  // namespace
+OriginTracer::OriginTracer(const Document& document)
+    : implementation_(std::make_unique<const Implementation>(document)) {}
+
+OriginTracer::~OriginTracer() = default;
+
+Origin OriginTracer::origin(std::uint64_t position, const Monitor& monitor) const {
+    Origin found;
+    Pulse pulse(monitor);
+    const bool is_found = position > 0 && implementation_->descend(position, pulse,
+                                                                   [&](const Origin& origin, const PathStep&) {
+                                                                       found = origin;
+                                                                   });
+    return is_found ? found : Origin();
+}
+
+std::vector<PathStep> OriginTracer::path(std::uint64_t position) const {
+    std::vector<PathStep> steps;
+    const Monitor monitor;
+    Pulse pulse(monitor);
+    const bool is_found = position > 0 && implementation_->descend(position, pulse,
+                                                                   [&](const Origin&, const PathStep& step) {
+                                                                       steps.push_back(step);
+                                                                   });
+    if (!is_found) return {};
+    if (!steps.empty()) steps.pop_back();  // the symbol itself
+    return steps;
+}
 
 std::vector<Origin> origins(const Document& document, std::span<const std::uint64_t> positions,
                             const Monitor& monitor) {
-    const Tracer tracer(document);
-    Pulse pulse(monitor);
+    const OriginTracer tracer(document);
     std::vector<Origin> all;
     all.reserve(positions.size());
     for (const std::uint64_t position : positions) {
         monitor.check();
-        all.push_back(position == 0 ? Origin() : tracer.trace(position, pulse));
+        all.push_back(tracer.origin(position, monitor));
     }
     return all;
 }

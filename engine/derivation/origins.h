@@ -5,6 +5,7 @@
 #include "engine/language/document.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,12 +17,35 @@ struct Origin {
     Span production;  ///< the whole production; empty for the axiom
 };
 
-/// Finds the places in the text that made symbols of the word, `interpret:` applied: in the successor of the last
-/// production that applied, or in the axiom.
-/// @param positions  in the word, counted from 1; the origin of a position beyond the word is empty
-/// Cost: O(steps x length of the successors) for each position, and O(symbols x steps) once.
-/// @throws std::runtime_error for productions with contexts, parameters or random choices, and for more than 10,000
-/// steps; Stopped
+/// A symbol of the derivation that leads to a symbol of the word.
+struct PathStep {
+    Symbol symbol = 0;
+    std::uint64_t place = 0;  ///< in the axiom, or in the successor of the production before, from 1
+};
+
+/// Traces symbols of the word, `interpret:` applied, back to the axiom.
+class OriginTracer {
+public:
+    /// `document` must outlive it. Cost: O(symbols x steps).
+    /// @throws std::runtime_error for productions with contexts, parameters or random choices, and for more than
+    /// 10,000 steps
+    explicit OriginTracer(const Document& document);
+    ~OriginTracer();
+
+    /// The place in the text that made a symbol of the word: in the successor of the last production that applied,
+    /// or in the axiom. @param position  in the word, counted from 1; the origin of one beyond the word is empty
+    /// Cost: O(steps x length of the successors)
+    Origin origin(std::uint64_t position, const Monitor& monitor = {}) const;
+    /// The symbols that were rewritten, from the axiom to the word, and last the one that `interpret:` rewrote, if
+    /// it did. Symbols that stay for several steps are told once. Empty beyond the word.
+    std::vector<PathStep> path(std::uint64_t position) const;
+
+private:
+    class Implementation;
+    std::unique_ptr<const Implementation> implementation_;
+};
+
+/// The origins of symbols at several positions. @throws as above; Stopped
 std::vector<Origin> origins(const Document& document, std::span<const std::uint64_t> positions,
                             const Monitor& monitor = {});
 

@@ -2,7 +2,6 @@
 
 #include "engine/base/threads.h"
 #include "engine/derivation/forecast.h"
-#include "engine/derivation/origins.h"
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/vertex_figures.h"
 
@@ -34,6 +33,10 @@ std::vector<TileShape> shapes_of(const TilePlane& plane, const TileSet& tiles) {
                 shape.sides.push_back(std::sqrt(scalar_product(side, side)));
             }
             shape.area = each.area;
+            if (plane.is_exact()) {
+                const auto rank = static_cast<std::ptrdiff_t>(plane.numbers().rank());
+                shape.area_4i.assign(each.area_4i.begin(), each.area_4i.begin() + rank);
+            }
             if (plane.is_rough()) shape.tolerance = plane.tolerance();
         }
         shape.tiles += counts[i];
@@ -226,72 +229,6 @@ TilingResult examine_polygons(const PolygonList& polygons, double tolerance, con
     average_angles(patch.plane, patch.tiles);
     examine(both, options);
     return both;
-}
-
-namespace {
-
-/// Finds the positions in the word of the `}` of some polygons.
-class PositionReader : public PathSink, public PlaceSink {
-public:
-    explicit PositionReader(std::map<std::uint32_t, std::uint64_t>& wanted) : wanted_(wanted) {}
-    void places(std::span<const std::int64_t>) override {}
-    void vertices(std::span<const std::int64_t>, std::uint64_t position, bool) override { position_ = position; }
-    void polygon(std::span<const glm::dvec2>, const Pen&) override {
-        if (position_ == 0) return;
-        const auto found = wanted_.find(++number_);
-        if (found != wanted_.end()) found->second = position_;
-        position_ = 0;
-    }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
-
-private:
-    std::map<std::uint32_t, std::uint64_t>& wanted_;
-    std::uint32_t number_ = 0;
-    std::uint64_t position_ = 0;  // 0: the next polygon is none between braces
-};
-
-}  // namespace
-
-void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor) {
-    const Grammar& grammar = document.grammar();
-    if (examination.violations.list.empty() || !grammar.is_plain() || grammar.whole_word_steps() > 0 ||
-        grammar.steps() > 10'000) {
-        return;
-    }
-    std::map<std::uint32_t, std::uint64_t> wanted;
-    for (const TileViolation& violation : examination.violations.list) {
-        wanted[violation.tile] = 0;
-        if (violation.other > 0) wanted[violation.other] = 0;
-    }
-    PositionReader reader(wanted);
-    const auto turtle = Turtle::tracing(grammar, reader, reader, false);
-    DerivationOptions options;
-    options.interpreted = true;
-    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
-    derive(grammar, *turtle, options);
-    std::vector<std::uint64_t> positions;
-    positions.reserve(wanted.size());
-    for (const auto& [tile, position] : wanted) positions.push_back(position);
-    const std::vector<Origin> found = origins(document, positions, monitor);
-    std::map<std::uint32_t, std::string> places;
-    std::size_t next = 0;
-    for (const auto& [tile, position] : wanted) {
-        const Span& symbol = found[next++].symbol;
-        if (!symbol.source) continue;
-        const Place place = symbol.source->place(symbol.at);
-        places[tile] = std::to_string(place.line) + ":" + std::to_string(place.column);
-    }
-    for (TileViolation& violation : examination.violations.list) {
-        violation.origins = places[violation.tile];
-        if (violation.other > 0 && !places[violation.other].empty()) {
-            violation.origins = places[violation.other] + " and " + violation.origins;
-        }
-    }
 }
 
 }  // namespace sikku

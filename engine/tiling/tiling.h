@@ -1,7 +1,7 @@
 // engine/tiling/tiling.h: examines whether the polygons of a pattern tile a region, and how.
 #pragma once
 
-#include "engine/language/document.h"
+#include "engine/language/grammar.h"
 #include "engine/tiling/colour_search.h"
 #include "engine/tiling/polygon_list.h"
 #include "engine/tiling/tile_border.h"
@@ -24,6 +24,8 @@ struct TileShape {
     std::vector<double> angles;  ///< degrees, anticlockwise, of the first tile of the shape
     std::vector<double> sides;   ///< steps; the first one follows the first angle
     double area = 0;             ///< steps squared
+    /// On a lattice, coordinates of 4 i times the area in units squared: a number of the field; else empty.
+    std::vector<std::int64_t> area_4i;
     double tolerance = 0;        ///< steps by which sides may be wrong; 0: they were computed
 };
 
@@ -105,9 +107,5 @@ double usual_tolerance(const PolygonList& polygons);
 /// @throws BudgetError, Stopped; std::runtime_error if the tolerance is not between 1e-12 and a thousandth of the
 /// size of all polygons
 TilingResult examine_polygons(const PolygonList& polygons, double tolerance, const TilingOptions& options);
-
-/// Names the places in the pattern that drew the tiles of the first violations, by line and column, as far as words
-/// without contexts, parameters and random choices allow it. Cost: the word is walked again. @throws Stopped
-void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor);
 
 }  // namespace sikku

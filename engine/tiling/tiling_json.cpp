@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 namespace sikku {
 namespace {
@@ -55,12 +56,16 @@ std::string fault_name(TileFault fault) {
     return "overlap";
 }
 
+std::string whole_json(std::span<const std::int64_t> numbers) {
+    return array(numbers, [](std::int64_t each) { return fmt::format("{}", each); });
+}
+
 std::string shape_json(const TileShape& shape) {
     return fmt::format(
         "{{\"name\": \"{}\", \"tiles\": {}, \"reflected\": {}, \"orientations\": {}, \"angles\": {}, "
-        "\"sides\": {}, \"area\": {}}}",
+        "\"sides\": {}, \"area\": {}, \"area_4i\": {}}}",
         shape_name(shape), shape.tiles, shape.reflected, shape.orientations, json(shape.angles), json(shape.sides),
-        number(shape.area));
+        number(shape.area), shape.area_4i.empty() ? "null" : whole_json(shape.area_4i));
 }
 
 std::string growth_json(const TileGrowth& growth) {
@@ -134,7 +139,7 @@ std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
     return text + "\"growth\": " + growth_json(growth);
 }
 
-std::string tile_json(const TilingPatch& patch, std::uint32_t tile) {
+std::string tile_json(const TilingPatch& patch, std::uint32_t tile, const std::string& path) {
     const TileSet& tiles = patch.tiles;
     const TileClass& in_class = tiles.class_of(tile);
     std::string corners, exact, neighbours;
@@ -142,20 +147,18 @@ std::string tile_json(const TilingPatch& patch, std::uint32_t tile) {
         corners += (corners.empty() ? "" : ", ") + json(patch.plane.at(point));
         if (!patch.plane.is_exact()) continue;
         const Cyclotomic::Number at = patch.plane.coordinates(point);
-        exact += exact.empty() ? "[" : ", [";
-        for (std::size_t i = 0; i < patch.plane.numbers().rank(); ++i)
-            exact += fmt::format("{}{}", i > 0 ? ", " : "", at[i]);
-        exact += "]";
+        exact += (exact.empty() ? "" : ", ") + whole_json(std::span(at).first(patch.plane.numbers().rank()));
     }
     for (const std::uint32_t other : patch.neighbours.of(tile)) {
         neighbours += fmt::format("{}{}", neighbours.empty() ? "" : ", ", tiles.number[other]);
     }
     return fmt::format(
         "{{\"tile\": {}, \"shape\": {}, \"reflected\": {}, \"orientation\": {}, \"colour\": {}, \"corners\": [{}], "
-        "\"exact\": {}, \"neighbours\": [{}], \"neighbour_colour\": {}}}",
+        "\"exact\": {}, \"neighbours\": [{}], \"neighbour_colour\": {}, \"path\": {}}}",
         tiles.number[tile], in_class.shape, json(in_class.is_reflected), tiles.in_class[tile], tiles.colour[tile],
         corners, patch.plane.is_exact() ? "[" + exact + "]" : "null", neighbours,
-        patch.colours.empty() ? "null" : fmt::format("{}", patch.colours[tile]));
+        patch.colours.empty() ? "null" : fmt::format("{}", patch.colours[tile]),
+        path.empty() ? "null" : json_string(path));
 }
 
 std::string loop_json(const TilingPatch& patch, const TileLoop& loop) {
@@ -177,7 +180,8 @@ std::string head(const std::string& title, std::optional<std::int64_t> n) {
 }  // namespace
 
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
-                       const TileGrowth& growth, const std::function<void(std::string_view)>& write) {
+                       const TileGrowth& growth, const std::function<std::string(std::uint32_t)>& path,
+                       const std::function<void(std::string_view)>& write) {
     write(head(title, n) + facts_json(result, growth));
     const TilingPatch& patch = result.patch;
     write(", \"border\": [");
@@ -186,7 +190,7 @@ void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, 
     }
     write("], \"list\": [");
     for (std::uint32_t tile = 0; tile < patch.tiles.tiles(); ++tile) {
-        write((tile > 0 ? ", " : "") + tile_json(patch, tile));
+        write((tile > 0 ? ", " : "") + tile_json(patch, tile, path ? path(patch.tiles.number[tile]) : ""));
     }
     write("]}\n");
 }

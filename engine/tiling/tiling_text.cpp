@@ -134,8 +134,9 @@ std::string figure_text(const VertexFigure& figure, bool with_shapes) {
     std::string text;
     for (const double angle : figure.angles) text += (text.empty() ? "" : whole ? "." : "-") + degrees(angle);
     if (with_shapes) {
-        text += " of shapes";
+        text += " (shapes";
         for (const std::uint32_t shape : figure.shapes) text += fmt::format(" {}", shape + 1);
+        text += ")";
     }
     return text;
 }

@@ -4,6 +4,7 @@
 #include "engine/tiling/tile_growth.h"
 #include "engine/tiling/tiling.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,9 +17,10 @@ namespace sikku {
 std::string tiling_text(const std::string& title, std::optional<std::int64_t> n, const TilingExamination& examination,
                         const TileGrowth& growth);
 /// Writes one line of JSON in parts: the facts, then all tiles with their corners in steps and, on a lattice, in
-/// whole coordinates.
+/// whole coordinates. @param path  for the number of a tile, its way from the axiom; may be empty
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
-                       const TileGrowth& growth, const std::function<void(std::string_view)>& write);
+                       const TileGrowth& growth, const std::function<std::string(std::uint32_t)>& path,
+                       const std::function<void(std::string_view)>& write);
 
 /// Numbers of tiles that were not derived, and their growth.
 std::string tile_counts_text(const std::string& title, std::int64_t n, const TileGrowth& growth);

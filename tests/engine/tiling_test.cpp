@@ -68,6 +68,7 @@ struct Fact {
 const std::vector<Fact> facts = {
     {"penrose-rhombs", 5, {"170 rhomb 5", "275 rhomb 5"}, 935, 90, 7, true, "C5", 3},
     {"penrose-kite-dart", 4, {"105 dart 10", "170 kite 10"}, 585, 70, 7, true, "C5", 3},
+    {"ammann-a3", 5, {"105 hexagon 4", "25 decagon 4", "39 octagon 4"}, 728, 65, 19, true, "C1", 4},
     {"ammann-beenker", 2, {"136 rhomb 4", "96 square 2"}, 520, 112, 5, true, "C8", 3},
     {"ammann-beenker", 3, {"560 square 2", "792 rhomb 4"}, 2840, 272, 6, true, "C8", 3},
     {"chair", 4, {"256 hexagon 4"}, 928, 66, 3, true, "D1", 3},
@@ -88,6 +89,9 @@ const std::vector<Fact> facts = {
     {"truncated-hexagonal", 12, {"36 dodecagon 1", "72 triangle 2"}, 379, 110, 1, true, "C1", 4},
     {"snub-square", 16, {"128 square 2", "256 triangle 4"}, 679, 78, 1, true, "C1", 3},
     {"elongated-triangular", 18, {"162 triangle 2", "81 square 1"}, 436, 62, 1, true, "C1", 3},
+    {"socolar", 2, {"434 hexagon 2", "699 square 3", "726 rhomb 6"}, 4302, 300, 5, true, "D1", 3},
+    {"shield", 4, {"1700 triangle 4", "338 hexagon 4", "543 square 3"}, 4746, 192, 4, true, "D1", 3},
+    {"voderberg-spiral", 4, {"750 enneagon 30"}, 3455, 160, 5, true, "C2", 2},
     {"tumbling-blocks", 16, {"192 rhomb 3"}, 415, 62, 2, true, "C1", 3},
     {"herringbone", 16, {"128 rectangle 2"}, 414, 77, 1, true, "C1", 3},
     {"pythagorean", 14, {"49 square 1", "49 square 1"}, 320, 67, 1, true, "C1", 3},
@@ -481,6 +485,9 @@ TEST(TileGrowth, FindsThePublishedFactors) {
         {"p-pentomino", "2"},
         {"twin-dragon", "√2"},
         {"gosper-islands", "√7"},
+        {"ammann-a3", "τ"},
+        {"socolar", "2 + √3"},
+        {"shield", "√(2 + √3)"},
         {"chair-of-nine", "3"},
     };
     for (const auto& [name, form] : lengths) {
@@ -514,6 +521,13 @@ TEST(TileGrowth, FindsThePublishedFrequencies) {
     const TileGrowth octagonal = growth_of("ammann-beenker", 5);
     ASSERT_EQ(octagonal.frequencies.size(), 2U);
     EXPECT_NEAR(octagonal.frequencies[0] / octagonal.frequencies[1], std::sqrt(2.0), 1e-9);  // rhombs : squares
+    // The tiles of Socolar are dual to the vertices and the crossings of two triangular grids at 30 degrees.
+    const TileGrowth twelvefold = growth_of("socolar", 5);
+    ASSERT_EQ(twelvefold.frequencies.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double share = twelvefold.shapes[i].angles.size() == 6 ? 1 : std::sqrt(3.0);
+        EXPECT_NEAR(twelvefold.frequencies[i] * (1 + 2 * std::sqrt(3.0)), share, 1e-9);
+    }
     const TileGrowth squares = growth_of("fibonacci-squares", 5);
     ASSERT_EQ(squares.frequencies.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -233,6 +233,7 @@ struct Tiling {
 
 // clang-format off
 const std::vector<Tiling> tilings = {
+    {"ammann-a3", "", 5, {105, 39, 25}, 728, 65},
     {"ammann-beenker", "", 2, {96, 136}, 520, 112},
     {"basket-weave", "", 10, {100, 100}, 520, 60},
     {"cairo", "", 12, {72, 72}, 396, 72},
@@ -274,8 +275,11 @@ const std::vector<Tiling> tilings = {
     {"rhombitrihexagonal", "", 14, {49, 147, 98}, 632, 88},
     {"robinson-triangles", "", 4, {170, 170, 105, 105}, 850, 50},
     {"running-bond", "", 14, {49, 49}, 321, 68},
+    {"shield", "", 3, {500, 159, 74}, 1338, 96},
     {"snub-square", "", 16, {64, 64, 128, 128}, 679, 78},
     {"snub-trihexagonal", "", 12, {36, 216, 72}, 595, 110},
+    {"socolar", "", 1, {63, 54, 26}, 342, 60},
+    {"socolar", "", 2, {699, 726, 434}, 4302, 300},
     {"spectre", "", 3, {496, 63}, 4121, 669},
     {"sphinx", "", 3, {28, 36}, 190, 23},
     {"spiral-of-triangles", "", 8, {294, 294}, 925, 86},
@@ -292,6 +296,7 @@ const std::vector<Tiling> tilings = {
     {"truncated-trihexagonal", "", 8, {16, 48, 32}, 333, 90},
     {"tumbling-blocks", "", 16, {64, 64, 64}, 415, 62},
     {"twin-dragon", "", 9, {256, 256}, 1233, 418},
+    {"voderberg-spiral", "", 4, {225, 150, 225, 150}, 3455, 160},
     {"windmill", "", 12, {72, 72, 36}, 516, 48},
 };
 // clang-format on
@@ -308,7 +313,8 @@ TEST_P(Tilings, CoverARegionOnce) {
 }
 
 std::string name_of(const ::testing::TestParamInfo<Tiling>& info) {
-    std::string name = std::string(info.param.name) + (*info.param.variant ? "-" : "") + info.param.variant;
+    std::string name = std::string(info.param.name) + (*info.param.variant ? "-" : "") + info.param.variant + "-" +
+                       std::to_string(info.param.n);
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 }
@@ -329,6 +335,7 @@ TEST(TilingCounts, FollowTheirRecurrences) {
     const std::map<std::string, std::vector<Counts>> published = {
         {"penrose-rhombs", {{5}, {5, 5}, {10, 15}, {25, 40}, {65, 105}, {170, 275}, {445, 720}, {1165, 1885}}},
         {"penrose-kite-dart", {{5}, {10, 5}, {25, 15}, {65, 40}, {170, 105}, {445, 275}, {1165, 720}}},
+        {"ammann-a3", {{0, 1}, {3, 0, 1}, {5, 3, 1}, {16, 5, 4}, {39, 16, 9}, {105, 39, 25}}},
         {"ammann-beenker", {{0, 8}, {16, 24}, {96, 136}, {560, 792}, {3264, 4616}}},
         {"chair", {{1}, {2, 1, 0, 1}, {6, 4, 2, 4}, {20, 16, 12, 16}, {72, 64, 56, 64}, {272, 256, 240, 256}}},
         {"sphinx", {{1}, {1, 3}, {10, 6}, {28, 36}, {136, 120}}},

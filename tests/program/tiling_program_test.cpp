@@ -140,6 +140,27 @@ TEST(TilingCommand, WritesViolationsAsJson) {
         << text.output;
 }
 
+/// Tiles that overlap are told with their ways from the axiom; so are all tiles in JSON.
+TEST(TilingCommand, TellsWhereTilesAreDerived) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("over.lsys",
+                                          "derivation length: 2\nangle factor: 4\nturn: left\nheading: 0\naxiom: A\n"
+                                          "A --> A[fA]B\nB --> [ffB]A\nf --> ff\n"
+                                          "interpret:\nA --> [{F+F+F+F}]\nB --> [{F+F+F+F}]\n");
+    const Outcome text = run({"tiling", file});
+    EXPECT_NE(text.output.find("violation  tile 6 duplicates tile 1 at 0 0, drawn by 10:16 (A 1, A 1, A 1) and 10:16 "
+                               "(A 1, B 6, A 5)\n"),
+              std::string::npos)
+        << text.output;
+    const Json json = tiling({file});
+    EXPECT_EQ(json["list"][0]["path"], "A 1, A 1, A 1");
+    EXPECT_EQ(json["list"][1]["path"], "A 1, A 1, A 4");
+    EXPECT_EQ(json["list"][0]["exact"][0], Json::parse("[0, 0]"));
+    // 4 i times the area of a unit square.
+    EXPECT_EQ(json["shapes"][0]["area_4i"], Json::parse("[0, 4]"));
+    EXPECT_TRUE(tiling({"pinwheel", "-n", "1"})["list"][0]["path"].is_null());
+}
+
 TEST(TilingCommand, CountsWithoutDeriving) {
     const Outcome outcome = run({"tiling", "chair", "-n", "60", "--counts"});
     EXPECT_EQ(outcome.status, 0);

@@ -1,0 +1,43 @@
+// engine/tiling/tile_origins.h: where in the derivation the polygons of a word come from.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/derivation/origins.h"
+#include "engine/language/document.h"
+#include "engine/tiling/tiling.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// Traces polygons between `{` and `}` back to the axiom.
+class TileOrigins {
+public:
+    /// Null where symbols cannot be traced: see OriginTracer. `document` must outlive it.
+    /// Cost: the word is walked once; 8 bytes for each polygon. @throws Stopped
+    static std::unique_ptr<TileOrigins> make(const Document& document, const Monitor& monitor);
+
+    /// The symbols that were rewritten on the way from the axiom to a polygon; empty if it is not known.
+    /// @param number  of the polygon in drawing order, from 1
+    std::vector<PathStep> path(std::uint32_t number) const;
+    /// `A 1, B 3`: the symbols of path(), each with its place in the word that holds it. Long ways are cut.
+    std::string path_text(std::uint32_t number) const;
+    /// Line and column in the pattern of the `}` that drew a polygon, and path_text() in parentheses.
+    std::string text(std::uint32_t number) const;
+
+private:
+    explicit TileOrigins(const Document& document) : document_(document), tracer_(document) {}
+
+    const Document& document_;
+    OriginTracer tracer_;
+    std::vector<std::uint64_t> positions_;  ///< of the `}` of each polygon in the word; 0: it has none
+};
+
+/// Tells of the first violations where the tiles come from, if it is known. Cost: as of TileOrigins::make().
+/// @throws Stopped
+void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor);
+
+}  // namespace sikku
