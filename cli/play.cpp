@@ -44,7 +44,8 @@ void add_seed(const PatternOptions& options, OptionValues& values) {
     values.push_back({"seed", std::to_string(seed_of(options))});
 }
 
-/// The values after `@` of a part, such as `start=4,rhythm=E(3,8)`. Commas within parentheses separate nothing.
+/// The values after `@` of a part, such as `start=4,rhythm=E(3,8)`. Commas within parentheses, and those that no
+/// `KEY=` follows, as in `canon=2 -12,4 -24`, separate nothing.
 std::vector<Setting> part_settings(const std::string& name, std::string_view text) {
     std::vector<Setting> settings;
     while (!text.empty()) {
@@ -54,11 +55,15 @@ std::vector<Setting> part_settings(const std::string& name, std::string_view tex
         }
         const std::string_view one = text.substr(0, end);
         const std::size_t equals = one.find('=');
-        if (equals == std::string_view::npos || equals == 0) {
+        if (equals == 0 || (equals == std::string_view::npos && settings.empty())) {
             throw UsageError(
                 fmt::format("{}: expected KEY=VALUE after '@', such as hilbert@transposition=-12,start=4", name));
         }
-        settings.push_back(part_setting(one.substr(0, equals), std::string(one.substr(equals + 1))));
+        if (equals == std::string_view::npos) {
+            settings.back().value += fmt::format(",{}", one);
+        } else {
+            settings.push_back(part_setting(one.substr(0, equals), std::string(one.substr(equals + 1))));
+        }
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return settings;

@@ -74,9 +74,6 @@ std::string text_of(const std::string& key, const FileValue& value) {
         return text;
     }
     if (value.type != FileValue::Type::text) fail(value.place, fmt::format("{}: expected a text or a number", key));
-    const bool is_flag = key == "retrograde" || key == "inversion";
-    if (is_flag && value.text == "true") return "yes";
-    if (is_flag && value.text == "false") return "no";
     return value.text;
 }
 

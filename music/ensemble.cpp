@@ -11,6 +11,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -102,6 +103,49 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
     return all;
 }
 
+/// The ticks at which loops of a section end together: `rest`, and every `period` after it.
+struct CommonEnds {
+    std::int64_t rest = 0;
+    std::int64_t period = 1;
+    std::int64_t earliest = 0;  ///< all have been played once
+
+    /// Adds a loop. @throws ScoreError if they would never end together, or too late
+    void meet(std::int64_t start, std::int64_t length, std::int64_t bar) {
+        earliest = std::max(earliest, start + length);
+        const std::int64_t common = std::gcd(period, length);
+        if ((start - rest) % common != 0) {
+            throw ScoreError(
+                "the loops begin at different bars and would never end together: `loop: fill` ends them with the "
+                "longest part");
+        }
+        if (period / common > most_score_bars * bar / length) {
+            throw ScoreError(
+                "the loops would end together only after more than 1000000 bars: `loop: fill` ends them with the "
+                "longest part");
+        }
+        // Some repetition of the ends so far is an end of this loop, too.
+        const std::int64_t modulus = length / common;
+        const std::int64_t wanted = ((start - rest) / common % modulus + modulus) % modulus;
+        const Integer repeats = Integer(wanted) * inverse(period / common % modulus, modulus) % modulus;
+        rest += repeats.convert_to<std::int64_t>() * period;
+        period = period / common * length;
+        rest %= period;
+    }
+    std::int64_t first() const { return rest + std::max<std::int64_t>(0, (earliest - rest + period - 1) / period) * period; }
+
+private:
+    /// The number by which `value` has to be multiplied to leave 1, divided by `modulus`, to which it is coprime.
+    static std::int64_t inverse(std::int64_t value, std::int64_t modulus) {
+        std::int64_t before = 0;
+        std::int64_t here = 1;
+        for (std::int64_t a = modulus, b = value; b > 1;) {
+            before = std::exchange(here, before - a / b * here);
+            a = std::exchange(b, a % b);
+        }
+        return modulus == 1 ? 0 : (here % modulus + modulus) % modulus;
+    }
+};
+
 /// A part that is known to its end.
 struct WholePart {
     const Player* player = nullptr;
@@ -184,20 +228,14 @@ private:
     /// Settles how often each part is played within its section.
     void repeat() {
         std::map<char, std::int64_t> longest;  // of each section, without those that fill it
-        std::map<char, std::int64_t> common;
+        std::map<char, CommonEnds> common;
         for (WholePart& part : parts_) {
             const Layout& layout = part.player->melody.layout;
             if (layout.loop == Loop::times) part.repeats = layout.times;
             std::int64_t& end = longest[part.player->section];
             if (layout.loop == Loop::fill) continue;
             if (layout.loop == Loop::common && part.period > 0) {
-                std::int64_t& shared = common[part.player->section];
-                shared = shared == 0 ? part.period : std::lcm(shared, part.period);
-                if (shared / ensemble_.meter.bar() > most_score_bars) {
-                    throw ScoreError(
-                        "the loops would end together only after more than 1000000 bars: `loop: fill` ends "
-                        "them with the longest part");
-                }
+                common[part.player->section].meet(part.start, part.period, ensemble_.meter.bar());
                 continue;
             }
             end = std::max(end, part.repeats > 1 ? part.last() : part.start + part.block.length);
@@ -206,7 +244,7 @@ private:
             const char section = part.player->section;
             const Loop loop = part.player->melody.layout.loop;
             if (loop == Loop::common && part.period > 0) {
-                part.repeats = common[section] / part.period;
+                part.repeats = (common[section].first() - part.start) / part.period;
                 longest[section] = std::max(longest[section], part.last());
             }
         }

@@ -3,6 +3,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"
 #include "engine/base/text.h"
+#include "music/score/curves.h"
 #include "music/score/spelling.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,13 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     if (text.empty()) throw std::runtime_error(fmt::format("{}: this file is empty", name));
     if (text.size() > most_bytes) throw std::runtime_error(fmt::format("{}: over 1 MB", name));
     return text;
+}
+
+/// Duration in words, with the ritardando.
+std::string slowing_time_of(std::int64_t ticks, const Melody& melody) {
+    ScoreHead head;
+    head.ritardando = 2 * melody.meter.bar();
+    return time_text(seconds_at(ticks, melody.tempo, tempo_map(head, {}, ticks)));
 }
 
 }  // namespace
@@ -213,8 +221,11 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
                        player.document.grammar().steps());
         const Integer notes = played ? Integer(played->notes) : known->notes;
         const Integer ticks = played ? Integer(played->end) : known->ticks;
+        // Parts of several slow down together.
+        const bool slows = melody.has_ritardando && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
-                       bars_of(ticks, melody.meter).str(), time_of(ticks, melody.tempo));
+                       bars_of(ticks, melody.meter).str(),
+                       slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
         if (played && played->notes == 0) {
             fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(melody, played->lost));

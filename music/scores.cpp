@@ -364,7 +364,10 @@ public:
         make_head(playing, most_voices);  // numbers the voices of the parts
         Nobody nobody;
         Made made;
-        report_notes(ensemble_, playing, play_all(ensemble_, playing, nobody), made);
+        const bool has_tempo = ensemble_.players.front().melody.expression.tempo.is_on();
+        EnsembleReport report = has_tempo ? play_into(nobody, playing) : play_all(ensemble_, playing, nobody);
+        if (!has_tempo) report.seconds = seconds_of(report.end, {});
+        report_notes(ensemble_, playing, report, made);
         text += "together\n";
         for (const Remark& remark : made.remarks) text += remark.text + "\n";
         return text;
@@ -409,9 +412,8 @@ private:
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
         }
         if (ensemble_.has_bends() && !is_printed(format_)) {
-            if (settings_.tuning != Tuning::bend) {
-                throw SettingError("tuning", settings_.tuning == Tuning::mts ? "mts" : "mpe",
-                                   "gamakas are pitch bends of voices; expected bend");
+            if (settings_.tuning == Tuning::mts) {
+                throw SettingError("tuning", "mts", "gamakas are pitch bends; expected bend or mpe");
             }
             midi_.microtonal = true;
             midi_.bend_range = widest_bend;
@@ -472,10 +474,14 @@ private:
         } else {
             report = play_all(ensemble_, playing, sink);
         }
+        report.seconds = seconds_of(report.end, curves);
+        return report;
+    }
+    /// With all changes of tempo.
+    double seconds_of(std::int64_t end, const Curves& curves) const {
         ScoreHead times;
         times.ritardando = ensemble_.has_ritardando && !is_printed(format_) ? 2 * ensemble_.meter.bar() : 0;
-        report.seconds = seconds_at(report.end, ensemble_.tempo, tempo_map(times, curves, report.end));
-        return report;
+        return seconds_at(end, ensemble_.tempo, tempo_map(times, curves, end));
     }
 
     ScoreFormat format_;

@@ -45,6 +45,7 @@ Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
       bend_range_(is_mpe_ ? mpe_bend_range : midi.bend_range) {
     for (const Part& part : head.parts) voice_count_ += std::max(part.voices, 0);
     sounding_.resize(static_cast<std::size_t>(voice_count_));
+    values_.resize(static_cast<std::size_t>(voice_count_));
     programs_.fill(-1);
     bends_.fill(centre);
     if (midi.microtonal && midi.tuning == Tuning::mts) {
@@ -136,6 +137,7 @@ void Voices::begin(const Note& note, std::int64_t tick, std::vector<Message>& me
         int& last = programs_[static_cast<std::size_t>(channel)];
         if (last != program) messages.push_back({0xC0 | channel, program});
         last = program;
+        set_controllers(voice, channel, messages);
     }
     Key& state = keys_[static_cast<std::size_t>(channel)][static_cast<std::size_t>(key)];
     sounding_[static_cast<std::size_t>(voice)] = {channel, key, note.key - key, note.velocity};
@@ -151,14 +153,30 @@ void Voices::begin(const Note& note, std::int64_t tick, std::vector<Message>& me
 }
 
 void Voices::control(const ControlPoint& point, std::vector<Message>& messages) {
-    if (is_mpe_ || point.voice < 0 || point.voice >= voice_count_) return;
-    if (point.number != ControlPoint::bend) {
-        const int value = std::clamp(static_cast<int>(std::lround(point.value)), 0, 127);
-        return controller(channel_of(point.voice), point.number, value, messages);
-    }
+    if (point.voice < 0 || point.voice >= voice_count_) return;
     const Sounding& note = sounding_[static_cast<std::size_t>(point.voice)];
-    const bool is_bent = midi_.microtonal && midi_.tuning == Tuning::bend;
-    if (note.channel >= 0 && is_bent) tune(note.channel, note.key, note.fraction + point.value, messages);
+    if (point.number == ControlPoint::bend) {
+        if (note.channel >= 0 && bends_notes()) tune(note.channel, note.key, note.fraction + point.value, messages);
+        return;
+    }
+    const int value = controller_value(point);
+    if (!is_mpe_) return controller(channel_of(point.voice), point.number, value, messages);
+    values_[static_cast<std::size_t>(point.voice)][point.number] = value;
+    if (note.channel < 0) return;
+    sent_[static_cast<std::size_t>(note.channel)][point.number] = value;
+    controller(note.channel, point.number, value, messages);
+}
+
+/// With MPE: the values of a voice hold for the channel of its next note, and no others.
+void Voices::set_controllers(int voice, int channel, std::vector<Message>& messages) {
+    std::map<int, int>& values = values_[static_cast<std::size_t>(voice)];
+    std::map<int, int>& sent = sent_[static_cast<std::size_t>(channel)];
+    for (const auto& [number, value] : sent) values.try_emplace(number, usual_controller_value(number));
+    for (const auto& [number, value] : values) {
+        if (const auto last = sent.find(number); last != sent.end() && last->second == value) continue;
+        sent[number] = value;
+        controller(channel, number, value, messages);
+    }
 }
 
 void Voices::slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages) {

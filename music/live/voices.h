@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,8 @@ public:
     void prepare(std::vector<Message>& messages) const;
     /// Begins a note; a note that its voice still has ends.
     void begin(const Note& note, std::int64_t tick, std::vector<Message>& messages);
-    /// Changes a controller, or bends the note that the voice has, as files do. With MPE there are none.
+    /// Changes a controller, or bends the note that the voice has, as files do. With MPE controllers are those of the
+    /// channel of the note, and of those of the notes after it.
     void control(const ControlPoint& point, std::vector<Message>& messages);
     /// Bends the note that the voice has to a key, as files do.
     void slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages);
@@ -49,13 +51,16 @@ private:
     int channel_of(int voice) const;
     bool bends_notes() const { return is_mpe_ || (midi_.microtonal && midi_.tuning == Tuning::bend); }
     void tune(int channel, int key, double fraction, std::vector<Message>& messages);
+    void set_controllers(int voice, int channel, std::vector<Message>& messages);
 
     const ScoreHead& head_;
     MidiOptions midi_;
     bool is_mpe_;
     int bend_range_;
     int voice_count_ = 0;
-    std::vector<Sounding> sounding_;  // by voice
+    std::vector<Sounding> sounding_;           // by voice
+    std::vector<std::map<int, int>> values_;      // of controllers, by voice, with MPE
+    std::array<std::map<int, int>, 16> sent_;  // the same by channel
     std::vector<int> order_;          // voices that sound, the oldest first
     struct Key {
         int notes = 0;

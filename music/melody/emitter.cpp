@@ -35,6 +35,7 @@ void Emitter::finish(std::int64_t end) {
 }
 
 void Emitter::accompany(std::int64_t begin, const Chord* chord) {
+    if (!accompaniment_) return;
     for (Note note : accompaniment_->bar(begin, chord)) {
         const std::int64_t from = std::max(note.onset, options_.from);
         const std::int64_t to = std::min(note.onset + note.duration, options_.to);

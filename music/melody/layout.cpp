@@ -97,8 +97,9 @@ private:
     void read_flag(std::string_view name, std::array<std::string_view, 2> words, bool& value) {
         read_key(name, fmt::format("expected {} or {}", words[0], words[1]), [&](std::string_view text) {
             const std::string word = lower_case(text);
-            value = word == words[1];
-            return value || word == words[0];
+            const bool is_switch = words[1] == "yes";
+            value = word == words[1] || (is_switch && word == "true");
+            return value || word == words[0] || (is_switch && word == "false");
         });
     }
 

@@ -100,7 +100,7 @@ private:
                 chosen = choice;
                 return;
             }
-            if (word != "center") words.push_back(word);
+            if (word != "center" && word != "true" && word != "false") words.push_back(word);
         }
         diagnostics_.error(key->value.empty() ? key->name_at : key->value,
                            fmt::format("expected {}{}", alternatives(words), did_you_mean(nearest(wanted, words))));
@@ -352,7 +352,8 @@ private:
 
     /// What sets a part apart from others that play the same curve.
     void read_place() {
-        choose<bool>("inversion", melody_.is_inverted, {{"no", false}, {"yes", true}});
+        choose<bool>("inversion", melody_.is_inverted,
+                     {{"no", false}, {"yes", true}, {"false", false}, {"true", true}});
         if (const Key* key = pattern_.find("transposition")) {
             double semitones = 0;
             if (!read_number(key->value.view(), semitones) || !(std::fabs(semitones) <= 127)) {

@@ -349,10 +349,19 @@ private:
             row.change = SoundChange::velocity;
             row.amount = usual;
             sign = first == "louder" ? 1 : -1;
-        } else if (first == "octave" && words.size() > 1 && (words[1] == "up" || words[1] == "down")) {
+        } else if (first == "octave") {
+            // `octave up`, `octave down 2`, `octave -1`, or up alone.
             row.change = SoundChange::octave;
-            sign = words[1] == "up" ? 1 : -1;
-            at = 2;
+            const bool has_direction = words.size() > 1 && (words[1] == "up" || words[1] == "down");
+            const auto number = words.size() > 1 ? whole(words[1]) : std::nullopt;
+            sign = (has_direction && words[1] == "down") || (number && *number < 0) ? -1 : 1;
+            if (number) row.amount = std::fabs(static_cast<double>(*number));
+            at = has_direction || number ? 2 : 1;
+            if (number && words.size() > at) return fmt::format("unexpected '{}'", words[at]);
+            if (row.amount > loudest) return fmt::format("unexpected '{}'; expected how much, from 0 to 127", words[1]);
+        } else if (first == "loud" || first == "soft") {
+            row.change = SoundChange::level;
+            row.amount = *level_of(first == "loud" ? "f" : "p");
         } else if (first == "up" || first == "down") {
             row.change = SoundChange::degree;
             sign = first == "up" ? 1 : -1;
@@ -363,7 +372,8 @@ private:
                 return fmt::format("velocity {}; expected 1 to 127, or ppp to fff", row.amount);
             }
         } else {
-            return "expected louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or down 2";
+            return "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
+                   "down 2";
         }
         if (at < words.size() && row.change != SoundChange::level) {
             const auto amount = whole(words[at]);

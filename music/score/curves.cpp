@@ -1,8 +1,22 @@
 #include "music/score/curves.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sikku {
+
+int controller_value(const ControlPoint& point) {
+    return std::clamp(static_cast<int>(std::lround(point.value)), 0, 127);
+}
+
+int usual_controller_value(int number) {
+    constexpr int volume = 7;
+    constexpr int expression = 11;
+    constexpr int brightness = 74;
+    if (number == volume) return 100;
+    if (number == expression) return 127;
+    return number == ControlPoint::pan || number == brightness ? 64 : 0;
+}
 
 bool Curves::has_bends() const {
     return std::any_of(controls.begin(), controls.end(),

@@ -27,6 +27,11 @@ struct ControlPoint {
     bool operator==(const ControlPoint&) const = default;
 };
 
+/// The value of a controller in MIDI.
+int controller_value(const ControlPoint& point);
+/// The value of a controller that is not set.
+int usual_controller_value(int number);
+
 /// The curves of a score.
 struct Curves {
     std::vector<TempoPoint> tempo;       ///< by tick

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -147,6 +148,7 @@ struct Voice {
     bool has_new_program = false;            ///< with MPE, before the next note
     std::span<const ControlPoint> controls;  ///< that are still to come
     std::vector<ControlPoint> own_controls;  ///< those of NoteSink::controls()
+    std::map<int, int> values;               ///< of controllers now, with MPE
     std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
     std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
     std::uint64_t full_bytes = 0;            ///< of all of them
@@ -245,10 +247,12 @@ public:
         conductor_ = conductor();
     }
 
-    void curves(const Curves& curves) override { curves_ = &curves; }
+    void curves(const Curves& curves) override {
+        curves_ = &curves;
+        conductor_ = conductor();
+    }
 
     void controls(std::span<const ControlPoint> points) override {
-        if (is_mpe_) return;
         coming_.resize(voices_.size());
         for (const ControlPoint& point : points) coming_.at(static_cast<std::size_t>(point.voice)).push_back(point);
         has_coming_ = has_coming_ || !points.empty();
@@ -356,7 +360,8 @@ private:
             program = voice.program;
             voice.bend = none;
             const std::span one(&note, 1);
-            if (has_glide(note)) {
+            if (has_coming_) take_controls(voice);
+            if (has_glide(note) || has_coming_ || (curves_ && !curves_->controls.empty())) {
                 write_curved(voice, one);
             } else {
                 write<true>(voice, one);
@@ -419,7 +424,7 @@ private:
 
     /// What stands at the beginning of the first track, all at tick 0.
     std::string conductor() const {
-        const double tempo = std::round(60e6 / head_.tempo);  // microseconds a quarter
+        const double tempo = std::round(60e6 / (head_.tempo * first_factor()));  // microseconds a quarter
         if (!(head_.tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
             throw ScoreError(fmt::format("a MIDI file cannot tell a tempo of {} quarters a minute", head_.tempo));
         }
@@ -440,6 +445,12 @@ private:
         }
         if (is_mpe_) bytes += mpe_configuration();
         return bytes;
+    }
+
+    /// Of the tempo with which the score begins.
+    double first_factor() const {
+        const bool has_curve = curves_ && !curves_->tempo.empty() && curves_->tempo.front().tick == 0;
+        return has_curve ? curves_->tempo.front().factor : 1;
     }
 
     static std::string end_of_track(std::int64_t rest) {
@@ -463,6 +474,8 @@ private:
             const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
             const double tempo = is_late ? head_.tempo : head_.tempo * point.factor;
             const auto micro = static_cast<std::uint64_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1));
+            // The score begins with it.
+            if (point.tick == 0 && point.factor == first_factor()) continue;
             if (!is_late) last = point.tick;
             result.push_back({last, meta(tempo_type, big_endian(micro, 3))});
         }
@@ -515,7 +528,7 @@ private:
                          : voices_.size() <= most_voices ? number
                                                          : static_cast<int>(pitched_);
         voice->is_drums = is_drums;
-        if (curves_ && !is_mpe_) voice->controls = curves_->of_voice(number);
+        if (curves_) voice->controls = curves_->of_voice(number);
         voice->channel = is_drums ? drum_channel : slot < drum_channel ? slot : slot + 1;
         ++sounding_;
         pitched_ += is_drums ? 0 : 1;
@@ -621,13 +634,7 @@ private:
                 refuse(voice, voice.now, note);
             }
             const std::int64_t end = note.onset + note.duration;
-            write_controls(voice, note.onset, false, 0);
-            double bent = 0;
-            for (const ControlPoint& point : voice.controls) {
-                if (point.tick > note.onset) break;
-                if (point.number == ControlPoint::bend) bent = point.value;
-            }
-            write_controls(voice, note.onset + 1, false, 0);
+            const double bent = lead_in(voice, note.onset);
             if (std::exchange(voice.has_new_program, false)) put_program(voice, note.onset);
             if (!voice.tuned.empty()) {
                 if (voice.out > voice.last_start()) flush(voice);
@@ -648,6 +655,37 @@ private:
             put_event(voice, end, status(0x80, voice.channel), key, release);
         }
         return i;
+    }
+
+    /// Writes the points up to the onset of a note. With MPE its channel gets the values that the voice has now.
+    /// @return the bend at the onset
+    double lead_in(Voice& voice, std::int64_t onset) {
+        if (!is_mpe_) write_controls(voice, onset, false, 0);
+        double bent = 0;
+        std::size_t used = 0;
+        for (const ControlPoint& point : voice.controls) {
+            if (point.tick > onset) break;
+            ++used;
+            if (point.number != ControlPoint::bend) {
+                voice.values[point.number] = controller_value(point);
+            } else if (point.tick == onset) {
+                bent = point.value;
+            }
+        }
+        if (!is_mpe_) {
+            write_controls(voice, onset + 1, false, 0);
+            return bent;
+        }
+        voice.controls = voice.controls.subspan(used);
+        std::map<int, int>& sent = sent_[static_cast<std::size_t>(voice.channel)];
+        // What other voices have left there means nothing to this one.
+        for (const auto& [number, value] : sent) voice.values.try_emplace(number, usual_controller_value(number));
+        for (const auto& [number, value] : voice.values) {
+            if (const auto last = sent.find(number); last != sent.end() && last->second == value) continue;
+            sent[number] = value;
+            put_event(voice, onset, status(0xB0, voice.channel), number, value);
+        }
+        return bent;
     }
 
     bool bends_notes() const { return is_mpe_ || (options_.microtonal && options_.tuning == Tuning::bend); }
@@ -674,9 +712,12 @@ private:
             ++used;
             const std::int64_t tick = std::max(point.tick, voice.now);
             if (point.number != ControlPoint::bend) {
-                put_event(voice, tick, status(0xB0, voice.channel), point.number,
-                          std::clamp(static_cast<int>(std::lround(point.value)), 0, 127));
-            } else if (bends && options_.microtonal && !voice.is_drums) {
+                const int value = controller_value(point);
+                put_event(voice, tick, status(0xB0, voice.channel), point.number, value);
+                if (!is_mpe_) continue;
+                voice.values[point.number] = value;
+                sent_[static_cast<std::size_t>(voice.channel)][point.number] = value;
+            } else if (bends && (options_.microtonal || is_mpe_) && !voice.is_drums) {
                 put_bend(voice, tick, fraction + point.value);
             }
         }
@@ -835,6 +876,7 @@ private:
     const int bend_range_;
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
     std::vector<Note> collected_;                 // with MPE, until finish()
+    std::array<std::map<int, int>, channels> sent_;  // values of controllers, by channel, with MPE
     std::vector<std::unique_ptr<Voice>> voices_;  // by number; null while they are silent
     std::size_t sounding_ = 0;
     std::size_t pitched_ = 0;  // of those, all but drums

@@ -58,6 +58,8 @@ TEST(Arrangement, TracksHaveKeysOfTheirOwn) {
     EXPECT_EQ(told(notes_of(track("augmentation = \"1/2\"\n"))), "0:60/120 120:62/120 240:64/120 360:62/240");
     EXPECT_EQ(told(notes_of(track("augmentation = 2\n"))), "0:60/480 480:62/480 960:64/480 1440:62/960");
     EXPECT_EQ(told(notes_of(track("inversion = true\n"))), "0:60/240 240:59/240 480:57/240 720:59/480");
+    EXPECT_EQ(told(notes_of(track("inversion = \"yes\"\n"))), told(notes_of(track("inversion = true\n"))));
+    EXPECT_EQ(told(notes_of(track("inversion = false\n"))), told(notes_of(track(""))));
     EXPECT_EQ(told(notes_of(track("retrograde = true\n"))), "0:62/480 480:64/240 720:62/240 960:60/240");
     EXPECT_EQ(told(notes_of(track("tempo-ratio = \"3:2\"\n"))), "0:60/160 160:62/160 320:64/160 480:62/320");
     EXPECT_EQ(told(notes_of(track("unit = \"1/16\"\nscale = \"minor\"\n"))),
@@ -86,6 +88,41 @@ TEST(Arrangement, LoopsRepeatWholeBarsOfTheirOwnMeter) {
                           track("loop = \"common\"\nmeter = \"53/64\"\ntempo-ratio = \"62:61\"\n")),
                  ScoreError);
     EXPECT_THROW(notes_of(track("loop = 10000\nn = 7\n", "hilbert")), ScoreError);
+}
+
+/// Loops that begin at different bars end at the first bar where all of them end, by trial.
+TEST(Arrangement, LoopsThatBeginLaterEndTogether) {
+    const auto loop = [](int start, int bars) {
+        return track(fmt::format("start = {}\nloop = \"common\"\n", start), fmt::format("bars {}", bars));
+    };
+    const auto read_bars = [](const std::string& name) {
+        return NamedPattern{name, fmt::format("axiom: {}\nmapping: symbols\nnote N: C4 1/1\n",
+                                              std::string(static_cast<std::size_t>(name.back() - '0'), 'N'))};
+    };
+    int met = 0;
+    for (const int first : {2, 3, 6, 8}) {
+        for (const int second : {3, 4, 9}) {
+            for (const int third : {1, 5}) {
+                for (const int start : {0, 1, 2, 4}) {
+                    const std::string text = loop(0, first) + loop(start, second) + loop(3, third);
+                    std::int64_t wanted = 0;
+                    const int earliest = std::max({first, start + second, 3 + third});
+                    for (int end = earliest; end < 1000 && wanted == 0; ++end) {
+                        const bool is_end = end % first == 0 && (end - start) % second == 0 && (end - 3) % third == 0;
+                        if (is_end) wanted = end;
+                    }
+                    const Arrangement arrangement = read_arrangement("a.toml", text, read_bars);
+                    if (wanted == 0) {
+                        EXPECT_THROW(list_notes(arrangement, {}, {}), ScoreError) << text;
+                        continue;
+                    }
+                    ++met;
+                    EXPECT_EQ(list_notes(arrangement, {}, {}).end, wanted * 1920) << text;
+                }
+            }
+        }
+    }
+    EXPECT_GT(met, 50);
 }
 
 TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {

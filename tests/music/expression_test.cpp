@@ -10,7 +10,10 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -162,13 +165,13 @@ TEST(Expression, TempoIsAMapOfBeats) {
     for (int i = 0; i < 12; ++i) rising += "F+F-";
     const MidiFile file = midi_of(rising + "\ntempo: 100 by y 80-125\n");
     const std::vector<Point> map = tempos(file);
-    ASSERT_EQ(map.size(), 13u);  // the tempo itself, and one for each of 12 quarters
-    for (std::size_t i = 2; i < map.size(); ++i) {
+    ASSERT_EQ(map.size(), 12u);  // one for each quarter, and no other at the beginning
+    for (std::size_t i = 1; i < map.size(); ++i) {
         EXPECT_GT(map[i].value, map[i - 1].value);
         EXPECT_EQ(map[i].tick - map[i - 1].tick, 480);
     }
     // In the midst smoothing changes nothing of a straight line: the seventh of twelve heights.
-    EXPECT_NEAR(map[7].value, 80 + 45.0 * 6 / 11, 0.01);
+    EXPECT_NEAR(map[6].value, 80 + 45.0 * 6 / 11, 0.01);
 }
 
 TEST(Expression, PagesHaveTheTemposOfMidi) {
@@ -177,11 +180,11 @@ TEST(Expression, PagesHaveTheTemposOfMidi) {
     const std::string page = play(parse("e.lsys", text), "html");
     const std::size_t begin = page.find("id=\"score\">") + 11;
     const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-    ASSERT_EQ(data["tempos"].size() + 1, map.size());
+    ASSERT_EQ(data["tempos"].size(), map.size());
     ASSERT_GT(map.size(), 9u);
-    for (std::size_t i = 1; i < map.size(); ++i) {
-        EXPECT_EQ(data["tempos"][i - 1][0].get<std::int64_t>(), map[i].tick);
-        EXPECT_NEAR(data["tempos"][i - 1][1].get<double>() * 90, map[i].value, 0.01);
+    for (std::size_t i = 0; i < map.size(); ++i) {
+        EXPECT_EQ(data["tempos"][i][0].get<std::int64_t>(), map[i].tick);
+        EXPECT_NEAR(data["tempos"][i][1].get<double>() * 90, map[i].value, 0.01);
     }
     EXPECT_LT(map.back().value, 0.61 * 110);
 }
@@ -266,8 +269,102 @@ TEST(Expression, AllFormsOfMidiHaveTheCurves) {
         EXPECT_NEAR(keys[i], 60 + degrees[i] * 12 / 31, 0.01);
         EXPECT_NEAR(keys[i], keys[i + 4], 0.01);
     }
-    // With MPE channels belong to notes, and the curves are left out.
-    EXPECT_TRUE(controller(midi_of(text, {{"tuning", "mpe"}}), 10).empty());
+}
+
+/// Key and controllers that a synthesizer hears at a tick, by track.
+struct Heard {
+    int track = 0;
+    double key = 0;
+    std::map<int, int> controllers;
+};
+
+/// What sounds at each of the ticks.
+std::vector<std::vector<Heard>> heard(const MidiFile& file, const std::vector<std::int64_t>& ticks) {
+    const auto rank = [](const MidiEvent& event) {
+        const int kind = event.status & 0xF0;
+        return kind == 0xB0 ? 1 : kind == 0x80 ? 2 : kind == 0xE0 ? 3 : kind == 0x90 ? 4 : 0;
+    };
+    std::vector<const MidiEvent*> events;
+    for (const MidiEvent& event : file.events) events.push_back(&event);
+    std::stable_sort(events.begin(), events.end(), [&](const MidiEvent* a, const MidiEvent* b) {
+        return std::tuple(a->tick, rank(*a)) < std::tuple(b->tick, rank(*b));
+    });
+    std::array<double, 16> ranges{};
+    std::array<double, 16> bent{};
+    std::array<std::map<int, int>, 16> controllers;
+    std::map<std::pair<int, int>, int> sounding;  // tracks by channel and key
+    std::vector<std::vector<Heard>> result;
+    auto next = events.begin();
+    for (const std::int64_t tick : ticks) {
+        for (; next != events.end() && (*next)->tick <= tick; ++next) {
+            const MidiEvent& event = **next;
+            if (event.status >= 0xF0 || event.status < 0x80) continue;
+            const auto at = static_cast<std::size_t>(event.status & 0x0F);
+            const int first = static_cast<unsigned char>(event.data[0]);
+            const int second = event.data.size() > 1 ? static_cast<unsigned char>(event.data[1]) : 0;
+            const std::pair key(static_cast<int>(at), first);
+            if (rank(event) == 1 && first == 6) ranges[at] = second;
+            if (rank(event) == 1) controllers[at][first] = second;
+            if (rank(event) == 2) sounding.erase(key);
+            if (rank(event) == 3) bent[at] = (first + 128 * second - 8192) / 8192.0;
+            if (rank(event) == 4) sounding[key] = event.track;
+        }
+        std::vector<Heard>& now = result.emplace_back();
+        for (const auto& [key, track] : sounding) {
+            const auto at = static_cast<std::size_t>(key.first);
+            now.push_back({track, key.second + bent[at] * ranges[at], controllers[at]});
+        }
+        std::sort(now.begin(), now.end(), [](const Heard& a, const Heard& b) {
+            return std::tuple(a.track, a.key) < std::tuple(b.track, b.key);
+        });
+    }
+    return result;
+}
+
+/// With MPE the curves belong to the channels of the notes: at any time the same is heard.
+TEST(Expression, MpeSoundsAsBends) {
+    const std::string text = R"(title: two
+axiom: X
+derivation length: 3
+X --> -YF+XFX+FY-
+Y --> +XF-YFY-FX+
+scale: kalyani
+vertical: extend
+harmony: drone
+gamaka: kampita 2 6, meend 1, jaru 4
+pan: by x
+controller: 74 by y 10-120
+)";
+    const MidiFile bend = midi_of(text);
+    const MidiFile mpe = midi_of(text, {{"tuning", "mpe"}});
+    std::vector<std::int64_t> ticks;
+    for (std::int64_t tick = 3; tick < bend.ends.front(); tick += 29) ticks.push_back(tick);
+    const auto expected = heard(bend, ticks);
+    const auto found = heard(mpe, ticks);
+    std::size_t bent = 0;
+    std::set<int> pans;
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+        ASSERT_EQ(found[i].size(), expected[i].size()) << ticks[i];
+        for (std::size_t j = 0; j < found[i].size(); ++j) {
+            const Heard& one = found[i][j];
+            const Heard& other = expected[i][j];
+            EXPECT_EQ(one.track, other.track) << ticks[i];
+            EXPECT_NEAR(one.key, other.key, 0.01) << ticks[i];
+            // What the drone has not set is the middle.
+            const auto value = [](const Heard& note, int number) {
+                const auto set = note.controllers.find(number);
+                return set == note.controllers.end() ? 64 : set->second;
+            };
+            EXPECT_EQ(value(one, 10), value(other, 10)) << ticks[i];
+            EXPECT_EQ(value(one, 74), value(other, 74)) << ticks[i];
+            pans.insert(value(one, 10));
+            bent += std::fabs(one.key - std::round(one.key)) > 0.05 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(bent, 20u);
+    EXPECT_GT(pans.size(), 50u);
+    EXPECT_EQ(error_of("gamaka: kampita all\n"), "none");
+    EXPECT_THROW(play(parse("e.lsys", text), "mid", {{"tuning", "mts"}}), SettingError);
 }
 
 TEST(Expression, ErrorsSayWhatIsExpected) {

@@ -754,9 +754,29 @@ TEST(Rhythms, AreLaidOverTheStepsOfACurve) {
     EXPECT_EQ(told(found), "0:2 r:1 1:3 r:1 2:1");
     EXPECT_EQ(found.all[0].velocity, 96);
     EXPECT_EQ(found.all[1].velocity, 80);
+    // A step of any angle takes a hit, and of any length where all have the same.
+    for (const char* steps : {"F", "F(0.2)"}) {
+        const std::string f = steps;
+        const Collector sloped = played(
+            grammar_of(fmt::format("heading: 0\nangle increment: 60\naxiom: {0}+{0}+{0}+{0}{0}-{0}\n", f)), melody);
+        std::string times;
+        for (const Note& note : sloped.all) times += fmt::format("{}:{} ", note.onset / unit, note.duration / unit);
+        EXPECT_EQ(times, "0:2 3:1 4:2 7:3 11:1 ") << f;
+    }
+    // Branches that are voices take the notes of the template from where they begin.
     melody.branches = Branches::voices;
-    Collector unheard;
-    EXPECT_THROW(play(grammar_of("axiom: F[+F]F\n"), melody, unheard, {}), ScoreError);
+    std::string times;
+    for (const Note& note : played(grammar_of("turn: left\nheading: 0\naxiom: F[F+F-F]-F+F\n"), melody).all) {
+        times += fmt::format("{}/{}:{} ", note.voice, note.onset / unit, note.duration / unit);
+    }
+    EXPECT_EQ(times, "1/3:1 1/4:2 0/0:2 0/3:1 ");
+    for (const auto change : {+[](Melody& one) { one.phrase_order = 1; },
+                              +[](Melody& one) { one.cadence = Cadence::tonic; }}) {
+        Melody phrased = melody;
+        change(phrased);
+        Collector unheard;
+        EXPECT_THROW(play(grammar_of("axiom: F[+F]F\n"), phrased, unheard, {}), ScoreError);
+    }
 }
 
 /// The notes of a piece, and of the whole cut to it.

@@ -83,6 +83,10 @@ TEST(SymbolTable, ChangesHoldToTheEndOfABranch) {
     EXPECT_EQ(told(notes_of(rows + "axiom: OAUUAOVA\n")), "0:72/240 240:48/240 480:64/240");
     EXPECT_EQ(told(notes_of(rows + "brackets: sequence\naxiom: [OA]A\n")), "0:72/240 240:60/240");
     EXPECT_EQ(told(notes_of(rows + "axiom: L(5)A\n"), 0, true), "0:60/240@85");
+    const std::string short_words =
+        "note A: C4\nchange L: loud\nchange S: soft\nchange O: octave\nchange U: octave -2\nchange V: octave 1\n";
+    EXPECT_EQ(told(notes_of(short_words + "axiom: LASAOAUAVA\n"), 0, true),
+              "0:60/240@96 240:60/240@48 480:72/240@48 720:48/240@48 960:60/240@48");
 }
 
 TEST(SymbolTable, ChordsAreNumeralsNamesOrDegrees) {
@@ -298,7 +302,10 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
     EXPECT_EQ(error_of("chord T: VIII\naxiom: T\n"),
               "unknown chord 'VIII'; expected I to VII or V7, notes such as C4 E4 G4, or degrees 0 2 4");
     EXPECT_EQ(error_of("change L: faster\naxiom: LF\n"),
-              "expected louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or down 2");
+              "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
+              "down 2");
+    EXPECT_EQ(error_of("change L: octave 300\naxiom: LF\n"), "unexpected '300'; expected how much, from 0 to 127");
+    EXPECT_EQ(error_of("change L: octave 1 up\naxiom: LF\n"), "unexpected 'up'");
     EXPECT_EQ(error_of("note N:\naxiom: N(0,0)\n"),
               "symbol 1 of the word: its duration is 0; expected steps above 0, up to 1000000, of 'N'");
     EXPECT_EQ(error_of("note N:\naxiom: N(0,1,300)\n"),

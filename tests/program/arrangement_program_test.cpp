@@ -98,6 +98,10 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@transpose=-12,start=4", "-o", one}).status, 0);
     EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@transposition=-12,start=4", "-o", two_names}).status, 0);
     EXPECT_EQ(contents(one), contents(two_names));
+    // Commas that no key follows belong to the value.
+    const std::string canon = folder.file("canon.mid");
+    EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@n=3,canon=2 -12, 4 -24,inversion=true", "-o", canon}).errors,
+              "78 notes, 8 bars, 16.0 s, C1 to C4\n");
 }
 
 TEST(ArrangementProgram, ExtremeValuesAreRefusedWithTheirPlaces) {
