@@ -221,14 +221,15 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
 
 void check_growth(const DrawSettings& settings, PrintFormat format) {
     const bool is_gif = format == PrintFormat::gif;
-    const bool is_sheet = settings.generations && !is_gif && !settings.frames;
+    const bool is_sheet = settings.generations && !is_gif && !settings.frames && !settings.division;
     refuse_first(
-        {{is_gif && !settings.generations && !settings.lesson, "generations", "required for a .gif; expected A:B"},
+        {{is_gif && !settings.generations && !settings.lesson && !settings.division, "generations",
+          "required for a .gif; expected A:B"},
          {settings.frames && !settings.generations, "frames", "needs 'generations'"},
          {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
          {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
-         {settings.frame_time && !is_gif, "frame-time", "applies only to a .gif"},
-         {settings.hold && !is_gif, "hold", "applies only to a .gif"},
+         {settings.frame_time && !is_gif && !settings.division, "frame-time", "applies only to a .gif and to 'divide'"},
+         {settings.hold && !is_gif && !settings.division, "hold", "applies only to a .gif and to 'divide'"},
          {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
     if (is_gif) check_gif(settings);
     if (!settings.generations) return;

@@ -119,6 +119,14 @@ void set_animation(DrawSettings& settings, const std::string& text) {
     settings.animation = seconds;
 }
 
+void set_division(DrawSettings& settings, const std::string& text) {
+    double seconds = 1.4;
+    if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
+        refuse_option("divide", text, "expected seconds for each division, 0.1 to 600");
+    }
+    settings.division = seconds;
+}
+
 void set_lesson(DrawSettings& settings, const std::string& text) {
     double seconds = 3;
     if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
@@ -406,7 +414,8 @@ const std::array own_rows = {
                .is_alone = true},
               [](S& s, Text t) { s.frames = is_true(t); }},
     Option<S>{{.name = "frame-time",
-               .help = "seconds per generation of a .gif, 0.01 to 600 (0.5)",
+               .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); of one with --divide, in which its tiles "
+                       "rest (0.6)",
                .value = "SECONDS",
                .group = kolams,
                .unit = "s",
@@ -416,7 +425,7 @@ const std::array own_rows = {
                .is_alone = true},
               [](S& s, Text t) { s.frame_time = to_number(t); }},
     Option<S>{{.name = "hold",
-               .help = "minimum seconds for the last generation of a .gif, 0.01 to 600 (2)",
+               .help = "minimum seconds for the last generation of a .gif, or with --divide, 0.01 to 600 (2)",
                .value = "SECONDS",
                .group = kolams,
                .unit = "s",
@@ -438,6 +447,13 @@ const std::array own_rows = {
                .group = kolams,
                .unit = "s"},
               set_animation},
+    Option<S>{{.name = "divide",
+               .help = "animation in which each tile divides into its parts, from generation to generation: .gif or "
+                       "SVG, with this many seconds per division (1.4); --generations selects a range (0 to n)",
+               .value = "[SECONDS]",
+               .group = kolams,
+               .unit = "s"},
+              set_division},
     Option<S>{{.name = "name-tiles",
                .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
                        "direction and colour; PDF with a layer for each shape, hand and colour of tiles",

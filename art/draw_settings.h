@@ -54,6 +54,7 @@ struct DrawSettings {
     bool frames = false;                                               ///< write each generation to its own file
     std::optional<double> frame_time;  ///< display time of each generation in an animation
     std::optional<double> hold;        ///< minimum display time of the last generation
+    std::optional<double> division;    ///< seconds in which tiles divide from one generation to the next
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     bool fills_page = false;           ///< cover the page with a tiling

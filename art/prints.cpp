@@ -2,6 +2,7 @@
 
 #include "art/border_files.h"
 #include "art/draw_settings.h"
+#include "art/drawing/division_file.h"
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
 #include "art/drawing/growth.h"
@@ -122,6 +123,9 @@ private:
     bool is_relief() const { return sikku::is_relief(settings_, format_); }
     bool is_model() const { return info(format_).kind == FormatKind::model && !is_relief(); }
     bool is_growth() const { return (format_ == PrintFormat::gif && !settings_.lesson) || settings_.frames; }
+    std::pair<std::int64_t, std::int64_t> divided_generations() const {
+        return settings_.generations.value_or(std::pair(std::int64_t{0}, document_.grammar().steps()));
+    }
 
     std::string made_with(const Grammar& grammar) const {
         std::string own;
@@ -233,6 +237,8 @@ private:
                     Made& made);
     void make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                      Made& made);
+    void make_division(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                       Made& made);
     void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                     const std::vector<SheetCell>& cells);
     std::vector<SheetCell> generation_cells() const;
@@ -273,6 +279,19 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
     if (report.overflows) {
         made.warn("the largest generation is larger than the page within its margins and is cut off");
     }
+}
+
+/// Makes an animation in which tiles divide.
+void PrintWork::make_division(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                              Made& made) {
+    DivisionOptions division;
+    std::tie(division.first, division.last) = divided_generations();
+    division.is_gif = format_ == PrintFormat::gif;
+    division.times.division = *settings_.division;
+    division.times.rest = settings_.frame_time.value_or(division.times.rest);
+    division.times.hold = settings_.hold.value_or(division.times.hold);
+    const DrawReport report = draw_division(document_.grammar(), print_, options, division, name, destination);
+    if (report.overflows) made.warn("the drawing is larger than the page within its margins and is cut off");
 }
 
 std::vector<SheetCell> PrintWork::generation_cells() const {
@@ -401,6 +420,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
     if (is_model()) {
         make_model(destination, name, options, made);
+    } else if (settings_.division) {
+        make_division(destination, name, options, made);
     } else if (is_growth()) {
         make_growth(destination, name, options, made);
     } else if (settings_.lesson) {

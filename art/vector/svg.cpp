@@ -147,10 +147,12 @@ public:
             fmt::format("x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", decimal(window.left, 4),
                         decimal(window.top, 4), decimal(window.width, 4), decimal(window.height, 4));
         if (window.clips) file_.write(fmt::format("<clipPath id=\"window{}\"><rect {}/></clipPath>\n", parts_, box));
-        file_.write(fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}{}>\n<title>{}</title>\n",
+        file_.write(fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}{}{}>\n<title>{}</title>\n",
                                 xml_escaped(part.title),
                                 window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "",
-                                step_class(part.lesson), xml_escaped(part.title)));
+                                step_class(part.lesson), part.motion ? part.motion->part : "",
+                                xml_escaped(part.title)));
+        moved_ = 0;
         write_ground(part.style.ground, box);
         take_part(part, window);
         body_begin_ = file_.size();
@@ -161,6 +163,7 @@ public:
         end_part();
         if (print_.animation) write_animation();
         if (lesson_) write_lesson();
+        if (!print_.style_sheet.empty()) file_.write("<style>\n" + print_.style_sheet + "</style>\n");
         file_.write("</svg>\n");
     }
 
@@ -267,10 +270,14 @@ private:
             layer.to_file = layers_.size() == 1 && file_.can_insert();
             streaming_ = streaming_ || layer.to_file;
             const LayerText is = text();
+            const PartMotion* motion = part_->motion;
+            const std::string_view moves = !motion                                   ? std::string_view()
+                                           : order.first == LayerKind::polygons ? std::string_view(motion->polygons)
+                                                                                : std::string_view(motion->lines);
             layer.text.append(
                 fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
-                            "transform=\"scale(0.001)\"{}>\n",
-                            is.label, is.attributes));
+                            "transform=\"scale(0.001)\"{}{}>\n",
+                            is.label, is.attributes, moves));
         }
         return layer;
     }
@@ -301,7 +308,9 @@ private:
 
     void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
         Layer& layer = polygon_run(colour);
-        const std::string name = print_.names_tiles ? tile_name(vertices, colour) : "";
+        const std::string name = print_.names_tiles ? tile_name(vertices, colour)
+                                 : part_->motion    ? part_->motion->each.at(moved_++)
+                                                    : "";
         char* out = layer.text.room((vertices.size() + 1) * line_room + 32 + name.size());
         const MicrometrePlacement place = place_;
         const Micrometres start = place(vertices.front());
@@ -508,6 +517,7 @@ private:
     double piece_length_ = 0.0;         ///< of an animated print, in millimetres
     double drawn_length_ = 0.0;         ///< of all its pieces so far
     std::int64_t tiles_ = 0;            ///< polygons with names
+    std::size_t moved_ = 0;             ///< polygons of a part that moves
     PolygonClasses tile_classes_;
     std::vector<std::pair<Colour, std::string>> groups_;
     std::map<std::string, std::size_t> tile_colours_;  ///< numbers of their colours, from 1

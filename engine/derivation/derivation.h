@@ -112,8 +112,10 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
 
 /// The same for any grammar, in the derivation step of that number, counted from 1. Memory: 4 bytes a symbol, 8 for
 /// each argument of its own, 8 for its place if the system is stochastic; and what resolve_contexts() tells.
+/// @param parents  receives for each symbol of the result the index of the symbol of `word` that it was made of: of
+/// the first one, if the predecessor has several
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
-                   const DerivationOptions& options = {});
+                   const DerivationOptions& options = {}, std::vector<std::uint32_t>* parents = nullptr);
 
 /// The number of levels above the finished word up to which short expansions are kept: those that are empty cost
 /// nothing there.

@@ -19,9 +19,12 @@ bool looks_into_branches(const Grammar& grammar, const Table& table) {
     });
 }
 
+/// Of each symbol of a new word the index of the symbol it was made of.
+using Parents = std::vector<std::uint32_t>;
+
 /// The word without its cut symbols and what follows them in their branches.
 /// Source: Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 13.
-ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word) {
+ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word, Parents& kept) {
     ModuleWord result;
     const double* next = word.arguments.data();
     for (std::size_t at = 0; at < word.symbols.size(); ++at) {
@@ -36,6 +39,7 @@ ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word) {
         }
         const std::uint32_t arity = grammar.symbols()[word.symbols[at]].arity;
         result.symbols.push_back(word.symbols[at]);
+        kept.push_back(static_cast<std::uint32_t>(at));
         result.arguments.insert(result.arguments.end(), next, next + arity);
         if (grammar.is_stochastic()) {
             result.places.push_back(word.places.empty() ? axiom_place(grammar.seed(), at) : word.places[at]);
@@ -75,7 +79,8 @@ public:
         }
     }
 
-    ModuleWord run(std::uint64_t longest, const std::function<void()>& refuse) {
+    /// @param parents  may be null
+    ModuleWord run(std::uint64_t longest, const std::function<void()>& refuse, Parents* parents) {
         ModuleWord result;
         result.symbols.reserve(word_.symbols.size());
         result.arguments.reserve(word_.arguments.size());
@@ -102,6 +107,7 @@ public:
             if (!production) {
                 if (result.symbols.size() >= longest) refuse();
                 result.symbols.push_back(symbol);
+                if (parents) parents->push_back(static_cast<std::uint32_t>(at_));
                 const double* own = word_.arguments.data() + argument_;
                 result.arguments.insert(result.arguments.end(), own, own + info(at_).arity);
                 if (has_places) result.places.push_back(place);
@@ -110,6 +116,7 @@ public:
             }
             if (result.symbols.size() + production->successor.size() > longest) refuse();
             result.symbols.insert(result.symbols.end(), production->successor.begin(), production->successor.end());
+            if (parents) parents->resize(result.symbols.size(), static_cast<std::uint32_t>(at_));
             for (const Expression& argument : production->arguments) {
                 result.arguments.push_back(argument.evaluate(formals_, chance));
             }
@@ -174,7 +181,7 @@ private:
 };
 
 Word rewrite_plain(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options,
-                   MatchingWork& work) {
+                   MatchingWork& work, Parents* parents) {
     // Places are counted in 32 bits.
     const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
     const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
@@ -218,40 +225,57 @@ Word rewrite_plain(const Grammar& grammar, const Table& table, const Word& word,
             if (result.size() >= longest) refuse();
             result.push_back(word[at]);
         }
+        if (parents) parents->resize(result.size(), static_cast<std::uint32_t>(at));
         at += replaced;
+    }
+    return result;
+}
+
+ModuleWord rewrite_whole(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
+                         const DerivationOptions& options, MatchingWork& work, Parents* parents) {
+    std::optional<ModuleWord> trimmed;
+    Parents kept;
+    if (grammar.cut() &&
+        std::find(given.symbols.begin(), given.symbols.end(), *grammar.cut()) != given.symbols.end()) {
+        trimmed = without_cuts(grammar, given, kept);
+    }
+    const ModuleWord& word = trimmed ? *trimmed : given;
+    work.begin_step(step, word.symbols.size());
+    const auto rewritten = [&]() -> ModuleWord {
+        if (grammar.is_plain()) {
+            return {rewrite_plain(grammar, table, word.symbols, options, work, parents), {}, {}};
+        }
+        // Places are counted in 32 bits.
+        const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
+        const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
+        if (word.symbols.size() > longest) refuse();
+        return ModuleRewriter(grammar, table, word, step, work).run(longest, refuse, parents);
+    };
+    ModuleWord result = rewritten();
+    if (trimmed && parents) {
+        for (std::uint32_t& parent : *parents) parent = kept[parent];
     }
     return result;
 }
 
 }  // namespace
 
-ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options, MatchingWork& work) {
-    std::optional<ModuleWord> trimmed;
-    if (grammar.cut() &&
-        std::find(given.symbols.begin(), given.symbols.end(), *grammar.cut()) != given.symbols.end()) {
-        trimmed = without_cuts(grammar, given);
-    }
-    const ModuleWord& word = trimmed ? *trimmed : given;
-    work.begin_step(step, word.symbols.size());
-    if (grammar.is_plain()) return {rewrite_plain(grammar, table, word.symbols, options, work), {}, {}};
-    // Places are counted in 32 bits.
-    const std::uint64_t longest = std::min<std::uint64_t>(options.longest_word, UINT32_MAX - 1);
-    const auto refuse = [&] { throw BudgetError(fmt::format("the word has more than {} symbols", longest)); };
-    if (word.symbols.size() > longest) refuse();
-    return ModuleRewriter(grammar, table, word, step, work).run(longest, refuse);
+    return rewrite_whole(grammar, table, word, step, options, work, nullptr);
 }
 
 Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const DerivationOptions& options) {
     MatchingWork work(options);
     work.begin_step(1, word.size());
-    return rewrite_plain(grammar, table, word, options, work);
+    return rewrite_plain(grammar, table, word, options, work, nullptr);
 }
 
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
-                   const DerivationOptions& options) {
+                   const DerivationOptions& options, std::vector<std::uint32_t>* parents) {
+    if (parents) parents->clear();
     MatchingWork work(options);
-    return rewrite(grammar, table, word, step, options, work);
+    return rewrite_whole(grammar, table, word, step, options, work, parents);
 }
 
 }  // namespace sikku

@@ -49,6 +49,16 @@ public:
         }
     }
 
+    /// Visits the cells that a box touches.
+    template <class Visit>
+    void over(glm::dvec2 low, glm::dvec2 high, Visit&& visit) const {
+        for (std::int64_t y = row(low.y); y <= row(high.y); ++y) {
+            for (std::int64_t x = column(low.x); x <= column(high.x); ++x) {
+                visit(static_cast<std::size_t>(y * columns_ + x));
+            }
+        }
+    }
+
 private:
     std::int64_t column(double x) const { return clamped((x - low_.x) / width_, columns_); }
     std::int64_t row(double y) const { return clamped((y - low_.y) / width_, rows_); }

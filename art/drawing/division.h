@@ -1,0 +1,51 @@
+// art/drawing/division.h: generations of tiles that divide, in one place.
+#pragma once
+
+#include "art/drawing/draw_options.h"
+#include "art/drawing/division_time.h"
+#include "engine/geometry/recorded_path.h"
+#include "engine/tiling/polygon_list.h"
+
+#include <glm/mat3x2.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sikku {
+
+/// A generation of tiles, in coordinates and steps of its own.
+struct DivisionStage {
+    /// How a tile comes out of the one that divides.
+    struct Part {
+        glm::dvec2 middle{0.0};  ///< around which its size changes
+        glm::dvec2 way{0.0};     ///< from there to where it begins, or closer to its family
+        Colour from;            ///< colour of its parent
+    };
+    std::int64_t steps = 0;
+    RecordedPath picture;  ///< all that is drawn
+    PolygonList tiles;
+    std::vector<Colour> colours;  ///< of the tiles
+    glm::dmat3x2 place{1.0};      ///< to the coordinates of the last stage
+    double scale = 1;             ///< length of a step in steps of the last stage
+    std::optional<Pen> outline;   ///< of each tile, if their outlines are drawn
+    bool has_more_lines = false;  ///< lines or discs besides the outlines are drawn
+
+    std::vector<Part> parts;  ///< for each tile; empty in the first stage
+    DivisionKind kind = DivisionKind::cut;
+};
+
+struct Division {
+    std::vector<DivisionStage> stages;  ///< at least 2
+    Style style;                        ///< of all pictures
+    DrawnExtent seen;                   ///< of all stages together, in the orientation of the page
+    double scale = 1;                   ///< part of the page that it fills
+};
+
+/// Draws all generations from `first` on; those without tiles before the first with tiles are left out.
+/// @param most_tiles  of all generations together
+/// @throws BudgetError, WordError, Stopped; std::runtime_error, with the reason, if no tiles divide
+Division make_division(const Grammar& grammar, const Style& style, const DrawOptions& options, std::int64_t first,
+                       std::int64_t last, double most_tiles);
+
+}  // namespace sikku

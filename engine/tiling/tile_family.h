@@ -1,0 +1,46 @@
+// engine/tiling/tile_family.h: how the tiles of a generation divide into those of the next one.
+#pragma once
+
+#include "engine/base/monitor.h"
+#include "engine/tiling/tile_lineage.h"
+#include "engine/tiling/tile_plane.h"
+
+#include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sikku {
+
+/// One division: which tile of a generation, the parent, the tiles of the next one come from, its parts. Places are in
+/// the coordinates of the parts.
+struct TileDivision {
+    /// From the coordinates of the parents to those of the parts: the region is the same, exactly where one factor
+    /// multiplies all moves, otherwise as well as a similarity can.
+    glm::dmat3x2 map{1.0};
+    /// The mean distance between the middles of symbols' tiles and those of their parts, compared with the mean
+    /// distance of these from their common middle: how far the region is from resting. 0 if it is known to rest.
+    double deviation = 0;
+    bool is_cut = false;  ///< the parts of each parent fill it
+    /// The largest share of their size at which the parts of each parent have room in it, around their common
+    /// middle; 1 if they are cut out of it, at least least_share.
+    double share = 1;
+    static constexpr double least_share = 0.3;
+    double inside = 1;  ///< share of the area of all parts that lies in their own parents
+
+    /// For each part:
+    std::vector<std::uint32_t> parent;     ///< index of a tile, or no_number: it lies in none
+    std::vector<glm::dvec2> parent_middle; ///< the middle of the parent; of none: of the family
+    std::vector<glm::dvec2> family_middle; ///< of all parts of the same parent
+};
+
+/// Finds the divisions between generations that follow each other; one fewer than there are. The parts of a symbol that
+/// draws no tile, such as a half of one, belong to the tile in which most of them lies.
+/// @param factor  the number that multiplies all moves in a step, if there is one
+/// Cost: linear. @throws Stopped
+std::vector<TileDivision> tile_divisions(const std::vector<TileGeneration>& generations,
+                                         const std::optional<glm::dvec2>& factor, const Monitor& monitor);
+
+}  // namespace sikku
