@@ -78,6 +78,7 @@ void check_model(const DrawSettings& settings) {
                   {settings.frame_time.has_value(), "frame-time", reason},
                   {settings.hold.has_value(), "hold", reason},
                   {settings.fit_frames, "fit-frames", reason},
+                  {settings.division.has_value(), "divide", reason},
                   {settings.lesson.has_value(), "lesson", reason},
                   {settings.fills_page, "fill-page", reason},
                   {settings.names_tiles, "name-tiles", "only SVG has elements with names, and only PDF layers"},
@@ -219,12 +220,30 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
         {{settings.step.has_value(), "step", filled}, {settings.dot_spacing.has_value(), "dot-spacing", filled}});
 }
 
+void check_division(const DrawSettings& settings, PrintFormat format) {
+    if (!settings.division) return;
+    constexpr const char* moving = "does not apply to tiles that divide";
+    refuse_first({{format != PrintFormat::svg && format != PrintFormat::gif, "divide",
+                   "only a .gif and an animated SVG show how tiles divide"},
+                  {settings.plotter, "divide", "a plot does not move"},
+                  {settings.animation.has_value(), "animate", "cannot be combined with 'divide', which has its own times"},
+                  {settings.lesson.has_value(), "lesson", moving},
+                  {settings.frames, "frames", "all generations of tiles that divide are in one file"},
+                  {settings.fit_frames, "fit-frames", "tiles that divide keep their place and their scale"},
+                  {settings.tile.has_value(), "tile", "an animation cannot be cut into sheets"},
+                  {settings.fills_page, "fill-page", "sets the derivation length, of which 'divide' needs several"},
+                  {settings.repeat.has_value(), "repeat", moving},
+                  {settings.names_tiles, "name-tiles", "tiles that divide have other names in each generation"},
+                  {settings.dot_spacing.has_value(), "dot-spacing",
+                   "does not apply to tiles that divide; 'step' sets their scale"}});
+}
+
 void check_growth(const DrawSettings& settings, PrintFormat format) {
     const bool is_gif = format == PrintFormat::gif;
     const bool is_sheet = settings.generations && !is_gif && !settings.frames && !settings.division;
     refuse_first(
         {{is_gif && !settings.generations && !settings.lesson && !settings.division, "generations",
-          "required for a .gif; expected A:B"},
+          "required for a .gif; expected A:B, or 'divide'"},
          {settings.frames && !settings.generations, "frames", "needs 'generations'"},
          {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
          {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
@@ -281,6 +300,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
                   {settings.names_tiles && format != PrintFormat::svg && format != PrintFormat::pdf, "name-tiles",
                    "only SVG has elements with names, and only PDF layers"},
                   {settings.names_tiles && settings.plotter, "name-tiles", "a plot has lines only, no tiles"}});
+    check_division(settings, format);
     check_lesson(settings, format);
     check_growth(settings, format);
 }

@@ -2,6 +2,7 @@
 
 #include "art/border_files.h"
 #include "art/draw_settings.h"
+#include "art/drawing/division.h"
 #include "art/drawing/division_file.h"
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
@@ -163,6 +164,7 @@ private:
     void check_map() const {
         constexpr const char* kolams = "applies to the lines of a turtle, and a map has none";
         if (is_model()) require_turtle(document_, "it cannot be a model");
+        if (settings_.division) refuse_option("divide", "", "a .gif of a map shows without it how cells divide");
         if (settings_.dots || settings_.only_dots) refuse_option("dots", "", kolams);
         if (settings_.dot_spacing) refuse_option("dot-spacing", "", kolams);
         if (settings_.colours_strokes) refuse_option("colour-by", "", kolams);
@@ -179,6 +181,8 @@ private:
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
         if (is_model()) refuse_line_work("a model has");
+        if (settings_.division) require_plain("tiles that divide are not drawn by hand; set hand to 0");
+        if (settings_.division) require_straight("tiles that divide have straight edges; set line to straight");
         if (document_.map()) check_map();
         if (!is_spatial) return;
         require_plain("drawings in space have no hand-drawn lines; set hand to 0");
@@ -197,6 +201,7 @@ private:
         if (settings_.lesson) refuse("lesson", plane);
         if (settings_.colours_strokes) refuse("colour-by", plane);
         if (settings_.animation) refuse("animate", plane);
+        if (settings_.division) refuse("divide", plane);
         if (settings_.tile && !is_vector(format_))
             refuse("tile", "drawings in space can be cut into sheets only as SVG, PDF or EPS");
         if (!settings_.press.spots.empty() && !drawing_.plot) {
@@ -290,7 +295,12 @@ void PrintWork::make_division(Destination& destination, const std::filesystem::p
     division.times.division = *settings_.division;
     division.times.rest = settings_.frame_time.value_or(division.times.rest);
     division.times.hold = settings_.hold.value_or(division.times.hold);
-    const DrawReport report = draw_division(document_.grammar(), print_, options, division, name, destination);
+    DrawReport report;
+    try {
+        report = draw_division(document_.grammar(), print_, options, division, name, destination);
+    } catch (const DivisionError& error) {
+        refuse_option("divide", "", error.what());
+    }
     if (report.overflows) made.warn("the drawing is larger than the page within its margins and is cut off");
 }
 
@@ -468,13 +478,17 @@ DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {
 }
 
 Cost PrintWork::forecast() const {
-    if (!settings_.generations) return forecast(document_.grammar());
+    if (!settings_.generations && !settings_.division) return forecast(document_.grammar());
     // The last generation is the most expensive.
-    const auto [first, last] = *settings_.generations;
+    const auto [first, last] = divided_generations();
     const auto largest = document_.grammar().with_steps(last);
     Cost result = forecast(largest ? *largest : document_.grammar());
-    result.seconds *= static_cast<double>(last - first + 1);
-    result.bytes *= static_cast<double>(last - first + 1);
+    constexpr double pictures_of_second = 25, bytes_of_moving_tile = 8;
+    double pictures = static_cast<double>(last - first + 1);
+    if (settings_.division && format_ == PrintFormat::gif) pictures *= pictures_of_second * *settings_.division;
+    if (settings_.division && format_ != PrintFormat::gif) result.bytes *= bytes_of_moving_tile;
+    result.seconds *= pictures;
+    result.bytes *= pictures;
     return result;
 }
 

@@ -139,7 +139,7 @@ void refuse_alone(const OptionValues& values) {
         }
         if (value.name == "window") refuse_option("window", "", "a place on a sheet shows a whole drawing");
         if (value.name == "lesson") refuse_option("lesson", "", "a lesson has pages of its own; draw makes it");
-        for (const char* growth : {"generations", "frames", "frame-time", "hold", "fit-frames"}) {
+        for (const char* growth : {"generations", "frames", "frame-time", "hold", "fit-frames", "divide"}) {
             if (value.name == growth)
                 refuse_option(growth, "", "a sheet shows one derivation length of each drawing");
         }

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -112,14 +111,18 @@ public:
     }
 
     Division make(std::int64_t first, std::int64_t last, double most_tiles) {
-        generations_ = tile_generations(grammar_, first, last, {options_.budget, most_tiles}, options_.monitor);
+        try {
+            generations_ = tile_generations(grammar_, first, last, {options_.budget, most_tiles}, options_.monitor);
+        } catch (const LineageError& error) {
+            throw DivisionError(error.what());
+        }
         const auto has_tiles = [](const TileGeneration& generation) { return !generation.symbol.empty(); };
         generations_.erase(generations_.begin(), std::find_if(generations_.begin(), generations_.end(), has_tiles));
         if (generations_.empty()) {
-            throw std::runtime_error("this drawing has no tiles, which are polygons between { and }");
+            throw DivisionError("this drawing has no tiles, which are polygons between { and }");
         }
         if (generations_.size() < 2) {
-            throw std::runtime_error(fmt::format(
+            throw DivisionError(fmt::format(
                 "a tile divides from one derivation length to the next: expected one above {}", generations_[0].steps));
         }
         divisions_ = tile_divisions(generations_, factor(), options_.monitor);
@@ -147,11 +150,11 @@ private:
             }
         }
         if (!divides) {
-            throw std::runtime_error(
+            throw DivisionError(
                 "the tiles of this pattern do not divide: each generation adds tiles to those before");
         }
         if (divisions_.back().deviation > most_deviation) {
-            throw std::runtime_error(fmt::format(
+            throw DivisionError(fmt::format(
                 "no scale keeps the generations of this pattern in one place: their tiles deviate by {:.0f} % of the "
                 "whole",
                 100 * divisions_.back().deviation));
@@ -176,7 +179,7 @@ private:
         const bool is_blank = given_.tile_colours == TileColours::blank;
         if (is_blank) reader.colours.assign(stage.tiles.size(), Colour{0, 0, 0, 0});
         if (reader.colours.size() != stage.tiles.size()) {
-            throw std::runtime_error("only polygons between { and } divide; this drawing has others");
+            throw DivisionError("only polygons between { and } divide; this drawing has others");
         }
         stage.colours = std::move(reader.colours);
         const TileEdges edges = given_.tile_edges;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace sikku {
@@ -42,9 +43,14 @@ struct Division {
     double scale = 1;                   ///< part of the page that it fills
 };
 
+/// The tiles of a drawing do not divide; the message gives the reason.
+class DivisionError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Draws all generations from `first` on; those without tiles before the first with tiles are left out.
 /// @param most_tiles  of all generations together
-/// @throws BudgetError, WordError, Stopped; std::runtime_error, with the reason, if no tiles divide
+/// @throws BudgetError, WordError, Stopped, DivisionError
 Division make_division(const Grammar& grammar, const Style& style, const DrawOptions& options, std::int64_t first,
                        std::int64_t last, double most_tiles);
 

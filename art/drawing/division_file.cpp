@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -149,14 +148,15 @@ DrawReport draw_division(const Grammar& grammar, const Print& print, const DrawO
                          const DivisionOptions& division, const std::filesystem::path& file,
                          Destination& destination) {
     const DrawOptions options = with_locked_watch(given_options);
-    if (print.style.line == Line::spline) throw std::runtime_error("tiles that divide have straight edges, not splines");
-    if (print.style.hand > 0) throw std::runtime_error("tiles that divide are not drawn by hand");
+    if (print.style.line == Line::spline) throw DivisionError("tiles that divide have straight edges, not splines");
+    if (print.style.hand > 0) throw DivisionError("tiles that divide are not drawn by hand");
     if (division.is_gif) prepare_images(options.threads);
     auto stages = std::make_shared<const Division>(make_division(grammar, print.style, options, division.first,
                                                                  division.last,
                                                                  division.is_gif ? most_tiles_of_gif : most_tiles_of_svg));
     const auto output = destination.open(file);
-    DivisionFile animation(std::move(stages), print, options, division.times);
+    const Print placed = division.is_gif ? print : as_picture(print);
+    DivisionFile animation(std::move(stages), placed, options, division.times);
     DrawReport report = division.is_gif ? animation.write_gif(*output, file) : animation.write_svg(*output);
     output->commit();
     return report;

@@ -30,7 +30,7 @@ constexpr std::array spread_colour = {Keyframe{0, 0}, Keyframe{0.1, 0}, Keyframe
 constexpr std::array spread_before = {Keyframe{0, 1}, Keyframe{0.15, 1}, Keyframe{0.6, 0}, Keyframe{1, 0}};
 constexpr std::array spread_opacity = {Keyframe{0, 0}, Keyframe{0.2, 1}, Keyframe{1, 1}};
 
-constexpr std::array arrival = {Keyframe{0, 0}, Keyframe{0.7, 0}, Keyframe{1, 1}};
+constexpr std::array arrival = {Keyframe{0, 0}, Keyframe{0.25, 0}, Keyframe{0.8, 1}, Keyframe{1, 1}};
 
 }  // namespace
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace sikku {
@@ -96,18 +95,18 @@ private:
     std::int64_t steps_ = 0;
 };
 
-/// @throws std::runtime_error if the derivations up to `last` do not continue each other
+/// @throws LineageError if the derivations up to `last` do not continue each other
 std::vector<std::uint32_t> common_tables(const Grammar& grammar, std::int64_t first, std::int64_t last) {
     const auto longest = grammar.with_steps(last);
     if (!longest) {
-        throw std::runtime_error(fmt::format("the schedule is too short for a derivation length of {}", last));
+        throw LineageError(fmt::format("the schedule is too short for a derivation length of {}", last));
     }
     std::vector<std::uint32_t> all = tables_of(*longest);
     for (std::int64_t steps = first; steps < last && grammar.has_schedule(); ++steps) {
         const auto shorter = grammar.with_steps(steps);
         const std::vector<std::uint32_t> tables = shorter ? tables_of(*shorter) : std::vector<std::uint32_t>{};
         if (!shorter || !std::equal(tables.begin(), tables.end(), all.begin())) {
-            throw std::runtime_error(
+            throw LineageError(
                 "its schedule applies the tables in another order at each derivation length, so that no generation "
                 "is made of the one before");
         }
@@ -121,7 +120,7 @@ std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_
                                              const LineageLimits& limits, const Monitor& monitor) {
     require_word(grammar);
     if (grammar.is_spatial()) {
-        throw std::runtime_error("this drawing pitches, rolls, bends or has surfaces, and tiles lie in the plane");
+        throw LineageError("this drawing pitches, rolls, bends or has surfaces, and tiles lie in the plane");
     }
     const std::vector<std::uint32_t> tables = common_tables(grammar, first, last);
     Lineage lineage(grammar, limits, monitor);

@@ -7,6 +7,7 @@
 #include "engine/tiling/polygon_list.h"
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 namespace sikku {
@@ -21,6 +22,11 @@ struct TileGeneration {
                                         ///< in the first generation
 };
 
+/// The tiles of a generation are not made of those of the one before; the message gives the reason.
+class LineageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Limits of generations, checked before memory and time are spent on the next one.
 struct LineageLimits {
     double nodes = 200e6;  ///< of each derivation
@@ -28,8 +34,8 @@ struct LineageLimits {
 };
 
 /// Derives all generations from `first` to `last`, each from the one before. Memory: the words of two generations, 40
-/// bytes a corner. @throws BudgetError, which names the largest derivation length that fits; WordError; Stopped;
-/// std::runtime_error for maps, for drawings in space, and where a longer derivation does not continue a shorter one
+/// bytes a corner. @throws BudgetError, which names the largest derivation length that fits; WordError, also for maps;
+/// Stopped; LineageError for drawings in space, and where a longer derivation does not continue a shorter one
 std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_t first, std::int64_t last,
                                              const LineageLimits& limits, const Monitor& monitor);
 

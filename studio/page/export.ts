@@ -252,8 +252,9 @@ class Export {
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
             const text = "Only the program can write this format; copy the command below.";
-            const needs = "A GIF is an animation: set the option “Generations”, such as 0:4.";
-            const isStill = format.extension === "gif" && !request.options.some(([name]) => name === "generations");
+            const needs = "A GIF is an animation: set the option “Generations”, such as 0:4, or “Divide”.";
+            const moves = request.options.some(([name]) => name === "generations" || name === "divide");
+            const isStill = format.extension === "gif" && !moves;
             this.showRemarks([
                 { is_warning: false, text },
                 ...(isStill ? [{ is_warning: true, text: needs }] : []),

@@ -176,6 +176,8 @@ export function isComposed(facts: Opened, options: Options): boolean {
 /// Options of pictures, without those of animations, plotters and the press, which pictures refuse.
 const notOfPictures = new Set([
     "animate",
+    "divide",
+    "swatch",
     "frames",
     "frame-time",
     "hold",
