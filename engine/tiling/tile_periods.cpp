@@ -1,0 +1,173 @@
+#include "engine/tiling/tile_periods.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace sikku {
+namespace {
+
+class PeriodFinder {
+public:
+    PeriodFinder(const TilingPatch& patch, std::span<const std::uint32_t> kinds, const Monitor& monitor)
+        : plane_(patch.plane),
+          tiles_(patch.tiles),
+          pieces_(patch.pieces),
+          neighbours_(patch.neighbours),
+          kinds_(kinds),
+          monitor_(monitor),
+          pulse_(monitor) {
+        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
+            placed_.emplace(key(tiles_.in_class[tile], anchor(tile)), tile);
+        }
+        for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
+            if (pieces_.twin[side] == no_number) border_.push_back(side);
+        }
+    }
+
+    TilePeriods find() {
+        find_middle();
+        result_.reach = result_.radius / 3;
+        for (const std::uint32_t tile : candidates()) {
+            const glm::dvec2 way = plane_.at(anchor(tile)) - plane_.at(anchor(result_.middle));
+            if (result_.count == 1) {
+                const glm::dvec2 first = result_.vectors[0];
+                if (std::fabs(determinant(first, way)) < 1e-9 * glm::length(first) * glm::length(way)) continue;
+            }
+            monitor_.check();
+            const std::uint64_t compared = count_images(tile);
+            if (compared == 0) continue;
+            const auto number = static_cast<std::size_t>(result_.count++);
+            result_.compared = number == 0 ? compared : std::min(result_.compared, compared);
+            result_.vectors[number] = way;
+            if (plane_.is_exact()) result_.exact[number] = exact_way(tile);
+            if (result_.count == 2) break;
+        }
+        return result_;
+    }
+
+private:
+    static std::uint64_t key(std::uint32_t in_class, std::uint32_t point) {
+        return std::uint64_t{in_class} << 32U | point;
+    }
+    std::uint32_t anchor(std::uint32_t tile) const { return tiles_.corner[tiles_.begin[tile]]; }
+
+    /// Goes inwards from the border, tile by tile.
+    void find_middle() {
+        std::vector<char> is_reached(tiles_.tiles(), 0);
+        std::vector<std::uint32_t> reached;
+        const auto reach = [&](std::uint32_t tile) {
+            if (is_reached[tile]) return;
+            is_reached[tile] = 1;
+            reached.push_back(tile);
+        };
+        for (const std::uint32_t side : border_) reach(pieces_.tile[side]);
+        is_inner_.assign(tiles_.tiles(), 1);
+        for (const std::uint32_t tile : reached) is_inner_[tile] = 0;
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            pulse_();
+            for (const std::uint32_t other : neighbours_.of(reached[i])) reach(other);
+        }
+        if (!reached.empty()) result_.middle = reached.back();
+        const glm::dvec2 at = plane_.at(anchor(result_.middle));
+        double least = std::numeric_limits<double>::max();
+        for (const std::uint32_t side : border_) {
+            const glm::dvec2 from = plane_.at(pieces_.from[side]) - at, to = plane_.at(pieces_.to(side)) - at;
+            const glm::dvec2 along = to - from;
+            const double share = std::clamp(-scalar_product(from, along) / scalar_product(along, along), 0.0, 1.0);
+            least = std::min(least, glm::length(from + share * along));
+        }
+        result_.radius = border_.empty() ? 0 : least;
+    }
+
+    /// Tiles of the kind of the middle one that lie above it or on its right, the nearest first.
+    std::vector<std::uint32_t> candidates() const {
+        const glm::dvec2 at = plane_.at(anchor(result_.middle));
+        std::vector<std::pair<double, std::uint32_t>> found;
+        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
+            if (tile == result_.middle || !is_alike(tile, result_.middle)) continue;
+            const glm::dvec2 way = plane_.at(anchor(tile)) - at;
+            const bool is_level = std::fabs(way.y) < plane_.tolerance();
+            const double length = glm::length(way);
+            if (is_level ? way.x < 0 : way.y < 0) continue;
+            // Equal lengths in the order of tiles.
+            if (length <= result_.reach) found.emplace_back(std::round(length * 1e6), tile);
+        }
+        std::sort(found.begin(), found.end());
+        std::vector<std::uint32_t> tiles;
+        tiles.reserve(found.size());
+        for (const auto& [length, tile] : found) tiles.push_back(tile);
+        return tiles;
+    }
+    bool is_alike(std::uint32_t a, std::uint32_t b) const {
+        return tiles_.in_class[a] == tiles_.in_class[b] && kinds_[a] == kinds_[b];
+    }
+
+    Cyclotomic::Number exact_way(std::uint32_t tile) const {
+        Cyclotomic::Number way = plane_.coordinates(anchor(tile));
+        const Cyclotomic::Number from = plane_.coordinates(anchor(result_.middle));
+        for (std::size_t i = 0; i < way.size(); ++i) way[i] -= from[i];
+        return way;
+    }
+
+    /// The tile that a translation maps a tile onto, or no_number.
+    std::uint32_t image(std::uint32_t tile, const Cyclotomic::Number& exact, glm::dvec2 way) const {
+        Cyclotomic::Number at{};
+        if (plane_.is_exact()) {
+            at = plane_.coordinates(anchor(tile));
+            for (std::size_t i = 0; i < at.size(); ++i) at[i] += exact[i];
+        }
+        const std::uint32_t point = plane_.find(at, plane_.at(anchor(tile)) + way);
+        if (point == no_number) return no_number;
+        const auto found = placed_.find(key(tiles_.in_class[tile], point));
+        return found == placed_.end() || !is_alike(tile, found->second) ? no_number : found->second;
+    }
+
+    /// The number of tiles with an image under the translation from the middle tile to another; 0 if it fails.
+    std::uint64_t count_images(std::uint32_t to) {
+        const glm::dvec2 way = plane_.at(anchor(to)) - plane_.at(anchor(result_.middle));
+        const Cyclotomic::Number exact = plane_.is_exact() ? exact_way(to) : Cyclotomic::Number{};
+        std::vector<char> is_reached(tiles_.tiles(), 0);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> mapped = {{result_.middle, to}};
+        is_reached[result_.middle] = 1;
+        for (std::size_t i = 0; i < mapped.size(); ++i) {
+            const auto [tile, its_image] = mapped[i];
+            for (const std::uint32_t other : neighbours_.of(tile)) {
+                pulse_();
+                if (is_reached[other]) continue;
+                const std::uint32_t found = image(other, exact, way);
+                if (found != no_number) {
+                    is_reached[other] = 1;
+                    mapped.emplace_back(other, found);
+                } else if (is_inner_[its_image]) {
+                    return 0;
+                }
+            }
+        }
+        return mapped.size();
+    }
+
+    const TilePlane& plane_;
+    const TileSet& tiles_;
+    const TilePieces& pieces_;
+    const TileNeighbours& neighbours_;
+    std::span<const std::uint32_t> kinds_;
+    const Monitor& monitor_;
+    Pulse pulse_;
+    std::unordered_map<std::uint64_t, std::uint32_t> placed_;  // by class and first corner
+    std::vector<std::uint32_t> border_;                        // sides without a twin
+    std::vector<char> is_inner_;                               // tiles without such sides
+    TilePeriods result_;
+};
+
+}  // namespace
+
+TilePeriods find_periods(const TilingPatch& patch, std::span<const std::uint32_t> kinds, const Monitor& monitor) {
+    if (patch.tiles.tiles() == 0) return {};
+    return PeriodFinder(patch, kinds, monitor).find();
+}
+
+}  // namespace sikku
