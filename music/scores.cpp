@@ -19,6 +19,7 @@
 #include "music/score/csound.h"
 #include "music/score/engraving.h"
 #include "music/score/glides.h"
+#include "music/score/instruments.h"
 #include "music/score/lilypond.h"
 #include "music/score/midi.h"
 #include "music/score/music_page.h"
@@ -145,7 +146,8 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         if (!player.is_bass) add_texts(player, titles, head);
         Part part;
         const std::string& own_name = player.name;
-        part.name = own_name.empty() ? instrument_names()[static_cast<std::size_t>(melody.program)] : own_name;
+        part.name = own_name.empty() ? instrument_of(melody.program).name : own_name;
+        part.has_instrument_name = own_name.empty();
         part.scale = scale_of(melody);
         part.program = melody.program;
         part.key = key_signature(melody.scale, melody.tonic_spelling);
@@ -175,9 +177,11 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
         if (!is_drums_alone) head.parts.push_back(part);
         if (melody.accompanying_voices() > 0) {
             part.has_chords = false;
+            part.is_accompaniment = true;
             part.voices = melody.accompanying_voices();
             part.program = melody.harmony == Harmony::drone ? sitar : strings;
-            part.name = instrument_names()[static_cast<std::size_t>(part.program)];
+            part.name = instrument_of(part.program).name;
+            part.has_instrument_name = true;
             head.parts.push_back(part);
         }
         if (sounds.has_drums)
@@ -240,7 +244,7 @@ void report_moved(const Ensemble& ensemble, const PlayOptions& playing, const En
         if (known == ranges.end()) known = ranges.insert(known, {&melody, 0, {}, false});
         known->notes += report.moved_of[i];
         known->is_anchored = known->is_anchored || melody.anchor != Anchor::piece;
-        const std::string_view name = instrument_names()[static_cast<std::size_t>(melody.program)];
+        const std::string_view name = instrument_of(melody.program).name;
         auto& names = known->instruments;
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }

@@ -47,17 +47,22 @@ std::string_view sign_of(int quarters) {
     return signs[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
 }
 
-/// `C,`, `C` (middle C), `c`, `c'`.
-std::string letter_of(const Pitch& pitch) {
-    std::string text(1, (pitch.octave > 4 ? "cdefgab" : "CDEFGAB")[pitch.letter]);
-    const int marks = pitch.octave > 4 ? pitch.octave - 5 : 4 - pitch.octave;
-    return text.append(static_cast<std::size_t>(marks), pitch.octave > 4 ? '\'' : ',');
+/// `C,`, `C` (middle C), `c`, `c'`. @param octaves  that players add for the clef
+std::string letter_of(const Pitch& pitch, int octaves = 0) {
+    const int octave = pitch.octave - octaves;
+    std::string text(1, (octave > 4 ? "cdefgab" : "CDEFGAB")[pitch.letter]);
+    const int marks = octave > 4 ? octave - 5 : 4 - octave;
+    return text.append(static_cast<std::size_t>(marks), octave > 4 ? '\'' : ',');
 }
 
 std::string_view clef_name(Clef clef) {
-    static constexpr std::array<std::string_view, 7> names = {"treble", "bass", "alto", "tenor",
-                                                              "treble", "bass", "perc"};
+    static constexpr std::array<std::string_view, 8> names = {"treble",   "bass",   "alto",     "tenor",
+                                                              "treble-8", "bass-8", "treble+8", "perc"};
     return names[static_cast<std::size_t>(clef)];
+}
+
+int octaves_of(Clef clef) {
+    return clef == Clef::treble_up_8 ? 1 : clef == Clef::treble_8 || clef == Clef::bass_8 ? -1 : 0;
 }
 
 std::string key_name(const std::optional<KeySignature>& key) {
@@ -92,8 +97,10 @@ public:
         put("%abc-2.1\n\n{}\nX:1\nT:{}\n", head_comments(head_, "%"), field(head_.title));
         if (!head_.composer.empty()) put("C:{}\n", field(head_.composer));
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
-        put("M:{}\nL:1/8\nQ:1/4={}\n{}", meter_name(head_.meter), std::max<long long>(1, std::llround(head_.tempo)),
-            score());
+        const BeatUnit beat = beat_unit(head_.meter);
+        put("M:{}\nL:1/8\nQ:{}/{}={}\n{}", meter_name(head_.meter), beat.value.dotted ? 3 : 1,
+            beat.value.divisor * (beat.value.dotted ? 2 : 1),
+            std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
         put("K:{}\n", key_name(notation_.parts.front().keys.front().key));
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {
@@ -101,7 +108,7 @@ public:
             for (const Staff& staff : notated.staves) {
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
                     put("V:{} clef={}{}\n{}\n[K:{}] ", ++number, clef_name(staff.changes.front().clef),
-                        part.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(part.name)),
+                        notated.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(notated.name)),
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
                         key_name(notated.keys.front().key));
                     write_voice(staff, k, notated.keys);
@@ -155,14 +162,7 @@ private:
         std::map<int, int> at_height;
         for (const NotatedPart& part : notation_.parts) {
             for (const Staff& staff : part.staves) {
-                for (const NotatedVoice& voice : staff.voices) {
-                    for (const NotatedSymbol& symbol : voice.symbols) {
-                        if (symbol.drum > 0) drum_notes_.try_emplace(symbol.drum);
-                        for (const ChordNote& note : symbol.chord) {
-                            if (note.drum > 0) drum_notes_.try_emplace(note.drum);
-                        }
-                    }
-                }
+                for (const int key : drums_of(staff)) drum_notes_.try_emplace(key);
             }
         }
         static constexpr std::array<std::string_view, 5> signs = {"=", "^", "_", "^^", "__"};
@@ -200,7 +200,7 @@ private:
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {
                 const StaffChange& next = staff.changes[change];
-                if (clef_name(next.clef) != clef_name(clef)) put("[K:clef={}] ", clef_name(next.clef));
+                if (next.clef != clef) put("[K:clef={}] ", clef_name(next.clef));
                 if (octaves != next.octaves)
                     put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(next.octaves, '('));
                 clef = next.clef;
@@ -209,13 +209,13 @@ private:
             for (; is_first && mark < staff.dynamics.size() && staff.dynamics[mark].onset <= symbol.onset; ++mark) {
                 if (!hairpin.empty()) put("!{})!", hairpin);
                 const DynamicMark& next = staff.dynamics[mark];
-                hairpin = next.kind == DynamicMark::Kind::crescendo    ? "<"
-                          : next.kind == DynamicMark::Kind::diminuendo ? ">"
-                                                                       : "";
-                put("!{}!", hairpin.empty() ? std::string(dynamic_name(next.level)) : std::string(hairpin) + "(");
+                using enum DynamicMark::Kind;
+                hairpin = next.kind == crescendo ? "<" : next.kind == diminuendo ? ">" : "";
+                if (!hairpin.empty()) put("!{}(!", hairpin);
+                if (next.kind == level) put("!{}!", dynamic_name(next.level));
             }
             if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
-            write_symbol(symbol, signs, altered);
+            write_symbol(symbol, octaves_of(clef), signs, altered);
             const std::int64_t end = symbol.onset + symbol.length;
             const bool is_beamed = symbol.beams[0] == Beam::begin || symbol.beams[0] == Beam::inside;
             if (end % bar != 0) {
@@ -250,15 +250,18 @@ private:
     }
 
     /// A note without its length.
-    std::string head_of(const Pitch& pitch, int drum, const std::array<int, 7>& signs, std::set<int>& altered) const {
+    std::string head_of(const Pitch& pitch, int drum, int octaves, const std::array<int, 7>& signs,
+                        std::set<int>& altered) const {
         if (drum > 0) return drum_notes_.at(drum);
         const bool is_plain = pitch.quarters == 2 * signs[static_cast<std::size_t>(pitch.letter)];
         if (!is_plain) altered.insert(pitch.letter);
         const bool is_signed = altered.count(pitch.letter) > 0;
-        return (is_signed ? std::string(sign_of(pitch.quarters)) : "") + letter_of(pitch);
+        return (is_signed ? std::string(sign_of(pitch.quarters)) : "") + letter_of(pitch, octaves);
     }
 
-    void write_symbol(const NotatedSymbol& symbol, const std::array<int, 7>& signs, std::set<int>& altered) {
+    /// @param octaves  that players add for the clef
+    void write_symbol(const NotatedSymbol& symbol, int octaves, const std::array<int, 7>& signs,
+                      std::set<int>& altered) {
         const bool is_bar = symbol.length == notation_.bar_length && symbol.kind != SymbolKind::note;
         const std::string length = length_of(is_bar ? symbol.length : symbol.value.ticks());
         if (symbol.kind != SymbolKind::note) {
@@ -270,9 +273,9 @@ private:
         if (symbol.ends_slide) put("!~)!");
         if (symbol.begins_slide) put("!~(!");
         if (symbol.leaves != 0) put("\"^gliss.\"");
-        if (symbol.cents != 0) put("\"^{:+}\"", symbol.cents);
-        std::string text = head_of(pitch, symbol.drum, signs, altered);
-        for (const ChordNote& note : symbol.chord) text += head_of(note.pitch, note.drum, signs, altered);
+        for (const int cents : printed_cents(symbol)) put("\"^{:+}\"", cents);
+        std::string text = head_of(pitch, symbol.drum, octaves, signs, altered);
+        for (const ChordNote& note : symbol.chord) text += head_of(note.pitch, note.drum, octaves, signs, altered);
         put("{}{}{}", symbol.chord.empty() ? text : "[" + text + "]", length, symbol.tied_forward ? "-" : "");
     }
 

@@ -14,6 +14,7 @@ constexpr double reluctance = 3;
 constexpr std::size_t longest_hairpin = 4;  // bars
 constexpr double least_slope = 2;           // of velocity, from bar to bar
 constexpr double accent = 14;
+constexpr std::int64_t least_rest = ticks_per_quarter / 2;  // that a hairpin does not cross
 
 double centre(int level) {
     return step * (level + 1);
@@ -45,6 +46,23 @@ std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t b
     return bars;
 }
 
+/// Adds a hairpin that leads to a level at `to`, if it has notes enough.
+void add_hairpin(DynamicMark mark, std::int64_t to, std::span<const Note> notes, std::vector<DynamicMark>& marks) {
+    std::int64_t last = -1;
+    std::int64_t end = 0;
+    int onsets = 0;
+    const auto* note = std::lower_bound(notes.data(), notes.data() + notes.size(), mark.onset,
+                                        [](const Note& one, std::int64_t tick) { return one.onset < tick; });
+    for (; note != notes.data() + notes.size() && note->onset < to; ++note) {
+        if (note->onset != last) ++onsets;
+        last = note->onset;
+        end = std::max(end, note->onset + note->duration);
+    }
+    if (onsets < 2) return;
+    marks.push_back(mark);
+    if (to - end >= least_rest) marks.push_back({end, DynamicMark::Kind::end, mark.level});
+}
+
 }  // namespace
 
 std::string_view dynamic_name(int level) {
@@ -72,7 +90,10 @@ std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t b
                    side * (bars[begin].velocity - bars[begin - 1].velocity) >= least_slope) {
                 --begin;
             }
-            if (begin < i) marks.push_back({bars[begin].onset, side > 0 ? crescendo : diminuendo, current});
+            if (begin < i) {
+                add_hairpin({bars[begin].onset, side > 0 ? crescendo : diminuendo, current}, bars[i].onset, notes,
+                            marks);
+            }
         }
         marks.push_back({bars[i].onset, level, next});
         current = next;

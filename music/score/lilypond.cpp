@@ -3,12 +3,14 @@
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
+#include "music/score/instruments.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <set>
 #include <span>
@@ -20,138 +22,6 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-
-/// LilyPond's own names of the General MIDI programs; others it does not know.
-constexpr std::array<std::string_view, 128> instruments = {
-    "acoustic grand",
-    "bright acoustic",
-    "electric grand",
-    "honky-tonk",
-    "electric piano 1",
-    "electric piano 2",
-    "harpsichord",
-    "clav",
-    "celesta",
-    "glockenspiel",
-    "music box",
-    "vibraphone",
-    "marimba",
-    "xylophone",
-    "tubular bells",
-    "dulcimer",
-    "drawbar organ",
-    "percussive organ",
-    "rock organ",
-    "church organ",
-    "reed organ",
-    "accordion",
-    "harmonica",
-    "concertina",
-    "acoustic guitar (nylon)",
-    "acoustic guitar (steel)",
-    "electric guitar (jazz)",
-    "electric guitar (clean)",
-    "electric guitar (muted)",
-    "overdriven guitar",
-    "distorted guitar",
-    "guitar harmonics",
-    "acoustic bass",
-    "electric bass (finger)",
-    "electric bass (pick)",
-    "fretless bass",
-    "slap bass 1",
-    "slap bass 2",
-    "synth bass 1",
-    "synth bass 2",
-    "violin",
-    "viola",
-    "cello",
-    "contrabass",
-    "tremolo strings",
-    "pizzicato strings",
-    "orchestral harp",
-    "timpani",
-    "string ensemble 1",
-    "string ensemble 2",
-    "synthstrings 1",
-    "synthstrings 2",
-    "choir aahs",
-    "voice oohs",
-    "synth voice",
-    "orchestra hit",
-    "trumpet",
-    "trombone",
-    "tuba",
-    "muted trumpet",
-    "french horn",
-    "brass section",
-    "synthbrass 1",
-    "synthbrass 2",
-    "soprano sax",
-    "alto sax",
-    "tenor sax",
-    "baritone sax",
-    "oboe",
-    "english horn",
-    "bassoon",
-    "clarinet",
-    "piccolo",
-    "flute",
-    "recorder",
-    "pan flute",
-    "blown bottle",
-    "shakuhachi",
-    "whistle",
-    "ocarina",
-    "lead 1 (square)",
-    "lead 2 (sawtooth)",
-    "lead 3 (calliope)",
-    "lead 4 (chiff)",
-    "lead 5 (charang)",
-    "lead 6 (voice)",
-    "lead 7 (fifths)",
-    "lead 8 (bass+lead)",
-    "pad 1 (new age)",
-    "pad 2 (warm)",
-    "pad 3 (polysynth)",
-    "pad 4 (choir)",
-    "pad 5 (bowed)",
-    "pad 6 (metallic)",
-    "pad 7 (halo)",
-    "pad 8 (sweep)",
-    "fx 1 (rain)",
-    "fx 2 (soundtrack)",
-    "fx 3 (crystal)",
-    "fx 4 (atmosphere)",
-    "fx 5 (brightness)",
-    "fx 6 (goblins)",
-    "fx 7 (echoes)",
-    "fx 8 (sci-fi)",
-    "sitar",
-    "banjo",
-    "shamisen",
-    "koto",
-    "kalimba",
-    "bagpipe",
-    "fiddle",
-    "shanai",
-    "tinkle bell",
-    "agogo",
-    "steel drums",
-    "woodblock",
-    "taiko drum",
-    "melodic tom",
-    "synth drum",
-    "reverse cymbal",
-    "guitar fret noise",
-    "breath noise",
-    "seashore",
-    "bird tweet",
-    "telephone ring",
-    "helicopter",
-    "applause",
-    "gunshot",
-};
 
 }  // namespace
 
@@ -182,8 +52,8 @@ std::string length_name(NoteValue value) {
 }
 
 std::string_view clef_name(Clef clef) {
-    static constexpr std::array<std::string_view, 7> names = {"treble",       "bass",       "alto",      "tenor",
-                                                              "\"treble_8\"", "\"bass_8\"", "percussion"};
+    static constexpr std::array<std::string_view, 8> names = {
+        "treble", "bass", "alto", "tenor", "\"treble_8\"", "\"bass_8\"", "\"treble^8\"", "percussion"};
     return names[static_cast<std::size_t>(clef)];
 }
 
@@ -225,16 +95,16 @@ public:
         if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
         // The name of a single part stands above it, as in printed music; those of several stand before their staves.
         const bool is_solo = notation_.parts.size() == 1;
-        if (is_solo) put("  instrument = {}\n", lilypond_string(notation_.parts.front().part.name));
+        if (is_solo) put("  instrument = {}\n", lilypond_string(notation_.parts.front().name));
         if (!head_.source.empty()) put("  copyright = {}\n", lilypond_string(head_.source));
         put("  tagline = ##f\n}}\n\n");
         write_drum_table();
-        // LilyPond takes systems for a little lower than they are, and then has to squeeze a page.
-        put("\\paper {{\n  page-breaking-system-system-spacing.padding = #6\n}}\n\n\\score {{\n  <<\n");
+        write_paper();
+        put("\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
-        put("  >>\n  \\layout {{\n    indent = {}\\mm\n    \\context {{ \\Score \\autoBeamOff }}\n  }}\n  \\midi {{ "
-            "}}\n}}\n",
-            is_solo ? 0 : indent());
+        put("  >>\n");
+        write_layout();
+        put("  \\midi {{ }}\n}}\n");
         flush();
     }
 
@@ -244,14 +114,8 @@ private:
         std::set<int> used;
         for (const NotatedPart& part : notation_.parts) {
             for (const Staff& staff : part.staves) {
-                for (const NotatedVoice& voice : staff.voices) {
-                    for (const NotatedSymbol& symbol : voice.symbols) {
-                        if (symbol.drum > 0) used.insert(symbol.drum);
-                        for (const ChordNote& note : symbol.chord) {
-                            if (note.drum > 0) used.insert(note.drum);
-                        }
-                    }
-                }
+                const std::vector<int> drums = drums_of(staff);
+                used.insert(drums.begin(), drums.end());
             }
         }
         const bool has_drums = std::any_of(notation_.parts.begin(), notation_.parts.end(),
@@ -259,12 +123,10 @@ private:
         if (!has_drums) return;
         put("#(define sikkuDrums (alist->hash-table '(\n");
         for (const int key : used) {
-            static constexpr std::array<std::string_view, 4> heads = {"default", "cross", "diamond", "triangle"};
             const Drum& drum = drum_of(key);
             // Counted from the middle line.
             const int place = Pitch{drum.letter, drum.octave, 0}.height() - Pitch{6, 4, 0}.height();
-            put("  ({} {} #f {})  ; {}\n", drum.lilypond, heads[static_cast<std::size_t>(drum.head)], place,
-                drum.name);
+            put("  {}  ; {}\n", drum_row(key, place), drum.name);
         }
         put(")))\n\n");
     }
@@ -279,6 +141,60 @@ private:
         text_.clear();
     }
 
+    /// Staves are smaller in scores of many. Systems are farther apart than their staves, and the foot of the page is
+    /// free.
+    void write_paper() {
+        std::size_t staves = 0;
+        for (const NotatedPart& part : notation_.parts) staves += part.staves.size();
+        if (staves >= 4) put("#(set-global-staff-size {})\n\n", staves >= 10 ? 13 : staves >= 7 ? 15 : 17);
+        put("\\paper {{\n"
+            "  system-system-spacing = #'((basic-distance . 16) (minimum-distance . 10) (padding . 4) "
+            "(stretchability . 60))\n"
+            "  last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) "
+            "(stretchability . 30))\n}}\n\n");
+    }
+
+    /// Room for names; staves that rest throughout a system are left out of it.
+    void write_layout() {
+        std::size_t longest = 0;
+        std::size_t shortest = 0;
+        std::size_t staves = 0;
+        for (const NotatedPart& part : notation_.parts) {
+            for (std::size_t i = 0; i < part.staves.size(); ++i) {
+                const auto [name, abbreviation] = names_of(part, i);
+                for (const std::string& line : lines_of(name)) longest = std::max(longest, line.size());
+                shortest = std::max(shortest, abbreviation.size());
+            }
+            staves += part.bracket == Bracket::brace ? 1 : part.staves.size();
+        }
+        // Millimetres in LilyPond's font, with a gap before the bracket.
+        const auto room = [](std::size_t letters, std::size_t gap) {
+            return letters == 0 ? 0 : std::min<std::size_t>(gap + 2 * letters, 80);
+        };
+        put("  \\layout {{\n    indent = {}\\mm\n    short-indent = {}\\mm\n", room(longest, 10), room(shortest, 6));
+        put("    \\context {{ \\Score \\autoBeamOff }}\n    \\context {{ \\Staff \\numericTimeSignature }}\n"
+            "    \\context {{ \\DrumStaff \\numericTimeSignature }}\n");
+        if (staves > 1) {
+            put("    \\context {{ \\Staff \\RemoveEmptyStaves }}\n    \\context {{ \\DrumStaff \\RemoveEmptyStaves "
+                "}}\n");
+        }
+        put("  }}\n");
+    }
+
+    /// The name and the abbreviation of a staff, or of both hands. Staves of a bracket are numbered; a single part
+    /// has its name above the score.
+    std::pair<std::string, std::string> names_of(const NotatedPart& part, std::size_t staff) const {
+        const bool is_solo = notation_.parts.size() == 1;
+        std::string name = is_solo ? "" : part.name;
+        std::string abbreviation = is_solo ? "" : part.abbreviation;
+        if (part.bracket == Bracket::bracket && part.staves.size() > 1) {
+            const std::string_view blank = is_solo ? "" : " ";
+            name += fmt::format("{}{}", blank, staff + 1);
+            abbreviation += fmt::format("{}{}", blank, staff + 1);
+        }
+        return {name, abbreviation};
+    }
+
     /// Lines of at most 16 characters, where the words are not longer.
     static std::vector<std::string> lines_of(std::string_view name) {
         constexpr std::size_t most = 16;
@@ -288,22 +204,14 @@ private:
             const std::string_view word = name.substr(0, end);
             name.remove_prefix(std::min(end + 1, name.size()));
             if (word.empty()) continue;
-            if (lines.empty() || lines.back().size() + 1 + word.size() > most) {
+            const bool is_number = word.size() <= 2;
+            if (lines.empty() || (lines.back().size() + 1 + word.size() > most && !is_number)) {
                 lines.emplace_back(word);
             } else {
                 lines.back().append(" ").append(word);
             }
         }
         return lines;
-    }
-
-    /// Millimetres that the longest line of a name takes in LilyPond's font, with a gap before the bracket.
-    std::size_t indent() const {
-        std::size_t longest = 0;
-        for (const NotatedPart& one : notation_.parts) {
-            for (const std::string& line : lines_of(one.part.name)) longest = std::max(longest, line.size());
-        }
-        return std::min<std::size_t>(10 + 2 * longest, 80);
     }
 
     static std::string name_of(std::string_view name) {
@@ -314,66 +222,100 @@ private:
         return text + " }";
     }
 
+    static std::string drum_row(int key, int place) {
+        static constexpr std::array<std::string_view, 4> heads = {"default", "cross", "diamond", "triangle"};
+        const Drum& drum = drum_of(key);
+        return fmt::format("({} {} #f {})", drum.lilypond, heads[static_cast<std::size_t>(drum.head)], place);
+    }
+
+    static std::string drum_settings(const Staff& staff) {
+        if (staff.lines != 1) return "drumStyleTable = #sikkuDrums ";
+        const std::vector<int> drums = drums_of(staff);
+        return fmt::format("drumStyleTable = #(alist->hash-table '({})) \\override StaffSymbol.line-count = 1 ",
+                           drums.empty() ? "" : drum_row(drums.front(), 0));
+    }
+
+    /// The opening of a context. @param hands  the group of both, which has their name
+    std::string opening_of(const NotatedPart& part, std::size_t staff, bool are_hands) const {
+        const bool is_drums = part.part.is_drums;
+        const bool has_hands = part.bracket == Bracket::brace && part.staves.size() > 1;
+        std::string settings;
+        if (are_hands || !has_hands) {
+            const auto [name, abbreviation] = names_of(part, staff);
+            if (!name.empty()) {
+                settings += fmt::format("instrumentName = {} shortInstrumentName = {} ", name_of(name),
+                                        lilypond_string(abbreviation));
+            }
+            settings += is_drums ? drum_settings(part.staves[staff])
+                                 : fmt::format("midiInstrument = {} ",
+                                               lilypond_string(instrument_of(part.part.program).lilypond));
+        }
+        return fmt::format("\\new {}{}",
+                           are_hands  ? "PianoStaff"
+                           : is_drums ? "DrumStaff"
+                                      : "Staff",
+                           settings.empty() ? "" : " \\with { " + settings + "}");
+    }
+
     void write_part(std::size_t index) {
         const NotatedPart& part = notation_.parts[index];
-        const Part& told = part.part;
-        const bool is_named = notation_.parts.size() > 1;
-        const std::string name = is_named ? fmt::format("instrumentName = {} ", name_of(told.name)) : "";
-        const std::string with =
-            told.is_drums
-                ? fmt::format("\\with {{ {}drumStyleTable = #sikkuDrums }}", name)
-                : fmt::format(
-                      "\\with {{ {}midiInstrument = {} }}", name,
-                      lilypond_string(instruments[static_cast<std::size_t>(std::clamp(told.program, 0, 127))]));
-        const std::string_view staff = told.is_drums ? "DrumStaff" : "Staff";
-        if (part.staves.size() == 1) {
-            write_staff(part.staves.front(), part, fmt::format("\\new {} {}", staff, with), index == 0);
-            return;
-        }
-        // MIDI programs belong to staves, the name to the group.
-        const bool is_piano = part.bracket == Bracket::brace;
-        put("    \\new {} {} <<\n", is_piano ? "PianoStaff" : "StaffGroup",
-            told.is_drums ? fmt::format("\\with {{ {}}}", name) : with);
+        const bool are_hands = part.bracket == Bracket::brace;
+        const bool is_group = part.staves.size() > 1;
+        if (is_group) put("    {} <<\n", are_hands ? opening_of(part, 0, true) : "\\new StaffGroup");
         for (std::size_t i = 0; i < part.staves.size(); ++i) {
-            const std::string opening =
-                told.is_drums ? "\\new DrumStaff \\with { drumStyleTable = #sikkuDrums }" : "\\new Staff";
-            write_staff(part.staves[i], part, opening, index == 0 && i == 0, !is_piano);
-            if (is_piano && i == 0) write_dynamics(part.staves[i].dynamics);
-            if (!is_piano && part.staves[i].voices.size() > 1) write_dynamics(part.staves[i].dynamics);
+            write_staff(part.staves[i], part, opening_of(part, i, false), index == 0 && i == 0,
+                        !(are_hands && is_group));
+            if (are_hands && is_group && i == 0) {
+                put("    \\new Dynamics {{\n");
+                write_dynamics(part.staves[i].dynamics);
+                put("    }}\n");
+            }
         }
-        put("    >>\n");
+        if (is_group) put("    >>\n");
+    }
+
+    /// The tempo in beats of the meter, as a whole number: LilyPond takes no other, and its MIDI files cut fractions
+    /// off.
+    std::string tempo_mark() const {
+        const BeatUnit beat = beat_unit(head_.meter);
+        return fmt::format("\\tempo {}{} = {}", beat.value.divisor, beat.value.dotted ? "." : "",
+                           std::max<long long>(1, std::llround(head_.tempo / beat.quarters)));
     }
 
     void write_staff(const Staff& staff, const NotatedPart& part, std::string_view opening, bool has_tempo,
-                     bool has_dynamics = true) {
+                     bool has_dynamics) {
         const Part& told = part.part;
+        const bool is_single = staff.voices.size() == 1;
+        const std::string_view context = told.is_drums ? "DrumVoice" : "Voice";
         put("    {} <<\n", opening);
         for (std::size_t i = 0; i < staff.voices.size(); ++i) {
             static constexpr std::array<std::string_view, 4> numbers = {"One", "Two", "Three", "Four"};
-            put("      \\new {} {{\n", told.is_drums ? "DrumVoice" : "Voice");
+            put("      \\new {} {{\n", context);
             if (told.is_drums) put("        \\drummode {{\n");
             if (i == 0) {
                 const std::optional<KeySignature>& key = part.keys.front().key;
                 put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
                     key ? " " : "", meter_name(head_.meter));
-                if (has_tempo) {
-                    // A whole number: LilyPond takes no other, and its MIDI files cut fractions off.
-                    put("        \\tempo 4 = {}\n", std::max<long long>(1, std::llround(head_.tempo)));
-                }
+                if (has_tempo) put("        {}\n", tempo_mark());
             }
-            if (staff.voices.size() > 1) put("        \\voice{}\n", numbers[i % 4]);
+            if (!is_single) put("        \\voice{}\n", numbers[i % 4]);
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
                         i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
-                        has_dynamics && staff.voices.size() == 1 ? staff.dynamics : std::vector<DynamicMark>{});
+                        has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{});
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
+        }
+        if (has_dynamics && !is_single && !staff.dynamics.empty()) {
+            put("      \\new {} {{\n", context);
+            write_dynamics(staff.dynamics);
+            put("      }}\n");
         }
         put("    >>\n");
     }
 
-    /// Writes the dynamics of two hands between their staves, and those of several voices below them.
+    /// Writes dynamics that stand between the staves of two hands, or below several voices.
     void write_dynamics(const std::vector<DynamicMark>& marks) {
         if (marks.empty()) return;
-        put("    \\new Dynamics {{\n     ");
+        put("     ");
         const auto skip = [&](std::int64_t from, std::int64_t to) {
             if (to > from) put(" s1*{}/{}", to - from, 4 * ticks_per_quarter);
         };
@@ -385,7 +327,7 @@ private:
             skip(onset, i < marks.size() ? marks[i].onset : notation_.bars * notation_.bar_length);
             put("{}", together);
         }
-        put("\n    }}\n");
+        put("\n");
     }
 
     static std::string mark_text(const DynamicMark& mark) {
@@ -394,6 +336,8 @@ private:
                 return "\\<";
             case DynamicMark::Kind::diminuendo:
                 return "\\>";
+            case DynamicMark::Kind::end:
+                return "\\!";
             case DynamicMark::Kind::level:
                 break;
         }
@@ -419,7 +363,8 @@ private:
         int octaves = 0;
         int tuplet = -1;
         put("        ");
-        for (const NotatedSymbol& symbol : voice.symbols) {
+        for (std::size_t i = 0; i < voice.symbols.size(); ++i) {
+            const NotatedSymbol& symbol = voice.symbols[i];
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 put("{} ", key->key ? key_name(*key->key) : "\\key c \\major");
             }
@@ -431,6 +376,7 @@ private:
                 put("\\tuplet {}/{} {{ ", span.actual, span.normal);
             }
             tuplet = symbol.tuplet;
+            write_beam_counts(voice.symbols, i);
             write_symbol(symbol);
             std::string end_marks;
             for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
@@ -449,6 +395,35 @@ private:
             if (!is_last) put("        ");
             if (text_.size() > flush_bytes) flush();
         }
+    }
+
+    /// Where fewer beams lead from one note to the next than both have.
+    void write_beam_counts(const std::vector<NotatedSymbol>& symbols, std::size_t index) {
+        const auto count = [&](std::size_t i, std::initializer_list<Beam> kinds) {
+            const auto& beams = symbols[i].beams;
+            return std::count_if(beams.begin(), beams.end(), [&](Beam beam) {
+                return std::find(kinds.begin(), kinds.end(), beam) != kinds.end();
+            });
+        };
+        const auto total = [&](std::size_t i) {
+            return 4 - std::count(symbols[i].beams.begin(), symbols[i].beams.end(), Beam::none);
+        };
+        const auto is_cut_after = [&](std::size_t i) {
+            const auto led = count(i, {Beam::begin, Beam::inside});
+            return led > 0 && i + 1 < symbols.size() && led < std::min(total(i), total(i + 1));
+        };
+        if (!is_cut_after(index) && (index == 0 || !is_cut_after(index - 1))) return;
+        put("\\set stemLeftBeamCount = #{} ", count(index, {Beam::inside, Beam::end, Beam::backward_hook}));
+        put("\\set stemRightBeamCount = #{} ", count(index, {Beam::begin, Beam::inside, Beam::forward_hook}));
+    }
+
+    /// Cents above a note, those of a chord from the highest to the lowest.
+    void write_cents(const NotatedSymbol& symbol) {
+        const std::vector<int> cents = printed_cents(symbol);
+        if (cents.empty()) return;
+        std::string text;
+        for (const int one : cents) text += fmt::format("\"{}\"", cents_text(one));
+        put("^\\markup\\teeny{}", cents.size() > 1 ? "\\column{" + text + "}" : text);
     }
 
     /// `c'`, or a chord `<c' e' g'>`.
@@ -472,7 +447,7 @@ private:
                 if (symbol.beams[0] == Beam::begin) put("[");
                 if (symbol.beams[0] == Beam::end) put("]");
                 if (symbol.is_accented) put("->");
-                if (symbol.cents != 0) put("^\\markup\\teeny\"{:+}\"", symbol.cents);
+                write_cents(symbol);
                 break;
             case SymbolKind::rest:
                 put("r{}", length_name(symbol.value));

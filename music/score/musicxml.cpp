@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,6 +51,17 @@ std::string_view accidental_name(int quarters) {
     return names[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
 }
 
+/// Staves of a part that are a part of their own in the file. Brackets join parts: programs give the staves of one
+/// part a brace, and some have room for four of them at most.
+struct XmlPart {
+    const NotatedPart* part = nullptr;
+    std::span<const Staff> staves;
+    std::string name;
+    std::string abbreviation;
+    bool begins_group = false;
+    bool ends_group = false;
+};
+
 /// How far the changes of a staff are written.
 struct StaffState {
     const Staff* staff = nullptr;
@@ -67,8 +80,9 @@ public:
 
     void write() {
         find_unit();
+        divide_parts();
         write_head();
-        for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
+        for (std::size_t i = 0; i < parts_.size(); ++i) write_part(i);
         put("</score-partwise>\n");
         flush();
     }
@@ -96,6 +110,21 @@ private:
         }
     }
 
+    void divide_parts() {
+        for (const NotatedPart& part : notation_.parts) {
+            const std::span<const Staff> staves = part.staves;
+            if (part.bracket != Bracket::bracket || staves.size() < 2) {
+                parts_.push_back({&part, staves, part.name, part.abbreviation});
+                continue;
+            }
+            for (std::size_t i = 0; i < staves.size(); ++i) {
+                const std::string number = fmt::format(" {}", i + 1);
+                parts_.push_back({&part, staves.subspan(i, 1), part.name + number, part.abbreviation + number, i == 0,
+                                  i + 1 == staves.size()});
+            }
+        }
+    }
+
     void write_head() {
         put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<!DOCTYPE score-partwise PUBLIC \"-//Recordare//DTD MusicXML 4.0 Partwise//EN\" "
@@ -104,6 +133,8 @@ private:
         if (!head_.title.empty()) put("<work><work-title>{}</work-title></work>\n", xml_escaped(head_.title));
         put("<identification>\n");
         if (!head_.composer.empty()) put("<creator type=\"composer\">{}</creator>\n", xml_escaped(head_.composer));
+        // Programs print it at the foot of the first page.
+        if (!head_.source.empty()) put("<rights type=\"source\">{}</rights>\n", xml_escaped(head_.source));
         const std::string software = head_.made.substr(0, head_.made.find(','));
         put("<encoding><software>{}</software>"
             "<supports element=\"accidental\" type=\"yes\"/><supports element=\"beam\" type=\"yes\"/></encoding>\n",
@@ -113,38 +144,41 @@ private:
         put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", xml_escaped(head_.made));
         put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", xml_escaped(head_.pattern));
         put("</miscellaneous>\n</identification>\n<part-list>\n");
-        for (std::size_t i = 0; i < notation_.parts.size(); ++i) {
-            const Part& part = notation_.parts[i].part;
-            if (part.is_drums) {
-                write_drum_part(i);
-                continue;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const XmlPart& told = parts_[i];
+            if (told.begins_group) {
+                put("<part-group type=\"start\" number=\"1\"><group-symbol>bracket</group-symbol>"
+                    "<group-barline>yes</group-barline></part-group>\n");
             }
-            // Sixteen channels, of which the tenth is for drums.
-            const std::size_t channel = i % 15 < 9 ? i % 15 + 1 : i % 15 + 2;
-            put("<score-part id=\"P{0}\"><part-name>{1}</part-name>"
-                "<score-instrument id=\"P{0}-I1\"><instrument-name>{1}</instrument-name></score-instrument>"
-                "<midi-instrument id=\"P{0}-I1\"><midi-channel>{2}</midi-channel>"
-                "<midi-program>{3}</midi-program></midi-instrument></score-part>\n",
-                i + 1, xml_escaped(part.name), channel, part.program + 1);
+            if (told.part->part.is_drums) {
+                write_drum_part(i);
+            } else {
+                // Sixteen channels, of which the tenth is for drums.
+                const std::size_t channel = i % 15 < 9 ? i % 15 + 1 : i % 15 + 2;
+                put("<score-part id=\"P{0}\">{1}"
+                    "<score-instrument id=\"P{0}-I1\"><instrument-name>{2}</instrument-name></score-instrument>"
+                    "<midi-instrument id=\"P{0}-I1\"><midi-channel>{3}</midi-channel>"
+                    "<midi-program>{4}</midi-program></midi-instrument></score-part>\n",
+                    i + 1, names_of(told), xml_escaped(told.name), channel, told.part->part.program + 1);
+            }
+            if (told.ends_group) put("<part-group type=\"stop\" number=\"1\"/>\n");
         }
         put("</part-list>\n");
+    }
+
+    static std::string names_of(const XmlPart& part) {
+        return fmt::format("<part-name>{}</part-name><part-abbreviation>{}</part-abbreviation>",
+                           xml_escaped(part.name), xml_escaped(part.abbreviation));
     }
 
     /// A part with an instrument for each drum that it uses.
     void write_drum_part(std::size_t index) {
         std::set<int> used;
-        for (const Staff& staff : notation_.parts[index].staves) {
-            for (const NotatedVoice& voice : staff.voices) {
-                for (const NotatedSymbol& symbol : voice.symbols) {
-                    if (symbol.drum > 0) used.insert(symbol.drum);
-                    for (const ChordNote& note : symbol.chord) {
-                        if (note.drum > 0) used.insert(note.drum);
-                    }
-                }
-            }
+        for (const Staff& staff : parts_[index].staves) {
+            const std::vector<int> drums = drums_of(staff);
+            used.insert(drums.begin(), drums.end());
         }
-        put("<score-part id=\"P{}\"><part-name>{}</part-name>", index + 1,
-            xml_escaped(notation_.parts[index].part.name));
+        put("<score-part id=\"P{}\">{}", index + 1, names_of(parts_[index]));
         for (const int key : used) {
             put("<score-instrument id=\"P{}-I{}\"><instrument-name>{}</instrument-name></score-instrument>",
                 index + 1, key, drum_of(key).name);
@@ -159,7 +193,8 @@ private:
 
     void write_part(std::size_t index) {
         part_ = index + 1;
-        const NotatedPart& part = notation_.parts[index];
+        const XmlPart& part = parts_[index];
+        const std::vector<KeyChange>& keys = part.part->keys;
         put("<part id=\"P{}\">\n", index + 1);
         std::vector<std::vector<std::size_t>> next;  // of each staff and voice
         std::vector<StaffState> states;
@@ -173,9 +208,9 @@ private:
             put("<measure number=\"{}\">\n", bar + 1);
             if (bar == 0) write_attributes(part);
             const std::int64_t begin = bar * notation_.bar_length;
-            if (key + 1 < part.keys.size() && part.keys[key + 1].onset == begin) {
+            if (key + 1 < keys.size() && keys[key + 1].onset == begin) {
                 put("<attributes>\n");
-                write_key(part.keys[++key].key);
+                write_key(keys[++key].key);
                 put("</attributes>\n");
             }
             if (bar == 0 && index == 0) write_tempo();
@@ -208,13 +243,13 @@ private:
             key ? fmt::format("<mode>{}</mode>", modes[static_cast<std::size_t>(key->mode)]) : "");
     }
 
-    void write_attributes(const NotatedPart& part) {
+    void write_attributes(const XmlPart& part) {
         put("<attributes>\n<divisions>{}</divisions>\n", ticks_per_quarter / unit_);
-        write_key(part.keys.front().key);
+        write_key(part.part->keys.front().key);
         put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats(), head_.meter.unit);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
-        if (part.bracket == Bracket::bracket) put("<part-symbol>bracket</part-symbol>\n");
         for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
+        if (part.staves.front().lines == 1) put("<staff-details><staff-lines>1</staff-lines></staff-details>\n");
         put("</attributes>\n");
     }
 
@@ -227,7 +262,7 @@ private:
         return text;
     }
 
-    void write_clef(Clef clef, const NotatedPart& part, std::size_t staff) {
+    void write_clef(Clef clef, const XmlPart& part, std::size_t staff) {
         const std::string staff_number = part.staves.size() > 1 ? fmt::format(" number=\"{}\"", staff + 1) : "";
         if (clef == Clef::percussion) {
             put("<clef{}><sign>percussion</sign></clef>\n", staff_number);
@@ -236,20 +271,23 @@ private:
         struct Sign {
             char sign;
             int line;
-            bool is_lower;
+            int octaves;  // higher
         };
-        static constexpr std::array<Sign, 6> signs = {
-            {{'G', 2, false}, {'F', 4, false}, {'C', 3, false}, {'C', 4, false}, {'G', 2, true}, {'F', 4, true}}};
+        static constexpr std::array<Sign, 7> signs = {
+            {{'G', 2, 0}, {'F', 4, 0}, {'C', 3, 0}, {'C', 4, 0}, {'G', 2, -1}, {'F', 4, -1}, {'G', 2, 1}}};
         const Sign& sign = signs[static_cast<std::size_t>(clef)];
         put("<clef{}><sign>{}</sign><line>{}</line>{}</clef>\n", staff_number, sign.sign, sign.line,
-            sign.is_lower ? "<clef-octave-change>-1</clef-octave-change>" : "");
+            sign.octaves != 0 ? fmt::format("<clef-octave-change>{}</clef-octave-change>", sign.octaves) : "");
     }
 
+    /// In beats of the meter; in other beats than quarters as a whole number.
     void write_tempo() {
-        const std::string tempo = fmt::format("{}", head_.tempo);
-        put("<direction placement=\"above\"><direction-type><metronome><beat-unit>quarter</beat-unit>"
-            "<per-minute>{0}</per-minute></metronome></direction-type><sound tempo=\"{0}\"/></direction>\n",
-            tempo);
+        const BeatUnit beat = beat_unit(head_.meter);
+        const double tempo =
+            beat.quarters == 1 ? head_.tempo : std::max(1.0, std::round(head_.tempo / beat.quarters));
+        put("<direction placement=\"above\"><direction-type><metronome><beat-unit>{}</beat-unit>{}"
+            "<per-minute>{}</per-minute></metronome></direction-type><sound tempo=\"{}\"/></direction>\n",
+            type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, head_.tempo);
     }
 
     void go_to(std::int64_t time) {
@@ -265,7 +303,7 @@ private:
     }
 
     /// Writes clefs, lines of 8va and dynamics that begin before `end`.
-    void write_changes(StaffState& state, std::int64_t end, const NotatedPart& part) {
+    void write_changes(StaffState& state, std::int64_t end, const XmlPart& part) {
         const Staff& staff = *state.staff;
         for (; state.change < staff.changes.size() && staff.changes[state.change].onset < end; ++state.change) {
             const StaffChange& change = staff.changes[state.change];
@@ -286,11 +324,12 @@ private:
             const DynamicMark& mark = staff.dynamics[state.mark];
             go_to(mark.onset);
             if (state.is_hairpin) write_direction("<wedge type=\"stop\"/>", "below");
-            state.is_hairpin = mark.kind != DynamicMark::Kind::level;
+            using enum DynamicMark::Kind;
+            state.is_hairpin = mark.kind == crescendo || mark.kind == diminuendo;
             if (state.is_hairpin) {
-                const bool rises = mark.kind == DynamicMark::Kind::crescendo;
+                const bool rises = mark.kind == crescendo;
                 write_direction(fmt::format("<wedge type=\"{}\"/>", rises ? "crescendo" : "diminuendo"), "below");
-            } else {
+            } else if (mark.kind == level) {
                 write_direction(fmt::format("<dynamics><{}/></dynamics>", dynamic_name(mark.level)), "below");
             }
         }
@@ -298,20 +337,22 @@ private:
 
     void write_shift(const StaffState& state, std::string_view type, int octaves) {
         write_direction(fmt::format("<octave-shift type=\"{}\" size=\"{}\" number=\"{}\"/>", type,
-                                    std::abs(octaves) == 2 ? 15 : 8, state.index % 16 + 1),
+                                    7 * std::abs(octaves) + 1, state.index % 16 + 1),
                         octaves > 0 ? "above" : "below");
     }
 
     void write_bar(const NotatedVoice& voice, std::size_t& next, std::int64_t bar, StaffState* state,
-                   const NotatedPart& part) {
+                   const XmlPart& part) {
         const std::int64_t end = (bar + 1) * notation_.bar_length;
         for (; next < voice.symbols.size() && voice.symbols[next].onset < end; ++next) {
             const NotatedSymbol& symbol = voice.symbols[next];
             if (state) write_changes(*state, symbol.onset + symbol.length, part);
             if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
             go_to(symbol.onset);
-            if (symbol.cents != 0) {
-                write_direction(fmt::format("<words font-size=\"7\">{:+}</words>", symbol.cents), "above");
+            if (const std::vector<int> cents = printed_cents(symbol); !cents.empty()) {
+                std::string words;
+                for (const int one : cents) words += (words.empty() ? "" : "\n") + cents_text(one);
+                write_direction(fmt::format("<words font-size=\"7\">{}</words>", words), "above");
             }
             write_symbol(symbol, voice);
             for (const ChordNote& note : symbol.chord) write_chord_note(symbol, note, voice);
@@ -422,6 +463,7 @@ private:
     const ScoreHead& head_;
     Output& sink_;
     fmt::memory_buffer text_;
+    std::vector<XmlPart> parts_;
     std::int64_t unit_ = 1;  ///< ticks of a division
     std::int64_t here_ = 0;  ///< where the reader is, in ticks
     std::size_t part_ = 1;   ///< from 1

@@ -2,14 +2,18 @@
 
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
+#include "music/score/labels.h"
 #include "music/score/spelling.h"
 #include "music/score/staves.h"
+#include "music/score/strokes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace sikku {
@@ -64,10 +68,14 @@ void set_cents(Staff& staff, std::int64_t bar) {
                 current_bar = symbol.onset / bar;
                 in_force.clear();
             }
-            int& last = in_force[{symbol.pitch.height(), symbol.pitch.quarters}];
-            const int cents = symbol.cents;
-            if (symbol.tied_back || cents == last) symbol.cents = 0;
-            last = cents;
+            const auto set = [&](const Pitch& pitch, int& printed) {
+                int& last = in_force[{pitch.height(), pitch.quarters}];
+                const int cents = printed;
+                if (symbol.tied_back || cents == last) printed = 0;
+                last = cents;
+            };
+            set(symbol.pitch, symbol.cents);
+            for (ChordNote& note : symbol.chord) set(note.pitch, note.cents);
         }
     }
 }
@@ -108,21 +116,23 @@ std::uint64_t snap(std::vector<Note>& notes, const Grid& grid) {
     return moved;
 }
 
-Grid grid_of(std::span<const Note> notes, const Meter& meter) {
-    std::vector<std::int64_t> times;
-    for (const Note& note : notes) {
-        if (times.empty() || times.back() != note.onset) times.push_back(note.onset);
-        times.push_back(note.onset + note.duration);
-    }
-    std::sort(times.begin(), times.end());
-    return Grid(times, meter);
-}
-
 /// Writes the notes and rests of one voice, one after the other.
 class VoiceWriter {
 public:
     VoiceWriter(const Grid& grid, const Meter& meter, NotatedVoice& voice)
         : grid_(grid), meter_(meter), bar_(meter.bar()), voice_(voice) {}
+
+    /// Writes a stroke: the longest value that ends at `end` or before, and rests.
+    void add_stroke(std::int64_t end, const NotatedSymbol& stroke) {
+        const std::int64_t begin = here_;
+        const std::size_t first = voice_.symbols.size();
+        add(end, &stroke);
+        if (voice_.symbols.size() < first + 2) return;
+        voice_.symbols.resize(first + 1);
+        voice_.symbols.back().tied_forward = false;
+        here_ = begin + voice_.symbols.back().length;
+        add(end, nullptr);
+    }
 
     /// Writes a note, or a rest without `note`, up to `end`.
     void add(std::int64_t end, const NotatedSymbol* note) {
@@ -131,7 +141,8 @@ public:
             const std::int64_t bar_begin = here_ / bar_ * bar_;
             std::int64_t piece_end = std::min(end, bar_begin + bar_);
             if (!note && piece_end - here_ == bar_) {
-                put({{bar_, {}}}, SymbolKind::bar_rest, -1);
+                put({{bar_, {}}}, -1);
+                voice_.symbols.back().kind = SymbolKind::bar_rest;
                 continue;
             }
             const std::size_t at = grid_.tuplet_from(here_);
@@ -140,9 +151,13 @@ public:
             if (at < tuplets.size()) piece_end = std::min(piece_end, is_inside ? tuplets[at].to : tuplets[at].from);
             const std::size_t first = voice_.symbols.size();
             if (is_inside) {
-                put(written_values(here_, piece_end, tuplets[at]), SymbolKind::rest, static_cast<int>(at));
+                put(note ? written_values(here_, piece_end, tuplets[at])
+                         : written_rests(here_, piece_end, tuplets[at]),
+                    static_cast<int>(at));
             } else {
-                put(written_values(here_ - bar_begin, piece_end - bar_begin, meter_), SymbolKind::rest, -1);
+                const std::int64_t from = here_ - bar_begin;
+                const std::int64_t to = piece_end - bar_begin;
+                put(note ? written_values(from, to, meter_) : written_rests(from, to, meter_), -1);
             }
             for (std::size_t i = first; note && i < voice_.symbols.size(); ++i) {
                 NotatedSymbol& symbol = voice_.symbols[i];
@@ -162,13 +177,12 @@ public:
     }
 
 private:
-    void put(const std::vector<WrittenValue>& values, SymbolKind kind, int tuplet) {
+    void put(const std::vector<WrittenValue>& values, int tuplet) {
         for (const WrittenValue& value : values) {
             NotatedSymbol& symbol = voice_.symbols.emplace_back();
             symbol.onset = here_;
             symbol.length = value.length;
             symbol.value = value.value;
-            symbol.kind = kind;
             symbol.tuplet = tuplet;
             here_ += value.length;
         }
@@ -181,6 +195,14 @@ private:
     std::int64_t here_ = 0;
 };
 
+/// A single drum has a staff of one line, which is the lowest of the five.
+void set_on_one_line(Staff& staff) {
+    staff.lines = 1;
+    for (NotatedVoice& voice : staff.voices) {
+        for (NotatedSymbol& symbol : voice.symbols) symbol.pitch = {2, 4, 0};
+    }
+}
+
 void beam(NotatedVoice& voice, const Meter& meter) {
     std::vector<BeamedNote> notes;
     for (const NotatedSymbol& symbol : voice.symbols) {
@@ -189,6 +211,12 @@ void beam(NotatedVoice& voice, const Meter& meter) {
     }
     set_beams(notes, voice.tuplets, meter);
     for (std::size_t i = 0; i < notes.size(); ++i) voice.symbols[i].beams = notes[i].beams;
+}
+
+/// How much higher a key sounds than it is written, in cents that are to be printed.
+int cents_above(double key, const Pitch& pitch) {
+    const double away = key - pitch.key();
+    return std::fabs(away) > unheard ? static_cast<int>(std::lround(100 * away)) : 0;
 }
 
 }  // namespace
@@ -210,6 +238,33 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling) {
     const Pitch raised = written(below, 1);
     const Pitch lowered = written(below + 1, -1);
     return std::abs(raised.quarters) < std::abs(lowered.quarters) ? raised : lowered;
+}
+
+std::vector<int> drums_of(const Staff& staff) {
+    std::set<int> drums;
+    for (const NotatedVoice& voice : staff.voices) {
+        for (const NotatedSymbol& symbol : voice.symbols) {
+            if (symbol.drum == 0) continue;
+            drums.insert(symbol.drum);
+            for (const ChordNote& note : symbol.chord) drums.insert(note.drum);
+        }
+    }
+    return {drums.begin(), drums.end()};
+}
+
+std::vector<int> printed_cents(const NotatedSymbol& symbol) {
+    std::vector<std::pair<double, int>> all = {{-symbol.pitch.key(), symbol.cents}};
+    for (const ChordNote& note : symbol.chord) all.emplace_back(-note.pitch.key(), note.cents);
+    std::sort(all.begin(), all.end());
+    std::vector<int> cents;
+    for (const auto& [key, one] : all) {
+        if (one != 0) cents.push_back(one);
+    }
+    return cents;
+}
+
+std::string cents_text(int cents) {
+    return fmt::format("{}{}", cents < 0 ? "\u2212" : "+", std::abs(cents));
 }
 
 std::optional<KeySignature> printed_key(const Part& part) {
@@ -251,7 +306,8 @@ void Notator::notes(std::span<const Note> notes) {
 void Notator::finish(std::int64_t end) {
     std::size_t first_voice = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        if (parts_[i].has_chords) gather_chords(i, first_voice);
+        const bool has_chords = parts_[i].has_chords && !parts_[i].is_drums;
+        if (has_chords || parts_[i].is_accompaniment) gather_chords(i, first_voice);
         first_voice += static_cast<std::size_t>(parts_[i].voices);
     }
     std::int64_t last = (end + shortest_value / 2) / shortest_value * shortest_value;
@@ -267,27 +323,43 @@ void Notator::finish(std::int64_t end) {
     }
     printed_ = share_parts(parts_, voices_, bar);
     share_chords();
+    std::vector<std::vector<double>> others(printed_.size());
+    for (const auto& [place, keys] : chords_) {
+        std::vector<double>& list = others[std::get<0>(place)];
+        list.insert(list.end(), keys.begin(), keys.end());
+    }
+    agree_on_keys(printed_, others);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
+    set_labels(notation_.parts);
     std::vector<std::int64_t>& bars = notation_.double_bars;
     std::sort(bars.begin(), bars.end());
     bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
 }
 
-/// Takes notes that begin with the same symbol as one of a voice before out of their voices.
+/// Takes notes that begin with the same symbol as one of a voice before out of their voices, and in an accompaniment
+/// voices with the rhythm of the first.
 void Notator::gather_chords(std::size_t part, std::size_t first_voice) {
     std::map<ChordPlace, const Note*> first;
+    const auto has_rhythm_of_first = [&](const std::vector<Note>& voice) {
+        return std::equal(
+            voice.begin(), voice.end(), voices_[first_voice].begin(), voices_[first_voice].end(),
+            [](const Note& a, const Note& b) { return a.onset == b.onset && a.duration == b.duration; });
+    };
     for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(parts_[part].voices); ++i) {
         std::vector<Note> kept;
+        const bool is_chord = i == first_voice || has_rhythm_of_first(voices_[i]);
         for (const Note& note : voices_[i]) {
             const ChordPlace place(part, note.symbol, note.onset);
             const auto known = first.find(place);
-            if (note.symbol == 0 || known == first.end() || known->second->duration != note.duration) {
+            const bool may_join = parts_[part].is_accompaniment ? is_chord : note.symbol != 0;
+            if (!may_join || known == first.end() || known->second->duration != note.duration) {
                 kept.push_back(note);
             } else {
                 chords_[place].push_back(note.key);
             }
         }
         voices_[i] = std::move(kept);
+        if (!is_chord && parts_[part].is_accompaniment) continue;
         for (const Note& note : voices_[i]) first.try_emplace({part, note.symbol, note.onset}, &note);
     }
 }
@@ -318,35 +390,25 @@ NotatedPart& Notator::begin_part(const PrintedPart& printed) {
     return notated;
 }
 
-/// Drums have one staff for up to four voices, the highest first.
+/// Drums have one staff for up to four lines.
 void Notator::notate_drums(std::size_t index) {
     const PrintedPart& printed = printed_[index];
-    constexpr std::size_t voices_per_staff = 4;
-    const auto height = [](const std::vector<Note>& notes) {
-        double sum = 0;
-        for (const Note& note : notes) {
-            const Drum& drum = drum_of(static_cast<int>(std::lround(note.key)));
-            sum += Pitch{drum.letter, drum.octave, 0}.height();
-        }
-        return sum / static_cast<double>(notes.size());
-    };
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < printed.voices.size(); ++i) {
-        if (!printed.voices[i].empty()) order.emplace_back(-height(printed.voices[i]), i);
-    }
-    if (order.empty()) order.emplace_back(0, 0);
-    std::sort(order.begin(), order.end());
+    constexpr std::size_t lines_per_staff = 4;
+    const StrokeLines strokes = stroke_lines(printed.voices, meter_);
+    notation_.merged += strokes.merged;
     NotatedPart& notated = begin_part(printed);
-    if (order.size() > voices_per_staff) notated.bracket = Bracket::bracket;
-    for (std::size_t begin = 0; begin < order.size(); begin += voices_per_staff) {
+    if (strokes.lines.size() > lines_per_staff) notated.bracket = Bracket::bracket;
+    int number = printed.first_voice;
+    for (std::size_t begin = 0; begin < strokes.lines.size(); begin += lines_per_staff) {
         Staff& staff = notated.staves.emplace_back();
         staff.changes = {{0, Clef::percussion, 0}};
         std::vector<Note> together;
-        for (std::size_t i = begin; i < std::min(order.size(), begin + voices_per_staff); ++i) {
-            const std::vector<Note>& notes = printed.voices[order[i].second];
-            staff.voices.push_back(fill(printed.first_voice + static_cast<int>(order[i].second), notes, index));
-            together.insert(together.end(), notes.begin(), notes.end());
+        for (std::size_t i = begin; i < std::min(strokes.lines.size(), begin + lines_per_staff); ++i) {
+            const StrokeLine& line = strokes.lines[i];
+            staff.voices.push_back(fill(number++, line.strokes, index, line.others));
+            together.insert(together.end(), line.strokes.begin(), line.strokes.end());
         }
+        if (drums_of(staff).size() == 1) set_on_one_line(staff);
         hide_rests(staff, notation_.bars, notation_.bar_length);
         std::stable_sort(together.begin(), together.end(),
                          [](const Note& a, const Note& b) { return a.onset < b.onset; });
@@ -368,7 +430,7 @@ void Notator::notate_part(std::size_t index) {
         Staff& staff = notated.staves.emplace_back();
         if (plan.bracket != Bracket::brace) together.clear();
         for (const StaffVoice& voice : planned.voices) {
-            staff.voices.push_back(fill(voice.voice, voice.notes, index));
+            staff.voices.push_back(fill(voice.voice, voice.notes, index, chords_of(voice.notes, index)));
             together.insert(together.end(), voice.notes.begin(), voice.notes.end());
         }
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
@@ -382,14 +444,20 @@ void Notator::notate_part(std::size_t index) {
     }
 }
 
-NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t index) {
-    const PrintedPart& part = printed_[index];
-    const Grid grid = grid_of(notes, meter_);
+/// The other keys of each note's chord.
+std::vector<std::vector<double>> Notator::chords_of(std::span<const Note> notes, std::size_t index) const {
     std::vector<std::vector<double>> chords(notes.size());
     for (std::size_t i = 0; i < notes.size() && !chords_.empty(); ++i) {
         const auto chord = chords_.find({index, notes[i].symbol, notes[i].onset});
         if (chord != chords_.end()) chords[i] = chord->second;
     }
+    return chords;
+}
+
+NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t index,
+                           std::span<const std::vector<double>> chords) {
+    const PrintedPart& part = printed_[index];
+    const Grid grid = grid_of(notes, meter_);
     // Notes that come from several voices may lie on several grids.
     notation_.moved += snap(notes, grid);
     const std::int64_t end = notation_.bars * notation_.bar_length;
@@ -417,17 +485,19 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
             symbol.pitch = {drum.letter, drum.octave, 0};
             for (const double key : chords[i]) {
                 const Drum& other = drum_of(static_cast<int>(std::lround(key)));
-                symbol.chord.push_back({{other.letter, other.octave, 0}, other.key, false});
+                symbol.chord.push_back({{other.letter, other.octave, 0}, other.key});
             }
             writer.add(note.onset, nullptr);
-            writer.add(note.onset + note.duration, &symbol);
+            writer.add_stroke(note.onset + note.duration, symbol);
             continue;
         }
         const std::array<Spelling, 12>& spelling = part.key_at(note.onset).spelling;
         symbol.pitch = spelled(note.key, spelling);
-        const double away = note.key - symbol.pitch.key();
-        if (std::fabs(away) > unheard) symbol.cents = static_cast<int>(std::lround(100 * away));
-        for (const double key : chords[i]) symbol.chord.push_back({spelled(key, spelling), 0, false});
+        symbol.cents = cents_above(note.key, symbol.pitch);
+        for (const double key : chords[i]) {
+            const Pitch pitch = spelled(key, spelling);
+            symbol.chord.push_back({pitch, 0, cents_above(key, pitch)});
+        }
         writer.add(note.onset, nullptr);
         writer.add(note.onset + note.duration, &symbol);
     }

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -40,7 +41,8 @@ enum class SymbolKind {
 /// Another note of a chord.
 struct ChordNote {
     Pitch pitch;
-    int drum = 0;  ///< as in NotatedSymbol
+    int drum = 0;   ///< as in NotatedSymbol
+    int cents = 0;  ///< as in NotatedSymbol
     bool has_sign = false;
 };
 
@@ -67,7 +69,7 @@ struct NotatedSymbol {
 };
 
 /// Clefs with an octave are for instruments that are written an octave away from their sound.
-enum class Clef { treble, bass, alto, tenor, treble_8, bass_8, percussion };
+enum class Clef { treble, bass, alto, tenor, treble_8, bass_8, treble_up_8, percussion };
 
 /// One voice on one staff. Its symbols fill the score from the first bar to the last, bar by bar.
 struct NotatedVoice {
@@ -80,20 +82,26 @@ struct NotatedVoice {
 struct StaffChange {
     std::int64_t onset = 0;
     Clef clef = Clef::treble;
-    int octaves = 0;  ///< notes are written so many octaves lower: -1 8vb, 1 8va, 2 15ma
+    int octaves = 0;  ///< notes are written so many octaves lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
     bool operator==(const StaffChange&) const = default;
 };
 
 /// A dynamic, or the beginning of a hairpin, which the next mark ends.
 struct DynamicMark {
-    enum class Kind { level, crescendo, diminuendo };
-    std::int64_t onset = 0;  ///< of a note
+    enum class Kind {
+        level,
+        crescendo,
+        diminuendo,
+        end  ///< of a hairpin, where a rest comes before the next level
+    };
+    std::int64_t onset = 0;  ///< of a note, or of the rest that ends a hairpin
     Kind kind = Kind::level;
     int level = 4;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff
     bool operator==(const DynamicMark&) const = default;
 };
 
 struct Staff {
+    int lines = 5;                     ///< 1 for a single drum
     std::vector<StaffChange> changes;  ///< the first is at 0
     std::vector<NotatedVoice> voices;  ///< 1 to 4
     std::vector<DynamicMark> dynamics;
@@ -109,7 +117,9 @@ struct KeyChange {
 };
 
 struct NotatedPart {
-    Part part;                    ///< its name, its instrument
+    Part part;                    ///< its instrument
+    std::string name;             ///< as it is printed; parts of one name are numbered
+    std::string abbreviation;     ///< of the name
     std::vector<KeyChange> keys;  ///< ascending, the first at 0
     std::vector<Staff> staves;    ///< at least one
     Bracket bracket = Bracket::none;
@@ -131,7 +141,7 @@ struct Notation {
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
 /// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
-/// take turns share staves; see turns.h.
+/// take turns share staves; see turns.h. Strokes of drums are lines of hands and feet; see strokes.h.
 /// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
 /// have their deviation in cents.
 /// Memory: O(notes + bars).
@@ -155,7 +165,9 @@ private:
     void share_chords();
     void notate_drums(std::size_t index);
     NotatedPart& begin_part(const PrintedPart& printed);
-    NotatedVoice fill(int number, std::vector<Note> notes, std::size_t index);
+    NotatedVoice fill(int number, std::vector<Note> notes, std::size_t index,
+                      std::span<const std::vector<double>> chords);
+    std::vector<std::vector<double>> chords_of(std::span<const Note> notes, std::size_t index) const;
 
     std::vector<Part> parts_;
     Meter meter_;
@@ -169,6 +181,14 @@ private:
 
 /// The letter, octave and sign of a key, by Part::spelling.
 Pitch spelled(double key, const std::array<Spelling, 12>& spelling);
+
+/// The keys of the drums on a staff, ascending.
+std::vector<int> drums_of(const Staff& staff);
+
+/// The cents that are printed above a note, those of a chord from the highest note to the lowest.
+std::vector<int> printed_cents(const NotatedSymbol& symbol);
+/// `+14`, `−9` with a minus sign.
+std::string cents_text(int cents);
 
 /// The signature that a part is printed with.
 std::optional<KeySignature> printed_key(const Part& part);

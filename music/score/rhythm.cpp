@@ -9,9 +9,19 @@ namespace {
 constexpr std::int64_t whole_note = 4 * ticks_per_quarter;
 constexpr std::int64_t eighth_note = ticks_per_quarter / 2;
 
-/// Three units make a beat.
-bool has_dotted_beats(const Meter& meter) {
-    return meter.groups[0] == 0 && meter.beats > 3 && meter.beats % 3 == 0 && meter.unit >= 8;
+/// Units are parts of beats.
+bool has_short_units(const Meter& meter) {
+    return meter.unit >= 8;
+}
+
+/// The beats, in units, of a meter with short units and without groups of its own.
+std::vector<std::int64_t> usual_groups(int beats) {
+    if (beats == 8) return {3, 3, 2};
+    if (beats % 3 == 0) return std::vector<std::int64_t>(static_cast<std::size_t>(beats) / 3, 3);
+    if (beats == 1) return {1};
+    std::vector<std::int64_t> groups(static_cast<std::size_t>(beats) / 2, 2);
+    if (beats % 2 != 0) ++groups.front();
+    return groups;
 }
 
 bool is_power_of_two(std::int64_t value) {
@@ -30,7 +40,8 @@ struct Bar {
     std::int64_t middle;             ///< the length if the bar has no middle
     bool is_grouped;                 ///< groups are more than simple beats
 
-    explicit Bar(const Meter& meter) : length(meter.bar()), is_grouped(has_groups(meter) || has_dotted_beats(meter)) {
+    explicit Bar(const Meter& meter)
+        : length(meter.bar()), is_grouped(meter.groups[0] != 0 || has_short_units(meter)) {
         const std::vector<std::int64_t> groups = groups_of(meter);
         ends.resize(groups.size());
         std::partial_sum(groups.begin(), groups.end(), ends.begin());
@@ -48,9 +59,11 @@ struct Bar {
         const std::int64_t begin = group_begin(from);
         if (is_grouped)
             return to <= group_end(from) ? fits_group(from - begin, to - begin) : from == begin && is_group_end(to);
-        if (from == begin) return true;
-        if (from < middle && to > middle) return false;
-        return fits_group(from, to);
+        if (from < middle && to > middle) {
+            // In bars of two or four beats a value may begin with the bar, or lie between two beats.
+            return to - from == length || (ends.size() <= 4 && (from == 0 || (from == begin && is_group_end(to))));
+        }
+        return from == begin || fits_group(from, to);
     }
 
 private:
@@ -71,9 +84,22 @@ NoteValue note_value(std::int64_t length) {
     return {static_cast<int>(whole_note / (dotted ? length / 3 * 2 : length)), dotted};
 }
 
+BeatUnit beat_unit(const Meter& meter) {
+    const bool is_dotted = has_short_units(meter) && meter.groups[0] == 0 && meter.beats % 3 == 0;
+    const std::int64_t length = whole_note / meter.unit * (is_dotted ? 3 : 1);
+    return {note_value(length), static_cast<double>(length) / static_cast<double>(ticks_per_quarter)};
+}
+
+std::int64_t beat_end(std::int64_t time, const Meter& meter) {
+    const std::int64_t begin = time / meter.bar() * meter.bar();
+    if (has_short_units(meter)) return begin + Bar(meter).group_end(time - begin);
+    const std::int64_t beat = std::min(whole_note / meter.unit, ticks_per_quarter);
+    return begin + ((time - begin) / beat + 1) * beat;
+}
+
 bool has_groups(const Meter& meter) {
-    return meter.groups[0] != 0 ||
-           (meter.unit >= 8 && meter.beats >= 5 && meter.beats % 2 != 0 && meter.beats % 3 != 0);
+    return meter.groups[0] != 0 || (has_short_units(meter) && meter.beats >= 5 && meter.beats % 3 != 0 &&
+                                    (meter.beats % 2 != 0 || meter.beats == 8));
 }
 
 std::vector<std::int64_t> groups_of(const Meter& meter) {
@@ -83,11 +109,9 @@ std::vector<std::int64_t> groups_of(const Meter& meter) {
         for (const std::uint8_t group : meter.groups) {
             if (group != 0) groups.push_back(group * unit);
         }
-    } else if (has_groups(meter)) {
-        groups.assign(static_cast<std::size_t>(meter.beats - 3) / 2, 2 * unit);
-        groups.push_back(3 * unit);
-    } else if (has_dotted_beats(meter)) {
-        groups.assign(static_cast<std::size_t>(meter.beats) / 3, 3 * unit);
+    } else if (has_short_units(meter)) {
+        groups = usual_groups(meter.beats);
+        for (std::int64_t& group : groups) group *= unit;
     } else {
         groups.assign(static_cast<std::size_t>(meter.beats), unit);
     }
@@ -127,6 +151,16 @@ Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
             from += group;
         }
     }
+}
+
+Grid grid_of(std::span<const Note> notes, const Meter& meter) {
+    std::vector<std::int64_t> times;
+    for (const Note& note : notes) {
+        if (times.empty() || times.back() != note.onset) times.push_back(note.onset);
+        times.push_back(note.onset + note.duration);
+    }
+    std::sort(times.begin(), times.end());
+    return Grid(times, meter);
 }
 
 /// Adds a tuplet if every time is on its grid.
@@ -216,6 +250,85 @@ std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, con
     return result;
 }
 
+namespace {
+
+/// Places of rests in a bar.
+class Rests {
+public:
+    explicit Rests(const Meter& meter) : bar_(meter), groups_(groups_of(meter)), unit_(whole_note / meter.unit) {}
+
+    /// The longest rest that may begin at `from` and ends at `to` or before.
+    std::int64_t longest(std::int64_t from, std::int64_t to) const {
+        const std::int64_t begin = bar_.group_begin(from);
+        const std::int64_t end = bar_.group_end(from);
+        if (from == begin) {
+            if (const std::int64_t pair = pair_at(from); pair > 0 && from + pair <= to) return pair;
+            if (end <= to && is_printable(end - begin)) return end - begin;
+        }
+        return longest_within(from - begin, std::min(to, end) - begin, end - begin);
+    }
+
+private:
+    static bool is_printable(std::int64_t length) {
+        return is_simple(length) || (length % 3 == 0 && is_simple(length / 3 * 2));
+    }
+
+    /// Two beats, where they are a half of a bar or of its half; 0 elsewhere.
+    std::int64_t pair_at(std::int64_t from) const {
+        const bool is_even =
+            groups_.size() % 4 == 0 && std::equal(groups_.begin() + 1, groups_.end(), groups_.begin());
+        const std::int64_t pair = 2 * groups_.front();
+        return is_even && from % pair == 0 && is_printable(pair) ? pair : 0;
+    }
+
+    /// Within a group: each begins at a multiple of its length, and dots stand at the beginning of a beat alone.
+    std::int64_t longest_within(std::int64_t from, std::int64_t to, std::int64_t group) const {
+        const std::int64_t beat =
+            is_simple(group) && group <= ticks_per_quarter ? group : std::min(unit_, ticks_per_quarter);
+        const bool is_dotted_beat = group == 3 * unit_ && unit_ <= eighth_note;
+        for (std::int64_t base = whole_note; base > shortest_value; base /= 2) {
+            const bool is_short = base <= std::max(beat, unit_);
+            const bool is_half = is_simple(group) && 2 * base <= group;
+            const bool is_two_thirds = is_dotted_beat && from == 0 && base == 2 * unit_;
+            const std::int64_t dotted = base / 2 * 3;
+            if (2 * base <= beat && from % (2 * base) == 0 && from + dotted <= to) return dotted;
+            if ((is_short || is_half || is_two_thirds) && from % base == 0 && from + base <= to) return base;
+        }
+        return shortest_value;
+    }
+
+    Bar bar_;
+    std::vector<std::int64_t> groups_;
+    std::int64_t unit_;
+};
+
+}  // namespace
+
+std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const Meter& meter) {
+    const Rests rests(meter);
+    std::vector<WrittenValue> result;
+    while (from < to) {
+        const std::int64_t length = rests.longest(from, to);
+        result.push_back({length, note_value(length)});
+        from += length;
+    }
+    return result;
+}
+
+std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const TupletSpan& tuplet) {
+    const std::int64_t step = tuplet.step();
+    std::int64_t at = (from - tuplet.from) / step;
+    const std::int64_t end = (to - tuplet.from) / step;
+    std::vector<WrittenValue> result;
+    while (at < end) {
+        std::int64_t count = 4;
+        while (at % count != 0 || at + count > end || tuplet.divisor < count) count /= 2;
+        result.push_back({count * step, {static_cast<int>(tuplet.divisor / count), false}});
+        at += count;
+    }
+    return result;
+}
+
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet) {
     const std::int64_t step = tuplet.step();
     const bool is_odd = tuplet.actual % 2 != 0;
@@ -251,13 +364,16 @@ int beams_of(const BeamedNote& note) {
     return count;
 }
 
-/// Sets beams of notes that share at least the first.
-void beam(std::span<BeamedNote> notes) {
+/// Sets beams of notes that share at least the first. @param parts  those of one part share the others, too
+void beam(std::span<BeamedNote> notes, std::span<const std::int64_t> parts) {
     if (notes.size() < 2) return;
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const int count = beams_of(notes[i]);
-        const int before = i > 0 ? beams_of(notes[i - 1]) : 0;
-        const int next = i + 1 < notes.size() ? beams_of(notes[i + 1]) : 0;
+        const auto beams_to = [&](std::size_t other) {
+            return parts[other] == parts[i] ? beams_of(notes[other]) : 1;
+        };
+        const int before = i > 0 ? beams_to(i - 1) : 0;
+        const int next = i + 1 < notes.size() ? beams_to(i + 1) : 0;
         for (int level = 0; level < count; ++level) {
             const bool goes_back = before > level;
             const bool goes_on = next > level;
@@ -266,52 +382,74 @@ void beam(std::span<BeamedNote> notes) {
                 sign = goes_back && goes_on ? Beam::inside : goes_on ? Beam::begin : Beam::end;
             } else {
                 // A hook points to the note with which it fills a larger value.
-                const bool is_first = i == 0 || (i + 1 < notes.size() && notes[i].onset % (2 * notes[i].length) == 0);
-                sign = is_first ? Beam::forward_hook : Beam::backward_hook;
+                const bool is_first = i == 0 || parts[i - 1] != parts[i];
+                const bool is_last = i + 1 == notes.size() || parts[i + 1] != parts[i];
+                const bool fills_up = notes[i].onset % (2 * notes[i].length) == 0;
+                const bool points_on =
+                    i == 0 || (i + 1 < notes.size() && (is_first != is_last ? is_first : fills_up));
+                sign = points_on ? Beam::forward_hook : Beam::backward_hook;
             }
         }
     }
+}
+
+/// Eighths within a group, where notes shorter than 16ths are among the notes; otherwise one part.
+std::vector<std::int64_t> parts_of(std::span<const BeamedNote> notes, std::int64_t group) {
+    const bool has_short = std::any_of(
+        notes.begin(), notes.end(), [](const BeamedNote& note) { return note.is_note && note.value.divisor > 16; });
+    std::vector<std::int64_t> parts(notes.size(), 0);
+    for (std::size_t i = 0; has_short && i < notes.size(); ++i) {
+        const bool is_inside = i > 0 && notes[i].tuplet >= 0 && notes[i].tuplet == notes[i - 1].tuplet;
+        parts[i] = is_inside ? parts[i - 1] : (notes[i].onset - group) / eighth_note;
+    }
+    return parts;
+}
+
+/// The stretch of a bar that eighths alone share if it is that of a note: halves of an even number of quarters, or
+/// three quarters. Nothing in meters without quarters.
+std::int64_t wide_group(std::int64_t within, const Meter& meter, const Bar& bar) {
+    if (meter.unit != 4) return -1;
+    const std::int64_t begin = bar.is_grouped ? bar.group_begin(within) : 0;
+    const std::int64_t length = bar.is_grouped ? bar.group_end(within) - begin : bar.length;
+    if (length == 3 * ticks_per_quarter) return begin;
+    const std::int64_t half = whole_note / 2;
+    return length % half == 0 ? begin + (within - begin) / half * half : -1;
 }
 
 }  // namespace
 
 void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter) {
     const Bar bar(meter);
-    const bool has_quarters = !bar.is_grouped && meter.unit == 4;
-    const std::int64_t wide = !has_quarters          ? 0
-                              : meter.beats == 3     ? bar.length
-                              : meter.beats % 2 == 0 ? whole_note / 2
-                                                     : 0;
     /// The group in which a note is beamed. Beats of x/4 that hold eighths alone share a wider one.
     const auto is_plain = [](const BeamedNote& note) {
         return note.tuplet < 0 && (!note.is_note || note.value.divisor <= 8);
     };
     std::vector<std::int64_t> group(notes.size());
+    const std::int64_t unit = std::max<std::int64_t>(whole_note / meter.unit, eighth_note);
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const BeamedNote& note = notes[i];
         const std::int64_t begin = note.onset / bar.length * bar.length;
-        const std::int64_t beat = std::max<std::int64_t>(whole_note / meter.unit, eighth_note);
         const std::int64_t within = note.onset - begin;
-        group[i] = begin + (bar.is_grouped ? bar.group_begin(within) : within / beat * beat);
+        const std::int64_t first = bar.is_grouped ? bar.group_begin(within) : 0;
+        group[i] = begin + (has_short_units(meter) ? first : first + (within - first) / unit * unit);
         if (note.tuplet >= 0) {
             const TupletSpan& tuplet = tuplets[static_cast<std::size_t>(note.tuplet)];
             if (tuplet.to - tuplet.from > ticks_per_quarter) group[i] = tuplet.from;
         }
     }
-    if (wide > 0) {
-        for (std::size_t i = 0; i < notes.size();) {
-            const auto place = [&](std::size_t k) {
-                return std::pair(notes[k].onset / bar.length, notes[k].onset % bar.length / wide);
-            };
-            std::size_t end = i;
-            while (end < notes.size() && place(end) == place(i)) ++end;
-            if (std::all_of(notes.begin() + static_cast<std::ptrdiff_t>(i),
-                            notes.begin() + static_cast<std::ptrdiff_t>(end), is_plain)) {
-                std::fill(group.begin() + static_cast<std::ptrdiff_t>(i),
-                          group.begin() + static_cast<std::ptrdiff_t>(end), group[i]);
-            }
-            i = end;
+    for (std::size_t i = 0; i < notes.size();) {
+        const auto place = [&](std::size_t k) {
+            return std::pair(notes[k].onset / bar.length, wide_group(notes[k].onset % bar.length, meter, bar));
+        };
+        const auto here = place(i);
+        std::size_t end = i + 1;
+        while (end < notes.size() && here.second >= 0 && place(end) == here) ++end;
+        const std::span<const BeamedNote> wide = notes.subspan(i, end - i);
+        if (std::all_of(wide.begin(), wide.end(), is_plain)) {
+            std::fill(group.begin() + static_cast<std::ptrdiff_t>(i),
+                      group.begin() + static_cast<std::ptrdiff_t>(end), group[i]);
         }
+        i = end;
     }
     for (std::size_t i = 0; i < notes.size();) {
         std::size_t end = i;
@@ -319,7 +457,8 @@ void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets,
                (end == i || notes[end].onset == notes[end - 1].onset + notes[end - 1].length)) {
             ++end;
         }
-        beam(notes.subspan(i, end - i));
+        const std::span<BeamedNote> together = notes.subspan(i, end - i);
+        beam(together, parts_of(together, group[i]));
         i = std::max(end, i + 1);
     }
 }

@@ -36,14 +36,24 @@ struct TupletSpan {
     std::int64_t step() const { return (to - from) / actual; }
 };
 
-/// Groups of a bar in ticks: those of the meter, or twos and a last three for 5/8, 7/8, …, or dotted beats for 6/8,
-/// 9/8 and 12/8, or else beats.
+/// Groups of a bar in ticks: those of the meter; in x/8, x/16, …: threes for multiples of three, 3+3+2 for eight, or
+/// else twos, of which the first is a three in 5/8, 7/8, …; beats in others.
 std::vector<std::int64_t> groups_of(const Meter& meter);
 /// Ticks of a bar that are strong: its beginning and those of its groups if the meter has groups, else the beginning
 /// and, with an even number of beats, the middle.
 std::vector<std::int64_t> strong_beats(const Meter& meter);
-/// True where groups are neither beats nor dotted beats, so that readers have to be told.
+/// True where groups are not all alike, or set by the meter, so that readers have to be told.
 bool has_groups(const Meter& meter);
+/// A beat as a note value.
+struct BeatUnit {
+    NoteValue value;
+    double quarters = 1;  ///< its length
+};
+/// The beat that a tempo is told in: a dotted one in 6/8, 9/8, …, the unit in other meters.
+BeatUnit beat_unit(const Meter& meter);
+
+/// The end of the beat, or the group of x/8, in which a time lies: ticks from the beginning of the score.
+std::int64_t beat_end(std::int64_t time, const Meter& meter);
 
 /// Where notes of one voice may begin and end: at 64ths, and in tuplets at their notes.
 class Grid {
@@ -69,6 +79,9 @@ private:
     std::vector<TupletSpan> tuplets_;
 };
 
+/// The grid of notes of one voice.
+Grid grid_of(std::span<const Note> notes, const Meter& meter);
+
 /// A note value of a length.
 struct WrittenValue {
     std::int64_t length = 0;  ///< ticks
@@ -82,6 +95,12 @@ std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, con
 /// Splits a stretch of a tuplet. @param from, to  on its grid
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);
 
+/// Splits a rest as written_values() splits notes, but so that every beat is visible: a rest begins at a multiple of
+/// its own length, hides no middle of a bar, and has a dot only at the beginning of a beat or as a whole dotted beat
+/// (Gould 2011, "Behind Bars", "Rests").
+std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const Meter& meter);
+std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);
+
 enum class Beam : std::uint8_t { none, begin, inside, end, forward_hook, backward_hook };
 
 /// A note or rest, as far as beams need to know it.
@@ -93,8 +112,9 @@ struct BeamedNote {
     int tuplet = -1;  ///< of Grid::tuplets()
     std::array<Beam, 4> beams{};
 };
-/// Sets beams: one for eighths, two for 16ths, up to four. Notes are beamed within groups of the meter; eighths alone
-/// within half of 4/4 and all of 2/4 and 3/4. Rests end beams.
+/// Sets beams: one for eighths, two for 16ths, up to four. Notes are beamed within beats, or the groups of x/8;
+/// eighths alone within half of 4/4 and all of 2/4 and 3/4. Rests end beams. From 32nds on, only the first beam leads
+/// from one eighth to the next.
 void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter);
 
 }  // namespace sikku

@@ -95,14 +95,16 @@ struct KeySignature {
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
-    std::string scale;  ///< in words, with its tonic
-    int program = 0;    ///< General MIDI, 0 to 127
-    int voices = 1;     ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
+    bool has_instrument_name = false;  ///< `name` is that of General MIDI, not one of its own
+    std::string scale;                 ///< in words, with its tonic
+    int program = 0;                   ///< General MIDI, 0 to 127
+    int voices = 1;  ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
     std::optional<KeySignature> key;        ///< only for major, minor and the modes
     std::optional<KeySignature> signature;  ///< in print: of other scales, too
     std::array<Spelling, 12> spelling{};    ///< of each pitch class from C
     bool has_chords = false;                ///< notes of one onset and symbol are a chord in print
-    bool is_drums = false;                  ///< percussion of General MIDI: keys are those of drums.h
+    bool is_accompaniment = false;  ///< its voices share a staff, and notes of one onset and length are a chord
+    bool is_drums = false;          ///< percussion of General MIDI: keys are those of drums.h
 };
 
 /// What a score tells beside its notes. Voices are numbered through the parts in order.

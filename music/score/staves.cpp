@@ -24,19 +24,30 @@ struct Candidate {
     double cost;
 };
 
-std::vector<Candidate> clefs_of(int program) {
+/// Instruments that are written an octave lower than they sound.
+bool is_octave_higher(int program) {
+    constexpr int glockenspiel = 9;
+    constexpr int xylophone = 13;
+    constexpr int piccolo = 72;
+    constexpr int whistle = 78;
+    return program == glockenspiel || program == xylophone || program == piccolo || program == whistle;
+}
+
+/// @param is_high  most notes are above the treble clef
+std::vector<Candidate> clefs_of(int program, bool is_high) {
     constexpr double unusual = 0.5;
     const auto is_within = [program](int first, int last) { return program >= first && program <= last; };
     if (is_within(24, 31)) return {{Clef::treble_8, 0}};
-    if (is_within(32, 39) || program == 43) return {{Clef::bass_8, 0}, {Clef::treble, unusual}};
+    if (is_within(32, 39) || program == 43) return {{Clef::bass_8, 0}, {Clef::treble_8, unusual}};
+    if (is_octave_higher(program)) return {{is_high ? Clef::treble_up_8 : Clef::treble, 0}};
     if (program == 41) return {{Clef::alto, 0}, {Clef::treble, 0.1}, {Clef::bass, unusual}};
     if (program == 42 || program == 57 || program == 70) {
         return {{Clef::bass, 0}, {Clef::tenor, 0.2}, {Clef::treble, unusual}};
     }
     if (program == 47 || program == 58) return {{Clef::bass, 0}, {Clef::treble, unusual}};
-    const bool is_high = program == 9 || program == 10 || program == 40 || is_within(56, 56) || program == 59 ||
-                         is_within(64, 66) || is_within(68, 69) || is_within(71, 79) || program == 110;
-    return {{Clef::treble, 0}, {Clef::bass, is_high ? unusual : 0.0}};
+    const bool is_treble = program == 10 || program == 40 || program == 56 || program == 59 || is_within(64, 66) ||
+                           is_within(68, 69) || is_within(71, 79) || program == 110;
+    return {{Clef::treble, 0}, {Clef::bass, is_treble ? unusual : 0.0}};
 }
 
 /// The height of the middle line.
@@ -55,6 +66,8 @@ int middle_line(Clef clef) {
             return Pitch{6, 3}.height();
         case Clef::bass_8:
             return Pitch{1, 2}.height();
+        case Clef::treble_up_8:
+            return Pitch{6, 5}.height();
     }
     return 0;
 }
@@ -247,11 +260,21 @@ PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices
         if (!voices[i].empty()) sounding.push_back({first_voice + static_cast<int>(i), voices[i]});
     }
     if (sounding.empty()) return {};
+    if (part.is_accompaniment && sounding.size() <= voices_per_staff) {
+        sort_by_height(sounding);
+        PartPlan plan;
+        plan.staves.push_back({std::move(sounding), std::nullopt});
+        return plan;
+    }
     if (sounding.size() > most_own_staves) return share_staves(sounding);
     if (is_keyboard(part.program) && sounding.size() <= voices_per_staff) {
         if (sounding.size() > 1) return divide_hands(std::move(sounding));
         if (!fits_one_staff(part, sounding.front().notes)) {
-            return split_by_hand(part, sounding.front().notes, sounding.front().voice, bar_length);
+            PartPlan hands = split_by_hand(part, sounding.front().notes, sounding.front().voice, bar_length);
+            if (std::none_of(hands.staves.begin(), hands.staves.end(),
+                             [](const StaffPlan& staff) { return staff.voices.front().notes.empty(); })) {
+                return hands;
+            }
         }
     }
     if (sounding.size() <= voices_per_staff) sort_by_height(sounding);
@@ -304,20 +327,35 @@ struct State {
     double cost;
 };
 
-std::vector<State> states_of(const Part& part, std::optional<Clef> only) {
+/// True if most notes lie above the staff of a treble clef.
+bool are_high(const std::vector<Moment>& moments) {
+    std::size_t high = 0;
+    std::size_t count = 0;
+    for (const Moment& moment : moments) {
+        count += moment.heights.size();
+        high += static_cast<std::size_t>(std::count_if(moment.heights.begin(), moment.heights.end(), [](int height) {
+            return height > middle_line(Clef::treble) + 4;
+        }));
+    }
+    return 2 * high > count;
+}
+
+std::vector<State> states_of(const Part& part, std::optional<Clef> only, const std::vector<Moment>& moments) {
+    // What 8va, 15ma and 22ma cost each note.
+    constexpr std::array<double, 4> octave_cost = {0, 0.3, 1.5, 3};
     std::vector<State> states;
-    const std::vector<Candidate> clefs = only ? std::vector<Candidate>{{*only, 0}} : clefs_of(part.program);
-    for (const Candidate& candidate : clefs) {
-        states.push_back({candidate.clef, 0, candidate.cost});
-        if (candidate.clef == Clef::treble || candidate.clef == Clef::treble_8) {
-            states.push_back({candidate.clef, 1, candidate.cost + 0.3});
-            states.push_back({candidate.clef, 2, candidate.cost + 1.5});
+    const std::vector<Candidate> clefs =
+        only ? std::vector<Candidate>{{*only, 0}} : clefs_of(part.program, are_high(moments));
+    for (const auto& [clef, cost] : clefs) {
+        const bool is_low = clef == Clef::bass || clef == Clef::bass_8;
+        const bool is_high = clef == Clef::treble || clef == Clef::treble_8 || clef == Clef::treble_up_8;
+        states.push_back({clef, 0, cost});
+        for (int octaves = 1; octaves <= 3; ++octaves) {
+            const double sum = cost + octave_cost[static_cast<std::size_t>(octaves)];
+            if (is_high) states.push_back({clef, octaves, sum});
+            if (is_low) states.push_back({clef, -octaves, sum});
         }
-        if (candidate.clef == Clef::treble_8) states.push_back({candidate.clef, -1, candidate.cost + 0.4});
-        if (candidate.clef == Clef::bass || candidate.clef == Clef::bass_8) {
-            states.push_back({candidate.clef, -1, candidate.cost + 0.3});
-            states.push_back({candidate.clef, -2, candidate.cost + 1.5});
-        }
+        if (clef == Clef::treble_8) states.push_back({clef, -1, cost + 0.4});
     }
     return states;
 }
@@ -329,7 +367,7 @@ std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only
     constexpr std::array<double, 4> clef_change = {6, 7, 11, 20};
     constexpr std::array<double, 4> octave_change = {4, 5, 6, 8};
     const std::vector<Moment> moments = moments_of(voices);
-    const std::vector<State> states = states_of(part, only);
+    const std::vector<State> states = states_of(part, only, moments);
     if (moments.empty()) return {{0, states.front().clef, 0}};
     const auto cost = [&](std::size_t state, std::size_t i) {
         double sum = 0;

@@ -30,6 +30,7 @@ bool is_keyboard(int program);
 
 /// Distributes voices (of the score from `first_voice` on) over staves.
 ///
+/// Up to four voices of an accompaniment share one staff.
 /// Each voice has a staff of its own, up to four voices of a part in the order of their height. Parts for keyboards
 /// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
 /// low ones. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases change hands,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace sikku {
@@ -232,7 +233,63 @@ void join_hands(std::vector<PrintedPart>& printed) {
     }
 }
 
+/// Notes that need a sign in a key.
+std::size_t signs_in(const PrintedPart& part, const std::vector<double>& others, const KeySignature& key) {
+    const std::array<int, 7> signs = signs_of(key);
+    const auto needs_one = [&](double sound) {
+        const Pitch pitch = spelled(sound, part.keys.front().spelling);
+        return pitch.quarters != 2 * signs[static_cast<std::size_t>(pitch.letter)];
+    };
+    auto count = static_cast<std::size_t>(std::count_if(others.begin(), others.end(), needs_one));
+    for (const auto& voice : part.voices) {
+        count += static_cast<std::size_t>(
+            std::count_if(voice.begin(), voice.end(), [&](const Note& note) { return needs_one(note.key); }));
+    }
+    return count;
+}
+
+void set_key(PrintedPart& part, const KeySignature& key) {
+    for (KeyOfBars& one : part.keys) one.key = key;
+}
+
+/// The place of a tonic on the line of fifths, C at 0.
+int tonic_of(const KeySignature& key) {
+    return key.fifths + static_cast<int>(key.mode) - 1;
+}
+
 }  // namespace
+
+void agree_on_keys(std::vector<PrintedPart>& printed, std::span<const std::vector<double>> others) {
+    std::map<int, std::vector<std::size_t>> on_tonic;
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+        const std::vector<KeyOfBars>& keys = printed[i].keys;
+        const bool is_single = std::all_of(keys.begin(), keys.end(), [&](const KeyOfBars& key) {
+            return signs_of(key.key) == signs_of(keys.front().key);
+        });
+        if (printed[i].part.is_drums || !is_single) continue;
+        all.push_back(i);
+        if (const auto& key = printed[i].keys.front().key) on_tonic[tonic_of(*key)].push_back(i);
+    }
+    for (const auto& [tonic, parts] : on_tonic) {
+        std::optional<KeySignature> best;
+        std::size_t fewest = 0;
+        for (const std::size_t candidate : parts) {
+            const KeySignature key = *printed[candidate].keys.front().key;
+            std::size_t signs = 0;
+            for (const std::size_t part : parts) signs += signs_in(printed[part], others[part], key);
+            if (best && signs >= fewest) continue;
+            best = key;
+            fewest = signs;
+        }
+        for (const std::size_t part : parts) set_key(printed[part], *best);
+    }
+    if (all.empty() || !printed[all.front()].keys.front().key) return;
+    const KeySignature first = *printed[all.front()].keys.front().key;
+    for (const std::size_t part : all) {
+        if (signs_in(printed[part], others[part], first) == 0) set_key(printed[part], first);
+    }
+}
 
 const KeyOfBars& PrintedPart::key_at(std::int64_t onset) const {
     const auto next = std::upper_bound(keys.begin(), keys.end(), onset,

@@ -28,7 +28,7 @@ std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
     static const std::map<char, int> semitones = {{'c', 0}, {'d', 2}, {'e', 4}, {'f', 5},
                                                   {'g', 7}, {'a', 9}, {'b', 11}};
     static const std::regex token(
-        R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)([\[\]]?)(->)?(\^\\markup\\teeny"[-+]\d+")?|)"
+        R"(([a-g])((?:is|es|ih|eh)*)([',]*)(\d+)(\.?)(~?)([\[\]]?)(->)?(\^\\markup\\teeny"(?:\+|\xE2\x88\x92)\d+")?|)"
         R"([rs](\d+)(\.?)|[Rs]1\*(\d+)/(\d+))");
     static const std::regex dynamics(R"((\\[mpf]+|\\<|\\>)+$)");
     std::vector<PlainNote> list;
@@ -76,6 +76,10 @@ std::vector<PlainNote> read_notes(const std::string& text, std::int64_t bar) {
             if (word == "}") {
                 EXPECT_NE(actual, 1);
                 actual = normal = 1;
+                continue;
+            }
+            if (word == "\\set") {
+                words >> word >> word >> word;
                 continue;
             }
             if (word == "\\clef" || word == "\\ottava" || word == "\\bar") {
@@ -156,7 +160,8 @@ TEST(LilyPond, WritesALineForEachBar) {
 }
 
 \paper {
-  page-breaking-system-system-spacing.padding = #6
+  system-system-spacing = #'((basic-distance . 16) (minimum-distance . 10) (padding . 4) (stretchability . 60))
+  last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) (stretchability . 30))
 }
 
 \score {
@@ -173,7 +178,10 @@ TEST(LilyPond, WritesALineForEachBar) {
   >>
   \layout {
     indent = 0\mm
+    short-indent = 0\mm
     \context { \Score \autoBeamOff }
+    \context { \Staff \numericTimeSignature }
+    \context { \DrumStaff \numericTimeSignature }
   }
   \midi { }
 }
@@ -183,14 +191,16 @@ TEST(LilyPond, WritesALineForEachBar) {
 TEST(LilyPond, NamesOfPartsHaveRoomBeforeTheirStaves) {
     TestScore score = line({4, 4}, {480});
     score.head.parts.push_back(score.head.parts.front());
-    score.head.parts[1].name = "Acoustic Grand Piano";
+    score.head.parts[1].name = "Acoustic Grand Piano 2";
     score.notes.push_back(score.notes.front());
     score.notes.back().voice = 1;
     const std::string text = lilypond_of(score);
-    EXPECT_NE(text.find("instrumentName = \\markup \\right-column { \"Acoustic Grand\" \"Piano\" }"),
+    EXPECT_NE(text.find("instrumentName = \\markup \\right-column { \"Acoustic Grand\" \"Piano 2\" } "
+                        "shortInstrumentName = \"Acoustic\""),
               std::string::npos)
         << text;
-    EXPECT_NE(text.find("indent = 38\\mm"), std::string::npos) << text;
+    EXPECT_NE(text.find("indent = 38\\mm\n    short-indent = 22\\mm"), std::string::npos) << text;
+    EXPECT_NE(text.find("\\Staff \\RemoveEmptyStaves"), std::string::npos) << text;
     EXPECT_EQ(text.find("instrument = "), std::string::npos);
 }
 
@@ -217,6 +227,56 @@ TEST(LilyPond, TheTempoIsAWholeNumber) {
         score.head.tempo = tempo;
         EXPECT_NE(lilypond_of(score).find("\\tempo 4 = " + number + "\n"), std::string::npos) << tempo;
     }
+}
+
+TEST(LilyPond, TheTempoIsToldInBeats) {
+    const auto mark = [](const Meter& meter) {
+        TestScore score = line(meter, {480});
+        score.head.tempo = 100;
+        const std::string text = lilypond_of(score);
+        const std::size_t begin = text.find("\\tempo ");
+        return text.substr(begin + 7, text.find('\n', begin) - begin - 7);
+    };
+    EXPECT_EQ(mark({3, 4}), "4 = 100");
+    EXPECT_EQ(mark({6, 8}), "4. = 67");
+    EXPECT_EQ(mark({7, 8}), "8 = 200");
+    EXPECT_EQ(mark({7, 8, {3, 2, 2}}), "8 = 200");
+    EXPECT_EQ(mark({2, 2}), "2 = 50");
+    EXPECT_EQ(mark({9, 16}), "8. = 133");
+}
+
+TEST(LilyPond, DynamicsOfSeveralVoicesAreBelowTheirStaff) {
+    TestScore score;
+    score.head.parts = {plain_part("Strings", 2)};
+    score.head.parts[0].is_accompaniment = true;
+    for (std::int16_t voice = 0; voice < 2; ++voice) {
+        for (int i = 0; i < 4; ++i) {
+            Note note;
+            note.voice = voice;
+            note.onset = i * 960;
+            note.duration = voice == 0 ? 960 : 480;
+            note.key = 60 - 5 * voice;
+            note.velocity = i < 2 ? 80 : 112;
+            score.notes.push_back(note);
+        }
+    }
+    std::stable_sort(score.notes.begin(), score.notes.end(),
+                     [](const Note& a, const Note& b) { return a.onset < b.onset; });
+    const std::string text = lilypond_of(score);
+    EXPECT_NE(text.find("      \\new Voice {\n      s1*1920/1920\\mf\\< s1*1920/1920\\ff\n      }\n    >>\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST(LilyPond, SecondaryBeamsAreCutAtEighths) {
+    std::vector<std::int64_t> lengths(8, 60);
+    lengths.push_back(1440);
+    const std::string text = lilypond_of(line({4, 4}, lengths));
+    EXPECT_NE(
+        text.find("\\set stemLeftBeamCount = #3 \\set stemRightBeamCount = #1 c''32 \\set stemLeftBeamCount = #1 "
+                  "\\set stemRightBeamCount = #3 c''32"),
+        std::string::npos)
+        << text;
 }
 
 TEST(LilyPond, IsTheSameInAnyLocale) {

@@ -268,6 +268,7 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
     const auto identification = root.child("identification");
     EXPECT_STREQ(identification.child_value("creator"), "Peano");
     EXPECT_STREQ(identification.child_value("source"), "peano.lsys");
+    EXPECT_STREQ(identification.child_value("rights"), "peano.lsys");
     EXPECT_STREQ(identification.child("encoding").child_value("software"), "sikku 0.1.0");
     EXPECT_FALSE(identification.child("encoding").child("encoding-date"));
     const auto field = [&](const char* name) {
@@ -288,11 +289,15 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
     EXPECT_STREQ(attributes.child("time").child_value("beat-type"), "8");
     EXPECT_STREQ(attributes.child("clef").child_value("sign"), "G");
     EXPECT_STREQ(measure.child("direction").child("sound").attribute("tempo").value(), "92.5");
+    EXPECT_STREQ(measure.child("direction").child("direction-type").child("metronome").child_value("beat-unit"),
+                 "eighth");
+    EXPECT_STREQ(measure.child("direction").child("direction-type").child("metronome").child_value("per-minute"),
+                 "185");
     // Peano's five units.
     const auto first = measure.child("note");
     EXPECT_STREQ(first.child_value("type"), "quarter");
+    EXPECT_FALSE(first.child("dot").empty());
     EXPECT_STREQ(first.next_sibling("note").child_value("type"), "quarter");
-    EXPECT_FALSE(first.next_sibling("note").child("dot").empty());
     EXPECT_STREQ(first.child("tie").attribute("type").value(), "start");
 }
 
@@ -305,6 +310,39 @@ TEST(MusicXml, PartsHaveChannelsOfTheirOwn) {
         channels.push_back(part.child("midi-instrument").child("midi-channel").text().as_int());
     }
     EXPECT_EQ(channels, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, 14, 15, 16}));
+}
+
+TEST(MusicXml, StavesOfABracketAreParts) {
+    TestScore score;
+    score.head.parts = {plain_part("Solo", 1), plain_part("Voices", 6)};
+    for (std::int16_t voice = 0; voice < 7; ++voice) {
+        Note note;
+        note.voice = voice;
+        note.duration = 1920;
+        score.head.parts[0].program = score.head.parts[1].program = 40;
+        score.notes.push_back(note);
+    }
+    const auto document = parsed(xml_of(score));
+    const auto list = document.child("score-partwise").child("part-list");
+    std::string text;
+    for (const auto node : list.children()) {
+        if (node.type() != pugi::node_element) continue;
+        text += std::string(node.name()) == "part-group" ? std::string(node.attribute("type").value()) + " "
+                                                         : std::string(node.child_value("part-name")) + ", ";
+    }
+    EXPECT_EQ(text, "Solo, start Voices 1, Voices 2, Voices 3, Voices 4, Voices 5, Voices 6, stop ");
+    EXPECT_STREQ(list.child("part-group").child_value("group-symbol"), "bracket");
+    EXPECT_FALSE(document.child("score-partwise").child("part").child("measure").child("attributes").child("staves"));
+}
+
+TEST(MusicXml, ASingleDrumHasALine) {
+    TestScore score = line({4, 4}, {480, 480}, 39);
+    score.head.parts[0].is_drums = true;
+    const auto document = parsed(xml_of(score));
+    const auto measure = document.child("score-partwise").child("part").child("measure");
+    EXPECT_STREQ(measure.child("attributes").child("staff-details").child_value("staff-lines"), "1");
+    EXPECT_STREQ(measure.child("note").child("unpitched").child_value("display-step"), "E");
+    EXPECT_STREQ(measure.child("note").child_value("notehead"), "triangle");
 }
 
 TEST(MusicXml, TextsAreEscaped) {

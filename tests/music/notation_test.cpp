@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -96,7 +97,7 @@ TEST(Notation, ChordsStayInTheirPart) {
 
 TEST(Notation, FiveUnitsAreFourAndOne) {
     for (const auto& [unit, expected] : std::vector<std::pair<std::int64_t, std::string>>{
-             {120, "4~ 16 r8. r2"}, {240, "2~ 8 r4."}, {480, "1~ | 4 r2."}, {960, "1~ | 1~ | 2 r2"}}) {
+             {120, "4~ 16 r16 r8 r2"}, {240, "2~ 8 r8 r4"}, {480, "1~ | 4 r4 r2"}, {960, "1~ | 1~ | 2 r2"}}) {
         EXPECT_EQ(words({4, 4}, {5 * unit}), expected);
     }
 }
@@ -111,9 +112,11 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
     EXPECT_EQ(words({4, 4}, {7 * eighth, 9 * eighth}), "2.~ 8 8~ | 1");
     EXPECT_EQ(words({3, 4}, {6 * eighth, 6 * eighth}), "2. | 2.");
     EXPECT_EQ(words({2, 2}, {480, 960, 480}), "4 4~ 4 4");
-    EXPECT_EQ(words({5, 8}, {5 * eighth, 3 * eighth, 2 * eighth}), "4~ 4. | 4~ 8 4");
-    EXPECT_EQ(words({7, 8}, {7 * eighth}), "2~ 4.");
-    EXPECT_EQ(words({8, 4}, {16 * eighth}), "1.~ 2");
+    EXPECT_EQ(words({5, 8}, {5 * eighth, 3 * eighth, 2 * eighth}), "4.~ 4 | 4. 4");
+    EXPECT_EQ(words({7, 8}, {7 * eighth}), "4.~ 2");
+    EXPECT_EQ(words({8, 4}, {16 * eighth}), "1~ 1");
+    // The middle is visible but between beats.
+    EXPECT_EQ(words({4, 4}, {480, 3 * eighth, 480, eighth}), "4 4~ 8 4 8");
     // Beats of three eighths.
     EXPECT_EQ(words({6, 8}, {4 * eighth, 2 * eighth}), "4.~ 8 4");
     EXPECT_EQ(words({6, 8}, {eighth, 4 * eighth, eighth}), "8 4~ 4 8");
@@ -123,12 +126,46 @@ TEST(Notation, PrintsTheLongestThatTheBeatAllows) {
 }
 
 TEST(Notation, RestsFillGapsAndTheLastBar) {
-    EXPECT_EQ(words({4, 4}, {-480, 480, -960, -1920, 480}), "r4 4 r2 | R | 4 r2.");
-    EXPECT_EQ(words({5, 8}, {-5 * eighth, 5 * eighth}), "R | 4~ 4.");
+    EXPECT_EQ(words({4, 4}, {-480, 480, -960, -1920, 480}), "r4 4 r2 | R | 4 r4 r2");
+    EXPECT_EQ(words({5, 8}, {-5 * eighth, 5 * eighth}), "R | 4.~ 4");
     EXPECT_EQ(words({4, 4}, {}), "R");
-    EXPECT_EQ(words({4, 4}, {480, -5000}), "4 r2. | R | R");
+    EXPECT_EQ(words({4, 4}, {480, -5000}), "4 r4 r2 | R | R");
     EXPECT_EQ(notate(line({4, 4}, {1920})).bars, 1);
     EXPECT_EQ(notate(line({4, 4}, {1920, 30})).bars, 2);
+}
+
+TEST(Notation, RestsShowTheBeats) {
+    EXPECT_EQ(words({4, 4}, {eighth, -480, 5 * eighth}), "8 r8 r8 8~ 2");
+    EXPECT_EQ(words({4, 4}, {480, -960, 480}), "4 r4 r4 4");
+    EXPECT_EQ(words({4, 4}, {-3 * eighth, 5 * eighth}), "r4 r8 8~ 2");
+    EXPECT_EQ(words({4, 4}, {-360, 120, 120, -360, 960}), "r8. 16 16 r16 r8 2");
+    EXPECT_EQ(words({3, 4}, {-960, 480}), "r4 r4 4");
+    EXPECT_EQ(words({3, 2}, {-1920, 960}), "r2 r2 2");
+    EXPECT_EQ(words({8, 4}, {-1920, 1920}), "r2 r2 1");
+    EXPECT_EQ(words({6, 8}, {eighth, -5 * eighth}), "8 r8 r8 r4.");
+    EXPECT_EQ(words({6, 8}, {-2 * eighth, 4 * eighth}), "r4 8~ 4.");
+    EXPECT_EQ(words({12, 8}, {-6 * eighth, 3 * eighth, -3 * eighth}), "r2. 4. r4.");
+    EXPECT_EQ(words({12, 8}, {3 * eighth, -6 * eighth, 3 * eighth}), "4. r4. r4. 4.");
+    EXPECT_EQ(words({8, 4, {4, 2, 2}}, {480, -3 * 480, -960, 960}), "4 r4 r2 r2 2");
+    // A rest begins at a multiple of its length, and only dotted beats and the first part of a beat have dots.
+    for (const Meter meter : {Meter{4, 4}, {3, 4}, {6, 8}, {7, 8}, {2, 2}, {5, 4}, {12, 8}, {8, 4, {4, 2, 2}}}) {
+        const std::vector<std::int64_t> groups = groups_of(meter);
+        for (std::int64_t from = 0; from < meter.bar(); from += 30) {
+            for (std::int64_t to = from + 30; to <= meter.bar(); to += 30) {
+                std::int64_t here = from;
+                for (const WrittenValue& written : written_rests(from, to, meter)) {
+                    std::int64_t group = 0;
+                    for (std::size_t i = 0; group + groups[i] <= here; ++i) group += groups[i];
+                    const std::int64_t within = here - group;
+                    const std::int64_t base = written.length / (written.value.dotted ? 3 : 2) * 2;
+                    EXPECT_EQ(within % (written.value.dotted ? 2 * base : base) * (within > 0 ? 1 : 0), 0)
+                        << meter.beats << "/" << meter.unit << " " << from << " " << to;
+                    here += written.length;
+                }
+                ASSERT_EQ(here, to);
+            }
+        }
+    }
 }
 
 TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
@@ -212,11 +249,15 @@ TEST(Notation, NothingCrossesTheEndOfAGroup) {
     const Meter meter{7, 8, {3, 2, 2}};
     EXPECT_EQ(words(meter, {7 * eighth}), "4.~ 2");
     EXPECT_EQ(words(meter, {2 * eighth, 3 * eighth, 2 * eighth}), "4 8~ 4 4");
-    EXPECT_EQ(words(meter, {eighth, -6 * eighth}), "8 r4 r2");
-    EXPECT_EQ(words({7, 8, {2, 2, 3}}, {3 * eighth, 4 * eighth}), words({7, 8}, {3 * eighth, 4 * eighth}));
+    EXPECT_EQ(words(meter, {eighth, -6 * eighth}), "8 r8 r8 r4 r4");
+    EXPECT_EQ(words({7, 8, {3, 2, 2}}, {2 * eighth, 5 * eighth}), words({7, 8}, {2 * eighth, 5 * eighth}));
     EXPECT_EQ(words({8, 8, {3, 3, 2}}, {8 * eighth}), "1");
     EXPECT_EQ(groups_of(meter), (std::vector<std::int64_t>{720, 480, 480}));
-    EXPECT_EQ(groups_of({7, 8}), (std::vector<std::int64_t>{480, 480, 720}));
+    EXPECT_EQ(groups_of({7, 8}), (std::vector<std::int64_t>{720, 480, 480}));
+    EXPECT_EQ(groups_of({5, 16}), (std::vector<std::int64_t>{360, 240}));
+    EXPECT_EQ(groups_of({8, 8}), (std::vector<std::int64_t>{720, 720, 480}));
+    EXPECT_EQ(groups_of({4, 8}), (std::vector<std::int64_t>{480, 480}));
+    EXPECT_EQ(groups_of({3, 8}), (std::vector<std::int64_t>{720}));
     EXPECT_EQ(groups_of({6, 8}), (std::vector<std::int64_t>{720, 720}));
 }
 
@@ -246,9 +287,9 @@ TEST(Notation, ThirdsAndFifthsAreTuplets) {
     EXPECT_EQ(both({4, 4}, {80, 160, 80, 160, 1440}), "3:2/16 3:2/16; 16 8 16 8 2.");
     EXPECT_EQ(both({4, 4}, {96, 96, 288, 1440}), "5:4/16; 16 16 8. 2.");
     EXPECT_EQ(both({4, 4}, {192, 768, 960}), "5:4/8; 8 2 2");
-    EXPECT_EQ(both({4, 4}, {160, -1760}), "3:2/8; 8 r4 r2.");
+    EXPECT_EQ(both({4, 4}, {160, -1760}), "3:2/8; 8 r8 r8 r4 r2");
     EXPECT_EQ(both({6, 8}, {80, 160, 480, 720}), "3:2/16; 16 8 4 4.");
-    EXPECT_EQ(both({7, 8}, {480, 480, 240, 160, 80, 240}), "3:2/16; 4 4 8 8 16 8");
+    EXPECT_EQ(both({7, 8}, {240, 160, 80, 240, 480, 480}), "3:2/16; 8 8 16 8 4 4");
     EXPECT_EQ(both({4, 4}, {480, 480, 480, 480}), "; 4 4 4 4");
     // Runs of whole units in any meter stay where they are.
     for (const std::int64_t unit : {160, 320, 80, 96, 192, 40, 48}) {
@@ -278,7 +319,13 @@ TEST(Notation, BeamsFollowTheGroups) {
     EXPECT_EQ(beams({4, 4}, eighths(8)), "[--][--]");
     EXPECT_EQ(beams({3, 4}, eighths(6)), "[----]");
     EXPECT_EQ(beams({6, 8}, eighths(6)), "[-][-]");
-    EXPECT_EQ(beams({7, 8}, eighths(7)), "[][][-]");
+    EXPECT_EQ(beams({7, 8}, eighths(7)), "[-][][]");
+    EXPECT_EQ(beams({3, 8}, eighths(3)), "[-]");
+    EXPECT_EQ(beams({4, 8}, eighths(4)), "[][]");
+    EXPECT_EQ(beams({8, 8}, eighths(8)), "[-][-][]");
+    // Beats of grouped quarters.
+    EXPECT_EQ(beams({8, 4, {4, 2, 2}}, {240, 120, 120, 120, 120, 240, 960, 1920}), "[-][-]..");
+    EXPECT_EQ(beams({8, 4, {4, 2, 2}}, {240, 240, 240, 240, 960, 240, 240, 240, 240, 960}), "[--].[--].");
     EXPECT_EQ(beams({7, 8, {3, 2, 2}}, eighths(7)), "[-][][]");
     EXPECT_EQ(beams({4, 4}, {120, 120, 240, 240, 240, 480, -480}), "[-][].");
     EXPECT_EQ(beams({4, 4}, {240, 480, 240, 960}), "....");
@@ -301,6 +348,27 @@ TEST(Notation, HooksPointToTheNoteTheyBelongTo) {
     EXPECT_EQ(second_beams({120, 120, 120, 120, 1440}), "[--].");
 }
 
+TEST(Notation, ShortNotesAreBeamedByEighths) {
+    const auto beams = [](const std::vector<std::int64_t>& lengths, std::size_t level) {
+        std::string text;
+        const Notation notation = notate(line({4, 4}, lengths));
+        for (const NotatedSymbol& symbol : notation.parts[0].staves[0].voices[0].symbols) {
+            if (symbol.kind != SymbolKind::note) continue;
+            text += std::string_view(".[-]fb")[static_cast<std::size_t>(symbol.beams[level])];
+        }
+        return text;
+    };
+    std::vector<std::int64_t> lengths(8, 60);
+    lengths.push_back(1440);
+    EXPECT_EQ(beams(lengths, 0), "[------].");
+    EXPECT_EQ(beams(lengths, 1), "[--][--].");
+    EXPECT_EQ(beams(lengths, 2), "[--][--].");
+    // A hook stays in its eighth.
+    EXPECT_EQ(beams({180, 60, 60, 60, 120, 1440}, 1), "[][-].");
+    EXPECT_EQ(beams({180, 60, 60, 60, 120, 1440}, 2), ".b[]..");
+    EXPECT_EQ(beams({-120, 120, 60, 60, 60, 60, 1440}, 1), "f[--].");
+}
+
 TEST(Notation, WhatFallsOnNoGridIsMovedAndCounted) {
     // Sevenths of a beat.
     const Notation sevenths = notate(line({4, 4}, {69, 68, 69, 274}));
@@ -315,9 +383,10 @@ TEST(Notation, WhatFallsOnNoGridIsMovedAndCounted) {
 
 /// A staff in words: `treble`, `bass+1`, … for each change, with its onset in quarters.
 std::string changes(const Staff& staff) {
-    static const std::map<Clef, std::string> names = {{Clef::treble, "treble"},     {Clef::bass, "bass"},
-                                                      {Clef::alto, "alto"},         {Clef::tenor, "tenor"},
-                                                      {Clef::treble_8, "treble_8"}, {Clef::bass_8, "bass_8"}};
+    static const std::map<Clef, std::string> names = {{Clef::treble, "treble"},       {Clef::bass, "bass"},
+                                                      {Clef::alto, "alto"},           {Clef::tenor, "tenor"},
+                                                      {Clef::treble_8, "treble_8"},   {Clef::bass_8, "bass_8"},
+                                                      {Clef::treble_up_8, "treble^8"}};
     std::string text;
     for (const StaffChange& change : staff.changes) {
         text += (text.empty() ? "" : ", ") + std::to_string(change.onset / 480) + " " + names.at(change.clef);
@@ -378,6 +447,14 @@ TEST(Notation, ManyLedgerLinesBecomeALineOf8va) {
     EXPECT_EQ(changes(staves_of(73, keys).front()), "0 treble, 8 treble+1, 16 treble");
     EXPECT_EQ(changes(staves_of(73, std::vector<double>(8, 108)).front()), "0 treble+2");
     EXPECT_EQ(changes(staves_of(58, std::vector<double>(8, 24)).front()), "0 bass-1");
+    EXPECT_EQ(changes(staves_of(vibraphone, std::vector<double>(8, 125)).front()), "0 treble+3");
+    // The piccolo is written an octave lower, where it is high.
+    EXPECT_EQ(changes(staves_of(72, std::vector<double>(8, 92)).front()), "0 treble^8");
+    EXPECT_EQ(changes(staves_of(72, std::vector<double>(8, 72)).front()), "0 treble");
+    // The double bass never leaves its octave.
+    std::vector<double> bass(8, 33);
+    bass.insert(bass.end(), 16, 58);
+    EXPECT_EQ(changes(staves_of(43, bass).front()), "0 bass_8, 8 treble_8");
 }
 
 TEST(Notation, KeyboardsHaveTwoHands) {
@@ -426,6 +503,167 @@ TestScore many_voices(int voices) {
         score.notes.push_back(note);
     }
     return score;
+}
+
+TEST(Notation, AMelodyThatTheLeftHandNeverPlaysHasOneStaff) {
+    std::vector<double> keys(8, 74);
+    keys.insert(keys.end(), 8, 110);
+    EXPECT_EQ(staves_of(piano, keys).size(), 1u);
+}
+
+/// Notes of a quarter: voice, onset in quarters, key.
+TestScore quarters(Part part, const std::vector<std::tuple<int, double, double>>& list) {
+    TestScore score;
+    score.head.parts = {std::move(part)};
+    for (const auto& [voice, onset, key] : list) {
+        Note note;
+        note.voice = static_cast<std::int16_t>(voice);
+        note.onset = static_cast<std::int64_t>(onset * 480);
+        note.duration = 480;
+        note.key = key;
+        score.notes.push_back(note);
+    }
+    score.end = 1920;
+    return score;
+}
+
+TEST(Notation, AnAccompanimentHasOneStaff) {
+    Part part = plain_part("Strings", 3);
+    part.is_accompaniment = true;
+    part.program = 48;
+    const Notation chords =
+        notate(quarters(part, {{0, 0, 48}, {1, 0, 55}, {2, 0, 64.14}, {0, 1, 50}, {1, 1, 57}, {2, 1, 65}}));
+    ASSERT_EQ(chords.parts[0].staves.size(), 1u);
+    ASSERT_EQ(chords.parts[0].staves[0].voices.size(), 1u);
+    const NotatedSymbol& first = chords.parts[0].staves[0].voices[0].symbols[0];
+    ASSERT_EQ(first.chord.size(), 2u);
+    EXPECT_EQ(printed_cents(first), std::vector<int>{14});
+    // Voices with rhythms of their own stay apart, wherever they meet.
+    const Notation drone = notate(quarters(part, {{0, 0, 55}, {0, 1, 60}, {1, 0, 48}}));
+    ASSERT_EQ(drone.parts[0].staves.size(), 1u);
+    ASSERT_EQ(drone.parts[0].staves[0].voices.size(), 2u);
+    EXPECT_TRUE(drone.parts[0].staves[0].voices[0].symbols[0].chord.empty());
+}
+
+constexpr int foot = 36;
+constexpr int snare = 38;
+constexpr int ride = 51;
+
+Part drum_part(int voices) {
+    Part part = plain_part("Drums", voices);
+    part.is_drums = true;
+    return part;
+}
+
+TEST(Notation, DrumsAreHandsAndFeet) {
+    // Every beat a ride, a snare with two of them, a bass drum on the first and between the third and the fourth.
+    const Notation notation = notate(quarters(drum_part(3), {{0, 0, ride},
+                                                             {0, 1, ride},
+                                                             {0, 2, ride},
+                                                             {0, 3, ride},
+                                                             {1, 1, snare},
+                                                             {1, 3, snare},
+                                                             {2, 0, foot},
+                                                             {2, 2.5, foot}}));
+    ASSERT_EQ(notation.parts[0].staves.size(), 1u);
+    const Staff& staff = notation.parts[0].staves[0];
+    ASSERT_EQ(staff.voices.size(), 2u);
+    EXPECT_EQ(words(notation), "4 4 4 4");
+    EXPECT_EQ(staff.voices[0].symbols[1].chord.size(), 1u);
+    std::string feet;
+    for (const NotatedSymbol& symbol : staff.voices[1].symbols) {
+        feet += symbol.kind == SymbolKind::note ? "x" : "r";
+        feet += std::to_string(symbol.value.divisor);
+        EXPECT_FALSE(symbol.tied_forward);
+    }
+    EXPECT_EQ(feet, "x4r4r8x8r4");
+}
+
+TEST(Notation, StrokesHaveNoTies) {
+    // A stroke for two thirds of a beat, over the end of the beat.
+    TestScore score = quarters(drum_part(1), {{0, 0, ride}, {0, 1, ride}});
+    score.notes[0].onset = 320;
+    score.notes[0].duration = 320;
+    score.notes[1].onset = 960;
+    const Notation notation = notate(score);
+    for (const NotatedSymbol& symbol : notation.parts[0].staves[0].voices[0].symbols) {
+        EXPECT_FALSE(symbol.tied_forward || symbol.tied_back);
+    }
+    EXPECT_EQ(words(notation), "r4 8 r4 4 r4");
+    EXPECT_EQ(notation.moved, 0u);
+    // One drum alone has one line.
+    EXPECT_EQ(notation.parts[0].staves[0].lines, 1);
+}
+
+TEST(Notation, LinesThatFitNoGridStayApart) {
+    // Triplets against 16ths.
+    TestScore score = quarters(drum_part(2), {});
+    for (std::int16_t voice = 0; voice < 2; ++voice) {
+        const std::int64_t step = voice == 0 ? 160 : 120;
+        for (std::int64_t onset = 0; onset < 480; onset += step) {
+            Note note;
+            note.voice = voice;
+            note.onset = onset;
+            note.duration = step;
+            note.key = voice == 0 ? ride : snare;
+            score.notes.push_back(note);
+        }
+    }
+    const Notation notation = notate(score);
+    EXPECT_EQ(notation.parts[0].staves[0].voices.size(), 2u);
+    EXPECT_EQ(notation.moved, 0u);
+}
+
+TEST(Notation, PartsOfOneNameAreNumbered) {
+    TestScore score;
+    Part part = plain_part("Acoustic Grand Piano", 1);
+    part.has_instrument_name = true;
+    score.head.parts = {part, plain_part("Mridangam of the left", 1), part};
+    for (std::int16_t voice = 0; voice < 3; ++voice) {
+        Note note;
+        note.voice = voice;
+        note.duration = 1920;
+        score.notes.push_back(note);
+    }
+    score.notes[2].key = 40;
+    // Two lines of one keyboard are for two hands.
+    EXPECT_EQ(notate(score).parts.size(), 2u);
+    score.head.parts[0].program = score.head.parts[2].program = 40;
+    const Notation notation = notate(score);
+    ASSERT_EQ(notation.parts.size(), 3u);
+    EXPECT_EQ(notation.parts[0].name + ", " + notation.parts[0].abbreviation, "Violin 1, Vln. 1");
+    EXPECT_EQ(notation.parts[1].name + ", " + notation.parts[1].abbreviation, "Mridangam of the left, Mridangam");
+    EXPECT_EQ(notation.parts[2].name + ", " + notation.parts[2].abbreviation, "Violin 2, Vln. 2");
+}
+
+TEST(Notation, PartsOnOneTonicHaveOneSignature) {
+    TestScore score;
+    score.head.parts = {plain_part("Major", 1), plain_part("Minor", 1), plain_part("Elsewhere", 1)};
+    score.head.parts[0].key = KeySignature{0, false};
+    score.head.parts[1].key = KeySignature{-3, true};
+    score.head.parts[1].spelling = spelling_of({0, 2, 3, 5, 7, 8, 10}, {0, 0});
+    score.head.parts[2].key = KeySignature{1, false};
+    const auto add = [&](std::int16_t voice, const std::vector<double>& keys) {
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            Note note;
+            note.voice = voice;
+            note.onset = static_cast<std::int64_t>(i) * 480;
+            note.duration = 480;
+            note.key = keys[i];
+            score.notes.push_back(note);
+        }
+    };
+    add(0, {60, 64, 65});  // a sign in minor
+    add(1, {60, 63, 68});  // two signs in major
+    add(2, {66});          // F# is in neither
+    const auto fifths = [](const Notation& notation) {
+        std::vector<int> list;
+        for (const NotatedPart& part : notation.parts) list.push_back(part.keys.front().key->fifths);
+        return list;
+    };
+    EXPECT_EQ(fifths(notate(score)), (std::vector<int>{-3, -3, 1}));
+    score.notes.back().key = 67;  // G is in all
+    EXPECT_EQ(fifths(notate(score)), (std::vector<int>{-3, -3, -3}));
 }
 
 TEST(Notation, EveryVoiceHasAStaff) {
@@ -486,8 +724,7 @@ TEST(Notation, DynamicsFollowTheVelocities) {
         return notate(score).parts[0].staves[0].dynamics;
     };
     EXPECT_EQ(marks({80, 78, 84, 75}), (std::vector<DynamicMark>{{0, Kind::level, 4}}));
-    EXPECT_EQ(marks({33, 112}),
-              (std::vector<DynamicMark>{{0, Kind::level, 1}, {0, Kind::crescendo, 1}, {1920, Kind::level, 6}}));
+    EXPECT_EQ(marks({33, 112}), (std::vector<DynamicMark>{{0, Kind::level, 1}, {1920, Kind::level, 6}}));
     // The border between two levels is not crossed by a step.
     EXPECT_EQ(marks({80, 71, 73, 71, 89}), (std::vector<DynamicMark>{{0, Kind::level, 4}}));
     // From bar 2 on it rises, until it is forte in bar 4.
@@ -496,6 +733,22 @@ TEST(Notation, DynamicsFollowTheVelocities) {
         (std::vector<DynamicMark>{{0, Kind::level, 4}, {1920, Kind::crescendo, 4}, {3 * 1920, Kind::level, 5}}));
     EXPECT_EQ(marks({1, 127}).front().level, 0);
     EXPECT_EQ(marks({1, 127}).back().level, 7);
+}
+
+TEST(Notation, HairpinsEndBeforeRests) {
+    using Kind = DynamicMark::Kind;
+    TestScore score = line({4, 4}, {960, 480, -480, 1920});
+    score.notes[0].velocity = score.notes[1].velocity = 48;
+    score.notes[2].velocity = 96;
+    EXPECT_EQ(notate(score).parts[0].staves[0].dynamics,
+              (std::vector<DynamicMark>{
+                  {0, Kind::level, 2}, {0, Kind::crescendo, 2}, {1440, Kind::end, 2}, {1920, Kind::level, 5}}));
+    // A single note has none.
+    TestScore single = line({4, 4}, {960, -960, 1920});
+    single.notes[0].velocity = 48;
+    single.notes[1].velocity = 96;
+    EXPECT_EQ(notate(single).parts[0].staves[0].dynamics,
+              (std::vector<DynamicMark>{{0, Kind::level, 2}, {1920, Kind::level, 5}}));
 }
 
 TEST(Notation, LoudNotesHaveAccents) {

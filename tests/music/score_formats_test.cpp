@@ -47,7 +47,7 @@ std::map<char, double> key_of(const std::string& name) {
 }
 
 /// Reads the notes of a tune: lengths in eighths, tuplets count notes and rests, accidentals hold to the bar line for
-/// their letter in all octaves if `wide`, else for the note alone.
+/// their letter in all octaves if `wide`, else for the note alone; clefs with an 8 transpose.
 std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool wide) {
     static const std::map<char, int> semitones = {{'C', 0}, {'D', 2}, {'E', 4}, {'F', 5},
                                                   {'G', 7}, {'A', 9}, {'B', 11}};
@@ -55,7 +55,7 @@ std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool 
                                                         {"_/", -0.5}, {"=", 0},       {"^/", 0.5},
                                                         {"^", 1},     {"^3/2", 1.5},  {"^^", 2}};
     static const std::regex token(
-        R"(^(?:(\[K:([A-G][^\]]*)\])|(\[K:clef=\w+\])|(\|\]?)|(!![^!]*!|![^!]*!)|("[^"]*")|\((\d+):(\d+):(\d+)|)"
+        R"(^(?:(\[K:([A-G][^\]]*)\])|(\[K:clef=[-+\w]+\])|(\|\]?)|(!![^!]*!|![^!]*!)|("[^"]*")|\((\d+):(\d+):(\d+)|)"
         R"((__|\^\^|_3/2|\^3/2|_/|\^/|_|\^|=)?([A-Ga-g])([',]*)(\d*)(?:/(\d+))?(-)?|([zx])(\d*)(?:/(\d+))?|([ \n]+)))");
     std::vector<PlainNote> list;
     std::istringstream stream(text);
@@ -68,11 +68,14 @@ std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool 
     std::int64_t normal = 1;
     int left = 0;
     bool tied = false;
+    double transposition = 0;
     for (bool in_voice = false; std::getline(stream, row);) {
         if (row.starts_with("V:")) {
             EXPECT_FALSE(tied);
             in_voice = true;
             here = 0;
+            const char octave = row[row.find("clef=") + row.substr(row.find("clef=")).find_first_of(" -+\n")];
+            transposition = octave == '-' ? -12 : octave == '+' ? 12 : 0;
             continue;
         }
         if (!in_voice || row.starts_with("%")) continue;
@@ -109,7 +112,7 @@ std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool 
                 double sign = key.contains(upper) ? key[upper] : 0;
                 if (wide && in_force.contains(upper)) sign = in_force[upper];
                 if (match[10].matched) sign = in_force[upper] = signs.at(match[10]);
-                double pitch = (letter == upper ? 60 : 72) + semitones.at(upper) + sign;
+                double pitch = (letter == upper ? 60 : 72) + semitones.at(upper) + sign + transposition;
                 for (const char mark : match[12].str()) pitch += mark == '\'' ? 12 : -12;
                 const std::int64_t ticks = length(13, 14);
                 if (tied) {

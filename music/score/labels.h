@@ -1,0 +1,14 @@
+// music/score/labels.h: the names of parts before their staves.
+#pragma once
+
+#include "music/score/notation.h"
+
+#include <span>
+
+namespace sikku {
+
+/// Sets name and abbreviation of parts: those of their instruments, or the names that they were given. Parts of one
+/// name are numbered.
+void set_labels(std::span<NotatedPart> parts);
+
+}  // namespace sikku

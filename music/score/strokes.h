@@ -1,0 +1,30 @@
+// music/score/strokes.h: arranges strokes of drums in the lines of a percussion staff.
+#pragma once
+
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sikku {
+
+/// Strokes by onset, one at a time.
+struct StrokeLine {
+    std::vector<Note> strokes;                ///< of each the key of one drum
+    std::vector<std::vector<double>> others;  ///< for each: keys of the drums that are struck with it
+};
+
+struct StrokeLines {
+    std::vector<StrokeLine> lines;  ///< the highest first; at least one
+    std::uint64_t merged = 0;       ///< strokes left out because another voice has the same
+};
+
+/// Arranges the strokes of all voices of a part in two lines, as for a drum set: hands above, feet (the bass drum and
+/// the pedal hi-hat) below. A line that no grid of bars and tuplets can hold stays divided into its voices.
+///
+/// A stroke has no length of its own: it is written up to the next one of its line, the end of its beat, or, if it
+/// lasts for whole beats, its end. Cost: O(n log n).
+StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter& meter);
+
+}  // namespace sikku
