@@ -31,13 +31,13 @@ void check_relief(const DrawSettings& settings, PrintFormat format) {
                              {settings.groove.has_value(), "groove", reason}});
     }
     if (info(format).kind != FormatKind::model) refuse_option("relief", "", "a relief is STL, OBJ or glTF");
-    constexpr const char* solid = "a relief is one solid";
+    constexpr const char* flat = "a relief is made of drawings in the plane, which have neither camera nor light";
     refuse_first({{settings.tile.has_value(), "tile", "a relief is cut in the program that prints it"},
                   {settings.lesson.has_value(), "lesson", "a lesson has several pages; a relief is one solid"},
                   {settings.generations && !settings.frames, "generations",
                    "a relief is one solid; 'frames' makes one of each generation"},
-                  {!settings.view.empty(), "view", solid},
-                  {!settings.light.empty(), "light", solid},
+                  {!settings.view.empty(), "view", flat},
+                  {!settings.light.empty(), "light", flat},
                   {settings.press.bleed > 0, "bleed", "a relief is not trimmed"}});
     const ReliefOptions options = relief_options(settings, format);
     const auto check_depths = [&](const char* option, const std::vector<double>& heights) {
@@ -278,7 +278,8 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     const bool is_model = info(format).kind == FormatKind::model;
     if (is_model && !is_relief(settings, format)) return check_model(settings);
     check_placement(settings);
-    if (!is_vector(format) && !is_model && std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
+    if (!is_vector(format) && !is_model &&
+        std::max(settings.page.width, settings.page.height) * settings.dpi / 25.4 > 200'000) {
         refuse_option("dpi", fmt::format("{:g}", settings.dpi),
                       "the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
     }

@@ -483,12 +483,13 @@ const std::array own_rows = {
                .group = kolams,
                .is_alone = true},
               [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
-    Option<S>{{.name = "relief",
-               .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "
-                       "of the palette, such as 2mm,3mm; negative ones are depths (2mm)",
-               .value = "[HEIGHT[,HEIGHT]...]",
-               .group = reliefs},
-              set_relief},
+    Option<S>{
+        {.name = "relief",
+         .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "
+                 "of the palette, such as 2mm,3mm; negative ones are depths (2mm)",
+         .value = "[HEIGHT[,HEIGHT]...]",
+         .group = reliefs},
+        set_relief},
     Option<S>{{.name = "ridge",
                .help = "heights of lines by colour (as --relief)",
                .value = "HEIGHT[,HEIGHT]...",

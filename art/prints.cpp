@@ -63,8 +63,8 @@ bool has_translucent_colours(const Style& style) {
 void report_relief(const ReliefReport& report, Made& made) {
     constexpr std::size_t most_named = 8;
     constexpr double thin = 0.4;  // what the usual nozzle of a 3-D printer can draw
-    made.fact(fmt::format("{}, {:g} x {:g} x {:g} mm, {:.1f} cm³", counted(report.triangles, "triangle"), report.size.x,
-                          report.size.y, report.size.z, report.volume / 1000));
+    made.fact(fmt::format("{}, {:g} x {:g} x {:g} mm, {:.1f} cm³", counted(report.triangles, "triangle"),
+                          report.size.x, report.size.y, report.size.z, report.volume / 1000));
     const auto tell = [&](const char* what, const std::vector<std::pair<Colour, double>>& heights) {
         std::string list;
         for (std::size_t i = 0; i < std::min(heights.size(), most_named); ++i) {
@@ -79,8 +79,8 @@ void report_relief(const ReliefReport& report, Made& made) {
                               report.lost == 1 ? "1 polygon is" : fmt::format("{} polygons are", report.lost)));
     }
     if (report.narrowest > 0 && report.narrowest < thin - 1e-9) {
-        made.warn(fmt::format("lines are down to {:.2g} mm wide; many 3-D printers need {:g} mm", report.narrowest,
-                              thin));
+        made.warn(
+            fmt::format("lines are down to {:.2g} mm wide; many 3-D printers need {:g} mm", report.narrowest, thin));
     }
 }
 
@@ -578,7 +578,8 @@ class Prints : public Interpreter {
 public:
     Prints() {
         for (const FormatInfo& row : print_formats()) {
-            const bool is_several = row.kind == FormatKind::animation || row.kind == FormatKind::model;
+            // An OBJ has its materials beside it.
+            const bool is_several = row.kind == FormatKind::animation || row.format == PrintFormat::obj;
             formats_.push_back({row.extension, row.label, row.alias, is_several, row.is_text});
         }
         for (const Option<DrawSettings>& row : draw_options()) options_.push_back(&row.info);

@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Draws documents: SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, DXF, OBJ and glTF.
+/// Draws documents: SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, DXF, OBJ, glTF and STL.
 const Interpreter& prints();
 
 /// Returns the bytes of a print. Names in `values` are options of prints() or keys and defines of the pattern:

@@ -39,8 +39,8 @@ std::string print_format_of(const std::string& output) {
         if (info(row.format).kind != FormatKind::model)
             known += fmt::format("{}.{}", known.empty() ? "" : ", ", row.extension);
     }
-    throw UsageError(fmt::format("-o {}: {}; a print is {}, a model is .obj or .glb", output,
-                                 extension.empty() ? "no extension" : "unknown extension", known));
+    throw UsageError(fmt::format("-o {}: {}; a print is {}, a model is .obj or .glb, a relief .stl, .obj or .glb",
+                                 output, extension.empty() ? "no extension" : "unknown extension", known));
 }
 
 void run(const DrawCommand& command, bool quiet) {
@@ -69,8 +69,8 @@ void run(const DrawCommand& command, bool quiet) {
 void add_draw(CLI::App& app, bool& quiet) {
     auto* command =
         app.add_subcommand("draw",
-                           "Draw a print (SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, DXF) or a model "
-                           "(OBJ, glTF)");
+                           "Draw a print (SVG, PDF, PNG, TIFF, JPEG, EXR, GIF, HP-GL, G-code, DXF), a model "
+                           "(OBJ, glTF) or a relief (STL, OBJ, glTF)");
     auto options = std::make_shared<DrawCommand>();
     add_pattern_options(*command, options->pattern);
     command->add_option("-o,--output", options->output, "output file; its extension selects the format")
@@ -87,6 +87,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw snake-kolam --dots --border kaavi --animate -o snake.svg\n"
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw bush-3d -o bush.glb\n"
+        "  sikku draw penrose-rhombs -n 4 --relief 2mm,3mm --size 150x150mm -o tiles.stl\n"
         "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw snake-kolam --cmyk press.icc --bleed 3mm --marks -o press.pdf\n"

@@ -113,8 +113,6 @@ ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawO
     constexpr std::size_t points_of_triangle = 2;  // some of them become none, such as those of edges
     ReliefShapes shapes(print, points_of_triangle * most_relief_triangles);
     drawing.read_visible(print, whole_page(print.page), shapes);
-    // Fields end at the middle of lines, which lie over them; edges of tiles give way to grooves.
-    if (!print.style.fields) shapes.drop_edges(options.monitor);
     return write_relief(shapes, print, *options.relief, file, options.monitor, destination);
 }
 

@@ -125,12 +125,12 @@ struct DrawReport {
     glm::dvec2 left_out{0.0};        ///< margin of the page, in millimetres on each side, that the sheets do not show
     std::optional<PlotReport> plot;  ///< report of a plot
     std::optional<ReliefReport> relief;  ///< report of a relief
-    std::uint64_t replaced = 0;      ///< parts too small to be resolved, replaced by their appearance
-    std::size_t cells = 0;           ///< number of cells of a map
-    bool crosses_itself = false;     ///< the outline of a map crosses itself
-    bool is_empty = false;           ///< the window contains no part of the drawing
-    bool is_blank = false;           ///< the ink of a picture is too thin to be visible
-    bool leaves_pattern_out = false;  ///< the pattern's text is too long for the format
+    std::uint64_t replaced = 0;          ///< parts too small to be resolved, replaced by their appearance
+    std::size_t cells = 0;               ///< number of cells of a map
+    bool crosses_itself = false;         ///< the outline of a map crosses itself
+    bool is_empty = false;               ///< the window contains no part of the drawing
+    bool is_blank = false;               ///< the ink of a picture is too thin to be visible
+    bool leaves_pattern_out = false;     ///< the pattern's text is too long for the format
 };
 
 }  // namespace sikku

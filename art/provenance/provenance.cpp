@@ -80,9 +80,18 @@ bool begins_as_wav(std::string_view head) {
     return head.starts_with("RIFF") && head.find("WAVE") == 8;
 }
 
+bool begins_as_stl(std::string_view head) {
+    return head.starts_with("Binary STL in millimetres, sikku ");
+}
+
 /// Sound contains no pattern.
 std::optional<Provenance> read_nothing(const InputFile& /*file*/) {
     return std::nullopt;
+}
+
+/// An STL has 80 bytes for texts.
+std::optional<Provenance> read_stl_provenance(const InputFile& /*file*/) {
+    throw UnreadableFile("has no room for the pattern; an OBJ or glTF of the same relief contains it");
 }
 
 struct Format {
@@ -91,7 +100,7 @@ struct Format {
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 23> formats = {{
+constexpr std::array<Format, 24> formats = {{
     {"a PNG file", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
     {"a TIFF file", begins_as_tiff, read_tiff_provenance},
     {"a JPEG file", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
@@ -104,6 +113,7 @@ constexpr std::array<Format, 23> formats = {{
     {"a G-code file", begins_as_gcode, read_comment_provenance},
     {"a DXF file", begins_with<'9', '9', '9', '\n'>, read_comment_provenance},
     {"an OBJ file", begins_as_obj, read_comment_provenance},
+    {"an STL file", begins_as_stl, read_stl_provenance},
     {"a WAV file", begins_as_wav, read_nothing},
     {"a FLAC file", begins_with<'f', 'L', 'a', 'C'>, read_nothing},
     {"a LilyPond file", begins_as_lilypond, read_lilypond_provenance},
@@ -125,7 +135,7 @@ std::optional<KnownFormat> known_format(const std::filesystem::path& file) {
         const auto format =
             std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
         if (format == formats.end()) return std::nullopt;
-        return KnownFormat{format->name, format->read != read_nothing};
+        return KnownFormat{format->name, format->read != read_nothing && format->read != read_stl_provenance};
     } catch (const std::system_error&) {
         return std::nullopt;
     }

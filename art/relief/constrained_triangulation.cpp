@@ -28,8 +28,8 @@ double distance_squared(Micrometres a, Micrometres b) {
 
 }  // namespace
 
-ConstrainedTriangulation::ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance, Windings& windings,
-                             const Monitor& monitor)
+ConstrainedTriangulation::ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance,
+                                                   Windings& windings, const Monitor& monitor)
     : tolerance_(tolerance), windings_(windings), pulse_(monitor) {
     points_ = {low, {high.x, low.y}, high, {low.x, high.y}};
     triangle_of_ = {0, 0, 0, 1};
@@ -107,7 +107,8 @@ ConstrainedTriangulation::Place ConstrainedTriangulation::locate(Micrometres poi
         is_inside = true;
         for (int tried = 0; tried < 3 && is_inside; ++tried, edge = next_of(edge)) {
             const std::uint32_t beyond = triangle.neighbours[at(edge)];
-            if (beyond == previous || side(triangle.corners[at(edge)], triangle.corners[at(next_of(edge))], point) >= 0)
+            if (beyond == previous ||
+                side(triangle.corners[at(edge)], triangle.corners[at(next_of(edge))], point) >= 0)
                 continue;
             if (beyond == none) throw std::logic_error("a point lies outside its triangulation");
             previous = here;

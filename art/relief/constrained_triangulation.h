@@ -35,7 +35,8 @@ public:
 
     /// @param low,high   a box that contains all points in its inside
     /// @param tolerance  edges are led through points nearer than this, in micrometres
-    ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance, Windings& windings, const Monitor& monitor);
+    ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance, Windings& windings,
+                             const Monitor& monitor);
 
     /// Adds a point, or finds it. Cost: constant if the last one was near.
     Point add(Micrometres point);
@@ -92,8 +93,8 @@ private:
     double tolerance_;
     Windings& windings_;
     Pulse pulse_;
-    std::uint32_t last_ = 0;     ///< triangle of the last point
-    std::uint32_t random_ = 1;   ///< so that no walk goes round in circles
+    std::uint32_t last_ = 0;    ///< triangle of the last point
+    std::uint32_t random_ = 1;  ///< so that no walk goes round in circles
 };
 
 }  // namespace sikku

@@ -47,7 +47,7 @@ bool is_convex(std::span<const glm::dvec2> corners) {
 }
 
 bool is_simple(std::span<const glm::dvec2> corners) {
-    return is_convex(corners) || (corners.size() <= most_checked && !crosses_itself(corners));
+    return is_convex(corners) || (corners.size() <= most_checked && !touches_itself(corners));
 }
 
 /// The corners anticlockwise, without repetitions.
@@ -69,9 +69,10 @@ std::vector<LayerEdge> edges_between(std::span<const glm::dvec2> corners) {
     return edges;
 }
 
+constexpr double sharpest = -0.5;  // cosine of the sharpest turn to the right that is mitred
+
 /// A simple polygon with its sides moved inwards, where all of them remain and do not meet others.
 std::optional<Points> mitred(const Points& corners, double distance) {
-    constexpr double sharpest = -0.5;  // cosine of the sharpest turn outwards that keeps its tip
     const std::size_t count = corners.size();
     Points moved(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -89,18 +90,21 @@ std::optional<Points> mitred(const Points& corners, double distance) {
     return moved;
 }
 
-/// The path of a point at a distance on the left of a polygon's outline. Where it winds around a place once, that
-/// place lies deeper inside.
+/// The path of a point at a distance on the left of a polygon's outline, mitred likewise. Where it winds around a
+/// place once, that place lies deeper inside.
 Points parallel(const Points& corners, double distance, double tolerance) {
     const std::size_t count = corners.size();
     Points path;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec2 before = glm::normalize(corners[i] - corners[(i + count - 1) % count]);
         const glm::dvec2 after = glm::normalize(corners[(i + 1) % count] - corners[i]);
-        const double turn = std::atan2(cross(before, after), glm::dot(before, after));
+        const double cosine = glm::dot(before, after);
+        const double turn = std::atan2(cross(before, after), cosine);
         path.push_back(corners[i] + left_of(before) * distance);
         if (turn > 0) {
             path.push_back(corners[i]);
+        } else if (cosine > sharpest) {
+            path.push_back(corners[i] + (left_of(before) + left_of(after)) * (distance / (1 + cosine)));
         } else {
             const int chords = chords_of(-turn, distance, tolerance);
             for (int k = 1; k < chords; ++k) {
@@ -116,7 +120,7 @@ Points parallel(const Points& corners, double distance, double tolerance) {
 struct Part {
     glm::dvec2 from{0.0}, to{0.0};
     glm::dvec2 direction{0.0};
-    double turn = 0;                 ///< at its end, in radians; 0 at the end of the stroke
+    double turn = 0;                  ///< at its end, in radians; 0 at the end of the stroke
     std::optional<glm::dvec2> mitre;  ///< from its end to the left side of both parts, if they share a straight end
 };
 
@@ -141,8 +145,7 @@ std::vector<Part> parts_of(std::span<const glm::dvec2> points, double radius, bo
         const double cosine = glm::dot(part.direction, next.direction);
         part.turn = std::atan2(cross(part.direction, next.direction), cosine);
         const double half = std::tan(std::fabs(part.turn) / 2);
-        const double shorter =
-            std::min(glm::distance(part.from, part.to), glm::distance(next.from, next.to));
+        const double shorter = std::min(glm::distance(part.from, part.to), glm::distance(next.from, next.to));
         // The tip of the mitre is as near to the arc as its chords would be, and parts keep their inner sides.
         if (cosine > 0 && radius * (std::hypot(1, half) - 1) <= tolerance && radius * half < 0.45 * shorter) {
             part.mitre = (left_of(part.direction) + left_of(next.direction)) * (radius / (1 + cosine));
@@ -196,8 +199,8 @@ bool Outlines::add_inside(std::span<const glm::dvec2> corners, double distance, 
     const auto region_of = [](std::span<const Winding> windings) {
         return windings.size() == 1 && windings.front().layer == shape ? 0 : PlaneRegions::outside;
     };
-    const auto rest = outlines_of(divide_plane(both.edges_, 0, region_of, monitor_),
-                                  [](std::int32_t region) { return region; });
+    const auto rest =
+        outlines_of(divide_plane(both.edges_, 0, region_of, monitor_), [](std::int32_t region) { return region; });
     add_edges(rest, layer);
     return !rest.empty();
 }

@@ -21,7 +21,8 @@ public:
 
     /// A polygon that may cross itself (non-zero winding rule).
     void add_polygon(std::span<const glm::dvec2> corners, std::uint32_t layer);
-    /// The places in a polygon that are at least `distance` from its outline. @return false if there are none
+    /// A polygon with its sides moved inwards: the places that are at least `distance` from its outline, but for the
+    /// tips of mitres where it turns outwards by up to 120 degrees. @return false if nothing is left
     bool add_inside(std::span<const glm::dvec2> corners, double distance, std::uint32_t layer);
     /// A line with round joins and caps. @param points  at least one; of a closed line, the first again at the end
     void add_stroke(std::span<const glm::dvec2> points, bool is_closed, double radius, std::uint32_t layer);

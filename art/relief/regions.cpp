@@ -63,8 +63,8 @@ std::uint64_t curve_place(Micrometres point, Micrometres low) {
         bits = (bits | bits << 2) & 0x3333333333333333U;
         return (bits | bits << 1) & 0x5555555555555555U;
     };
-    return spread(static_cast<std::uint32_t>(point.x - low.x)) |
-           spread(static_cast<std::uint32_t>(point.y - low.y)) << 1;
+    return spread(static_cast<std::uint32_t>(point.x - low.x)) | spread(static_cast<std::uint32_t>(point.y - low.y))
+                                                                     << 1;
 }
 
 /// All ends of borders, ascending, and their numbers in a triangulation.
@@ -92,8 +92,8 @@ public:
         for (const auto& [along, i] : order) points_[i] = triangulation.add(places_[i]);
     }
     std::uint32_t operator[](Micrometres place) const {
-        return points_[static_cast<std::size_t>(
-            std::lower_bound(places_.begin(), places_.end(), place, is_before) - places_.begin())];
+        return points_[static_cast<std::size_t>(std::lower_bound(places_.begin(), places_.end(), place, is_before) -
+                                                places_.begin())];
     }
 
 private:
@@ -101,7 +101,8 @@ private:
     std::vector<std::uint32_t> points_;
 };
 
-void connect(const std::vector<Border>& borders, const Ends& ends, Windings& windings, ConstrainedTriangulation& triangulation) {
+void connect(const std::vector<Border>& borders, const Ends& ends, Windings& windings,
+             ConstrainedTriangulation& triangulation) {
     for (std::size_t i = 0, next = 0; i < borders.size(); i = next) {
         Windings::Id sum = 0;
         for (next = i; next < borders.size() && borders[next].lies_with(borders[i]); ++next) {
@@ -121,7 +122,8 @@ void find_regions(const ConstrainedTriangulation& triangulation, Windings& windi
     std::vector<std::uint32_t> pending = {0};
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto& neighbours = triangles[i].neighbours;
-        if (std::find(neighbours.begin(), neighbours.end(), ConstrainedTriangulation::none) != neighbours.end()) pending[0] = i;
+        if (std::find(neighbours.begin(), neighbours.end(), ConstrainedTriangulation::none) != neighbours.end())
+            pending[0] = i;
     }
     found[pending[0]] = 0;
     while (!pending.empty()) {
@@ -158,7 +160,7 @@ bool is_straight(Micrometres a, Micrometres b, Micrometres c) {
 }  // namespace
 
 PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, const RegionOf& region_of,
-                const Monitor& monitor) {
+                          const Monitor& monitor) {
     PlaneRegions plane;
     const std::vector<Border> borders = borders_of(edges, monitor);
     if (borders.empty()) return plane;
@@ -201,8 +203,7 @@ std::vector<LayerEdge> outlines_of(const PlaneRegions& plane, const std::functio
     const auto is_left_out = [&](std::uint32_t point) {
         const Meeting& meeting = meetings[point];
         return !keeps_points && meeting.count == 2 &&
-               is_straight(plane.points[meeting.others[0]], plane.points[point],
-                           plane.points[meeting.others[1]]);
+               is_straight(plane.points[meeting.others[0]], plane.points[point], plane.points[meeting.others[1]]);
     };
     std::vector<LayerEdge> edges;
     for (const auto& [from, to, region] : sides) {

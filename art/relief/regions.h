@@ -40,7 +40,8 @@ using RegionOf = std::function<std::int32_t(std::span<const Winding>)>;
 /// `tolerance` micrometres are led through it. Coordinates beyond 268 m are moved there.
 /// Cost: n log n in the edges and their crossings, about 3 µs for each; memory: 350 bytes.
 /// @throws Stopped
-PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, const RegionOf& region_of, const Monitor& monitor);
+PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, const RegionOf& region_of,
+                          const Monitor& monitor);
 
 /// The outlines of the regions, a layer each; regions of which `merged` is the same are one. Points
 /// within straight outlines are left out, unless more than two regions meet there, or `keeps_points`.

@@ -54,6 +54,23 @@ std::vector<ColourHeight> heights_of(const ReliefShapes& shapes, const std::vect
     return result;
 }
 
+/// Each edge of an outline gives two triangles of its wall and, by its corner, two of the faces beside it.
+void require_affordable(const ReliefShapes& shapes, bool has_lines) {
+    double edges = 4;
+    for (const ReliefShape& shape : shapes.shapes()) {
+        const double points = static_cast<double>(shape.end - shape.begin);
+        if (shape.kind == Kind::line && !has_lines) continue;
+        const double circle = chords_of(2 * std::numbers::pi, shape.radius, relief_tolerance);
+        edges += shape.kind == Kind::disc ? circle : shape.kind == Kind::line ? 2 * points + circle : points;
+    }
+    constexpr double triangles_of_edge = 4;
+    if (edges * triangles_of_edge <= static_cast<double>(most_relief_triangles)) return;
+    throw BudgetError(
+        fmt::format("the relief needs about {:.2g} million triangles, and {} million are the limit; choose a shorter "
+                    "derivation or a window",
+                    edges * triangles_of_edge * 1e-6, most_relief_triangles / 1'000'000));
+}
+
 /// How a shape is raised. Those that come later lie over the others.
 struct Layer {
     bool is_over = false;  ///< lines and discs lie over polygons and areas
@@ -76,14 +93,12 @@ public:
           outlines_(relief_tolerance, monitor),
           has_ridges_(!options.ridges.empty()) {
         const auto is_line = [](const ReliefShape& shape) { return shape.kind == Kind::line; };
-        report_.heights = heights_of(shapes, options.heights, [&](const ReliefShape& shape) {
-            return !has_ridges_ || !is_line(shape);
-        });
+        report_.heights = heights_of(shapes, options.heights,
+                                     [&](const ReliefShape& shape) { return !has_ridges_ || !is_line(shape); });
         if (has_ridges_) report_.ridges = heights_of(shapes, options.ridges, is_line);
     }
 
     Solid make() {
-        require_affordable();
         add_layers();
         add_regions();
         add_base();
@@ -103,26 +118,11 @@ public:
     ReliefReport& report() { return report_; }
 
 private:
-    /// Each edge of an outline gives two triangles of its wall and, by its corner, two of the faces beside it.
-    void require_affordable() const {
-        double edges = 4;
-        for (const ReliefShape& shape : shapes_.shapes()) {
-            const double points = static_cast<double>(shape.end - shape.begin);
-            const double circle = chords_of(2 * std::numbers::pi, shape.radius, relief_tolerance);
-            edges += shape.kind == Kind::disc ? circle : shape.kind == Kind::line ? 2 * points + circle : points;
-        }
-        constexpr double triangles_of_edge = 4;
-        if (edges * triangles_of_edge <= static_cast<double>(most_relief_triangles)) return;
-        throw BudgetError(fmt::format(
-            "the relief needs about {:.2g} million triangles, and {} million are the limit; choose a shorter "
-            "derivation or a window",
-            edges * triangles_of_edge * 1e-6, most_relief_triangles / 1'000'000));
-    }
-
     const ColourHeight& height_of(const ReliefShape& shape) const {
         const auto& list = has_ridges_ && shape.kind == Kind::line ? report_.ridges : report_.heights;
         const Colour colour = opaque(shapes_.colour(shape));
-        return *std::find_if(list.begin(), list.end(), [&](const ColourHeight& each) { return each.first == colour; });
+        return *std::find_if(list.begin(), list.end(),
+                             [&](const ColourHeight& each) { return each.first == colour; });
     }
 
     Layer layer_of(const ReliefShape& shape) const {
@@ -159,8 +159,7 @@ private:
         const std::int32_t base = micrometres(options_.base);
         const Colour ground = print_.style.ground.value_or(Colour{255, 255, 255, 0});
         if (base > 0) {
-            base_region_ =
-                region_for(base, shown(ground.alpha == 0 ? Colour{255, 255, 255, 255} : opaque(ground)));
+            base_region_ = region_for(base, shown(ground.alpha == 0 ? Colour{255, 255, 255, 255} : opaque(ground)));
         }
         for (Layer& layer : layers_) {
             const std::int32_t top = base + micrometres(layer.height);
@@ -181,7 +180,8 @@ private:
         const double beyond = *options_.beyond;
         for (const ReliefShape& shape : shapes_.shapes()) {
             const auto points = shapes_.points(shape);
-            if (shape.kind == Kind::line) outlines_.add_stroke(points, shape.is_closed, shape.radius + beyond, base_layer);
+            if (shape.kind == Kind::line)
+                outlines_.add_stroke(points, shape.is_closed, shape.radius + beyond, base_layer);
             if (shape.kind == Kind::disc) outlines_.add_disc(points.front(), shape.radius + beyond, base_layer);
             if (shape.kind == Kind::line || shape.kind == Kind::disc) continue;
             outlines_.add_polygon(points, base_layer);
@@ -195,8 +195,8 @@ private:
     void add(const ReliefShape& shape) {
         monitor_.check();
         const Layer own = layer_of(shape);
-        const auto layer = first_layer + static_cast<std::uint32_t>(
-                                             std::find(layers_.begin(), layers_.end(), own) - layers_.begin());
+        const auto layer = first_layer + static_cast<std::uint32_t>(std::find(layers_.begin(), layers_.end(), own) -
+                                                                    layers_.begin());
         const auto points = shapes_.points(shape);
         switch (shape.kind) {
             case Kind::polygon:
@@ -250,9 +250,12 @@ private:
 
 }  // namespace
 
-ReliefReport write_relief(const ReliefShapes& shapes, const Print& print, const ReliefOptions& options,
+ReliefReport write_relief(ReliefShapes& shapes, const Print& print, const ReliefOptions& options,
                           const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     if (shapes.shapes().empty()) throw std::runtime_error("nothing is raised: the drawing has no visible shapes");
+    require_affordable(shapes, false);
+    if (!print.style.fields) shapes.drop_edges(monitor);
+    require_affordable(shapes, true);
     ReliefMaker maker(shapes, print, options, monitor);
     const Solid solid = maker.make();
     ReliefReport report = maker.report();

@@ -82,8 +82,8 @@ std::vector<Mesh> meshes_of(const Solid& solid) {
     std::vector<Mesh> meshes;
     std::vector<std::size_t> mesh_of;
     for (const ReliefRegion& region : solid.regions()) {
-        const auto known =
-            std::find_if(meshes.begin(), meshes.end(), [&](const Mesh& mesh) { return mesh.colour == region.colour; });
+        const auto known = std::find_if(meshes.begin(), meshes.end(),
+                                        [&](const Mesh& mesh) { return mesh.colour == region.colour; });
         mesh_of.push_back(static_cast<std::size_t>(known - meshes.begin()));
         if (known == meshes.end()) meshes.push_back({.colour = region.colour, .kind = "relief"});
     }

@@ -29,12 +29,12 @@ constexpr std::size_t most_relief_triangles = 8'000'000;
 struct ReliefReport {
     std::size_t triangles = 0;
     std::size_t materials = 0;
-    glm::dvec3 size{0.0};  ///< millimetres
-    double volume = 0;     ///< cubic millimetres
+    glm::dvec3 size{0.0};                            ///< millimetres
+    double volume = 0;                               ///< cubic millimetres
     std::vector<std::pair<Colour, double>> heights;  ///< above the base, in the order of the options
     std::vector<std::pair<Colour, double>> ridges;   ///< the same for lines that have their own
-    std::size_t lost = 0;    ///< polygons that the groove leaves nothing of
-    double narrowest = 0;    ///< width of the narrowest line in millimetres; 0: there are none
+    std::size_t lost = 0;                            ///< polygons that the groove leaves nothing of
+    double narrowest = 0;  ///< width of the narrowest line in millimetres; 0: there are none
 };
 
 }  // namespace sikku

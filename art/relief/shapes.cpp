@@ -61,7 +61,11 @@ private:
 }  // namespace
 
 ReliefShapes::ReliefShapes(const Print& print, std::size_t most)
-    : print_(print), most_(most), line_slots_(print.style.line_slots()), fill_slots_(print.style.fill_slots()), corners_(same_corner) {}
+    : print_(print),
+      most_(most),
+      line_slots_(print.style.line_slots()),
+      fill_slots_(print.style.fill_slots()),
+      corners_(same_corner) {}
 
 Colour ReliefShapes::colour(const ReliefShape& shape) const {
     const Pen pen{.colour = shape.colour};
@@ -75,9 +79,10 @@ glm::dvec2 ReliefShapes::place(glm::dvec2 point) const {
 
 void ReliefShapes::require_room() const {
     if (points_.size() + line_.size() >= most_) {
-        throw BudgetError(fmt::format("the drawing has more than {} points, too many for a relief; choose a shorter "
-                                      "derivation or a window",
-                                      most_));
+        throw BudgetError(
+            fmt::format("the drawing has more than {} points, too many for a relief; choose a shorter "
+                        "derivation or a window",
+                        most_));
     }
 }
 

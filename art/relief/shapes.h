@@ -1,9 +1,9 @@
 // art/relief/shapes.h: the visible shapes of a drawing in millimetres, collected for a relief.
 #pragma once
 
+#include "art/plotter/plot_layer.h"
 #include "art/print/print.h"
 #include "engine/base/monitor.h"
-#include "art/plotter/plot_layer.h"
 #include "engine/geometry/path.h"
 
 #include <glm/vec2.hpp>
@@ -18,9 +18,9 @@ namespace sikku {
 struct ReliefShape {
     enum class Kind : std::uint8_t { polygon, area, disc, line };
     Kind kind = Kind::polygon;
-    bool is_closed = false;  ///< a line that ends where it begins, with that point again at the end
-    int colour = 0;          ///< index in the palette; the first of those of the same colour
-    double radius = 0;       ///< of a disc; half the width of a line
+    bool is_closed = false;          ///< a line that ends where it begins, with that point again at the end
+    int colour = 0;                  ///< index in the palette; the first of those of the same colour
+    double radius = 0;               ///< of a disc; half the width of a line
     std::size_t begin = 0, end = 0;  ///< range of its points
 };
 

@@ -77,9 +77,10 @@ std::vector<LayerEdge> joints(const PlaneRegions& plane, std::span<const ReliefR
             const std::int32_t highest = *std::max_element(around.begin(), around.end());
             const auto region = std::find_if(regions.begin(), regions.end(),
                                              [&](const ReliefRegion& each) { return each.height == highest; });
-            add_square(plane.points[point], half,
-                       static_cast<std::uint32_t>(regions.size() + static_cast<std::size_t>(region - regions.begin())),
-                       edges);
+            add_square(
+                plane.points[point], half,
+                static_cast<std::uint32_t>(regions.size() + static_cast<std::size_t>(region - regions.begin())),
+                edges);
         }
     }
     return edges;
@@ -105,7 +106,8 @@ public:
         const auto region = static_cast<std::uint32_t>(here.region);
         for (std::size_t l = 0, r = 0; l + 1 < left_.size() || r + 1 < right_.size();) {
             const SolidPoint one = at(from, left_[l]), two = at(to, right_[r]);
-            const bool climbs_left = r + 1 == right_.size() || (l + 1 < left_.size() && left_[l + 1] <= right_[r + 1]);
+            const bool climbs_left =
+                r + 1 == right_.size() || (l + 1 < left_.size() && left_[l + 1] <= right_[r + 1]);
             visit_(region, {one, two, climbs_left ? at(from, left_[++l]) : at(to, right_[++r])});
         }
     }
@@ -140,9 +142,8 @@ RegionOf region_with_joints(std::span<const ReliefRegion> regions) {
         for (const Winding& winding : windings) {
             const auto region = static_cast<std::int32_t>(winding.layer % regions.size());
             const bool is_joint = winding.layer >= regions.size();
-            if (found == PlaneRegions::outside ||
-                (is_joint && regions[static_cast<std::size_t>(region)].height >=
-                                 regions[static_cast<std::size_t>(found)].height)) {
+            if (found == PlaneRegions::outside || (is_joint && regions[static_cast<std::size_t>(region)].height >=
+                                                                   regions[static_cast<std::size_t>(found)].height)) {
                 found = region;
             }
         }

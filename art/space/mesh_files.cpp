@@ -19,8 +19,7 @@ namespace {
 
 std::string material_name(const Mesh& mesh) {
     if (!mesh.colours.empty()) return fmt::format("{}-blend", mesh.kind);
-    return fmt::format("{}-{:02x}{:02x}{:02x}{}", mesh.kind, mesh.colour.red,
-                       mesh.colour.green, mesh.colour.blue,
+    return fmt::format("{}-{:02x}{:02x}{:02x}{}", mesh.kind, mesh.colour.red, mesh.colour.green, mesh.colour.blue,
                        mesh.colour.alpha < 255 ? fmt::format("{:02x}", mesh.colour.alpha) : "");
 }
 
@@ -144,8 +143,8 @@ public:
             attributes += fmt::format(R"(,"COLOR_0":{})", add_accessor("VEC3", mesh.colours.size(), single));
             add_view(mesh.colours.size() * sizeof(glm::vec3), vertices);
         }
-        append(primitives, fmt::format(R"({{"attributes":{{{}}},"indices":{},"material":{}}})", attributes, corners,
-                                       meshes_++));
+        append(primitives,
+               fmt::format(R"({{"attributes":{{{}}},"indices":{},"material":{}}})", attributes, corners, meshes_++));
         append(materials,
                fmt::format(
                    R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.6f},{:.6f},{:.6f},{:.6f}],)"
@@ -165,8 +164,8 @@ private:
     static void append(std::string& list, const std::string& item) { list += (list.empty() ? "" : ",") + item; }
 
     std::size_t add_accessor(std::string_view type, std::size_t count, int number, const std::string& bounds = "") {
-        append(accessors, fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", accessors_,
-                                      number, count, type, bounds));
+        append(accessors, fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})",
+                                      accessors_, number, count, type, bounds));
         return accessors_++;
     }
     void add_view(std::uint64_t size, int use) {

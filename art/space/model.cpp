@@ -48,8 +48,12 @@ public:
         for (const bool fills : {false, true}) {
             for (int slot = 0; slot < static_cast<int>(style_.palette.size()); ++slot) {
                 const Pen pen{.colour = slot};
-                meshes_.push_back({fills ? style_.fill_colour(pen) : style_.line_colour(pen), fills ? "fill" : "line",
-                                   fills, {}, {}, {}});
+                meshes_.push_back({fills ? style_.fill_colour(pen) : style_.line_colour(pen),
+                                   fills ? "fill" : "line",
+                                   fills,
+                                   {},
+                                   {},
+                                   {}});
             }
         }
         meshes_.push_back({Colour{255, 255, 255, 255}, "fill", true, {}, {}, {}});

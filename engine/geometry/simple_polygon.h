@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -28,6 +29,26 @@ inline bool crosses_itself(std::span<const glm::dvec2> corners) {
         for (std::size_t j = i + 2; j < count; ++j) {
             const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
             if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0) return true;
+        }
+    }
+    return false;
+}
+
+/// Do sides of a polygon that are not neighbours have points in common? Cost: quadratic.
+inline bool touches_itself(std::span<const glm::dvec2> corners) {
+    const std::size_t count = corners.size();
+    const auto overlap = [](double a, double b, double c, double d) {
+        return std::min(a, b) <= std::max(c, d) && std::min(c, d) <= std::max(a, b);
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
+        for (std::size_t j = i + 2; j < count; ++j) {
+            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
+            if (i == 0 && j + 1 == count) continue;
+            if (overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y) &&
+                side_of(a, b, c) * side_of(a, b, d) <= 0 && side_of(c, d, a) * side_of(c, d, b) <= 0) {
+                return true;
+            }
         }
     }
     return false;

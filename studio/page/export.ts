@@ -21,7 +21,7 @@ const groups: [string, Interpreter, RegExp][] = [
     ["Print", "draw", /^(svg|pdf|eps)$/],
     ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc|dxf)$/],
     ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/],
-    ["Model", "draw", /^(obj|glb|gltf)$/],
+    ["Model", "draw", /^(obj|glb|gltf|stl)$/],
     ["Score", "play", /./],
 ];
 // Pictures other than PNG, animations and sound files need libraries that the page does without.
@@ -37,6 +37,7 @@ const types: Record<string, string> = {
     musicxml: "application/vnd.recordare.musicxml+xml",
     html: "text/html",
     glb: "model/gltf-binary",
+    stl: "model/stl",
     wav: "audio/wav",
     obj: "model/obj",
     flac: "audio/flac",

@@ -90,7 +90,7 @@ async function compare(request, bytes = Buffer.alloc(0)) {
 }
 
 // Vector formats, models, scores. Picture files differ because their writers differ; `pixels` compares the pictures.
-const drawn = ["svg", "pdf", "eps", "hpgl", "gcode", "obj", "glb"];
+const drawn = ["svg", "pdf", "eps", "hpgl", "gcode", "obj", "glb", "stl"];
 const played = ["mid", "musicxml", "mxl", "ly", "abc", "csd", "sco", "strudel", "notes.svg", "html"];
 
 async function compare_pattern(pattern, rich) {

@@ -198,7 +198,7 @@ class Pattern:
     def draw(self, format: str = "svg", **options: Value) -> Union[str, bytes]:
         """Draws a print or a model and returns it: text for SVG, HP-GL and G-code, otherwise bytes.
 
-        format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode, dxf, obj or glb.
+        format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode, dxf, obj, glb or stl.
         options: `size="A3"`, `stroke="0.3mm navy"`, `dots=True`, … (docs/commands.md).
 
         Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, and Error if
