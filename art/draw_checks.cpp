@@ -81,6 +81,7 @@ void check_model(const DrawSettings& settings) {
                   {settings.division.has_value(), "divide", reason},
                   {settings.lesson.has_value(), "lesson", reason},
                   {settings.fills_page, "fill-page", reason},
+                  {settings.swatch != SwatchChoice::none, "swatch", reason},
                   {settings.names_tiles, "name-tiles", "only SVG has elements with names, and only PDF layers"},
                   {settings.border.has_value(), "border", reason},
                   {settings.title_line.has_value(), "title-line", reason},
@@ -220,6 +221,31 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
         {{settings.step.has_value(), "step", filled}, {settings.dot_spacing.has_value(), "dot-spacing", filled}});
 }
 
+void check_swatch(const DrawSettings& settings, PrintFormat format) {
+    if (settings.swatch == SwatchChoice::none) return;
+    constexpr const char* placed = "a swatch has its own place and page";
+    constexpr const char* whole = "a swatch is a part of a tiling that goes on; it has nothing around it";
+    refuse_first({{settings.plotter || is_for_plotters(format), "swatch", "its edges would cut the strokes of a plot"},
+                  {format == PrintFormat::gif, "swatch", "a swatch is one picture, not an animation"},
+                  {settings.generations.has_value(), "generations", "a swatch has the derivation length that it takes"},
+                  {settings.fit, "fit", placed},
+                  {settings.window.has_value(), "window", placed},
+                  {settings.fills_page, "fill-page", placed},
+                  {settings.repeat.has_value(), "repeat", placed},
+                  {settings.composes, "compose", placed},
+                  {settings.dot_spacing.has_value(), "dot-spacing", "the length of a step sets the size of a swatch"},
+                  {settings.lesson.has_value(), "lesson", placed},
+                  {settings.animation.has_value(), "animate", "a swatch is one picture, not an animation"},
+                  {settings.division.has_value(), "divide", "a swatch is one picture, not an animation"},
+                  {settings.tile.has_value(), "tile", placed},
+                  {settings.border && *settings.border != "none", "border", whole},
+                  {settings.title_line.has_value(), "title-line", whole},
+                  {!settings.edition.empty(), "edition", whole},
+                  {settings.press.bleed > 0, "bleed", whole},
+                  {settings.press.marks, "marks", whole},
+                  {settings.press.registration, "registration", whole}});
+}
+
 void check_division(const DrawSettings& settings, PrintFormat format) {
     if (!settings.division) return;
     constexpr const char* moving = "does not apply to tiles that divide";
@@ -301,6 +327,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
                   {settings.names_tiles && format != PrintFormat::svg && format != PrintFormat::pdf, "name-tiles",
                    "only SVG has elements with names, and only PDF layers"},
                   {settings.names_tiles && settings.plotter, "name-tiles", "a plot has lines only, no tiles"}});
+    check_swatch(settings, format);
     check_division(settings, format);
     check_lesson(settings, format);
     check_growth(settings, format);

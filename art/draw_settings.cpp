@@ -333,6 +333,16 @@ const std::array own_rows = {
                .kind = flag,
                .is_alone = true},
               [](S& s, Text t) { s.fills_page = is_true(t); }},
+    Option<S>{{.name = "swatch",
+               .help = "the smallest rectangle of a periodic tiling whose copies join without a seam, as the page, at "
+                       "the length of a step that --step sets (a 40th of the page's shorter side); 'turn' turns the "
+                       "tiling where that makes it smaller",
+               .value = "[turn]",
+               .is_alone = true},
+              [](S& s, Text t) {
+                  if (!t.empty() && t != "turn") refuse_option("swatch", t, "expected turn, or no value");
+                  s.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
+              }},
     Option<S>{{.name = "window",
                .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
                        "derivation length",

@@ -3,6 +3,7 @@
 
 #include "art/drawing/draw_options.h"
 #include "art/drawing/growth.h"
+#include "art/drawing/swatch.h"
 #include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
 #include "art/plotter/hpgl.h"
@@ -26,6 +27,9 @@
 #include <vector>
 
 namespace sikku {
+
+/// Whether a print is the part of a tiling that repeats, and whether the tiling may be turned to make it small.
+enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 struct DrawSettings {
@@ -58,6 +62,9 @@ struct DrawSettings {
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     bool fills_page = false;           ///< cover the page with a tiling
+    SwatchChoice swatch = SwatchChoice::none;
+    std::optional<Swatch> swatch_place{};  ///< the part that was found, set when the print is planned
+    glm::dvec2 swatch_stretch{1.0};        ///< across and down, so that it has whole pixels
     bool names_tiles = false;          ///< see Print::names_tiles
     std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;          ///< sheet of a tiled print

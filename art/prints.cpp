@@ -21,6 +21,7 @@
 #include "engine/map/map_measurement.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,19 @@ void report_text(const DrawReport& report, const std::filesystem::path& name, Ma
     if (!report.leaves_pattern_out) return;
     made.warn(
         fmt::format("{} does not contain the text of the pattern, which is longer than 60,000 bytes", name.string()));
+}
+
+void report_swatch(const Swatch& swatch, const Print& print, glm::dvec2 stretch, Made& made) {
+    made.fact(fmt::format("{}: {}, {:.6g} x {:.6g} mm", swatch.is_rectangle ? "a rectangle" : "a parallelogram",
+                          counted(swatch.tiles, "tile"), print.page.width, print.page.height));
+    if (swatch.turn != 0) made.fact(fmt::format("the tiling is turned by {:.6g} degrees", swatch.turn));
+    if (!swatch.is_rectangle) {
+        made.warn(fmt::format("this tiling repeats by no rectangle: copies lie {:.6g} and {:.6g} steps apart",
+                              glm::length(swatch.cell.sides[0]), glm::length(swatch.cell.sides[1])));
+    }
+    const glm::dvec2 parts = 100.0 * (stretch - 1.0);
+    if (std::max(std::fabs(parts.x), std::fabs(parts.y)) < 0.01) return;
+    made.fact(fmt::format("stretched to whole pixels by {:.2g} % across and {:.2g} % down", parts.x, parts.y));
 }
 
 /// Whether a style has colours that a format without opacity can only mix.
@@ -130,6 +144,7 @@ private:
 
     std::string made_with(const Grammar& grammar) const {
         std::string own;
+        if (settings_.swatch_place) own += " --swatch";
         if (!settings_.window_text.empty()) own += " --window " + settings_.window_text;
         if (!settings_.view.empty()) own += " --view " + settings_.view;
         if (!settings_.light.empty()) own += " --light " + settings_.light;
@@ -142,16 +157,27 @@ private:
         drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_solid ? PrintFormat::svg : format_;
         if (is_relief()) drawing_.relief = relief_options(settings_, format_);
         drawing_.dot_spacing = settings_.dot_spacing;
+        if (settings_.swatch_place) take_swatch(*settings_.swatch_place);
         drawing_.threads = settings_.threads;
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
         static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
     }
 
+    void take_swatch(const Swatch& swatch) {
+        drawing_.placement.rotate += swatch.turn;
+        drawing_.window = swatch.window();
+        drawing_.frame = DrawnExtent{swatch.frame};
+        drawing_.stretch = settings_.swatch_stretch;
+        if (swatch.has_tile_period) drawing_.tile_period = swatch.cell.sides;
+        if (!swatch.is_rectangle) drawing_.cell = swatch.cell;
+    }
+
     /// A border frames a whole print: elsewhere that of the pattern is not drawn, and a warning says why.
     void drop_border() {
         if (!print_.style.border) return;
-        const char* why = settings_.window   ? "a window shows only part of the drawing"
+        const char* why = settings_.swatch_place ? "a swatch is a part of the drawing"
+                          : settings_.window   ? "a window shows only part of the drawing"
                           : settings_.lesson ? "a lesson teaches the lines of the drawing"
                           : is_model()       ? "a model has no page"
                                              : nullptr;
@@ -407,7 +433,8 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
     if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, print_.page, options.hpgl, made);
     if (report.sheets > 0) report_sheets(report, made);
-    if (report.overflows && report.sheets == 0) {
+    if (settings_.swatch_place) report_swatch(*settings_.swatch_place, print_, settings_.swatch_stretch, made);
+    if (report.overflows && report.sheets == 0 && !settings_.swatch_place) {
         made.warn(fmt::format(
             "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
             report.size.x, report.size.y, report.room.x, report.room.y));
@@ -561,12 +588,48 @@ Document fill_page(const Document& document, DrawSettings& settings) {
     return document.with({Setting{"fill-page", "derivation length", std::to_string(found->steps)}});
 }
 
+/// Sets the page and the place of the settings to the part of a tiling that repeats. Returns the document with the
+/// derivation length that it takes. @throws SettingError if there is none
+Document take_swatch(const Document& document, DrawSettings& settings, PrintFormat format) {
+    constexpr double steps_across = 40, most_millimetres = 10'000;
+    Page& page = settings.page;
+    const double step = settings.step.value_or(std::min(page.width, page.height) / steps_across);
+    const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
+    DrawOptions options;
+    static_cast<DrawingOptions&>(options) = drawing_options(settings, document);
+    try {
+        settings.swatch_place = find_swatch(styled.grammar(), read_print_style(styled, settings), options,
+                                            settings.swatch == SwatchChoice::turned);
+    } catch (const SwatchError& error) {
+        refuse_option("swatch", "", error.what());
+    }
+    const Swatch& swatch = *settings.swatch_place;
+    const glm::dvec2 size = (swatch.frame.high - swatch.frame.low) * step;
+    if (!(std::max(size.x, size.y) <= most_millimetres)) {
+        refuse_option("swatch", "", fmt::format("the part that repeats would be {:.3g} x {:.3g} m", size.x / 1000,
+                                                size.y / 1000));
+    }
+    settings.step = step;
+    page = {size.x, size.y, 0};
+    if (!is_vector(format)) {
+        const PixelSize pixels = pixel_size(page, settings.dpi);
+        page = {pixels.width * 25.4 / settings.dpi, pixels.height * 25.4 / settings.dpi, 0};
+        settings.swatch_stretch = glm::dvec2(page.width, page.height) / size;
+    }
+    check_draw_settings(settings, format);
+    return document.with({Setting{"swatch", "derivation length", std::to_string(swatch.steps)}});
+}
+
 /// @throws SettingError, PatternError
 std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
                                       const std::filesystem::path& folder = {}) {
     DrawSettings settings = read_draw_settings(values, &folder);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
+    if (settings.swatch != SwatchChoice::none) {
+        const Document longer = take_swatch(document, settings, format);
+        return std::make_unique<PrintWork>(longer, format, std::move(settings), folder);
+    }
     if (settings.fills_page) {
         const Document longer = fill_page(document, settings);
         return std::make_unique<PrintWork>(longer, format, std::move(settings), folder);

@@ -1,5 +1,6 @@
 #include "art/drawing/drawing.h"
 
+#include "art/drawing/cell_drawing.h"
 #include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/hand_drawing.h"
@@ -92,6 +93,12 @@ DrawReport Drawing::place(Print& print) {
     print.page.height -= foot_space(page);
     DrawReport report = place_print(print, placed, style().stroke, placement);
     print.page = page;
+    if (options_.stretch != glm::dvec2(1.0)) {
+        const glm::dvec2 middle = glm::dvec2(page.width, page.height) / 2.0;
+        glm::dmat3x2& to_page = print.placement.to_page;
+        to_page = {options_.stretch * to_page[0], options_.stretch * to_page[1],
+                   middle + options_.stretch * (to_page[2] - middle)};
+    }
     return report;
 }
 
@@ -126,6 +133,7 @@ std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint6
                                     const DrawOptions& options) {
     if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
     if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), seed, options);
+    if (options.cell) drawing = std::make_unique<CellDrawing>(std::move(drawing), *options.cell, options);
     if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
     if (!(style.hand > 0) && !options.lesson_step) return drawing;
     auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), seed, options);

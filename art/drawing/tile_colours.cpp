@@ -1,5 +1,7 @@
 #include "art/drawing/tile_colours.h"
 
+#include "art/drawing/torus_places.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -203,6 +205,25 @@ std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<
     Colouring colouring(neighbours);
     colouring.finish(order);
     return colouring.colours();
+}
+
+std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const glm::dvec2> middles,
+                                                              std::span<const UnitedLines::Pair> neighbours,
+                                                              const std::array<glm::dvec2, 2>& vectors) {
+    TorusPlaces places(vectors);
+    std::vector<Tile> numbers;
+    numbers.reserve(middles.size());
+    for (const glm::dvec2 middle : middles) numbers.push_back(places.number(middle));
+    std::vector<UnitedLines::Pair> pairs;
+    for (const auto& [a, b] : neighbours) {
+        if (numbers[a] == numbers[b]) return std::nullopt;
+        pairs.push_back(std::minmax(numbers[a], numbers[b]));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    const std::vector<Tile> colours = colours_of_neighbours(places.count(), pairs);
+    for (Tile& number : numbers) number = colours[number];
+    return numbers;
 }
 
 std::vector<std::uint32_t> distances_from_border(std::uint32_t tiles, std::span<const UnitedLines::Pair> pairs,

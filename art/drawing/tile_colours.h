@@ -3,7 +3,9 @@
 
 #include "art/drawing/united_lines.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,12 @@ namespace sikku {
 /// exchanging the colours of chains of tiles (Kempe 1879) succeeds. Cost: linear, but for exchanges.
 /// @param neighbours  as of UnitedLines::Result
 std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours);
+
+/// The same for tiles that repeat: those that two vectors translate onto each other get the same number.
+/// @param middles  of the tiles. Nullopt if a tile is its own neighbour: it has no number then
+std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const glm::dvec2> middles,
+                                                              std::span<const UnitedLines::Pair> neighbours,
+                                                              const std::array<glm::dvec2, 2>& vectors);
 
 /// The number of tiles to cross from the border, from 0; tiles that are not connected with it have 0.
 std::vector<std::uint32_t> distances_from_border(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours,

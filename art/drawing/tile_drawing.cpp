@@ -6,6 +6,7 @@
 #include "art/plotter/plot_layer.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/polygon_classes.h"
+#include "engine/tiling/polygon_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,9 @@ bool depends_on_neighbours(TileColours colours) {
 /// Collects the straight lines and the polygons of a drawing.
 class TileGatherer : public PathSink {
 public:
-    TileGatherer(UnitedLines& united, const Style& style) : united_(united), style_(style) {}
+    /// @param middles  receives the middles of the polygons, unless it is null
+    TileGatherer(UnitedLines& united, const Style& style, std::vector<glm::dvec2>* middles)
+        : united_(united), style_(style), middles_(middles) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         at_ = start;
@@ -38,7 +41,10 @@ public:
     void curves(std::span<const glm::dvec2> controls) override { at_ = controls.back(); }
     void change_pen(const Pen& pen) override { take(pen); }
     void end_stroke(bool) override {}
-    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override { united_.add_tile(vertices); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+        united_.add_tile(vertices);
+        if (middles_) middles_->push_back(mass_of(vertices).centre);
+    }
     void area(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
 
@@ -51,6 +57,7 @@ private:
 
     UnitedLines& united_;
     const Style& style_;
+    std::vector<glm::dvec2>* middles_;
     Pen pen_;
     glm::dvec2 at_{0.0};
     bool draws_ = false;
@@ -174,7 +181,8 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
         return decorate(print, window, old);
     }
     UnitedLines united(options_.budget / nodes_of_tile_edge);
-    TileGatherer gatherer(united, drawn_);
+    std::vector<glm::dvec2> middles;
+    TileGatherer gatherer(united, drawn_, options_.tile_period ? &middles : nullptr);
     drawing_->read(print, window, gatherer);
     const auto kept = layers_                                  ? UnitedLines::Kept::apart
                       : drawn_.tile_edges == TileEdges::once   ? UnitedLines::Kept::all
@@ -182,7 +190,7 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
                                                                : UnitedLines::Kept::none;
     const UnitedLines::Result found = united.unite(kept, options_.monitor);
     const std::vector<std::uint32_t> chosen =
-        needs_neighbours ? numbers(united, found) : std::vector<std::uint32_t>{};
+        needs_neighbours ? numbers(united, found, middles) : std::vector<std::uint32_t>{};
     TilePainter painter(sink, drawn_, first_colour_, colours_, needs_neighbours ? &chosen : nullptr);
     OldColours inner(painter, drawn_);
     // A pen that does not hatch draws only the outlines of polygons, which are among the lines.
@@ -208,10 +216,15 @@ void TileDrawing::decorate(const Print& print, const Window& window, PathSink& s
     decorator.draw(sink, options_.monitor);
 }
 
-std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const UnitedLines::Result& found) const {
-    return *drawn_.tile_colours == TileColours::distance
-               ? distances_from_border(united.tiles(), found.neighbours, found.border)
-               : colours_of_neighbours(united.tiles(), found.neighbours);
+std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const UnitedLines::Result& found,
+                                                const std::vector<glm::dvec2>& middles) const {
+    if (*drawn_.tile_colours == TileColours::distance) {
+        return distances_from_border(united.tiles(), found.neighbours, found.border);
+    }
+    if (options_.tile_period) {
+        if (auto numbers = colours_of_repeated(middles, found.neighbours, *options_.tile_period)) return *numbers;
+    }
+    return colours_of_neighbours(united.tiles(), found.neighbours);
 }
 
 /// Joins the lines of each pen.

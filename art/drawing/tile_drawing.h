@@ -38,7 +38,8 @@ public:
     void report(DrawReport& report) const override { drawing_->report(report); }
 
 private:
-    std::vector<std::uint32_t> numbers(const UnitedLines& united, const UnitedLines::Result& found) const;
+    std::vector<std::uint32_t> numbers(const UnitedLines& united, const UnitedLines::Result& found,
+                                       const std::vector<glm::dvec2>& middles) const;
     void add_layers();
     void decorate(const Print& print, const Window& window, PathSink& sink) const;
     void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const;

@@ -485,7 +485,8 @@ WindowDrawing::~WindowDrawing() = default;
 
 std::unique_ptr<WindowDrawing> WindowDrawing::make(std::shared_ptr<const Grammar> grammar, const Style& style,
                                                    const DrawOptions& options, std::string& why) {
-    if (!options.window || grammar->is_spatial() || grammar->map()) return nullptr;
+    // A frame is in the coordinates of the whole drawing.
+    if (!options.window || options.frame || grammar->is_spatial() || grammar->map()) return nullptr;
     const auto cost = estimate(*grammar, true);
     if (cost && cost->nodes <= most_clipped_symbols) return nullptr;
     if (style.line == Line::spline || has_ornaments(style, options) || style.hand > 0 || options.lesson_step ||

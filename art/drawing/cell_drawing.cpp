@@ -1,0 +1,41 @@
+#include "art/drawing/cell_drawing.h"
+
+#include "art/print/crop.h"
+#include "art/print/ornaments.h"
+
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sikku {
+
+CellDrawing::CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const DrawOptions& options)
+    : Drawing(options), inner_(std::move(inner)), cell_(cell), drawn_(inner_->style()), style_(drawn_) {
+    options_.placement.step = inner_->fixed_step();
+    if (!drawn_.ground) return;
+    style_.palette.push_back(*drawn_.ground);
+    style_.ground.reset();
+}
+
+void CellDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    constexpr double chord = 1e-3;  // of a side, between curves and their chords
+    const std::array<glm::dvec2, 2>& sides = cell_.sides;
+    if (drawn_.ground) {
+        const std::array<glm::dvec2, 4> corners = {cell_.corner, cell_.corner + sides[0],
+                                                   cell_.corner + sides[0] + sides[1], cell_.corner + sides[1]};
+        sink.polygon(corners, Pen{.colour = static_cast<int>(drawn_.palette.size())});
+    }
+    const glm::dmat2x2 to_cell = glm::inverse(glm::dmat2x2(sides[0], sides[1]));
+    const double length = std::sqrt(sides[0].x * sides[0].x + sides[0].y * sides[0].y);
+    // Lines along an edge belong to the copies on both of its sides.
+    constexpr double rounding = 1e-9;
+    CropSink crop(sink, glm::dvec2(-rounding), glm::dvec2(1 + rounding),
+                  {to_cell[0], to_cell[1], -(to_cell * cell_.corner)}, chord * length);
+    OldColours old(crop, drawn_);
+    inner_->read(print, window, old);
+}
+
+}  // namespace sikku
