@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -40,10 +42,11 @@ public:
     const MidiOptions& midi() const override { return score_.midi; }
 
 protected:
-    EnsembleReport play_into(NoteSink& sink, const PlayOptions& playing) const {
-        if (score_.humanise == 0) return play_parts(ensemble_, playing, sink);
+    /// What plays notes into a sink, perhaps as a player would.
+    template <class Play>
+    auto play_into(NoteSink& sink, const PlayOptions& playing, Play play) const {
         Humaniser human(sink, score_.humanise, score_.seed, playing.from);
-        return play_parts(ensemble_, playing, human);
+        return play(score_.humanise > 0 ? static_cast<NoteSink&>(human) : sink);
     }
     /// @throws ScoreError with the reason
     void refuse_silence() const {
@@ -69,28 +72,59 @@ void sort_pitches(NoteWindow& window) {
                      [](const NoteWindow::Pitch& a, const NoteWindow::Pitch& b) { return a.tick < b.tick; });
 }
 
+bool comes_before(const ControlPoint& a, const ControlPoint& b) {
+    return a.tick < b.tick;
+}
+
+/// Adds the values that controllers have at a tick.
+class LastControls {
+public:
+    void add(const ControlPoint& point) {
+        if (point.number != ControlPoint::bend) last_[{point.voice, point.number}] = point;
+    }
+    void put(std::int64_t tick, std::vector<ControlPoint>& points) const {
+        for (auto [key, point] : last_) {
+            point.tick = tick;
+            points.push_back(point);
+        }
+    }
+
+private:
+    std::map<std::pair<int, int>, ControlPoint> last_;  // by voice and number
+};
+
+/// Adds the changes of tempo within a window to it; the first one holds where it begins.
+void add_tempos(const std::vector<TempoPoint>& tempos, NoteWindow& window) {
+    const auto is_before = [](std::int64_t tick, const TempoPoint& point) { return tick < point.tick; };
+    auto next = std::upper_bound(tempos.begin(), tempos.end(), window.from, is_before);
+    if (next != tempos.begin()) window.tempos.push_back({window.from, std::prev(next)->factor});
+    for (; next != tempos.end() && next->tick < window.to; ++next) window.tempos.push_back(*next);
+}
+
 /// All notes in memory.
 class WholeStream final : public Stream {
 public:
     WholeStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
         : Stream(std::move(score), std::move(ensemble), playing) {
         NoteCollector collector(most_block_notes);
-        if (ensemble_.has_expression()) {
-            Humaniser human(collector, score_.humanise, score_.seed, playing.from);
-            NoteSink& sink = score_.humanise > 0 ? static_cast<NoteSink&>(human) : collector;
-            PerformanceSink performance(sink, ensemble_, playing_, false);
-            end_ = play_all(ensemble_, playing_, performance).end;
-            curves_ = performance.made();
-        } else {
-            end_ = play_into(collector, playing).end;
-        }
+        end_ = play_into(collector, playing_, [&](NoteSink& sink) {
+            if (!ensemble_.has_expression()) return play_parts(ensemble_, playing_, sink).end;
+            ExpressionSink expressive(ensemble_, ExpressionSink::Use::performance);
+            if (expressive.needs_ranges()) play_all(ensemble_, playing_, expressive);
+            expressive.write_to(sink);
+            return play_all(ensemble_, playing_, expressive).end;
+        });
         notes_ = collector.notes();
+        curves_ = collector.curves();
         if (notes_.empty()) refuse_silence();
         std::stable_sort(notes_.begin(), notes_.end(), is_earlier);
+        std::stable_sort(curves_.controls.begin(), curves_.controls.end(), comes_before);
     }
 
-    const Curves& curves() const override { return curves_; }
-    void seek(std::int64_t tick) override { at_ = tick; }
+    void seek(std::int64_t tick) override {
+        at_ = tick;
+        is_sought_ = true;
+    }
 
     NoteWindow next() override {
         NoteWindow window;
@@ -104,15 +138,31 @@ public:
         window.notes.assign(first, last);
         for (const Note& note : window.notes) add_pitches(note, score_.head.tempo, 0, window);
         sort_pitches(window);
+        add_controls(window);
+        add_tempos(curves_.tempo, window);
         at_ = window.is_last ? 0 : window.to;
+        is_sought_ = window.is_last;
         return window;
     }
 
 private:
+    void add_controls(NoteWindow& window) const {
+        const auto& all = curves_.controls;
+        const auto first = std::lower_bound(all.begin(), all.end(), ControlPoint{window.from}, comes_before);
+        const auto last = window.is_last ? all.end() : std::lower_bound(first, all.end(), ControlPoint{window.to}, comes_before);
+        if (is_sought_) {
+            LastControls before;
+            std::for_each(all.begin(), first, [&](const ControlPoint& point) { before.add(point); });
+            before.put(window.from, window.controls);
+        }
+        window.controls.insert(window.controls.end(), first, last);
+    }
+
     std::vector<Note> notes_;
-    Curves curves_;
+    Curves curves_;  // by tick
     std::int64_t end_ = 0;
     std::int64_t at_ = 0;
+    bool is_sought_ = true;
 };
 
 /// Keeps the notes of one window, and the ends of notes that were not known before.
@@ -122,18 +172,30 @@ public:
     /// @param begin        tick of the first note that may come
     /// @param known_until  ends from here on were not known before
     /// @param until        tick after which nothing is known; INT64_MAX if the score ends there
+    /// @param is_sought    whether the window does not follow on the one before
     WindowSink(NoteWindow& window, std::vector<char> open, double tempo, std::int64_t begin, std::int64_t known_until,
-               std::int64_t until)
+               std::int64_t until, bool is_sought)
         : window_(window),
           open_(std::move(open)),
           tempo_(tempo),
           begin_(begin),
           known_until_(known_until),
-          until_(until) {}
+          until_(until),
+          is_sought_(is_sought) {}
+
+    void controls(std::span<const ControlPoint> points) override {
+        for (ControlPoint point : points) {
+            point.tick += begin_;
+            const auto voice = static_cast<std::size_t>(point.voice);
+            if (voice >= coming_.size()) coming_.resize(voice + 1);
+            coming_[voice].push_back(point);
+        }
+    }
 
     void notes(std::span<const Note> notes) override {
         for (Note note : notes) {
             note.onset += begin_;
+            take_controls(note);
             if (note.onset >= window_.to) continue;
             const auto voice = static_cast<std::size_t>(note.voice);
             if (voice >= still_open_.size()) still_open_.resize(voice + 1, 0);
@@ -172,6 +234,8 @@ public:
         }
         std::stable_sort(window_.notes.begin(), window_.notes.end(), is_earlier);
         sort_pitches(window_);
+        if (is_sought_) before_.put(window_.from, window_.controls);
+        std::stable_sort(window_.controls.begin(), window_.controls.end(), comes_before);
         std::sort(window_.ends.begin(), window_.ends.end(), [](const NoteWindow::End& a, const NoteWindow::End& b) {
             return std::tie(a.tick, a.voice) < std::tie(b.tick, b.voice);
         });
@@ -179,13 +243,32 @@ public:
     }
 
 private:
+    /// Points belong to the window in which their note begins.
+    void take_controls(const Note& note) {
+        const auto voice = static_cast<std::size_t>(note.voice);
+        if (voice >= coming_.size()) return;
+        std::vector<ControlPoint>& points = coming_[voice];
+        const auto end = std::find_if(points.begin(), points.end(), [&](const ControlPoint& point) {
+            return point.tick >= note.onset + note.duration;
+        });
+        if (note.onset < window_.from) {
+            std::for_each(points.begin(), end, [&](const ControlPoint& point) { before_.add(point); });
+        } else if (note.onset < window_.to) {
+            window_.controls.insert(window_.controls.end(), points.begin(), end);
+        }
+        points.erase(points.begin(), end);
+    }
+
     NoteWindow& window_;
     std::vector<char> open_;
     double tempo_;
     std::int64_t begin_;
     std::int64_t known_until_;
     std::int64_t until_;
+    bool is_sought_;
     std::vector<char> still_open_;
+    std::vector<std::vector<ControlPoint>> coming_;  // by voice, of the notes that come next
+    LastControls before_;
 };
 
 /// Plays one window at a time. It is read a little before and after, so that what leads up to it is known, and where
@@ -198,7 +281,8 @@ public:
             const Ratio tempo = player.melody.layout.tempo;
             lead_ = std::max(lead_, 2 * Ratio{tempo.below, tempo.above}.of(player.melody.meter.bar()));
         }
-        const auto on_grid = [grid](std::int64_t ticks) { return (ticks + grid - 1) / grid * grid; };
+        if (ensemble_.has_expression()) measure();
+        const auto on_grid = [this](std::int64_t ticks) { return (ticks + grid_ - 1) / grid_ * grid_; };
         span_ = on_grid(least_span);
         after_ = on_grid(std::max(2 * ensemble_.meter.bar(), lead_));
     }
@@ -206,6 +290,7 @@ public:
     void seek(std::int64_t tick) override {
         at_ = tick;
         open_.clear();
+        is_sought_ = true;
         is_silent_ = tick == 0;
         end_ = tick;
     }
@@ -220,9 +305,13 @@ public:
         options.to = std::min(playing_.to, playing_.from + window.to + after_);
         const std::int64_t until = options.to - playing_.from;
         const bool is_cut = options.to == playing_.to;
-        WindowSink sink(window, std::move(open_), score_.head.tempo, begin, known_until_, is_cut ? INT64_MAX : until);
+        WindowSink sink(window, std::move(open_), score_.head.tempo, begin, known_until_, is_cut ? INT64_MAX : until,
+                        std::exchange(is_sought_, false));
         EnsembleReport report;
-        if (options.from < options.to) report = play_into(sink, options);
+        std::vector<TempoPoint> tempos;
+        if (options.from < options.to) {
+            report = play_into(sink, options, [&](NoteSink& next) { return play_piece(options, next, tempos); });
+        }
         open_ = sink.complete();
         known_until_ = until;
         is_silent_ = is_silent_ && window.notes.empty();
@@ -238,15 +327,42 @@ public:
         } else {
             at_ = window.to;
         }
+        for (TempoPoint& point : tempos) point.tick += begin;
+        add_tempos(tempos, window);
         return window;
     }
 
 private:
+    /// Learns the ranges that curves of expression follow. @throws as play_all()
+    void measure() {
+        constexpr std::int64_t tempo_margin = 4 * ticks_per_quarter;  // it is smoothed over two quarters
+        constexpr double many_notes = 16e6;                           // are too many to play them first
+        lead_ = std::max(lead_, tempo_margin);
+        grid_ = std::lcm(grid_, ticks_per_quarter);
+        measured_.emplace(ensemble_, ExpressionSink::Use::pieces);
+        const bool is_far = std::any_of(ensemble_.players.begin(), ensemble_.players.end(), [](const Player& player) {
+            const auto known = census(player.document.grammar(), player.melody);
+            return known && known->notes.convert_to<double>() > many_notes;
+        });
+        measured_->fold_ranges(playing_, is_far);
+        if (measured_->needs_ranges()) play_all(ensemble_, playing_, *measured_);
+    }
+
+    EnsembleReport play_piece(const PlayOptions& options, NoteSink& sink, std::vector<TempoPoint>& tempos) const {
+        if (!measured_) return play_parts(ensemble_, options, sink);
+        ExpressionSink expressive(*measured_, sink);
+        EnsembleReport report = play_parts(ensemble_, options, expressive);
+        expressive.finish(report.end);
+        tempos = expressive.tempos(report.end);
+        return report;
+    }
+
     bool has_later_part(std::int64_t tick) const {
         return std::any_of(ensemble_.players.begin(), ensemble_.players.end(),
                            [&](const Player& player) { return start_of(player, ensemble_.meter) >= tick; });
     }
 
+    std::optional<ExpressionSink> measured_;
     std::int64_t grid_;  // of ticks at which all parts have whole ticks
     std::int64_t lead_ = ticks_per_quarter;
     std::int64_t span_ = 0;
@@ -255,6 +371,7 @@ private:
     std::int64_t end_ = 0;
     std::int64_t known_until_ = 0;
     bool is_silent_ = true;
+    bool is_sought_ = true;   // the next window does not follow on one before
     std::vector<char> open_;  // voices whose last note has no known end
 };
 
@@ -331,7 +448,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
 
 std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing) {
     const std::int64_t grid = grid_of(ensemble, playing);
-    const bool is_whole = ensemble.needs_whole() || ensemble.has_expression() || grid == 0 ||
+    const bool is_whole = ensemble.needs_whole() || grid == 0 ||
                           !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
     if (is_whole) return std::make_unique<WholeStream>(std::move(score), std::move(ensemble), playing);
     for (Player& player : ensemble.players) fix_anchor(player, ensemble.meter, playing);

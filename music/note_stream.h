@@ -36,6 +36,11 @@ struct NoteWindow {
         double key = 0;
     };
     std::vector<Pitch> pitches;
+    /// Controllers and bends of the notes, by tick; some may lie beyond the window. After seek() those that hold where
+    /// the window begins, too.
+    std::vector<ControlPoint> controls;
+    /// Changes of tempo along the curve within the window, by tick; the first holds where it begins.
+    std::vector<TempoPoint> tempos;
     /// Where the score ends, rests included: known at least two bars before.
     std::optional<std::int64_t> end;
     bool is_last = false;  ///< the next window begins at tick 0 again
@@ -48,11 +53,6 @@ public:
     virtual const ScoreHead& head() const = 0;
     /// How its voices use channels.
     virtual const MidiOptions& midi() const = 0;
-    /// What changes while notes sound, in ticks of the score.
-    virtual const Curves& curves() const {
-        static const Curves none;
-        return none;
-    }
     /// The next window begins at this tick, 0 or more; notes that began before it are left out.
     virtual void seek(std::int64_t tick) = 0;
     /// True if next() returns at once.
@@ -63,9 +63,10 @@ public:
 
 /// Streams the score of documents or of an arrangement. A window takes memory for its bars only, and the part of a
 /// curve on the square grid before it is skipped; off the grid the curve is walked to the window. Scores whose notes
-/// depend on later ones (retrograde, forms, loops, strict parts, expression, branches as voices, words with
-/// parameters, chance or contexts) are held in memory, with at most 4,000,000 notes. `monitor` stops the reading of
-/// windows, too.
+/// depend on later ones (retrograde, forms, loops, strict parts, branches as voices, words with parameters, chance or
+/// contexts) are held in memory, with at most 4,000,000 notes. Where curves of expression need the least and greatest
+/// values of their sources, the score is played once before, unless the fold knows them. `monitor` stops the reading
+/// of windows, too.
 /// @throws as plan_score(); ScoreError if the score has no notes
 std::unique_ptr<NoteStream> stream_notes(std::span<const Document> documents, const OptionValues& values,
                                          const Monitor& monitor = {}, const std::filesystem::path& folder = {});

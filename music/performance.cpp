@@ -1,82 +1,14 @@
 #include "music/performance.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace sikku {
 namespace {
 
 constexpr std::int64_t control_ticks = ticks_per_quarter / 16;  // between points of a ramp
-constexpr std::int64_t bend_ticks = ticks_per_quarter / 32;
-constexpr double widest_bend = 12;  // semitones
-
-/// From 0 to 1, level at both ends. Plain arithmetic, so that every machine gives the same bytes.
-double smooth(double part) {
-    const double within = std::clamp(part, 0.0, 1.0);
-    return within * within * (3 - 2 * within);
-}
-
-/// Values of a source, from 0 to 1.
-struct SourceRange {
-    double low = 0;
-    double high = 0;
-    double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
-};
-
-SourceRange range_of(const std::vector<double>& values) {
-    if (values.empty()) return {};
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return {*low, *high};
-}
-
-/// Beginning and end of each note, from 0 to 1.
-using Parts = std::vector<std::pair<double, double>>;
-
-/// The order of the largest sub-curve that begins with each symbol that begins a note.
-std::unordered_map<std::uint64_t, int> levels_of(const Player& player, const PlayOptions& playing) {
-    class Onsets : public NoteSink {
-    public:
-        void notes(std::span<const Note> notes) override {
-            for (const Note& note : notes) all.emplace_back(note.onset, note.symbol);
-        }
-        void finish(std::int64_t) override {}
-        std::vector<std::pair<std::int64_t, std::uint64_t>> all;
-    };
-    std::unordered_map<std::uint64_t, int> levels;
-    const std::int64_t steps = player.document.grammar().steps();
-    constexpr std::int64_t most_levels = 64;
-    for (std::int64_t order = 1; order <= std::min(steps, most_levels); ++order) {
-        Melody melody = player.melody;
-        melody.phrase_order = order;
-        melody.breath = 0;
-        melody.cadence = Cadence::none;
-        melody.harmony = Harmony::none;
-        melody.swing = 0.5;
-        melody.articulation = Articulation::legato;
-        melody.layout.form.clear();
-        std::vector<std::int64_t> begins = {0};
-        PlayOptions options = playing;
-        options.from = 0;
-        options.to = INT64_MAX;
-        options.phrase_ends = &begins;
-        Onsets onsets;
-        play(player.document.grammar(), melody, onsets, options);
-        std::sort(begins.begin(), begins.end());
-        for (const auto& [onset, symbol] : onsets.all) {
-            if (symbol > 0 && std::binary_search(begins.begin(), begins.end(), onset)) {
-                levels[symbol] = static_cast<int>(order);
-            }
-        }
-    }
-    return levels;
-}
+constexpr std::size_t held_back = 2;                            // notes of a voice, where the next may bend them
 
 /// -1 to the right, 1 to the left, 0 straight on.
 double turn_into(const Note* before, const Note& note) {
@@ -90,7 +22,7 @@ double turn_into(const Note* before, const Note& note) {
     return cross > nothing ? 1 : cross < -nothing ? -1 : 0;
 }
 
-/// Values of a source at the beginning and the end of a note; the level is not known here.
+/// Values of a source at the beginning and the end of a note.
 std::pair<double, double> values_of(ExpressionSource source, const Note* before, const Note& note) {
     const auto both = [](double value) { return std::pair(value, value); };
     switch (source) {
@@ -105,6 +37,7 @@ std::pair<double, double> values_of(ExpressionSource source, const Note* before,
         case ExpressionSource::length:
             return both(static_cast<double>(note.duration));
         case ExpressionSource::level:
+            return both(note.level);
         case ExpressionSource::none:
             break;
     }
@@ -114,37 +47,6 @@ std::pair<double, double> values_of(ExpressionSource source, const Note* before,
 /// What accompanies a melody comes from no place of the curve.
 bool is_of_curve(const Note& note) {
     return note.from != note.end_point();
-}
-
-Parts parts_of(const Player& player, const PlayOptions& playing, ExpressionSource source,
-               const std::vector<Note*>& notes) {
-    std::vector<double> first;
-    std::vector<double> last;
-    const auto levels =
-        source == ExpressionSource::level ? levels_of(player, playing) : std::unordered_map<std::uint64_t, int>();
-    std::map<std::int16_t, const Note*> before;
-    for (const Note* note : notes) {
-        auto [value, end] = values_of(source, before[note->voice], *note);
-        if (source == ExpressionSource::level) {
-            const auto level = levels.find(note->symbol);
-            value = end = level == levels.end() ? 0 : level->second;
-        }
-        before[note->voice] = note;
-        first.push_back(value);
-        last.push_back(end);
-    }
-    std::vector<double> all = first;
-    all.insert(all.end(), last.begin(), last.end());
-    const SourceRange range = source == ExpressionSource::turn ? SourceRange{-1, 1} : range_of(all);
-    Parts parts;
-    for (std::size_t i = 0; i < first.size(); ++i) parts.emplace_back(range.part(first[i]), range.part(last[i]));
-    return parts;
-}
-
-std::vector<double> middles(const Parts& parts) {
-    std::vector<double> result;
-    for (const auto& [begin, end] : parts) result.push_back((begin + end) / 2);
-    return result;
 }
 
 /// Adds the points of a note where the rounded value changes.
@@ -162,125 +64,14 @@ void add_control(const Note& note, std::pair<double, double> part, const Express
     }
 }
 
-/// The same for all notes of a part.
-void add_control(const std::vector<Note*>& notes, const Parts& parts, const ExpressionCurve& curve, int number,
-                 std::vector<ControlPoint>& points) {
-    std::map<std::int16_t, std::optional<int>> last;
-    for (std::size_t i = 0; i < notes.size(); ++i) {
-        add_control(*notes[i], parts[i], curve, number, last[notes[i]->voice], points);
-    }
+void sort_by_tick(std::vector<ControlPoint>::iterator first, std::vector<ControlPoint>::iterator last) {
+    const auto is_earlier = [](const ControlPoint& a, const ControlPoint& b) { return a.tick < b.tick; };
+    if (!std::is_sorted(first, last, is_earlier)) std::stable_sort(first, last, is_earlier);
 }
-
-/// The bends of the notes of one voice.
-class Bender {
-public:
-    Bender(const Player& player, double tempo, std::vector<ControlPoint>& points)
-        : melody_(player.melody),
-          ticks_per_second_(tempo * static_cast<double>(ticks_per_quarter) / 60),
-          points_(points) {}
-
-    void bend(Note* before, Note& note, const Note* after) {
-        if (note.glide.ticks > 0) return;
-        const std::int64_t degree = degree_of(note.key);
-        for (const Gamaka& gamaka : melody_.expression.gamakas) {
-            const auto size = static_cast<std::int64_t>(melody_.scale.size());
-            const std::int64_t within = (degree % size + size) % size;
-            const auto& degrees = gamaka.degrees;
-            if (!degrees.empty() && std::find(degrees.begin(), degrees.end(), within) == degrees.end()) continue;
-            switch (gamaka.kind) {
-                case Gamaka::Kind::kampita:
-                    if (swing(note, degree)) return;
-                    break;
-                case Gamaka::Kind::jaru:
-                    if (before && before->onset + before->duration == note.onset && before->glide.ticks == 0) {
-                        before->is_sliding = slide(note, before->key - note.key, true) || before->is_sliding;
-                        return;
-                    }
-                    break;
-                case Gamaka::Kind::meend:
-                    if (after && note.onset + note.duration == after->onset) {
-                        note.is_sliding = slide(note, after->key - note.key, false);
-                        return;
-                    }
-                    break;
-            }
-        }
-    }
-
-private:
-    std::int64_t degree_of(double key) const {
-        const Scale& scale = melody_.scale;
-        const double cents = 100 * (key - melody_.tonic - melody_.transpose);
-        const auto size = static_cast<std::int64_t>(scale.size());
-        std::int64_t best = static_cast<std::int64_t>(std::floor(cents / std::fabs(scale.period))) * size;
-        const auto distance = [&](std::int64_t one) {
-            return std::min(std::fabs(scale.cents(one, false) - cents), std::fabs(scale.cents(one, true) - cents));
-        };
-        for (std::int64_t one = best - size; one <= best + 2 * size; ++one) {
-            if (distance(one) < distance(best) - 1e-9) best = one;
-        }
-        return best;
-    }
-
-    /// Swings up and back so that a whole number of swings fills the note. @return false for notes that are too short
-    bool swing(const Note& note, std::int64_t degree) {
-        constexpr double swings_per_second = 5;
-        const double seconds = static_cast<double>(note.duration) / ticks_per_second_;
-        const auto swings = static_cast<int>(std::floor(seconds * swings_per_second + 0.25));
-        if (swings < 1) return false;
-        const double width =
-            std::min(2.0, (melody_.scale.cents(degree + 1, false) - melody_.scale.cents(degree, false)) / 100);
-        add(note, 0, note.duration, [&](double part) {
-            const double within = part * swings - std::floor(part * swings);
-            return width * smooth(1 - std::fabs(2 * within - 1));
-        });
-        return true;
-    }
-
-    /// @param from  whether it begins, instead of ending, with the offset
-    /// @return false for unisons, intervals that are too wide, and notes that are too short
-    bool slide(const Note& note, double offset, bool from) {
-        constexpr double longest = 0.25;  // seconds
-        if (offset == 0 || std::fabs(offset) > widest_bend) return false;
-        const auto length = std::min(note.duration / 2, static_cast<std::int64_t>(longest * ticks_per_second_));
-        if (length < 2 * bend_ticks) return false;
-        if (from) {
-            add(note, 0, length, [&](double part) { return offset * (1 - smooth(part)); });
-            points_.push_back({note.onset + length, note.voice, ControlPoint::bend, 0});
-        } else {
-            add(note, note.duration - length, note.duration, [&](double part) { return offset * smooth(part); });
-        }
-        return true;
-    }
-
-    /// Points of a function of the part of a stretch of a note.
-    template <class Offset>
-    void add(const Note& note, std::int64_t begin, std::int64_t end, Offset offset) {
-        for (std::int64_t at = begin; at < end; at += bend_ticks) {
-            const double part = static_cast<double>(at - begin) / static_cast<double>(end - begin);
-            points_.push_back({note.onset + at, note.voice, ControlPoint::bend, offset(part)});
-        }
-    }
-
-    const Melody& melody_;
-    double ticks_per_second_;
-    std::vector<ControlPoint>& points_;
-};
 
 }  // namespace
 
-bool streams_expression(const Ensemble& ensemble, bool with_controls) {
-    const std::vector<Player>& players = ensemble.players;
-    return std::all_of(players.begin(), players.end(), [&](const Player& player) {
-        MelodicExpression others = player.melody.expression;
-        if (others.uses(ExpressionSource::level)) return false;
-        others.velocity = {};
-        if (with_controls) others.pan = others.control = {};
-        return !others.any();
-    });
-}
-
-ExpressionSink::ExpressionSink(const Ensemble& ensemble, bool is_printed) : ensemble_(ensemble) {
+ExpressionSink::ExpressionSink(const Ensemble& ensemble, Use use) : ensemble_(ensemble), use_(use) {
     for (const Player& player : ensemble.players) {
         const MelodicExpression& expression = player.melody.expression;
         std::vector<Followed>& curves = followed_.emplace_back();
@@ -288,190 +79,196 @@ ExpressionSink::ExpressionSink(const Ensemble& ensemble, bool is_printed) : ense
         const auto follow = [&](const ExpressionCurve& curve, int number) {
             if (!curve.is_on()) return;
             const bool is_turn = curve.source == ExpressionSource::turn;
-            curves.push_back({curve, number, is_turn ? -1 : INFINITY, is_turn ? 1 : -INFINITY});
+            curves.push_back(
+                {curve, number, is_turn ? SourceRange{-1, 1} : SourceRange{INFINITY, -INFINITY}, is_turn});
             if (is_turn) has_turns_.back() = 1;
         };
         follow(expression.velocity, velocity);
-        if (is_printed) continue;
+        auto& bender = benders_.emplace_back();
+        if (!expression.gamakas.empty()) bender.emplace(player.melody, ensemble.tempo);
+        if (use == Use::print) continue;
         follow(expression.pan, ControlPoint::pan);
         follow(expression.control, expression.controller);
+        if (&player != &ensemble.players.front() || !expression.tempo.is_on()) continue;
+        follow(expression.tempo, tempo_number);
+        if (use == Use::performance) tempo_.emplace(expression.tempo, player.melody.tempo);
     }
+}
+
+ExpressionSink::ExpressionSink(const ExpressionSink& measured, NoteSink& sink)
+    : ensemble_(measured.ensemble_),
+      use_(measured.use_),
+      sink_(&sink),
+      followed_(measured.followed_),
+      has_turns_(measured.has_turns_),
+      benders_(measured.benders_) {
+    const Melody& first = ensemble_.players.front().melody;
+    if (first.expression.tempo.is_on()) tempo_.emplace(first.expression.tempo, first.tempo);
+}
+
+void ExpressionSink::fold_ranges(const PlayOptions& playing, bool is_far) {
+    if (playing.to < INT64_MAX || (playing.from > 0 && !is_far) || ensemble_.needs_whole()) return;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        const Player& player = ensemble_.players[i];
+        const Layout& layout = player.melody.layout;
+        const bool has_place = std::any_of(followed_[i].begin(), followed_[i].end(), [](const Followed& one) {
+            return one.curve.source == ExpressionSource::x || one.curve.source == ExpressionSource::y;
+        });
+        if (!has_place || player.is_bass || layout.first_bar > 1 || layout.bars > 0) continue;
+        const auto box = note_box(player.document.grammar(), player.melody);
+        if (!box) continue;
+        for (Followed& one : followed_[i]) {
+            const bool is_x = one.curve.source == ExpressionSource::x;
+            if (!is_x && one.curve.source != ExpressionSource::y) continue;
+            one.range = is_x ? box->x : box->y;
+            one.is_known = true;
+        }
+    }
+}
+
+bool ExpressionSink::needs_ranges() const {
+    if (tempo_) return true;
+    return std::any_of(followed_.begin(), followed_.end(), [](const std::vector<Followed>& curves) {
+        return std::any_of(curves.begin(), curves.end(), [](const Followed& one) {
+            return !one.is_known;
+        });
+    });
+}
+
+ExpressionSink::Line& ExpressionSink::line_of(int voice) {
+    const auto at = static_cast<std::size_t>(voice);
+    if (at >= lines_.size()) lines_.resize(at + 1);
+    std::optional<Line>& line = lines_[at];
+    if (line) return *line;
+    line.emplace();
+    const std::vector<Player>& players = ensemble_.players;
+    const auto next = std::upper_bound(players.begin(), players.end(), voice,
+                                       [](int one, const Player& player) { return one < player.first_voice; });
+    line->player = next == players.begin() ? 0 : static_cast<std::size_t>(next - players.begin()) - 1;
+    const Player& player = players[line->player];
+    const bool is_drum = player.has_drums && voice >= player.first_voice + player.drums_from;
+    line->is_bent = benders_[line->player] && !is_drum;
+    line->last.resize(followed_[line->player].size());
+    return *line;
 }
 
 void ExpressionSink::notes(std::span<const Note> notes) {
-    if (sink_) changed_.assign(notes.begin(), notes.end());
-    points_.clear();
-    for (std::size_t i = 0; i < notes.size(); ++i) {
-        const Note& note = notes[i];
-        if (!is_of_curve(note)) continue;
-        const std::size_t player = player_of(note.voice);
-        if (followed_[player].empty()) continue;
-        const auto voice = static_cast<std::size_t>(note.voice);
-        if (voice >= lines_.size()) lines_.resize(voice + 1);
-        express(followed_[player], lines_[voice], note, i);
-        if (has_turns_[player]) lines_[voice].before = note;
+    for (const Note& note : notes) {
+        Line& line = line_of(note.voice);
+        if (sink_ && line.is_bent) {
+            hold(line, note);
+        } else if (sink_) {
+            const auto first = static_cast<std::ptrdiff_t>(points_.size());
+            express(line, changed_.emplace_back(note), points_);
+            sort_by_tick(points_.begin() + first, points_.end());
+        } else {
+            measure(line, note);
+        }
     }
-    if (!sink_) return;
-    if (!points_.empty()) sink_->controls(points_);
-    sink_->notes(changed_);
+    if (sink_) hand_on();
 }
 
-void ExpressionSink::express(std::vector<Followed>& curves, Line& line, const Note& note, std::size_t index) {
-    const std::size_t first_point = points_.size();
-    line.last.resize(curves.size());
+void ExpressionSink::measure(Line& line, const Note& note) {
+    if (!is_of_curve(note)) return;
+    for (Followed& one : followed_[line.player]) {
+        const auto [begin, end] = values_of(one.curve.source, line.before ? &*line.before : nullptr, note);
+        if (!one.is_known) {
+            one.range.low = std::min({one.range.low, begin, end});
+            one.range.high = std::max({one.range.high, begin, end});
+        }
+        if (one.number == tempo_number && tempo_) tempo_->add(note.onset, (begin + end) / 2);
+    }
+    if (has_turns_[line.player] != 0) line.before = note;
+}
+
+/// Changes the velocity of a note, and adds the points of its controllers.
+void ExpressionSink::express(Line& line, Note& note, std::vector<ControlPoint>& points) {
+    if (!is_of_curve(note)) return;
+    const std::vector<Followed>& curves = followed_[line.player];
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        auto& [curve, number, low, high] = curves[i];
+        const auto& [curve, number, range, is_known] = curves[i];
         const auto [begin, end] = values_of(curve.source, line.before ? &*line.before : nullptr, note);
-        if (!sink_) {
-            low = std::min({low, begin, end});
-            high = std::max({high, begin, end});
+        if (number == tempo_number) {
+            if (tempo_) tempo_->add(note.onset, (begin + end) / 2);
             continue;
         }
-        const SourceRange range{low, high};
         const std::pair<double, double> part{range.part(begin), range.part(end)};
         if (number != velocity) {
-            add_control(note, part, curve, number, line.last[i], points_);
+            add_control(note, part, curve, number, line.last[i], points);
             continue;
         }
         const double value = std::clamp(curve.at((part.first + part.second) / 2), 1.0, 127.0);
-        changed_[index].velocity = static_cast<std::uint8_t>(std::lround(value));
+        note.velocity = static_cast<std::uint8_t>(std::lround(value));
     }
-    std::stable_sort(points_.begin() + static_cast<std::ptrdiff_t>(first_point), points_.end(),
-                     [](const ControlPoint& a, const ControlPoint& b) { return a.tick < b.tick; });
+    if (has_turns_[line.player] != 0) line.before = note;
+}
+
+/// The next note may bend this one, and mark the one before.
+void ExpressionSink::hold(Line& line, const Note& note) {
+    Line::Held next{note, {}};
+    express(line, next.note, next.points);
+    bend(line, &note);
+    if (line.held.size() == held_back) release(line);
+    line.held.push_back(std::move(next));
+}
+
+/// Bends the last note that is held. @param after  the one that follows it; null if there is none
+void ExpressionSink::bend(Line& line, const Note* after) {
+    if (line.held.empty()) return;
+    auto& [note, points] = line.held.back();
+    if (!is_of_curve(note)) return;
+    Note* const before = line.held.size() == held_back ? &line.held.front().note : nullptr;
+    bends_.clear();
+    benders_[line.player]->bend(before && is_of_curve(*before) ? before : nullptr, note,
+                                after && is_of_curve(*after) ? after : nullptr, bends_);
+    if (use_ != Use::print) points.insert(points.begin(), bends_.begin(), bends_.end());
+}
+
+/// Hands on the first note that is held.
+void ExpressionSink::release(Line& line) {
+    auto& [note, points] = line.held.front();
+    sort_by_tick(points.begin(), points.end());
+    points_.insert(points_.end(), points.begin(), points.end());
+    changed_.push_back(note);
+    line.held.erase(line.held.begin());
+}
+
+void ExpressionSink::hand_on() {
+    if (!points_.empty()) sink_->controls(points_);
+    if (!changed_.empty()) sink_->notes(changed_);
+    points_.clear();
+    changed_.clear();
+}
+
+void ExpressionSink::finish(std::int64_t end) {
+    if (!sink_) {
+        end_ = end;
+        return;
+    }
+    for (std::optional<Line>& line : lines_) {
+        if (!line) continue;
+        bend(*line, nullptr);
+        while (!line->held.empty()) release(*line);
+    }
+    hand_on();
+    sink_->finish(end);
 }
 
 void ExpressionSink::write_to(NoteSink& sink) {
     sink_ = &sink;
     lines_.clear();
+    if (!tempo_) return;
+    curves_.tempo = tempos(end_);
+    tempo_.reset();
+    sink_->curves(curves_);
 }
 
-std::size_t ExpressionSink::player_of(int voice) const {
-    const std::vector<Player>& players = ensemble_.players;
-    const auto next = std::upper_bound(players.begin(), players.end(), voice,
-                                       [](int one, const Player& player) { return one < player.first_voice; });
-    return next == players.begin() ? 0 : static_cast<std::size_t>(next - players.begin()) - 1;
-}
-
-PerformanceSink::PerformanceSink(NoteSink& sink, const Ensemble& ensemble, const PlayOptions& playing,
-                                 bool is_printed)
-    : sink_(sink), ensemble_(ensemble), playing_(playing), is_printed_(is_printed) {}
-
-void PerformanceSink::notes(std::span<const Note> notes) {
-    if (notes.size() > most - notes_.size()) {
-        throw ScoreError(fmt::format("parts with expression have at most {} notes; limit the bars", most));
+std::vector<TempoPoint> ExpressionSink::tempos(std::int64_t end) const {
+    if (!tempo_) return {};
+    for (const Followed& one : followed_.front()) {
+        if (one.number == tempo_number) return tempo_->points(one.range, end);
     }
-    notes_.insert(notes_.end(), notes.begin(), notes.end());
-}
-
-void PerformanceSink::finish(std::int64_t end) {
-    end_ = end;
-    const std::vector<Player>& players = ensemble_.players;
-    for (std::size_t i = 0; i < players.size(); ++i) {
-        if (!players[i].melody.expression.any()) continue;
-        const int first = players[i].first_voice;
-        const int next = i + 1 < players.size() ? players[i + 1].first_voice : INT16_MAX + 1;
-        std::vector<Note*> notes;
-        for (Note& note : notes_) {
-            if (note.voice >= first && note.voice < next && is_of_curve(note)) notes.push_back(&note);
-        }
-        std::stable_sort(notes.begin(), notes.end(), [](const Note* a, const Note* b) {
-            return std::tie(a->onset, a->voice) < std::tie(b->onset, b->voice);
-        });
-        express(players[i], notes);
-        if (curves_.controls.size() > most) {
-            throw ScoreError(
-                fmt::format("the curves of pan, controllers and gamakas have more than {} points; limit "
-                            "the bars",
-                            most));
-        }
-    }
-    std::stable_sort(curves_.controls.begin(), curves_.controls.end(),
-                     [](const ControlPoint& a, const ControlPoint& b) {
-                         return std::tie(a.voice, a.tick) < std::tie(b.voice, b.tick);
-                     });
-    if (!curves_.empty()) sink_.curves(curves_);
-    sink_.notes(notes_);
-    sink_.finish(end);
-}
-
-void PerformanceSink::express(const Player& player, std::vector<Note*>& notes) {
-    const MelodicExpression& expression = player.melody.expression;
-    std::map<ExpressionSource, Parts> known;
-    const auto parts = [&](ExpressionSource source) -> const Parts& {
-        const auto [found, is_new] = known.try_emplace(source);
-        if (is_new) found->second = parts_of(player, playing_, source, notes);
-        return found->second;
-    };
-    if (expression.velocity.is_on()) {
-        const std::vector<double> values = middles(parts(expression.velocity.source));
-        for (std::size_t i = 0; i < notes.size(); ++i) {
-            const double velocity = std::clamp(expression.velocity.at(values[i]), 1.0, 127.0);
-            notes[i]->velocity = static_cast<std::uint8_t>(std::lround(velocity));
-        }
-    }
-    bend(player, notes);
-    if (is_printed_) return;
-    if (expression.pan.is_on()) {
-        add_control(notes, parts(expression.pan.source), expression.pan, ControlPoint::pan, curves_.controls);
-    }
-    if (expression.control.is_on()) {
-        add_control(notes, parts(expression.control.source), expression.control, expression.controller,
-                    curves_.controls);
-    }
-    if (expression.tempo.is_on() && &player == &ensemble_.players.front()) {
-        add_tempo(player, notes, middles(parts(expression.tempo.source)), end_);
-    }
-}
-
-/// Bends the notes of each voice, and marks those that slide.
-void PerformanceSink::bend(const Player& player, const std::vector<Note*>& notes) {
-    if (player.melody.expression.gamakas.empty()) return;
-    std::map<std::int16_t, std::vector<Note*>> voices;
-    for (Note* note : notes) {
-        if (player.has_drums && note->voice >= player.first_voice + player.drums_from) continue;
-        voices[note->voice].push_back(note);
-    }
-    std::vector<ControlPoint> unheard;
-    Bender bender(player, ensemble_.tempo, is_printed_ ? unheard : curves_.controls);
-    for (const auto& [voice, line] : voices) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            bender.bend(i > 0 ? line[i - 1] : nullptr, *line[i], i + 1 < line.size() ? line[i + 1] : nullptr);
-        }
-    }
-}
-
-/// A tempo for each quarter: the mean of the notes that begin in it, smoothed over its neighbours.
-void PerformanceSink::add_tempo(const Player& player, const std::vector<Note*>& notes,
-                                const std::vector<double>& parts, std::int64_t end) {
-    const auto beats = static_cast<std::size_t>(end / ticks_per_quarter + 1);
-    if (beats > most) throw ScoreError(fmt::format("a tempo that follows the curve needs fewer than {} beats", most));
-    std::vector<double> sums(beats, 0);
-    std::vector<double> counts(beats, 0);
-    for (std::size_t i = 0; i < notes.size(); ++i) {
-        const auto beat = static_cast<std::size_t>(notes[i]->onset / ticks_per_quarter);
-        sums[beat] += parts[i];
-        ++counts[beat];
-    }
-    std::vector<double> values(beats, parts.empty() ? 0.5 : parts.front());
-    for (std::size_t i = 0; i < beats; ++i) {
-        values[i] = counts[i] > 0 ? sums[i] / counts[i] : i > 0 ? values[i - 1] : values[i];
-    }
-    constexpr int passes = 2;
-    for (int pass = 0; pass < passes; ++pass) {
-        std::vector<double> next = values;
-        for (std::size_t i = 0; i < beats; ++i) {
-            const double before = values[i > 0 ? i - 1 : 0];
-            const double after = values[std::min(i + 1, beats - 1)];
-            next[i] = (before + 2 * values[i] + after) / 4;
-        }
-        values = std::move(next);
-    }
-    for (std::size_t i = 0; i < beats; ++i) {
-        const auto tick = static_cast<std::int64_t>(i) * ticks_per_quarter;
-        const double factor = player.melody.expression.tempo.at(values[i]) / player.melody.tempo;
-        if (tick >= end || (!curves_.tempo.empty() && curves_.tempo.back().factor == factor)) continue;
-        curves_.tempo.push_back({tick, factor});
-    }
+    return {};
 }
 
 }  // namespace sikku

@@ -2,95 +2,94 @@
 #pragma once
 
 #include "music/ensemble.h"
+#include "music/gamakas.h"
 #include "music/score/curves.h"
+#include "music/tempo_curve.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace sikku {
 
-/// Collects all notes, changes their velocities, makes the curves of tempo, pan, controllers and pitch, and hands all
-/// on. Sources are measured from their least to their greatest value in the notes of a part. The tempo follows the
-/// first part, beat by beat and smoothed. Memory: O(notes and points).
-class PerformanceSink : public NoteSink {
-public:
-    /// Largest number of notes, and of points of curves.
-    static constexpr std::size_t most = 4'000'000;
-
-    /// @param is_printed  velocities alone
-    /// `sink`, `ensemble` and `playing` have to outlive it.
-    PerformanceSink(NoteSink& sink, const Ensemble& ensemble, const PlayOptions& playing, bool is_printed);
-
-    /// @throws ScoreError for too many notes
-    void notes(std::span<const Note> notes) override;
-    /// @throws ScoreError for too many points; as play() where a source is the level
-    void finish(std::int64_t end) override;
-
-    /// The curves of what has been played.
-    const Curves& made() const { return curves_; }
-
-private:
-    void express(const Player& player, std::vector<Note*>& notes);
-    void bend(const Player& player, const std::vector<Note*>& notes);
-    void add_tempo(const Player& player, const std::vector<Note*>& notes, const std::vector<double>& parts,
-                   std::int64_t end);
-
-    NoteSink& sink_;
-    const Ensemble& ensemble_;
-    const PlayOptions& playing_;
-    bool is_printed_;
-    std::vector<Note> notes_;
-    std::int64_t end_ = 0;
-    Curves curves_;
-};
-
-/// True if nothing but velocities, and pan and controllers `with_controls`, follows the curve, by sources that are
-/// known note by note.
-bool streams_expression(const Ensemble& ensemble, bool with_controls);
-
-/// Gives notes the velocities of the curve as they pass, and hands on the points of pan and controllers before them,
-/// the same as PerformanceSink. The parts are played twice: before write_to() for the least and greatest values,
-/// after it for the notes. Memory: O(voices).
+/// Gives notes the velocities of the curve as they pass, and hands on the points of pan, controllers and gamakas
+/// before them, and the tempo before all. The parts are played twice: before write_to() for the least and greatest
+/// values of their sources and for the tempo, after it for the notes. The tempo follows the first part.
+/// Memory: O(voices), and as TempoCurve if there is a tempo.
 class ExpressionSink : public NoteSink {
 public:
-    /// @param is_printed  velocities alone
+    enum class Use {
+        performance,
+        print,  ///< velocities and slides alone
+        pieces  ///< a performance in pieces, each with a sink of its own
+    };
+
     /// `ensemble` has to outlive it.
-    ExpressionSink(const Ensemble& ensemble, bool is_printed);
+    ExpressionSink(const Ensemble& ensemble, Use use);
+    /// A sink for a piece of what `measured` has heard, with its ranges: tempos() makes the tempo of the piece.
+    ExpressionSink(const ExpressionSink& measured, NoteSink& sink);
+
+    /// Takes ranges of places from the fold, where it knows them: of parts that are played from beginning to end.
+    /// @param is_far  also if they do not begin at the beginning
+    void fold_ranges(const PlayOptions& playing, bool is_far = false);
+    /// True if the parts have to be played once before write_to().
+    bool needs_ranges() const;
+    /// @throws ScoreError for a score that is too long for a curve of its tempo; what the sink throws
     void notes(std::span<const Note> notes) override;
-    void finish(std::int64_t end) override {
-        if (sink_) sink_->finish(end);
-    }
+    void finish(std::int64_t end) override;
     /// The notes that follow go to this sink.
     void write_to(NoteSink& sink);
 
+    /// The curve of the tempo, after write_to(); of notes that have passed, of a piece that ends there.
+    const std::vector<TempoPoint>& tempo() const { return curves_.tempo; }
+    std::vector<TempoPoint> tempos(std::int64_t end) const;
+
 private:
-    /// A curve of a player, from the least to the greatest value of its source.
+    /// A curve of a player.
     struct Followed {
         ExpressionCurve curve;
-        int number;  ///< of the controller, or `velocity`
-        double low;
-        double high;
+        int number;  ///< of the controller, or one of the following
+        SourceRange range;
+        bool is_known;  ///< the range need not be measured
     };
     static constexpr int velocity = -1;
+    static constexpr int tempo_number = -2;
+    /// What a voice remembers.
     struct Line {
+        std::size_t player = 0;
+        bool is_bent = false;
         std::optional<Note> before;            ///< where turns are wanted
         std::vector<std::optional<int>> last;  ///< values of the controllers
+        struct Held {
+            Note note;
+            std::vector<ControlPoint> points;
+        };
+        std::vector<Held> held;  ///< the last two notes, where the next ones may bend them
     };
 
-    std::size_t player_of(int voice) const;
-    void express(std::vector<Followed>& curves, Line& line, const Note& note, std::size_t index);
+    Line& line_of(int voice);
+    void measure(Line& line, const Note& note);
+    void express(Line& line, Note& note, std::vector<ControlPoint>& points);
+    void hold(Line& line, const Note& note);
+    void bend(Line& line, const Note* after);
+    void release(Line& line);
+    void hand_on();
 
     const Ensemble& ensemble_;
+    Use use_;
     NoteSink* sink_ = nullptr;
     std::vector<std::vector<Followed>> followed_;  // by player
     std::vector<char> has_turns_;                  // by player
-    std::vector<Line> lines_;                      // by voice
+    std::vector<std::optional<Bender>> benders_;   // by player
+    std::vector<std::optional<Line>> lines_;       // by voice
+    std::optional<TempoCurve> tempo_;              // until it is known
+    std::int64_t end_ = 0;
+    Curves curves_;  // the tempo alone
     std::vector<Note> changed_;
     std::vector<ControlPoint> points_;
+    std::vector<ControlPoint> bends_;
 };
 
 }  // namespace sikku

@@ -465,16 +465,14 @@ private:
     EnsembleReport express_into(NoteSink& sink, const PlayOptions& playing) const {
         Curves curves;
         EnsembleReport report;
-        const bool is_print = is_printed(format_);
-        if (ensemble_.has_expression() && streams_expression(ensemble_, is_midi() || is_print)) {
-            ExpressionSink expressive(ensemble_, is_print);
-            play_parts(ensemble_, playing, expressive);
+        if (ensemble_.has_expression()) {
+            ExpressionSink expressive(ensemble_, is_printed(format_) ? ExpressionSink::Use::print
+                                                                      : ExpressionSink::Use::performance);
+            expressive.fold_ranges(playing);
+            if (expressive.needs_ranges()) play_all(ensemble_, playing, expressive);
             expressive.write_to(sink);
             report = play_all(ensemble_, playing, expressive);
-        } else if (ensemble_.has_expression()) {
-            PerformanceSink performance(sink, ensemble_, playing, is_printed(format_));
-            report = play_all(ensemble_, playing, performance);
-            curves.tempo = performance.made().tempo;
+            curves.tempo = expressive.tempo();
         } else {
             report = play_all(ensemble_, playing, sink);
         }

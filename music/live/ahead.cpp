@@ -32,7 +32,6 @@ public:
 
     const ScoreHead& head() const override { return stream_->head(); }
     const MidiOptions& midi() const override { return stream_->midi(); }
-    const Curves& curves() const override { return stream_->curves(); }
 
     void seek(std::int64_t tick) override {
         {

@@ -7,7 +7,6 @@
 #include <exception>
 #include <map>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -99,24 +98,16 @@ private:
 class Version {
 public:
     explicit Version(std::unique_ptr<NoteStream> stream)
-        : stream_(std::move(stream)),
-          voices_(stream_->head(), stream_->midi()),
-          controls_(stream_->curves().controls) {
-        std::stable_sort(controls_.begin(), controls_.end(),
-                         [](const ControlPoint& a, const ControlPoint& b) { return a.tick < b.tick; });
-    }
+        : stream_(std::move(stream)), voices_(stream_->head(), stream_->midi()) {}
 
     NoteStream& stream() { return *stream_; }
     const ScoreHead& head() const { return stream_->head(); }
     Voices& voices() { return voices_; }
     std::int64_t bar() const { return head().meter.bar(); }
-    /// Points of its curves, by tick.
-    const std::vector<ControlPoint>& controls() const { return controls_; }
 
 private:
     std::unique_ptr<NoteStream> stream_;
     Voices voices_;
-    std::vector<ControlPoint> controls_;
 };
 
 class Performer {
@@ -188,12 +179,17 @@ private:
 
     void begin_pass() {
         ++report_.passes;
-        set_tempo(pass_, version_->head().tempo);
+        reset_tempo(pass_);
     }
 
-    void set_tempo(std::int64_t tick, double tempo) {
+    void set_tempo(std::int64_t tick) {
+        const double tempo = version_->head().tempo * curve_factor_ * fall_factor_;
         own_.set_tempo(tick, tempo);
         followed_.set_tempo(tempo);
+    }
+    void reset_tempo(std::int64_t tick) {
+        curve_factor_ = fall_factor_ = 1;
+        set_tempo(tick);
     }
 
     /// Reads windows until the next notes, or the end of the pass, are known: once they are needed, or if they are
@@ -214,6 +210,8 @@ private:
         for (const NoteWindow::Pitch& one : window_.pitches) {
             pitches_.emplace(pass_ + one.tick, std::pair(one.voice, one.key));
         }
+        for (const ControlPoint& one : window_.controls) controls_.emplace(pass_ + one.tick, one);
+        for (const TempoPoint& one : window_.tempos) tempos_.emplace(pass_ + one.tick, one.factor);
         is_last_ = window_.is_last;
         if (window_.end && !end_) set_end(*window_.end);
     }
@@ -222,8 +220,8 @@ private:
         end_ = end;
         const std::int64_t bar = version_->bar();
         length_ = (end + bar - 1) / bar * bar;
-        tempos_ = tempo_map(version_->head(), version_->stream().curves(), end);
-        tempo_ = 0;
+        falls_ = tempo_map(version_->head(), {}, end);
+        fall_ = 0;
     }
 
     bool is_last_pass() const { return options_.times > 0 && report_.passes >= options_.times; }
@@ -240,10 +238,10 @@ private:
         }
         if (!ends_.empty()) tick = std::min(tick, ends_.begin()->first);
         if (!pitches_.empty()) tick = std::min(tick, pitches_.begin()->first);
-        if (end_ && tempo_ < tempos_.size()) tick = std::min(tick, pass_ + tempos_[tempo_].tick);
+        if (!controls_.empty()) tick = std::min(tick, controls_.begin()->first);
+        if (!tempos_.empty()) tick = std::min(tick, tempos_.begin()->first);
+        if (fall_ < falls_.size()) tick = std::min(tick, pass_ + falls_[fall_].tick);
         if (end_ && is_last_) tick = std::min(tick, pass_end());
-        const auto& controls = version_->controls();
-        if (control_ < controls.size()) tick = std::min(tick, pass_ + controls[control_].tick);
         if (sends_clock()) tick = std::min(tick, clock_tick_);
         if (next_) tick = std::min(tick, change_);
         return std::max(tick, now_);
@@ -343,7 +341,7 @@ private:
         version_->stream().seek(tick);
         pass_ = now_ - tick;
         forget_window();
-        set_tempo(now_, version_->head().tempo);
+        reset_tempo(now_);
     }
 
     void forget_window() {
@@ -351,9 +349,10 @@ private:
         is_window_ = is_last_ = false;
         note_ = 0;
         end_.reset();
+        falls_.clear();
+        fall_ = 0;
+        controls_.clear();
         tempos_.clear();
-        tempo_ = 0;
-        control_ = 0;
     }
 
     void pause_if_wanted() {
@@ -409,7 +408,7 @@ private:
         forget_window();
         pass_ = tick - next_bar_ * version_->bar();
         version_->voices().prepare(messages_);
-        set_tempo(tick, version_->head().tempo);
+        reset_tempo(tick);
         if (hooks_.changed) hooks_.changed(next_bar_ + 1);
         take(std::move(first));
         fill();
@@ -427,34 +426,44 @@ private:
             messages_.push_back({clock_byte});
             clock_tick_ += clock_ticks;
         }
-        for (; end_ && tempo_ < tempos_.size() && pass_ + tempos_[tempo_].tick <= tick; ++tempo_) {
-            set_tempo(tick, version_->head().tempo * tempos_[tempo_].factor);
-        }
+        change_tempo(tick);
         for (; !ends_.empty() && ends_.begin()->first <= tick; ends_.erase(ends_.begin())) {
             version_->voices().end(ends_.begin()->second, tick, messages_);
         }
         if (next_ && change_ <= tick) change_version(tick);
         if (end_ && is_last_ && note_ == window_.notes.size() && pass_end() <= tick) end_pass(tick);
+        if (!is_done_) fill();
+        change_tempo(tick);  // of a window or a pass that begins here
         if (!is_done_) play_notes(tick);
         flush();
     }
 
+    void change_tempo(std::int64_t tick) {
+        const bool is_due = (!tempos_.empty() && tempos_.begin()->first <= tick) ||
+                            (fall_ < falls_.size() && pass_ + falls_[fall_].tick <= tick);
+        if (!is_due) return;
+        for (; !tempos_.empty() && tempos_.begin()->first <= tick; tempos_.erase(tempos_.begin())) {
+            curve_factor_ = tempos_.begin()->second;
+        }
+        for (; fall_ < falls_.size() && pass_ + falls_[fall_].tick <= tick; ++fall_) {
+            fall_factor_ = falls_[fall_].factor;
+        }
+        set_tempo(tick);
+    }
+
     /// Controllers come before the notes of their tick, and bends after.
     void play_notes(std::int64_t tick) {
-        const auto& controls = version_->controls();
-        const std::size_t first = control_;
-        while (control_ < controls.size() && pass_ + controls[control_].tick <= tick) ++control_;
-        const std::span<const ControlPoint> due(controls.data() + first, control_ - first);
-        // After a jump there may be many: the last of each counts.
-        std::map<std::pair<int, int>, const ControlPoint*> last;
-        for (const ControlPoint& point : due) {
-            if (point.number != ControlPoint::bend) last[{point.voice, point.number}] = &point;
+        std::vector<ControlPoint> bends;
+        for (; !controls_.empty() && controls_.begin()->first <= tick; controls_.erase(controls_.begin())) {
+            const ControlPoint& point = controls_.begin()->second;
+            if (point.number == ControlPoint::bend) {
+                bends.push_back(point);
+            } else {
+                version_->voices().control(point, messages_);
+            }
         }
-        for (const auto& [controller, point] : last) version_->voices().control(*point, messages_);
         begin_notes(tick);
-        for (const ControlPoint& point : due) {
-            if (point.number == ControlPoint::bend) version_->voices().control(point, messages_);
-        }
+        for (const ControlPoint& point : bends) version_->voices().control(point, messages_);
         for (; !pitches_.empty() && pitches_.begin()->first <= tick; pitches_.erase(pitches_.begin())) {
             const auto [voice, key] = pitches_.begin()->second;
             version_->voices().slide(voice, key, tick, messages_);
@@ -509,9 +518,12 @@ private:
     std::size_t note_ = 0;  // the next note of the window
     std::optional<std::int64_t> end_;
     std::int64_t length_ = 0;  // of the score in whole bars, in ticks
-    std::vector<TempoPoint> tempos_;
-    std::size_t tempo_ = 0;
-    std::size_t control_ = 0;                                      // the next point of the curves
+    std::vector<TempoPoint> falls_;  // of the tempo at the end of the score
+    std::size_t fall_ = 0;
+    double fall_factor_ = 1;
+    std::multimap<std::int64_t, double> tempos_;  // factors of the tempo along the curve
+    double curve_factor_ = 1;
+    std::multimap<std::int64_t, ControlPoint> controls_;
     std::multimap<std::int64_t, int> ends_;                        // of notes that sound: tick and voice
     std::multimap<std::int64_t, std::pair<int, double>> pitches_;  // that they slide to: tick, voice and key
 };

@@ -9,9 +9,11 @@ namespace sikku::mapping {
 template <class Walk>
 class CounterpointReader final : public Reader {
 public:
+    /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
     CounterpointReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody,
-                       Emitter& emitter, Origin origin, const PlayOptions& options)
+                       const Marks& marks, Emitter& emitter, Origin origin, const PlayOptions& options)
         : grammar_(grammar),
+          marks_(marks),
           melody_(melody),
           emitter_(emitter),
           options_(options),
@@ -19,7 +21,8 @@ public:
           clock_(melody),
           lower_(static_cast<std::int64_t>(melody.scale.size())),
           is_piece_(melody.anchor == Anchor::piece),
-          moves_sound_(draws_nothing(grammar)) {
+          moves_sound_(draws_nothing(grammar)),
+          level_(marks.whole) {
         at_ = walk_.start;
         voices_[0].origin = origin.y == unknown ? 0 : origin.y;
         emitter_.take(voices_[0].line, 0);
@@ -28,8 +31,12 @@ public:
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
-            if (grammar_.mark() == symbol) {
+            if (marks_.phrase == symbol) {
                 ++due_;
+                continue;
+            }
+            if (const int level = marks_.level(symbol)) {
+                level_ = std::max(level_, level);
                 continue;
             }
             ++position_;
@@ -52,6 +59,7 @@ public:
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
                 case Kind::mark:
+                case Kind::level:
                 case Kind::nothing:
                     break;
             }
@@ -76,6 +84,7 @@ public:
             end_phrases();
             clock_.breathe(stretch.marks);
             is_counted_ = false;
+            level_ = 0;  // the mark after the stretch tells
             walk_.skip(at_, stretch);
             here_ = point();
             time_ += length.convert_to<std::int64_t>();
@@ -98,6 +107,7 @@ private:
         Number onset = 0;
         int turned = 0;
         std::uint64_t symbol = 0;
+        int level = 0;
         glm::dvec2 from{0.0};
         Emitter::Line line;
     };
@@ -137,6 +147,7 @@ private:
             voice.sounding = height;
             voice.onset = time_;
             voice.symbol = is_counted_ ? position_ : 0;
+            voice.level = level_;
             voice.turned = turned_;
             // The picture of a note is where its coordinate stays.
             voice.from = Walk::is_level(is_upper ? step.y : step.x) ? here_ : point();
@@ -144,6 +155,7 @@ private:
                 lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, height);
             }
         }
+        level_ = 0;
         time_ += length;
         here_ = point();
         if (ticks(time_) < options_.to || !is_past_piece()) return;
@@ -165,6 +177,7 @@ private:
         const bool is_upper = &voice == &voices_[0];
         const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
                                   ticks(voice.onset));
+        emitter_.level = voice.level;
         emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
                       clock_.end_ticks(time_),
                       loud + (is_upper ? 8 : -8) + (clock_.is_accented(voice.onset) ? 16 : 0), voice.from, here_,
@@ -173,6 +186,7 @@ private:
     }
 
     const Grammar& grammar_;
+    const Marks& marks_;
     const Melody& melody_;
     Emitter& emitter_;
     const PlayOptions& options_;
@@ -181,6 +195,7 @@ private:
     std::int64_t lower_;
     bool is_piece_;     ///< its tonic is still to come
     bool moves_sound_;  // nothing is drawn: moves are notes
+    int level_;         // of notes that begin with the next step
     typename Walk::Position at_;
     glm::dvec2 here_{0.0};
     Brackets<typename Walk::Position> stack_;

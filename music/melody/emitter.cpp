@@ -74,7 +74,8 @@ void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
     const int voice = line.voice + (note.is_drum ? options_.drums_from : 0);
     block_.push_back({onset - options_.from, std::min(note.end, options_.to) - onset, placed.key,
                       static_cast<std::int16_t>(voice), static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
-                      note.from, note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255))});
+                      note.from, note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255)),
+                      static_cast<std::uint8_t>(note.level)});
     if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
     if (block_.size() == notes_in_block) flush();
 }
@@ -123,6 +124,7 @@ void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
                 note.to,
                 note.symbol,
                 static_cast<std::uint8_t>(std::min(note.depth, 255)),
+                static_cast<std::uint8_t>(note.level),
                 slide != 0,
                 {note.glide, static_cast<float>(slide), note.rise}};
     cut(result, options_.from, options_.to);

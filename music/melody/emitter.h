@@ -46,7 +46,7 @@ public:
         degree += melody_.shift;
         if (shaper_) {
             take_time(line, onset, end);
-            shaper_->add(line.voice, {degree, onset, end, velocity, depth, from, to, symbol});
+            shaper_->add(line.voice, {degree, onset, end, velocity, depth, level, from, to, symbol});
             return hand_on();
         }
         place(line, degree, onset, end, velocity, from, to, symbol);
@@ -57,6 +57,7 @@ public:
         take_time(line, draft.onset, draft.end);
         draft.voice = line.voice;
         draft.depth = depth;
+        draft.level = level;
         if (!shaper_) return place_fixed(line, draft);
         shaper_->add(line.voice, draft);
         hand_on();
@@ -70,6 +71,7 @@ public:
         take_time(line, draft.onset, draft.end);
         draft.voice = line.voice;
         draft.depth = depth;
+        draft.level = level;
         if (!shaper_) return place_gliding(line, draft);
         shaper_->add(line.voice, draft);
         hand_on();
@@ -95,16 +97,19 @@ public:
     bool is_shaped() const { return shaper_.has_value(); }
 
     int depth = 0;  ///< brackets around the next note
+    int level = 0;  ///< of the next note, as in Note
 
 private:
     /// Places what is shaped.
     void hand_on() {
         const int here = depth;
+        const int begun = level;
         for (const Shaper::Draft& note : shaper_->take()) {
             const auto at = static_cast<std::size_t>(note.voice);
             if (at >= shaped_.size()) shaped_.resize(at + 1);
             shaped_[at].voice = note.voice;
             depth = note.depth;
+            level = note.level;
             if (note.is_moved && note.end > options_.from && note.onset < options_.to) ++report.moved;
             if (note.is_fixed()) {
                 place_fixed(shaped_[at], note);
@@ -117,6 +122,7 @@ private:
             place(shaped_[at], note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
         }
         depth = here;
+        level = begun;
         for (const auto& [begin, chord] : shaper_->take_chords()) accompany(begin, chord);
     }
 
@@ -162,7 +168,7 @@ private:
         block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
                           static_cast<std::int16_t>(line.voice),
                           static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol,
-                          static_cast<std::uint8_t>(std::min(depth, 255))});
+                          static_cast<std::uint8_t>(std::min(depth, 255)), static_cast<std::uint8_t>(level)});
         if (options_.degrees) options_.degrees->push_back(placed.degree);
         if (block_.size() == notes_in_block) flush();
     }

@@ -22,6 +22,14 @@ enum class ExpressionSource {
     level    ///< order of the largest sub-curve that begins with a note
 };
 
+/// The least and the greatest value of a source in the notes of a part.
+struct SourceRange {
+    double low = 0;
+    double high = 0;
+    /// Where a value lies, from 0 to 1.
+    double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+};
+
 struct ExpressionCurve {
     ExpressionSource source = ExpressionSource::none;
     double low = 0;   ///< at the least value of the source

@@ -40,33 +40,58 @@ private:
 };
 
 /// The fold that lets a reader of this melody pass over parts; nullopt if it has to walk.
-std::optional<MelodyFold> fold_of(const Grammar& grammar, const Melody& melody) {
+std::optional<MelodyFold> fold_of(const Grammar& grammar, const Melody& melody, std::optional<Symbol> phrase) {
     if (melody.mapping == Mapping::symbols && !melody.table.empty()) return std::nullopt;
     const bool is_sequence = melody.branches == Branches::sequence || melody.mapping == Mapping::counterpoint;
     return MelodyFold::make(grammar, melody.mapping == Mapping::symbols ? FoldOf::symbols : FoldOf::curve,
-                            is_sequence);
+                            is_sequence, phrase);
 }
 
-/// The grammar with the phrases of the melody marked. @throws ScoreError
-Grammar marked(Grammar grammar, const Melody& melody) {
+struct Marked {
+    Grammar grammar;
+    Marks marks;
+};
+
+/// The grammar with the ends of phrases marked, and those of all sub-curves if the melody follows their levels.
+/// @throws ScoreError
+Marked marked(Grammar grammar, const Melody& melody) {
+    constexpr std::int64_t most_levels = 64;
+    const std::int64_t steps = grammar.steps();
+    const std::int64_t levels = melody.expression.uses(ExpressionSource::level) ? std::min(steps, most_levels) : 0;
     std::int64_t order = melody.phrase_order;
     // The sections of a form are by default the largest sub-curves.
-    if (order == 0 && !melody.layout.form.empty()) order = std::max<std::int64_t>(1, grammar.steps() - 1);
-    if (order == 0) return grammar;
+    if (order == 0 && !melody.layout.form.empty()) order = std::max<std::int64_t>(1, steps - 1);
+    Marked result{std::move(grammar), {}};
+    if (order == 0 && levels == 0) return result;
     std::vector<char> sounding;
-    for (const SymbolEntry& entry : entries_of(grammar, melody)) {
+    for (const SymbolEntry& entry : entries_of(result.grammar, melody)) {
         sounding.push_back(entry.has_row && entry.row.is_sounding() ? 1 : 0);
     }
-    auto result = grammar.with_marks(order, sounding);
-    if (!result) throw ScoreError("phrases need a system without contexts, parameters and chance");
-    return *std::move(result);
+    const auto add = [&](std::int64_t one) {
+        // Every order that is marked is a step more.
+        auto other = result.grammar.with_marks(one + std::min(one - 1, levels), sounding);
+        if (!other) {
+            throw ScoreError(fmt::format("{} need a system without contexts, parameters and chance",
+                                         order > 0 ? "phrases" : "levels"));
+        }
+        result.grammar = *std::move(other);
+        return *result.grammar.mark();
+    };
+    result.marks.whole = static_cast<std::uint8_t>(levels);
+    for (std::int64_t level = 1; level <= levels; ++level) {
+        const Symbol mark = add(level);
+        result.marks.levels.resize(mark + std::size_t{1});
+        result.marks.levels[mark] = static_cast<std::uint8_t>(level);
+    }
+    if (order > 0 && order <= steps) result.marks.phrase = add(order);
+    return result;
 }
 
 /// Everything a reader needs, made ready once.
 class Player {
 public:
-    Player(const Grammar& grammar, const Melody& melody, const PlayOptions& options)
-        : grammar_(grammar), melody_(melody), options_(options), lattice_(make_lattice(grammar)) {
+    Player(const Grammar& grammar, const Melody& melody, const Marks& marks, const PlayOptions& options)
+        : grammar_(grammar), melody_(melody), marks_(marks), options_(options), lattice_(make_lattice(grammar)) {
         is_grid_ = is_on_grid(lattice_, first_);
         const std::vector<char> reached = grammar.reachable();
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
@@ -83,7 +108,7 @@ public:
         shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
         const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;
         const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
-        if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody);
+        if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody, marks.phrase);
         if (options.ahead > 0 && (!fold_ || has_voices_ || melody.mapping != Mapping::runs ||
                                   melody.vertical == Vertical::voice || melody.phrase_order > 0)) {
             throw ScoreError(
@@ -140,15 +165,15 @@ private:
     std::unique_ptr<Reader> make_reader(const Melody& melody, Emitter& emitter, Origin origin,
                                         const PlayOptions& options) const {
         if (melody.mapping == Mapping::symbols) {
-            return std::make_unique<SymbolReader>(grammar_, melody, emitter, options, has_voices_);
+            return std::make_unique<SymbolReader>(grammar_, melody, marks_, emitter, options, has_voices_);
         }
         const auto make = [&]<class Walk>() -> std::unique_ptr<Reader> {
             if (melody.mapping == Mapping::counterpoint) {
-                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody, emitter, origin,
-                                                                  options);
+                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody, marks_, emitter,
+                                                                  origin, options);
             }
-            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody, emitter, origin, options,
-                                                     has_voices_);
+            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody, marks_, emitter, origin,
+                                                     options, has_voices_);
         };
         return is_grid_ && !shares_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
     }
@@ -249,6 +274,7 @@ private:
 
     const Grammar& grammar_;
     const Melody& melody_;
+    const Marks& marks_;
     const PlayOptions& options_;
     Lattice lattice_;
     bool is_grid_ = false;
@@ -266,9 +292,10 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    Grammar grammar = resolve_contexts(marked(shorten(given), melody), whole_words);
+    Marked with_marks = marked(shorten(given), melody);
+    Grammar grammar = resolve_contexts(std::move(with_marks.grammar), whole_words);
     if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
-    return Player(grammar, melody, options).play(sink);
+    return Player(grammar, melody, with_marks.marks, options).play(sink);
 }
 
 Integer period(const Melody& melody) {
@@ -281,8 +308,8 @@ Integer period(const Melody& melody) {
 
 std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     if (melody.mapping != Mapping::runs || !given.is_plain() || given.whole_word_steps() > 0) return std::nullopt;
-    const Grammar grammar = marked(shorten(given), melody);
-    const auto fold = fold_of(grammar, melody);
+    const Marked with_marks = marked(shorten(given), melody);
+    const auto fold = fold_of(with_marks.grammar, melody, with_marks.marks.phrase);
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
     MelodyCensus result;
@@ -316,13 +343,27 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     return result;
 }
 
+std::optional<NoteBox> note_box(const Grammar& given, const Melody& melody) {
+    if (melody.mapping != Mapping::runs || !given.is_plain() || given.whole_word_steps() > 0) return std::nullopt;
+    const auto fold = fold_of(shorten(given), melody, {});
+    if (!fold) return std::nullopt;
+    const GridStretch& whole = fold->whole();
+    if (whole.length != whole.drawn || !whole.crossings[0]) return std::nullopt;
+    const auto range = [](const GridStretch::Span& span) {
+        return SourceRange{span.low.convert_to<double>(), span.high.convert_to<double>()};
+    };
+    // Every vertical run meets a horizontal one, so that these are as wide as the curve.
+    const bool are_vertical = melody.vertical == Vertical::voice || melody.vertical == Vertical::glissando;
+    return NoteBox{range(whole.box[0]), range(are_vertical ? whole.box[1] : *whole.crossings[0])};
+}
+
 std::optional<std::int64_t> smallest_steps(const Grammar& given, const Melody& melody, std::int64_t phrases) {
     constexpr std::int64_t farthest = 24;
     for (std::int64_t steps = given.steps() + 1; steps <= given.steps() + farthest; ++steps) {
         const auto longer = given.with_steps(steps);
         if (!longer || !longer->is_plain() || longer->whole_word_steps() > 0) return std::nullopt;
-        const Grammar grammar = marked(shorten(*longer), melody);
-        const auto fold = fold_of(grammar, melody);
+        const Marked with_marks = marked(shorten(*longer), melody);
+        const auto fold = fold_of(with_marks.grammar, melody, with_marks.marks.phrase);
         if (!fold) return std::nullopt;
         if (fold->whole().marks >= phrases) return steps;
     }

@@ -66,6 +66,16 @@ struct MelodyCensus {
 /// square grid, brackets and contexts.
 std::optional<MelodyCensus> census(const Grammar& grammar, const Melody& melody);
 
+/// Where the runs of a curve lie that are notes, in turtle steps.
+struct NoteBox {
+    SourceRange x;
+    SourceRange y;
+};
+
+/// Computes it by composition, for any derivation length. Nullopt as census(), for curves with steps that are not
+/// drawn, and without notes.
+std::optional<NoteBox> note_box(const Grammar& grammar, const Melody& melody);
+
 /// The smallest derivation length above that of the grammar, by at most 24, at which the melody has so many phrases.
 /// Nullopt if there is none or if phrases cannot be counted by composition. Cost: as 24 times census().
 std::optional<std::int64_t> smallest_steps(const Grammar& grammar, const Melody& melody, std::int64_t phrases);

@@ -112,7 +112,6 @@ Action action_of(const Grammar& grammar, Symbol symbol, bool moves_sound) {
 /// Of a step or a turn of the word read symbol by symbol: the steps follow one another on one axis.
 std::optional<GridStretch> symbol_primitive(const Grammar& grammar, Symbol symbol, bool moves_sound) {
     GridStretch result;
-    if (grammar.mark() == symbol) result.marks = 1;
     const SymbolInfo& info = grammar.symbols()[symbol];
     if (info.command.action == Action::turn) result.rise = info.letter == "+" ? 1 : info.letter == "-" ? -1 : 0;
     if (info.command.action != Action::draw && info.command.action != Action::move) return result;
@@ -126,7 +125,6 @@ std::optional<GridStretch> symbol_primitive(const Grammar& grammar, Symbol symbo
 
 GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol symbol, bool moves_sound) {
     GridStretch result;
-    if (grammar.mark() == symbol) result.marks = 1;
     const Action action = action_of(grammar, symbol, moves_sound);
     if (action == Action::turn) {
         const std::string& letter = grammar.symbols()[symbol].letter;
@@ -171,7 +169,8 @@ bool is_on_grid(const Lattice& lattice, int& first_direction) {
     return true;
 }
 
-std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar, FoldOf of, bool folds_brackets) {
+std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar, FoldOf of, bool folds_brackets,
+                                           std::optional<Symbol> phrase) {
     const Lattice lattice = make_lattice(grammar);
     MelodyFold fold;
     if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
@@ -199,6 +198,7 @@ std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar, FoldOf of, bo
         auto step = of == FoldOf::symbols ? symbol_primitive(grammar, symbol, moves_sound)
                                           : std::optional(primitive(grammar, lattice, symbol, moves_sound));
         if (!step) return std::nullopt;
+        if (phrase == symbol) step->marks = 1;
         fold.stretches_.push_back(std::make_shared<const GridStretch>(*std::move(step)));
     }
     std::size_t number_bytes = 0;

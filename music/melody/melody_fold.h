@@ -48,8 +48,9 @@ public:
     /// Nullopt for other grammars, and if levels times symbols are above 10^6 or the numbers above 256 MB.
     /// Cost: O(symbols x steps) compositions of exact numbers.
     /// @param folds_brackets  false: nullopt for grammars with brackets
+    /// @param phrase          the mark that GridStretch::marks counts
     static std::optional<MelodyFold> make(const Grammar& grammar, FoldOf of = FoldOf::curve,
-                                          bool folds_brackets = false);
+                                          bool folds_brackets = false, std::optional<Symbol> phrase = {});
 
     /// Of a symbol with `level` tables still to come; null if no symbol leads there.
     const GridStretch* stretch(Symbol symbol, std::int64_t level) const {

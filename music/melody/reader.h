@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -84,6 +85,14 @@ struct Origin {
     std::int64_t y = unknown;
 };
 
+/// Symbols without meaning at the ends of sub-curves.
+struct Marks {
+    std::optional<Symbol> phrase;      ///< after those that are phrases
+    std::vector<std::uint8_t> levels;  ///< by symbol: the order of the sub-curves that end there; 0: no mark
+    std::uint8_t whole = 0;            ///< order of the whole curve; 0 if levels are not marked
+    int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }
+};
+
 class Reader : public SymbolSink {
 public:
     /// Times and positions after a part that is passed over. Of Readers on the grid only.
@@ -125,7 +134,7 @@ private:
 };
 
 /// What a symbol is to the reader of runs.
-enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, not_finite };
+enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, level, not_finite };
 
 /// @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
 inline Kind kind_of(const Command& command, bool moves_sound) {

@@ -8,20 +8,26 @@ namespace sikku::mapping {
 template <class Walk>
 class RunReader final : public Reader {
 public:
-    RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, Emitter& emitter,
-              Origin origin, const PlayOptions& options, bool has_voices)
+    /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
+    RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, const Marks& marks,
+              Emitter& emitter, Origin origin, const PlayOptions& options, bool has_voices)
         : grammar_(grammar),
+          marks_(marks),
           melody_(melody),
           emitter_(emitter),
           origin_(origin),
           options_(options),
           walk_(grammar, lattice, first),
           clock_(melody),
+          levels_{marks.whole, marks.whole},
           may_stop_(!has_voices),
           ahead_(clock_.steps(options.ahead)) {
         const bool moves_sound = draws_nothing(grammar);
         for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command, moves_sound));
-        if (grammar.mark()) kinds_[*grammar.mark()] = Kind::mark;
+        for (Symbol symbol = 0; symbol < kinds_.size(); ++symbol) {
+            if (marks.level(symbol) > 0) kinds_[symbol] = Kind::level;
+            if (marks.phrase == symbol) kinds_[symbol] = Kind::mark;
+        }
         state_.at = walk_.start;
         state_.run.from = state_.at;
         emitter_.take(state_.line, 0);
@@ -53,6 +59,10 @@ public:
                 case Kind::mark:
                     --position_;
                     mark();
+                    break;
+                case Kind::level:
+                    --position_;
+                    mark_level(marks_.level(symbol));
                     break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
@@ -88,6 +98,7 @@ public:
             end_phrases();
             clock_.breathe(stretch.marks);
             is_counted_ = false;
+            levels_ = {};  // the mark after the stretch tells
             walk_.skip(state_.at, stretch);
             Integer lasts = both ? Integer(across + up) : across;
             const Integer beyond = std::min(lasts, ahead_);
@@ -120,6 +131,7 @@ private:
         Number steps = 0;  // drawn so far: their number times their length
         int turned = 0;    // sign of the turn that led into it
         int marks = 0;     // phrases that end with it
+        int level = 0;     // order of the largest sub-curve that ends with it
         std::uint64_t symbol = 0;
     };
     struct Sounding {
@@ -129,6 +141,7 @@ private:
         int velocity = 80;
         glm::dvec2 from{0.0}, to{0.0};
         std::uint64_t symbol = 0;
+        int level = 0;
         Number glide = 0;       // steps at its end in which it slides
         Number goal_twice = 0;  // to this height, doubled
         Number rise = 0;
@@ -172,10 +185,12 @@ private:
             std::int64_t length;
             std::uint64_t symbol;  ///< of the block, counted from 1, that begins it
             int marks;             ///< phrases that end with it
+            int level;             ///< order of the largest sub-curve that ends with it
         };
         std::vector<Straight> runs;
         std::uint32_t turn = 0;     ///< after the last
         int marks = 0;              ///< phrases that end before the first
+        int level = 0;              ///< order of the largest sub-curve that ends before the first
         std::uint64_t symbols = 0;  ///< but for marks
         bool is_known = false;
         bool is_simple = false;  ///< nothing but steps drawn and turns
@@ -189,10 +204,12 @@ private:
         if (!block.is_known) learn(block, run.symbols);
         if (!block.is_simple) return false;
         for (int i = 0; i < block.marks; ++i) mark();
-        for (const auto& [turn, length, symbol, marks] : block.runs) {
+        mark_level(block.level);
+        for (const auto& [turn, length, symbol, marks, level] : block.runs) {
             state_.at.heading = (state_.at.heading + turn) & 3;
             draw(walk_.ahead(state_.at, length), position_ + symbol);
             for (int i = 0; i < marks; ++i) mark();
+            mark_level(level);
         }
         position_ += block.symbols;
         state_.at.heading = (state_.at.heading + block.turn) & 3;
@@ -214,6 +231,11 @@ private:
                 ++(block.runs.empty() ? block.marks : block.runs.back().marks);
                 continue;
             }
+            if (kinds_[symbol] == Kind::level) {
+                int& level = block.runs.empty() ? block.level : block.runs.back().level;
+                level = std::max(level, marks_.level(symbol));
+                continue;
+            }
             ++position;
             if (kinds_[symbol] == Kind::turn) {
                 block.turn = (block.turn + walk_.quarters(symbol)) & 3;
@@ -224,7 +246,7 @@ private:
                 if (goes_on) {
                     block.runs.back().length += length;
                 } else {
-                    block.runs.push_back({block.turn, length, position, 0});
+                    block.runs.push_back({block.turn, length, position, 0, 0});
                 }
                 block.turn = 0;
             } else if (kinds_[symbol] != Kind::nothing) {
@@ -253,6 +275,7 @@ private:
             run.from = state_.at;
             run.turned = turned;
             run.marks = 0;
+            run.level = 0;
             run.symbol = is_counted_ ? symbol : 0;
         }
         state_.at.x += step.x;
@@ -276,6 +299,15 @@ private:
 
     /// A sub-curve ends: the phrase ends with the run that is under way, or with the last note.
     void mark() { ++(state_.run.is_open ? state_.run.marks : due_); }
+
+    /// A sub-curve of that order ends: the next note begins one as large.
+    void mark_level(int order) {
+        if (state_.run.is_open) {
+            state_.run.level = std::max(state_.run.level, order);
+            return;
+        }
+        for (int& level : levels_) level = std::max(level, order);
+    }
 
     void end_phrases() {
         if (due_ == 0) return;
@@ -320,6 +352,7 @@ private:
         }
         due_ += run.marks;
         run.marks = 0;
+        mark_level(std::exchange(run.level, 0));
         if (may_stop_ && ticks(state_.time) >= options_.to && is_past_piece() &&
             (melody_.vertical != Vertical::voice || ticks(state_.other_time) >= options_.to)) {
             release_held();
@@ -339,6 +372,7 @@ private:
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
         if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
+        emitter_.level = note.level;
         if (note.glide > 0) return emit_gliding(note);
         emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
                       clock_.end_ticks(note.end), accented(note.velocity, note.onset), note.from, note.to,
@@ -389,6 +423,7 @@ private:
         note.from = point(run.from);
         note.to = point(state_.at);
         note.symbol = run.symbol;
+        note.level = std::exchange(levels_[0], 0);
         state_.time += steps;
         if (is_held) {
             state_.held = note;
@@ -428,6 +463,7 @@ private:
                 steps = lasting(steps);
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 end_phrases();
+                emitter_.level = std::exchange(levels_[1], 0);
                 emitter_.note(state_.other, degree, ticks(state_.other_time),
                               clock_.end_ticks(state_.other_time + steps), accented(velocity, state_.other_time),
                               point(run.from), point(state_.at), run.symbol);
@@ -453,6 +489,7 @@ private:
             held.velocity = velocity;
             held.from = held.to = point(run.from);
             held.symbol = run.symbol;
+            held.level = std::exchange(levels_[0], 0);
         }
         held.end += steps;
         held.glide += steps;
@@ -538,6 +575,7 @@ private:
     }
 
     const Grammar& grammar_;
+    const Marks& marks_;
     const Melody& melody_;
     Emitter& emitter_;
     Origin origin_;
@@ -545,6 +583,7 @@ private:
     Walk walk_;
     Clock<Walk> clock_;
     int due_ = 0;  // phrases that end before the next note
+    std::array<int, 2> levels_;  // of the next note of each voice
     bool may_stop_;
     Integer ahead_;  // steps before tick 0 that are still to be skipped
     std::vector<Kind> kinds_;

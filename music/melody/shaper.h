@@ -26,6 +26,7 @@ public:
         std::int64_t end = 0;
         int velocity = 80;
         int depth = 0;  ///< brackets around it
+        int level = 0;  ///< as in Note
         glm::dvec2 from{0.0};
         glm::dvec2 to{0.0};
         std::uint64_t symbol = 0;

@@ -9,13 +9,16 @@ namespace sikku::mapping {
 /// The word itself, symbol by symbol.
 class SymbolReader final : public Reader {
 public:
-    SymbolReader(const Grammar& grammar, const Melody& melody, Emitter& emitter, const PlayOptions& options,
-                 bool has_voices)
+    /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
+    SymbolReader(const Grammar& grammar, const Melody& melody, const Marks& marks, Emitter& emitter,
+                 const PlayOptions& options, bool has_voices)
         : grammar_(grammar),
+          marks_(marks),
           melody_(melody),
           emitter_(emitter),
           options_(options),
           clock_(melody),
+          level_(marks.whole),
           may_stop_(!has_voices),
           entries_(entries_of(grammar, melody)),
           moves_sound_(entries_.empty() && draws_nothing(grammar)),
@@ -26,7 +29,11 @@ public:
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
-            if (grammar_.mark() == symbol) {
+            if (const int level = marks_.level(symbol)) {
+                level_ = std::max(level_, level);
+                continue;
+            }
+            if (marks_.phrase == symbol) {
                 ++due_;
                 if (state_.sounding == unknown) end_phrases();
                 continue;
@@ -75,6 +82,7 @@ public:
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
                 case Kind::mark:
+                case Kind::level:
                 case Kind::nothing:
                     if (!skipped_.empty()) ++skipped_[symbol];
                     break;
@@ -105,6 +113,7 @@ public:
         end_phrases();
         clock_.breathe(stretch.marks);
         is_counted_ = false;
+        level_ = 0;  // the mark after the stretch tells
         state_.time += length.convert_to<double>();
         state_.degree += stretch.rise.convert_to<std::int64_t>();
         return true;
@@ -118,6 +127,7 @@ private:
         std::int64_t sounding = unknown;
         int turned = 0;
         std::uint64_t symbol = 0;
+        int begun = 0;  // level of the note that sounds
         Emitter::Line line;
         int louder = 0;  // added to velocities
         int level = 0;   // the velocity of notes that state none; 0: as the melody says
@@ -166,6 +176,7 @@ private:
                                           : loudness(melody_, state_.turned, steps, stack_.depth(), ticks(onset));
         velocity += state_.louder + (clock_.is_accented(onset) ? 16 : 0);
         emitter_.depth = static_cast<int>(stack_.depth());
+        emitter_.level = std::exchange(level_, 0);
         std::vector<Emitter::Line> others(row.pitches.size() - 1);
         for (std::size_t i = 0; i < row.pitches.size(); ++i) {
             Shaper::Draft draft = row.is_drum() ? drum(row.pitches[i]) : pitched(row.pitches[i]);
@@ -244,6 +255,7 @@ private:
             state_.sounding = state_.degree;
             state_.onset = state_.time;
             state_.symbol = is_counted_ ? position_ : 0;
+            state_.begun = std::exchange(level_, 0);
         }
         state_.time += length * state_.pace;
         end_ = 0;
@@ -259,6 +271,7 @@ private:
             const int velocity =
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
             if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
+            emitter_.level = state_.begun;
             emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), clock_.end_ticks(state_.time),
                           velocity + (clock_.is_accented(state_.onset) ? 16 : 0), {state_.onset, height},
                           {state_.time, height}, state_.symbol);
@@ -275,12 +288,14 @@ private:
     }
 
     const Grammar& grammar_;
+    const Marks& marks_;
     const Melody& melody_;
     Emitter& emitter_;
     const PlayOptions& options_;
     Clock<PlaneWalk> clock_;
     std::int64_t end_ = 0;  // of the phrase that has just ended
     int due_ = 0;           // phrases that end with the note
+    int level_;             // of the next note
     bool may_stop_;
     std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
     std::vector<std::uint64_t> skipped_;  // by symbol; empty without a table

@@ -364,6 +364,23 @@ void NoteCollector::notes(std::span<const Note> notes) {
     notes_.insert(notes_.end(), notes.begin(), notes.end());
 }
 
+void NoteCollector::controls(std::span<const ControlPoint> points) {
+    std::vector<ControlPoint>& all = curves_.controls;
+    if (points.size() > most_points - all.size()) {
+        throw ScoreError(fmt::format(
+            "the curves of pan, controllers and gamakas have more than {} points; limit the bars", most_points));
+    }
+    all.insert(all.end(), points.begin(), points.end());
+}
+
+void NoteCollector::finish(std::int64_t end) {
+    end_ = end;
+    std::stable_sort(curves_.controls.begin(), curves_.controls.end(),
+                     [](const ControlPoint& a, const ControlPoint& b) {
+                         return std::tie(a.voice, a.tick) < std::tie(b.voice, b.tick);
+                     });
+}
+
 void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink) {
     const Melody melody = survey(notes, end);
     Pieces out(sink);

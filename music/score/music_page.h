@@ -15,12 +15,16 @@ namespace sikku {
 /// Keeps a whole melody: a picture or a page of it needs to know every note before the first is written.
 class NoteCollector : public NoteSink {
 public:
-    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`
+    static constexpr std::size_t most_points = 4'000'000;
+
+    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`. Of points of curves
+    ///              there may be `most_points`.
     explicit NoteCollector(std::size_t most = 100'000) : most_(most) {}
 
     void curves(const Curves& curves) override { curves_ = curves; }
+    void controls(std::span<const ControlPoint> points) override;
     void notes(std::span<const Note> notes) override;
-    void finish(std::int64_t end) override { end_ = end; }
+    void finish(std::int64_t end) override;
 
     const std::vector<Note>& notes() const { return notes_; }
     std::int64_t end() const { return end_; }  ///< ticks; 0 before finish()

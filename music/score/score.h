@@ -37,6 +37,7 @@ struct Note {
     glm::dvec2 to{0.0};
     std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
     std::uint8_t depth = 0;    ///< brackets around it
+    std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, where a curve follows it
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
     Glide glide{};             ///< of `vertical: glissando`
 

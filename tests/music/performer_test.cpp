@@ -75,7 +75,6 @@ public:
         : score_(std::move(score)), midi_(midi), span_(span) {}
     const ScoreHead& head() const override { return score_.head; }
     const MidiOptions& midi() const override { return midi_; }
-    const Curves& curves() const override { return curves_; }
     void set_curves(Curves curves) { curves_ = std::move(curves); }
     void seek(std::int64_t tick) override { at_ = tick; }
     bool is_ready() override { return is_ready_after_ == 0 || --is_ready_after_ == 0; }
@@ -95,6 +94,15 @@ public:
                        (note.onset + note.duration < window.to || window.is_last)) {
                 window.ends.push_back({note.onset + note.duration, note.voice});
             }
+        }
+        const auto is_within = [&](std::int64_t tick) {
+            return tick >= window.from && (window.is_last || tick < window.to);
+        };
+        for (const ControlPoint& point : curves_.controls) {
+            if (is_within(point.tick)) window.controls.push_back(point);
+        }
+        for (const TempoPoint& point : curves_.tempo) {
+            if (is_within(point.tick)) window.tempos.push_back(point);
         }
         at_ = window.is_last ? 0 : window.to;
         return window;

@@ -1,0 +1,34 @@
+// music/gamakas.h: ornaments within notes, as bends of their pitch.
+#pragma once
+
+#include "music/melody/melody.h"
+#include "music/score/curves.h"
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// Bends the notes of a melody as its key `gamaka` says.
+class Bender {
+public:
+    /// @param tempo  quarters a minute. `melody` has to outlive it.
+    Bender(const Melody& melody, double tempo)
+        : melody_(melody), ticks_per_second_(tempo * static_cast<double>(ticks_per_quarter) / 60) {}
+
+    /// Adds the bends of a note to `points`, by tick, and marks notes that slide.
+    /// @param before, after  its neighbours in its voice; null if there is none. A note is bent before the one after.
+    /// @throws ScoreError for a note that is too long
+    void bend(Note* before, Note& note, const Note* after, std::vector<ControlPoint>& points) const;
+
+private:
+    std::int64_t degree_of(double key) const;
+    bool swing(const Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const;
+    bool slide(const Note& note, double offset, bool from, std::vector<ControlPoint>& points) const;
+
+    const Melody& melody_;
+    double ticks_per_second_;
+};
+
+}  // namespace sikku

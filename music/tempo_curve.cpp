@@ -1,0 +1,62 @@
+#include "music/tempo_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sikku {
+namespace {
+
+[[noreturn]] void refuse_length() {
+    throw ScoreError(
+        fmt::format("a tempo that follows the curve needs fewer than {} quarters; limit the bars", TempoCurve::most));
+}
+
+/// Each value becomes the mean of its neighbours and twice itself.
+void smooth(std::vector<double>& values) {
+    double before = values.front();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double here = values[i];
+        const double after = values[std::min(i + 1, values.size() - 1)];
+        values[i] = (before + 2 * here + after) / 4;
+        before = here;
+    }
+}
+
+}  // namespace
+
+void TempoCurve::add(std::int64_t onset, double value) {
+    const std::int64_t beat = onset / ticks_per_quarter;
+    if (beat >= most) refuse_length();
+    const auto at = static_cast<std::size_t>(beat);
+    if (at >= sums_.size()) {
+        sums_.resize(at + 1, 0);
+        counts_.resize(at + 1, 0);
+    }
+    sums_[at] += value;
+    ++counts_[at];
+    if (onset >= first_onset_) return;
+    first_onset_ = onset;
+    first_ = value;
+}
+
+std::vector<TempoPoint> TempoCurve::points(const SourceRange& range, std::int64_t end) const {
+    if (end / ticks_per_quarter >= most) refuse_length();
+    std::vector<double> values(static_cast<std::size_t>(end / ticks_per_quarter + 1));
+    double last = first_onset_ < INT64_MAX ? range.part(first_) : 0.5;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i < sums_.size() && counts_[i] > 0) last = range.part(sums_[i] / counts_[i]);
+        values[i] = last;
+    }
+    smooth(values);
+    smooth(values);
+    std::vector<TempoPoint> result;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto tick = static_cast<std::int64_t>(i) * ticks_per_quarter;
+        const double factor = curve_.at(values[i]) / tempo_;
+        if (tick < end && (result.empty() || result.back().factor != factor)) result.push_back({tick, factor});
+    }
+    return result;
+}
+
+}  // namespace sikku

@@ -1,0 +1,36 @@
+// music/tempo_curve.h: a tempo that follows the curve, beat by beat.
+#pragma once
+
+#include "music/melody/expression.h"
+#include "music/score/curves.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// Makes a tempo for each quarter: the mean of the notes that begin in it, or the tempo before, smoothed over two
+/// quarters on both sides. Memory: 12 bytes a quarter, and later 24 more.
+class TempoCurve {
+public:
+    /// Largest number of quarters.
+    static constexpr std::int64_t most = std::int64_t{1} << 26;
+
+    /// @param tempo  quarters a minute that the factors of points refer to
+    TempoCurve(const ExpressionCurve& curve, double tempo) : curve_(curve), tempo_(tempo) {}
+    /// Adds a note. @param value  of the source in the middle of the note. @throws ScoreError beyond `most` quarters
+    void add(std::int64_t onset, double value);
+    /// The changes of tempo before `end`; one at the beginning. @param range  of the source. @throws ScoreError
+    std::vector<TempoPoint> points(const SourceRange& range, std::int64_t end) const;
+
+private:
+    ExpressionCurve curve_;
+    double tempo_;
+    std::vector<double> sums_;  // of the notes of each quarter
+    std::vector<std::uint32_t> counts_;
+    double first_ = 0;  // value of the first note
+    std::int64_t first_onset_ = INT64_MAX;
+};
+
+}  // namespace sikku
