@@ -234,8 +234,11 @@ public:
         }
         std::stable_sort(window_.notes.begin(), window_.notes.end(), is_earlier);
         sort_pitches(window_);
-        if (is_sought_) before_.put(window_.from, window_.controls);
-        std::stable_sort(window_.controls.begin(), window_.controls.end(), comes_before);
+        std::vector<ControlPoint> points;
+        if (is_sought_) before_.put(window_.from, points);
+        points.insert(points.end(), window_.controls.begin(), window_.controls.end());
+        std::stable_sort(points.begin(), points.end(), comes_before);
+        window_.controls = std::move(points);
         std::sort(window_.ends.begin(), window_.ends.end(), [](const NoteWindow::End& a, const NoteWindow::End& b) {
             return std::tie(a.tick, a.voice) < std::tie(b.tick, b.voice);
         });
@@ -243,20 +246,20 @@ public:
     }
 
 private:
-    /// Points belong to the window in which their note begins.
+    /// Points belong to the window in which their note begins. After a jump those of a note that goes on come, too.
     void take_controls(const Note& note) {
         const auto voice = static_cast<std::size_t>(note.voice);
         if (voice >= coming_.size()) return;
         std::vector<ControlPoint>& points = coming_[voice];
-        const auto end = std::find_if(points.begin(), points.end(), [&](const ControlPoint& point) {
-            return point.tick >= note.onset + note.duration;
-        });
-        if (note.onset < window_.from) {
-            std::for_each(points.begin(), end, [&](const ControlPoint& point) { before_.add(point); });
-        } else if (note.onset < window_.to) {
-            window_.controls.insert(window_.controls.end(), points.begin(), end);
+        auto next = points.begin();
+        for (; next != points.end() && next->tick < note.onset + note.duration; ++next) {
+            if (next->tick <= window_.from && note.onset < window_.from) {
+                before_.add(*next);
+            } else if (note.onset < window_.to && (is_sought_ || note.onset >= window_.from)) {
+                window_.controls.push_back(*next);
+            }
         }
-        points.erase(points.begin(), end);
+        points.erase(points.begin(), next);
     }
 
     NoteWindow& window_;

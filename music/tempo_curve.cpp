@@ -50,11 +50,16 @@ std::vector<TempoPoint> TempoCurve::points(const SourceRange& range, std::int64_
     }
     smooth(values);
     smooth(values);
+    // What stays the same is left out. The tick of the end has none.
+    if (values.size() > 1 && end % ticks_per_quarter == 0) values.pop_back();
+    for (double& value : values) value = curve_.at(value) / tempo_;
+    std::size_t changes = 1;
+    for (std::size_t i = 1; i < values.size(); ++i) changes += values[i] != values[i - 1] ? 1 : 0;
     std::vector<TempoPoint> result;
+    result.reserve(changes);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto tick = static_cast<std::int64_t>(i) * ticks_per_quarter;
-        const double factor = curve_.at(values[i]) / tempo_;
-        if (tick < end && (result.empty() || result.back().factor != factor)) result.push_back({tick, factor});
+        if (i > 0 && values[i] == values[i - 1]) continue;
+        result.push_back({static_cast<std::int64_t>(i) * ticks_per_quarter, values[i]});
     }
     return result;
 }

@@ -464,32 +464,40 @@ private:
 
     struct Change {
         std::int64_t tick;
-        std::string event;  ///< without its delta
+        std::uint32_t micro;  ///< microseconds a quarter
     };
     std::vector<Change> changes(std::int64_t end) const {
+        static const Curves nothing;
+        const Curves& curves = curves_ ? *curves_ : nothing;
+        // A long map is not copied for nothing.
+        std::vector<TempoPoint> falling;
+        if (head_.ritardando != 0) falling = tempo_map(head_, curves, end);
+        const std::vector<TempoPoint>& map = head_.ritardando != 0 ? falling : curves.tempo;
         std::vector<Change> result;
+        result.reserve(map.size());
         std::int64_t last = 0;
-        for (const TempoPoint& point : tempo_map(head_, curves_ ? *curves_ : Curves(), end)) {
+        for (const TempoPoint& point : map) {
             // No delta tells what is later.
             const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
             const double tempo = is_late ? head_.tempo : head_.tempo * point.factor;
-            const auto micro = static_cast<std::uint64_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1));
             // The score begins with it.
             if (point.tick == 0 && point.factor == first_factor()) continue;
             if (!is_late) last = point.tick;
-            result.push_back({last, meta(tempo_type, big_endian(micro, 3))});
+            result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
         }
         return result;
     }
+    static std::string tempo_event(std::uint32_t micro) { return meta(tempo_type, big_endian(micro, 3)); }
 
     /// What ends the first track; of the same length for every `end`, if `last` is.
     std::string closing(std::int64_t end, const std::string& last) const {
         const std::vector<Change> tempos = changes(end);
         if (tempos.empty()) return last + meta(end_type, "");
         std::string bytes;
+        bytes.reserve(tempos.size() * (wide_delta(0) + tempo_event(0)).size() + last.size() + 16);
         std::int64_t now = 0;
         for (const Change& change : tempos) {
-            bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) + change.event;
+            bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) += tempo_event(change.micro);
             now = change.tick;
         }
         const auto conductor_end = std::min<std::int64_t>(end, static_cast<std::int64_t>(most_delta));
@@ -844,7 +852,7 @@ private:
         auto tempo = tempos.begin();
         const auto change_until = [&](std::int64_t tick) {
             for (; tempo != tempos.end() && tempo->tick <= tick; ++tempo) {
-                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) + tempo->event;
+                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) += tempo_event(tempo->micro);
                 now = tempo->tick;
             }
         };

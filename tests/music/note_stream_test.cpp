@@ -1,11 +1,15 @@
 #include "music/note_stream.h"
 
 #include "music/scores.h"
+#include "tests/midi_tools.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -103,6 +107,10 @@ TEST(NoteStream, WindowsMakeTheWhole) {
         {{"augmentation", "3/2"}},
         {{"humanise", "1"}, {"seed", "4"}},
         {{"scale", "hamsadhwani"}, {"articulation", "detached"}, {"velocity", "by length"}},
+        {{"velocity", "by y 20-120"}, {"humanise", "0.5"}},
+        {{"velocity", "by level 20-120"}, {"phrases", "2"}},
+        {{"velocity", "by turn 20-120"}, {"mapping", "counterpoint"}, {"from-bar", "7"}},
+        {{"velocity", "by level 20-120"}, {"from-bar", "9"}, {"bars", "13"}},
     };
     for (const std::string& text : {hilbert, arrowhead}) {
         const std::vector<Document> documents = {document_of(text)};
@@ -134,6 +142,113 @@ TEST(NoteStream, WindowsMakeTheWhole) {
             }
         }
     }
+}
+
+using Event = std::tuple<std::int64_t, int, int>;  // tick, kind and value
+
+constexpr int bend_kind = 200;
+constexpr int tempo_kind = 300;
+
+/// The last event of each kind at each tick, where it changes anything.
+std::vector<Event> changes(const std::vector<Event>& events) {
+    std::map<std::pair<std::int64_t, int>, int> all;
+    for (const auto& [tick, kind, value] : events) all[{tick, kind}] = value;
+    std::vector<Event> result;
+    std::map<int, int> last = {{bend_kind, 0}};
+    for (const auto& [key, value] : all) {
+        const auto known = last.find(key.second);
+        if (known != last.end() && known->second == value) continue;
+        last[key.second] = value;
+        result.emplace_back(key.first, key.second, value);
+    }
+    return result;
+}
+
+/// Controllers, bends in a range of 12 semitones, and tempos in microseconds a quarter.
+std::vector<Event> curves_of(const MidiFile& file) {
+    std::vector<Event> events;
+    for (const MidiEvent& event : file.events) {
+        const auto byte = [&](std::size_t i) { return static_cast<int>(static_cast<unsigned char>(event.data[i])); };
+        if ((event.status & 0xF0) == 0xB0 && (byte(0) == 10 || byte(0) == 74)) {
+            events.emplace_back(event.tick, byte(0), byte(1));
+        }
+        if ((event.status & 0xF0) == 0xE0) events.emplace_back(event.tick, bend_kind, byte(0) + 128 * byte(1) - 8192);
+        if (event.status == 0xFF && event.type == 0x51) {
+            events.emplace_back(event.tick, tempo_kind, byte(0) * 65536 + byte(1) * 256 + byte(2));
+        }
+    }
+    return changes(events);
+}
+
+std::vector<Event> curves_of(NoteStream& stream, std::int64_t from) {
+    const auto tempo = [&](double factor) {
+        return static_cast<int>(std::round(60e6 / (stream.head().tempo * factor)));
+    };
+    std::vector<Event> events = {{from, tempo_kind, tempo(1)}};
+    stream.seek(from);
+    for (NoteWindow window;;) {
+        window = stream.next();
+        for (const Note& note : window.notes) events.emplace_back(note.onset, bend_kind, 0);
+        for (const ControlPoint& point : window.controls) {
+            if (point.number != ControlPoint::bend) {
+                events.emplace_back(point.tick, point.number, static_cast<int>(point.value));
+            } else {
+                events.emplace_back(point.tick, bend_kind, static_cast<int>(std::lround(point.value * 8192 / 12)));
+            }
+        }
+        for (const TempoPoint& point : window.tempos) events.emplace_back(point.tick, tempo_kind, tempo(point.factor));
+        if (window.is_last) return changes(events);
+    }
+}
+
+/// Tempo, controllers and bends of the windows are those of the file, from any tick on.
+TEST(NoteStream, WindowsHaveTheCurves) {
+    const std::vector<OptionValues> all = {
+        {{"pan", "by x"}, {"controller", "74 by y"}},
+        {{"tempo", "96 by y 80-112"}},
+        {{"tempo", "96 by level 80-112"}, {"phrases", "2"}, {"harmony", "triads"}},
+        {{"tempo", "96 by length 80-112"}, {"meter", "1/64"}, {"unit", "3/32"}},
+        {{"gamaka", "kampita 2 6, jaru 1, meend all"}, {"unit", "1/4"}},
+        {{"gamaka", "jaru all"}, {"pan", "by turn 10-90"}, {"unit", "1/4"}},
+        {{"gamaka", "meend all"}, {"tempo", "96 by x 80-112"}, {"from-bar", "9"}, {"bars", "13"}},
+    };
+    for (const std::string& text : {hilbert, arrowhead}) {
+        const Document document = document_of(text);
+        for (const OptionValues& values : all) {
+            SCOPED_TRACE(values.front().name + " " + values.front().text);
+            const MidiFile file = read_midi(play(document, "mid", values));
+            const auto stream = stream_notes(std::span(&document, 1), values);
+            const std::vector<Event> whole = curves_of(file);
+            ASSERT_GT(whole.size(), 20u);
+            EXPECT_EQ(curves_of(*stream, 0), whole);
+            for (const std::int64_t from : {1920LL, 9'000LL}) {
+                // Until `from` the last of each counts.
+                std::vector<Event> later;
+                std::map<int, int> last;
+                for (const auto& [tick, kind, value] : whole) {
+                    if (tick <= from) last[kind] = value;
+                }
+                for (const auto& [kind, value] : last) later.emplace_back(from, kind, value);
+                for (const Event& event : whole) {
+                    if (std::get<0>(event) > from) later.push_back(event);
+                }
+                std::erase_if(later, [&](const Event& event) { return std::get<1>(event) == bend_kind; });
+                auto found = curves_of(*stream, from);
+                std::erase_if(found, [&](const Event& event) { return std::get<1>(event) == bend_kind; });
+                EXPECT_EQ(found, later) << from;
+            }
+        }
+    }
+}
+
+/// Their ranges are known from the fold.
+TEST(NoteStream, EndlessCurvesHaveExpression) {
+    const Document endless = document_of(hilbert).with({{"-n", "derivation length", "40"}});
+    const OptionValues values = {{"velocity", "by y 20-120"}, {"pan", "by x"}, {"tempo", "96 by y 80-112"}};
+    const auto stream = stream_notes(std::span(&endless, 1), values);
+    const NoteWindow window = stream->next();
+    EXPECT_EQ(window.notes.front().velocity, 20);
+    EXPECT_NEAR(window.tempos.front().factor, 80.0 / 96, 1e-6);
 }
 
 TEST(NoteStream, PartsOfAnArrangement) {
