@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <ctime>
 
 namespace sikku::live {
@@ -13,9 +14,68 @@ namespace {
 
 constexpr int patience_milliseconds = 1000;
 constexpr std::size_t largest_event = 64;
+/// Longer than a thread waits for its turn on a busy machine; what is heard changes as much later.
+constexpr Nanoseconds sent_ahead = second / 10;
+constexpr std::size_t most_pending = 2000;  // events; the largest pool that the kernel grants
 
 /// The library reports failures, too.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+
+/// A queue of the sequencer, which delivers events at their times. Its clock is not that of the program.
+class Queue {
+public:
+    explicit Queue(snd_seq_t* sequencer) : sequencer_(sequencer) {
+        number_ = snd_seq_alloc_named_queue(sequencer, "Sikku");
+        if (number_ < 0 || snd_seq_queue_status_malloc(&status_) < 0) return;
+        const bool is_started = snd_seq_start_queue(sequencer, number_, nullptr) >= 0 &&
+                                snd_seq_drain_output(sequencer) >= 0;
+        constexpr int tries = 20;
+        Nanoseconds best = INT64_MAX;
+        for (int i = 0; is_started && i < tries; ++i) best = std::min(best, measure(best));
+        is_running_ = best < INT64_MAX;
+    }
+    Queue(const Queue&) = delete;
+    Queue& operator=(const Queue&) = delete;
+    ~Queue() {
+        if (status_) snd_seq_queue_status_free(status_);
+        if (number_ >= 0) snd_seq_free_queue(sequencer_, number_);
+    }
+    /// False if the sequencer has no more queues.
+    bool is_running() const { return is_running_; }
+
+    /// Gives an event its time. Times of the program do not go back; neither do those of events.
+    void schedule(snd_seq_event_t& event, Nanoseconds time) {
+        constexpr Nanoseconds precise = second / 5000;
+        if (clock_.now() - measured_ > second) measure(precise);
+        last_ = std::max({last_, time + later_, Nanoseconds{0}});
+        snd_seq_real_time_t real{};
+        real.tv_sec = static_cast<unsigned>(last_ / second);
+        real.tv_nsec = static_cast<unsigned>(last_ % second);
+        snd_seq_ev_schedule_real(&event, static_cast<unsigned char>(number_), 0, &real);
+    }
+
+private:
+    /// Compares the clocks, and keeps the result if reading both took less than `limit`. @return how long it took
+    Nanoseconds measure(Nanoseconds limit) {
+        const Nanoseconds before = clock_.now();
+        if (snd_seq_get_queue_status(sequencer_, number_, status_) < 0) return INT64_MAX;
+        const Nanoseconds after = clock_.now();
+        if (after - before >= limit) return after - before;
+        const snd_seq_real_time_t* real = snd_seq_queue_status_get_real_time(status_);
+        later_ = static_cast<Nanoseconds>(real->tv_sec) * second + real->tv_nsec - before - (after - before) / 2;
+        measured_ = after;
+        return after - before;
+    }
+
+    snd_seq_t* sequencer_;
+    MonotonicClock clock_;
+    int number_ = -1;
+    bool is_running_ = false;
+    snd_seq_queue_status_t* status_ = nullptr;
+    Nanoseconds later_ = 0;     // its clock less that of the program
+    Nanoseconds measured_ = 0;  // when they were compared
+    Nanoseconds last_ = 0;      // time of the last event
+};
 
 /// A client of the sequencer.
 class Sequencer {
@@ -82,6 +142,7 @@ public:
         // The sequencer announces what ends.
         check(snd_seq_connect_from(handle(), port_, SND_SEQ_CLIENT_SYSTEM, SND_SEQ_PORT_SYSTEM_ANNOUNCE));
         if (has_input && other_.is_input) check(snd_seq_connect_from(handle(), port_, other_.client, other_.number));
+        snd_seq_set_client_pool_output(handle(), most_pending);  // fewer are enough for most music
         if (snd_midi_event_new(largest_event, &encoder_) < 0) throw std::bad_alloc();
         snd_midi_event_no_status(encoder_, 1);
     }
@@ -89,7 +150,9 @@ public:
     AlsaPort& operator=(const AlsaPort&) = delete;
     ~AlsaPort() override { snd_midi_event_free(encoder_); }
 
-    void send(std::span<const Message> messages) override {
+    Nanoseconds ahead() const override { return queue_.is_running() ? sent_ahead : 0; }
+
+    void send(std::span<const Message> messages, Nanoseconds time) override {
         for (const Message& message : messages) {
             snd_seq_event_t event;
             snd_seq_ev_clear(&event);
@@ -97,7 +160,11 @@ public:
             if (snd_midi_event_encode(encoder_, message.bytes.data(), message.size, &event) < 0) continue;
             snd_seq_ev_set_source(&event, static_cast<unsigned char>(port_));
             snd_seq_ev_set_subs(&event);
-            snd_seq_ev_set_direct(&event);
+            if (queue_.is_running() && time != at_once) {
+                queue_.schedule(event, time);
+            } else {
+                snd_seq_ev_set_direct(&event);
+            }
             for (int error = -EAGAIN; error == -EAGAIN;) {
                 error = snd_seq_event_output_direct(handle(), &event);
                 if (error == -EAGAIN) await_room();
@@ -184,6 +251,7 @@ private:
     }
 
     Sequencer sequencer_;
+    Queue queue_{sequencer_.get()};
     std::string name_;
     PortInfo other_;
     int port_ = -1;

@@ -35,7 +35,7 @@ public:
     DevicePort& operator=(const DevicePort&) = delete;
     ~DevicePort() override { close(descriptor_); }
 
-    void send(std::span<const Message> messages) override {
+    void send(std::span<const Message> messages, Nanoseconds) override {
         bytes_.clear();
         for (const Message& message : messages) {
             bytes_.insert(bytes_.end(), message.span().begin(), message.span().end());

@@ -118,7 +118,8 @@ public:
           clock_(clock),
           port_(port),
           options_(options),
-          hooks_(hooks) {}
+          hooks_(hooks),
+          ahead_(follows() ? 0 : port.ahead()) {}
 
     PerformReport perform() {
         try {
@@ -138,7 +139,7 @@ private:
         fill();  // the first notes are ready before the time begins
         version_->voices().prepare(messages_);
         begin_pass();
-        own_.begin(clock_.now());
+        own_.begin(clock_.now() + ahead_);
         if (follows()) tell("waiting for the clock to start");
         if (sends_clock()) messages_.push_back({start_byte});
         flush();
@@ -149,17 +150,22 @@ private:
             if (wait_for(tick)) play_tick(tick);
             retired_.reset();
         }
+        stop();
+    }
+
+    /// Ends all notes after what has been sent.
+    void stop() {
         version_->voices().silence(now_, messages_);
         if (sends_clock()) messages_.push_back({stop_byte});
         flush();
+        if (ahead_ == 0) return;
+        for (const Nanoseconds end = own_.time_of(now_); clock_.now() < end;) clock_.sleep_until(end);
     }
 
     /// Ends all notes as well as the port allows.
     void give_up() {
         try {
-            version_->voices().silence(now_, messages_);
-            if (sends_clock()) messages_.push_back({stop_byte});
-            flush();
+            stop();
         } catch (const PortError&) {
             // That it is gone was the reason, or is no news.
         }
@@ -169,8 +175,9 @@ private:
         if (hooks_.report) hooks_.report(text);
     }
 
+    /// Sends what is due with the last tick.
     void flush() {
-        if (!messages_.empty()) port_.send(messages_);
+        if (!messages_.empty()) port_.send(messages_, ahead_ > 0 ? own_.time_of(now_) : Port::at_once);
         messages_.clear();
     }
 
@@ -258,7 +265,7 @@ private:
         const Nanoseconds now = clock_.now();
         if (!follows()) {
             const Nanoseconds time = own_.time_of(tick);
-            if (time <= now) {
+            if (time - ahead_ <= now) {
                 // After a suspended process or slow reading the music goes on where it was.
                 if (now - time > most_catching_up) {
                     own_.shift(now - time);
@@ -268,7 +275,7 @@ private:
                 }
                 return true;
             }
-            port_.wait(clock_, std::min(time, now + longest_wait));
+            port_.wait(clock_, std::min(time - ahead_, now + longest_wait));
             return false;
         }
         const auto time = followed_.time_of(tick);
@@ -357,12 +364,10 @@ private:
 
     void pause_if_wanted() {
         if (!hooks_.is_pause_wanted || !hooks_.is_pause_wanted()) return;
-        silence();
-        if (sends_clock()) messages_.push_back({stop_byte});
-        flush();
+        stop();
         const Nanoseconds begin = clock_.now();
         hooks_.pause();
-        own_.shift(clock_.now() - begin);
+        own_.shift(clock_.now() + ahead_ - begin);
         if (sends_clock()) messages_.push_back({continue_byte});
         flush();
     }
@@ -504,6 +509,7 @@ private:
     Port& port_;
     PerformOptions options_;
     const PerformHooks& hooks_;
+    Nanoseconds ahead_;  // what is sent waits so long in the port
     PerformReport report_;
     OwnTime own_;
     FollowedTime followed_;

@@ -50,8 +50,12 @@ class PortError : public std::runtime_error {
 class Port {
 public:
     virtual ~Port() = default;
-    /// Sends messages in this order, now. @throws PortError
-    virtual void send(std::span<const Message> messages) = 0;
+    /// How long before their time messages may be sent, to be delivered in time whatever this thread does.
+    virtual Nanoseconds ahead() const { return 0; }
+    /// Sends messages in this order. @param time  when they are due, of the clock, not before that of messages sent
+    /// earlier; `at_once` for ports without ahead(), and for all messages of a port or for none. @throws PortError
+    virtual void send(std::span<const Message> messages, Nanoseconds time) = 0;
+    static constexpr Nanoseconds at_once = 0;
     /// Waits until `time`, or until something arrives or a signal comes. @return what arrived since the last call
     /// @throws PortError
     virtual std::vector<Received> wait(Clock& clock, Nanoseconds time) = 0;

@@ -37,14 +37,20 @@ struct Sent {
 /// Keeps what it is sent, and receives what a script says.
 class FakePort final : public Port {
 public:
-    explicit FakePort(Clock& clock) : clock_(clock), begin_(clock.now()) {}
+    /// @param ahead  times of messages are then those that they are sent with, less this
+    explicit FakePort(Clock& clock, Nanoseconds ahead = 0) : clock_(clock), begin_(clock.now()), ahead_(ahead) {}
     std::vector<Received> script;      ///< times from the beginning
     Nanoseconds vanishes = INT64_MAX;  ///< after this time
     std::vector<Sent> sent;            ///< times from the beginning
 
-    void send(std::span<const Message> messages) override {
+    Nanoseconds ahead() const override { return ahead_; }
+    void send(std::span<const Message> messages, Nanoseconds due) override {
         if (time() >= vanishes) throw PortError("it has vanished");
-        for (const Message& message : messages) sent.push_back({time(), message});
+        EXPECT_EQ(due == at_once, ahead_ == 0);
+        EXPECT_LE(due, clock_.now() + ahead_) << "earlier than announced";
+        const Nanoseconds at = ahead_ > 0 ? due - begin_ - ahead_ : time();
+        EXPECT_TRUE(sent.empty() || sent.back().time <= at) << "times go back";
+        for (const Message& message : messages) sent.push_back({at, message});
     }
     std::vector<Received> wait(Clock& clock, Nanoseconds until) override {
         if (next_ == script.size() || begin_ + script[next_].time > until) {
@@ -65,6 +71,7 @@ public:
 private:
     Clock& clock_;
     Nanoseconds begin_;
+    Nanoseconds ahead_;
     std::size_t next_ = 0;
 };
 
@@ -165,8 +172,9 @@ void expect_no_hanging_notes(const std::vector<Sent>& sent) {
 }
 
 struct Performance {
+    explicit Performance(Nanoseconds ahead = 0) : port(clock, ahead) {}
     FakeClock clock;
-    FakePort port{clock};
+    FakePort port;
     PerformOptions options;
     PerformHooks hooks;
     PerformReport report;
@@ -285,6 +293,54 @@ TEST(Performer, PlaysCurves) {
     // A semitone of two up within the first note, and back with the second.
     EXPECT_EQ(times_of(one.port.sent, 0xE0),
               (std::vector<Nanoseconds>{second / 2, second, pass + second / 2, pass + second}));
+}
+
+/// A port that delivers messages in time is sent the same, earlier.
+TEST(Performer, SendsAhead) {
+    MidiScore score = quarters(20);
+    score.head.ritardando = 2 * 1920;
+    for (const ClockMode mode : {ClockMode::none, ClockMode::send}) {
+        std::vector<std::vector<Sent>> all;
+        for (const Nanoseconds ahead : {Nanoseconds{0}, second / 10}) {
+            Performance one(ahead);
+            one.options.times = 3;
+            one.options.clock = mode;
+            bool is_given = false;
+            one.hooks.newer = [&]() -> std::unique_ptr<NoteStream> {
+                if (is_given || one.port.time() < 12 * second + ahead / 2) return nullptr;
+                is_given = true;
+                return stream(quarters(12, 80));
+            };
+            one.play(stream(score));
+            EXPECT_EQ(one.report.late, 0u);
+            EXPECT_EQ(one.port.time(), one.port.sent.back().time + ahead) << "it waits for the last message";
+            all.push_back(one.port.sent);
+        }
+        EXPECT_EQ(all[0], all[1]);
+    }
+}
+
+/// Nothing overtakes what was sent ahead.
+TEST(Performer, StopsAndPausesAfterWhatWasSentAhead) {
+    Performance one(second / 10);
+    one.options.times = 0;
+    static FakePort* port = nullptr;
+    port = &one.port;
+    bool is_over = false;
+    one.hooks.is_pause_wanted = [&] { return !is_over && one.port.time() > 1520 * millisecond; };
+    one.hooks.pause = [&] {
+        is_over = true;
+        EXPECT_GE(one.port.time(), one.port.sent.back().time + second / 10);
+        one.clock.sleep_until(one.clock.now() + 10 * second);
+    };
+    one.hooks.monitor = Monitor([](void*) { return port->time() >= 13 * second; });
+    EXPECT_THROW(one.play(stream(quarters())), Stopped);
+    expect_no_hanging_notes(one.port.sent);
+    const std::vector<Stroke> heard = one.heard();
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(heard[i].first, static_cast<Nanoseconds>(i) * second / 2);
+    EXPECT_NEAR(static_cast<double>(heard[4].first), 12e9, 0.2e9);
+    EXPECT_EQ(heard[5].first - heard[4].first, second / 2);
+    EXPECT_LE(one.port.time(), 13 * second + 2 * millisecond + second / 5);
 }
 
 TEST(Performer, NotesThatLastBeyondWindowsEnd) {

@@ -92,14 +92,16 @@ TEST(Ports, AlsaDeliversAndReportsTheEnd) {
     if (!std::filesystem::exists("/dev/snd/seq")) GTEST_SKIP() << "this machine has no ALSA sequencer";
     Client other;
     const auto port = open_alsa_port("Sikku test", true);
-    port->send(std::vector<Message>{{0x91, 60, 100}, {0xE1, 0x10, 0x41}, {0x81, 60, 64}});
+    MonotonicClock clock;
+    const Nanoseconds due = clock.now() + port->ahead();
+    port->send(std::vector<Message>{{0x91, 60, 100}, {0xE1, 0x10, 0x41}, {0x81, 60, 64}}, due);
     const snd_seq_event_t on = other.next();
+    EXPECT_GE(clock.now(), due - second / 100) << "the queue delivers events when they are due";
     EXPECT_EQ(on.type, SND_SEQ_EVENT_NOTEON);
     EXPECT_EQ(on.data.note.channel, 1);
     EXPECT_EQ(on.data.note.note, 60);
     EXPECT_EQ(other.next().data.control.value, 0x41 * 128 + 0x10 - 8192);
     EXPECT_EQ(other.next().type, SND_SEQ_EVENT_NOTEOFF);
-    MonotonicClock clock;
     other.send_clock();
     std::vector<Received> received;
     for (int i = 0; i < 20 && received.empty(); ++i) received = port->wait(clock, clock.now() + second / 10);

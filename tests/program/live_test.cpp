@@ -1,4 +1,5 @@
 // tests/program/live_test.cpp: `sikku play --port`, to a terminal that stands for a MIDI device.
+#include "music/scores.h"
 #include "tests/files.h"
 #include "tests/program.h"
 
@@ -292,14 +293,48 @@ TEST(Live, WrongCommandLines) {
     }
 }
 
+/// What fake_sequencer.cpp prints.
+struct SequencerHeard : Heard {
+    std::vector<std::int64_t> times;  ///< of note-ons, in microseconds
+};
+
+SequencerHeard heard_by_sequencer(const std::string& text) {
+    SequencerHeard heard;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        std::string at;
+        int channel = 0;
+        int key = 0;
+        std::int64_t time = 0;
+        words >> kind >> channel >> key >> at >> time;
+        if (kind == "clock") ++heard.clocks;
+        if (kind == "on") {
+            ++heard.begun;
+            heard.sounding.insert({channel, key});
+            heard.times.push_back(time);
+        }
+        if (kind == "off") {
+            ++heard.ended;
+            const auto found = heard.sounding.find({channel, key});
+            if (found != heard.sounding.end()) heard.sounding.erase(found);
+        }
+    }
+    return heard;
+}
+
 /// With a sequencer that prints what it is sent: see fake_sequencer.cpp.
 TEST(Live, PlaysToTheSequencer) {
 #ifndef SIKKU_FAKE_SEQUENCER
     GTEST_SKIP() << "built without ALSA, or with sanitizers";
 #else
-    const auto played = [](const std::vector<std::string>& arguments, const std::string& exit = "") {
+    const auto played = [](const std::vector<std::string>& arguments, const std::string& exit = "",
+                           const std::string& queues = "1") {
         return run(arguments, {.input = curve,
-                               .environment = {{"LD_PRELOAD", SIKKU_FAKE_SEQUENCER}, {"SIKKU_FAKE_EXIT", exit}}});
+                               .environment = {{"LD_PRELOAD", SIKKU_FAKE_SEQUENCER},
+                                               {"SIKKU_FAKE_EXIT", exit},
+                                               {"SIKKU_FAKE_QUEUES", queues}}});
     };
     EXPECT_EQ(played({"ports"}).output,
               "14:0    Midi Through Port-0  to and from Midi Through\n"
@@ -307,19 +342,30 @@ TEST(Live, PlaysToTheSequencer) {
     const Outcome outcome = played({"play", "-", "--port", "fluid"});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_TRUE(has(outcome.errors, "connect 3 to 128:0\nconnect 3 from 0:1\n"));
-    EXPECT_TRUE(has(outcome.errors, "program 73\non 0 60\n"));
-    EXPECT_EQ(outcome.errors.find("wrong"), std::string::npos);
-    std::multiset<std::string> on;
-    std::multiset<std::string> off;
-    std::istringstream lines(outcome.errors);
-    for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("on ")) on.insert(line.substr(3));
-        if (line.starts_with("off ")) off.insert(line.substr(4));
+    EXPECT_TRUE(has(outcome.errors, "program 0 73 at "));
+    EXPECT_EQ(outcome.errors.find("wrong"), std::string::npos) << outcome.errors;
+    // The kernel delivers the notes: their times are exact, whatever the machine is doing.
+    const SequencerHeard heard = heard_by_sequencer(outcome.errors);
+    EXPECT_EQ(heard.begun, 26);
+    EXPECT_EQ(heard.ended, 26);
+    EXPECT_TRUE(heard.sounding.empty());
+    const NoteList list = list_notes(std::vector{parse("x.lsys", curve)}, {}, {});
+    ASSERT_EQ(heard.times.size(), list.notes.size());
+    for (std::size_t i = 0; i < list.notes.size(); ++i) {
+        const double microseconds = static_cast<double>(list.notes[i].onset) * 60e6 / (1000.0 * ticks_per_quarter);
+        EXPECT_NEAR(static_cast<double>(heard.times[i] - heard.times[0]), microseconds, 1000) << i;
     }
-    EXPECT_EQ(on.size(), 26u);
-    EXPECT_EQ(on, off);
+    // A clock, too.
+    const Outcome clocks = played({"play", "-", "--port", "fluid", "--clock", "send", "--bars", "2"});
+    EXPECT_EQ(clocks.errors.find("wrong"), std::string::npos) << clocks.errors;
+    EXPECT_EQ(heard_by_sequencer(clocks.errors).clocks, 2 * 96 + 1);
+    // Without a queue notes are sent when they are due.
+    const Outcome direct = played({"play", "-", "--port", "fluid"}, "", "0");
+    EXPECT_TRUE(has(direct.errors, "program 0 73 now\non 0 60 now\n"));
+    EXPECT_EQ(direct.errors.find("wrong"), std::string::npos) << direct.errors;
+    EXPECT_EQ(heard_by_sequencer(direct.errors).begun, 26);
     EXPECT_TRUE(
-        has(played({"play", "-", "--port", "14:0", "--scale", "7-edo", "--tuning", "mts"}).errors, "sysex 12"));
+        has(played({"play", "-", "--port", "14:0", "--scale", "7-edo", "--tuning", "mts"}).errors, "sysex 0 12 at "));
     EXPECT_TRUE(has(played({"play", "-", "--port", "14:0", "--scale", "7-edo", "--tuning", "mpe"}).errors, "bend "));
     const Outcome gone = played({"play", "-", "--port", "fluid", "--repeat"}, "60");
     EXPECT_EQ(gone.status, 1);
