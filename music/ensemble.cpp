@@ -1,6 +1,7 @@
 #include "music/ensemble.h"
 
 #include "music/form/block.h"
+#include "music/held_ending.h"
 #include "music/score/glides.h"
 
 #include <fmt/format.h>
@@ -187,7 +188,8 @@ public:
 
 private:
     void read() {
-        std::int64_t leading = 0;  // length of the last part that is no bass, in its own ticks
+        std::int64_t leading = 0;            // length of the last part that is no bass, in its own ticks
+        std::vector<std::int64_t> sections;  // ends of the sections of its form
         for (const Player& player : ensemble_.players) {
             const Layout& layout = player.melody.layout;
             WholePart part;
@@ -213,8 +215,11 @@ private:
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
-            if (!layout.form.empty())
-                part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form);
+            if (!layout.form.empty()) {
+                part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form,
+                                     player.is_bass ? sections : std::vector<std::int64_t>());
+            }
+            if (!player.is_bass) sections = part.block.ends;
             if (layout.is_retrograde) reverse(part.block);
             if (has_drone) add_drone(part.block, player.melody, options.chords_from);
             const std::int64_t bar = player.melody.meter.bar();
@@ -381,6 +386,19 @@ private:
     EnsembleReport report_;
 };
 
+/// The line that a voice belongs to, for HeldEnding: a melody, what accompanies it, or drums.
+int line_of(const Ensemble& ensemble, int voice) {
+    int line = -1;
+    for (const Player& player : ensemble.players) {
+        if (voice < player.first_voice) break;
+        const int within = voice - player.first_voice;
+        const bool is_drum = player.has_drums && within >= player.drums_from;
+        const bool is_chord = player.melody.accompanying_voices() > 0 && within >= player.chords_from;
+        line = is_drum ? -1 : 2 * player.first_voice + (is_chord ? 1 : 0);
+    }
+    return line;
+}
+
 /// Explains why there are no notes. @throws ScoreError always
 [[noreturn]] void refuse_silence(const Ensemble& ensemble, const PlayOptions& playing, const PlayReport& all) {
     if (playing.from > 0 && all.past) {
@@ -483,8 +501,15 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
 }
 
 EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
-    if (ensemble.needs_whole()) return WholeScore(ensemble, playing).play(sink);
-    return stream(ensemble, playing, sink);
+    const auto play_into = [&](NoteSink& to) {
+        return ensemble.needs_whole() ? WholeScore(ensemble, playing).play(to) : stream(ensemble, playing, to);
+    };
+    if (ensemble.close != Close::fermata) return play_into(sink);
+    HeldEnding ending(sink, [&](int voice) { return line_of(ensemble, voice); });
+    EnsembleReport report = play_into(ending);
+    const std::int64_t most = playing.to < INT64_MAX ? playing.to - playing.from : INT64_MAX;
+    report.end = ending.finish(report.end, ensemble.meter, most);
+    return report;
 }
 
 EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {

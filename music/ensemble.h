@@ -16,7 +16,7 @@ struct Ensemble {
     std::vector<FormSection> form;  ///< sections of the score; empty: all parts play from the beginning
     double tempo = 120;             ///< quarters a minute
     Meter meter;
-    bool has_ritardando = false;
+    Close close = Close::none;
 
     /// True if parts have to be known to their ends before the first note is played.
     bool needs_whole() const;

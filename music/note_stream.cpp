@@ -403,6 +403,7 @@ bool has_windows(const Player& player) {
     const Melody& melody = player.melody;
     if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return false;
     if (melody.branches != Branches::sequence && has_brackets(grammar)) return false;
+    if (melody.breathes_to_bar) return false;
     switch (melody.anchor) {
         case Anchor::first_note:
             return true;
@@ -451,7 +452,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
 
 std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing) {
     const std::int64_t grid = grid_of(ensemble, playing);
-    const bool is_whole = ensemble.needs_whole() || grid == 0 ||
+    const bool is_whole = ensemble.needs_whole() || ensemble.close == Close::fermata || grid == 0 ||
                           !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
     if (is_whole) return std::make_unique<WholeStream>(std::move(score), std::move(ensemble), playing);
     for (Player& player : ensemble.players) fix_anchor(player, ensemble.meter, playing);

@@ -40,6 +40,13 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     return text;
 }
 
+/// Ticks of a melody, by composition or else by playing it. @throws BudgetError
+Integer length_of(const Grammar& grammar, const Melody& melody) {
+    if (const auto known = census(grammar, melody)) return known->ticks;
+    Nobody nobody;
+    return play(grammar, melody, nobody, {}).end;
+}
+
 /// Duration in words, with the ritardando.
 std::string slowing_time_of(std::int64_t ticks, const Melody& melody) {
     ScoreHead head;
@@ -60,6 +67,12 @@ bool has_brackets(const Grammar& grammar) {
 Player bass_of(const Player& player) {
     Player bass = player;
     const Melody& melody = player.melody;
+    const bool has_voices = melody.branches == Branches::voices && has_brackets(player.document.grammar());
+    if (has_voices || melody.own_voices() > 1 || !melody.table.empty()) {
+        throw ScoreError(
+            "`harmony: bass` needs a curve or a word that is one line: without branches that are voices, vertical runs "
+            "that are a voice, counterpoint and a table of symbols");
+    }
     const std::int64_t steps = player.document.grammar().steps() - melody.bass_order;
     if (steps < 1) {
         throw ScoreError(fmt::format("`harmony: bass {}` needs a derivation length of at least {}", melody.bass_order,
@@ -76,18 +89,23 @@ Player bass_of(const Player& player) {
     bass.melody.swing = 0.5;
     bass.melody.program = acoustic_bass;
     bass.melody.phrase_order = std::max<std::int64_t>(0, melody.phrase_order - melody.bass_order);
-    transpose(bass.melody, -24);
+    if (!melody.layout.form.empty() && melody.phrase_order > 0 && bass.melody.phrase_order == 0) {
+        throw ScoreError(fmt::format("`harmony: bass {}` needs sections of a form that are sub-curves of order {} or more",
+                                     melody.bass_order, melody.bass_order + 1));
+    }
+    constexpr double two_octaves = 24;
+    transpose(bass.melody, -two_octaves);
+    bass.melody.lowest = std::max(0.0, melody.lowest - two_octaves);
+    bass.melody.highest = std::max(0.0, melody.highest - two_octaves);
     // Where both breathe, they breathe as often.
     Melody whole = melody;
     if (bass.melody.phrase_order > 0) whole.breath = 0;
     Melody plain = bass.melody;
     plain.breath = 0;
-    const auto own = census(player.document.grammar(), whole);
-    const auto coarse = census(bass.document.grammar(), plain);
-    if (!own || !coarse || coarse->ticks == 0) {
-        throw ScoreError("`harmony: bass` needs `mapping: runs` and a curve on the square grid without voices");
-    }
-    const Integer ratio = (own->ticks + coarse->ticks / 2) / coarse->ticks;
+    const Integer own = length_of(player.document.grammar(), whole);
+    const Integer coarse = length_of(bass.document.grammar(), plain);
+    if (coarse == 0) throw ScoreError("`harmony: bass`: the curve of a lower order has no notes");
+    const Integer ratio = (own + coarse / 2) / coarse;
     constexpr std::int64_t longest = std::int64_t{1} << 40;
     if (ratio > longest / melody.unit)
         throw ScoreError("the notes of the bass would be too long: a lower order is needed");
@@ -222,7 +240,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         const Integer notes = played ? Integer(played->notes) : known->notes;
         const Integer ticks = played ? Integer(played->end) : known->ticks;
         // Parts of several slow down together.
-        const bool slows = melody.has_ritardando && players.size() == 1 && ticks < (Integer(1) << 50);
+        const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
                        bars_of(ticks, melody.meter).str(),
                        slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));

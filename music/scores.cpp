@@ -129,7 +129,7 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
     ScoreHead head;
     std::vector<Player>& players = ensemble.players;
     head.tempo = ensemble.tempo;
-    head.ritardando = ensemble.has_ritardando ? 2 * ensemble.meter.bar() : 0;
+    head.ritardando = ensemble.close != Close::none ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
     head.made = made_with(options, players, arrangement != nullptr);
     if (arrangement) {
@@ -409,7 +409,7 @@ private:
         };
         ensemble_.tempo = first.tempo;
         ensemble_.meter = first.meter;
-        ensemble_.has_ritardando = first.has_ritardando;
+        ensemble_.close = first.close;
         if (arrangement_ && arrangement_->tempo && !is_option("tempo")) ensemble_.tempo = *arrangement_->tempo;
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
         for (const Player& player : ensemble_.players) {
@@ -428,11 +428,6 @@ private:
             }
             midi_.microtonal = true;
             midi_.bend_range = glide_bend_range;
-        }
-        if (is_printed(format_) && ensemble_.has_tempo_ratio()) {
-            throw SettingError("speed", "",
-                               "a part in a tempo of its own has no bars in common with the others, so it cannot be "
-                               "printed; MIDI, sound, Csound and pages play it");
         }
         midi_.format = settings_.format;
         midi_.tuning = settings_.tuning;
@@ -482,7 +477,7 @@ private:
     /// With all changes of tempo.
     double seconds_of(std::int64_t end, const Curves& curves) const {
         ScoreHead times;
-        times.ritardando = ensemble_.has_ritardando && !is_printed(format_) ? 2 * ensemble_.meter.bar() : 0;
+        times.ritardando = ensemble_.close != Close::none && !is_printed(format_) ? 2 * ensemble_.meter.bar() : 0;
         return seconds_at(end, ensemble_.tempo, tempo_map(times, curves, end));
     }
 

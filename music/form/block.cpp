@@ -58,6 +58,15 @@ Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
     return piece;
 }
 
+/// Lets a section last so long: its last notes are held or cut off.
+void fit(Block& piece, std::int64_t length) {
+    for (FormNote& one : piece.notes) {
+        const bool is_last = one.note.onset + one.note.duration == piece.length;
+        if (is_last && piece.length < length) one.note.duration += length - piece.length;
+    }
+    piece = cut(piece, 0, length);
+}
+
 /// The notes of each voice, by onset.
 std::map<int, std::vector<FormNote*>> voices_of(std::vector<FormNote>& notes) {
     std::map<int, std::vector<FormNote*>> voices;
@@ -166,17 +175,21 @@ void reverse(Block& block) {
 }
 
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
-              const std::vector<FormSection>& form) {
+              const std::vector<FormSection>& form, std::span<const std::int64_t> ends) {
     std::vector<std::int64_t> borders = {0};
     for (const std::int64_t end : block.ends) {
         if (end > borders.back() && end < block.length) borders.push_back(end);
     }
-    borders.push_back(block.length);
+    // The last sub-curve breathes like the others if more follows it.
+    const std::int64_t bar = melody.meter.bar();
+    const std::int64_t breathed = block.length + (melody.phrase_order > 0 ? melody.breath : 0);
+    borders.push_back(melody.breathes_to_bar ? (breathed + bar - 1) / bar * bar : breathed);
     Block result;
     for (const FormSection& section : form) {
         const auto at = static_cast<std::size_t>(section.letter);
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
+        if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
         end_on(piece, melody, section.ending);
         if (piece.notes.size() > most_block_notes - result.notes.size()) {
             throw ScoreError(fmt::format("the form would have more than {} notes", most_block_notes));
@@ -187,6 +200,11 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
         }
         result.length += piece.length;
         result.ends.push_back(result.length);
+    }
+    const std::size_t last = borders.size() - 2;
+    if (ends.empty() && static_cast<std::size_t>(form.back().letter) == last) {
+        result.length -= borders.back() - block.length;
+        result.ends.back() = result.length;
     }
     return result;
 }
@@ -222,11 +240,13 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     const std::int64_t side = last.size() > 1 && last[1]->degree < goal ? -1 : 1;
     const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
     const auto range = is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
-    if (range && goal < range->low() && goal + period <= range->high()) goal += period;
-    if (range && goal > range->high() && goal - period >= range->low()) goal -= period;
+    // What answers in canon lies within the range, moved by the interval.
+    const std::int64_t answer = melody.answer;
+    if (range && goal < range->low() + answer && goal + period <= range->high() + answer) goal += period;
+    if (range && goal > range->high() + answer && goal - period >= range->low() + answer) goal -= period;
     for (std::size_t i = 0; i < last.size(); ++i) {
         last[i]->degree = goal + side * static_cast<std::int64_t>(i);
-        if (range) last[i]->degree = range->inside(last[i]->degree);
+        if (range) last[i]->degree = range->inside(last[i]->degree - answer) + answer;
         last[i]->note.key = key_within(melody, last[i]->degree, side > 0);
     }
 }
@@ -246,7 +266,10 @@ void scale_times(Block& block, Ratio by) {
 }
 
 double key_within(const Melody& melody, std::int64_t degree, bool falling) {
-    return mapping::folded(melody, melody.key(degree, falling).value_or(melody.tonic));
+    const double key = melody.key(degree, falling).value_or(melody.tonic);
+    if (melody.answer == 0) return mapping::folded(melody, key);
+    const double led = melody.key(degree - melody.answer, falling).value_or(melody.tonic);
+    return std::clamp(mapping::folded(melody, led) + key - led, 0.0, 127.0);
 }
 
 }  // namespace sikku

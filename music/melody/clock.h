@@ -19,12 +19,12 @@ public:
     explicit Clock(const Melody& melody) : melody_(melody), has_rhythm_(!melody.rhythm.empty()) {}
 
     std::int64_t ticks(Number steps) const {
-        if (has_rhythm_) return slot_ticks(steps, false) + breaths_;
-        return Walk::ticks(steps, melody_.unit) + breaths_;
+        if (has_rhythm_) return slot_ticks(steps - begin_, false) + breaths_;
+        return Walk::ticks(steps - begin_, melody_.unit) + breaths_;
     }
     /// The tick at which a note ends that goes on until `steps`.
     std::int64_t end_ticks(Number steps) const {
-        return has_rhythm_ ? slot_ticks(steps, true) + breaths_ : ticks(steps);
+        return has_rhythm_ ? slot_ticks(steps - begin_, true) + breaths_ : ticks(steps);
     }
     /// The steps of so many ticks, a multiple of period().
     Integer steps(const Integer& ticks) const {
@@ -32,7 +32,7 @@ public:
         return has_rhythm_ ? slots / melody_.rhythm.slots * melody_.rhythm.hits.size() : slots;
     }
     bool is_accented(Number steps) const {
-        return has_rhythm_ && melody_.rhythm.hit(static_cast<std::int64_t>(steps)).is_accented;
+        return has_rhythm_ && melody_.rhythm.hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
     }
     /// The steps that have surely begun before `tick`, with so many breaths still to come.
     /// @return below 0 if none
@@ -44,11 +44,17 @@ public:
         const auto hits = static_cast<std::int64_t>(melody_.rhythm.hits.size());
         return room / (melody_.rhythm.slots * melody_.unit) * hits - hits;
     }
-    /// Phrases have ended; @return true if any
-    bool breathe(const Integer& phrases) {
+    /// Phrases have ended. @param steps  where the last one did
+    void breathe(const Integer& phrases, Number steps) {
         phrases_ += (phrases & 1).convert_to<int>();
-        breaths_ += (phrases * melody_.breath).convert_to<std::int64_t>();
-        return phrases > 0;
+        if (!melody_.breathes_to_bar) {
+            breaths_ += (phrases * melody_.breath).convert_to<std::int64_t>();
+            return;
+        }
+        // The next phrase begins with the rhythm, at a bar line.
+        const std::int64_t bar = melody_.meter.bar();
+        breaths_ = (end_ticks(steps) + melody_.breath + bar - 1) / bar * bar;
+        begin_ = steps;
     }
     /// Whether an odd number of phrases has ended.
     bool is_odd() const { return phrases_ % 2 != 0; }
@@ -71,6 +77,7 @@ private:
     const Melody& melody_;
     bool has_rhythm_;
     std::int64_t breaths_ = 0;  // ticks
+    Number begin_ = 0;          // steps to which times are added, those of the phrase if it begins at a bar line
     int phrases_ = 0;
 };
 

@@ -82,7 +82,7 @@ public:
             if (room < 0 || length > room) return false;
             for (Voice& voice : voices_) end_note(voice);
             end_phrases();
-            clock_.breathe(stretch.marks);
+            clock_.breathe(stretch.marks, time_);
             is_counted_ = false;
             level_ = 0;  // the mark after the stretch tells
             walk_.skip(at_, stretch);
@@ -120,7 +120,7 @@ private:
         for (Voice& voice : voices_) end_note(voice);
         emitter_.end_phrase(0, clock_.is_odd());
         emitter_.end_phrase(1, clock_.is_odd());
-        clock_.breathe(due_);
+        clock_.breathe(due_, time_);
         emitter_.begin_phrase(ticks(time_));
         due_ = 0;
     }

@@ -127,7 +127,8 @@ public:
         }
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
-        if (fold_ && options_.from > 0) {
+        // Where a phrase begins at a bar line, only those before it tell.
+        if (fold_ && options_.from > 0 && !melody_.breathes_to_bar) {
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
         }
@@ -312,6 +313,7 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     const auto fold = fold_of(with_marks.grammar, melody, with_marks.marks.phrase);
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
+    if (melody.breathes_to_bar && whole.marks > 0) return std::nullopt;
     MelodyCensus result;
     const auto notes_along = [&](std::size_t axis) {
         return melody.runs == Runs::each_step ? whole.steps[axis] : whole.runs[axis];

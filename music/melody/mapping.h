@@ -63,7 +63,7 @@ struct MelodyCensus {
 };
 
 /// Computes them by composition, for any derivation length. Nullopt for other mappings than runs, curves off the
-/// square grid, brackets and contexts.
+/// square grid, brackets and contexts, and phrases that begin at bar lines.
 std::optional<MelodyCensus> census(const Grammar& grammar, const Melody& melody);
 
 /// Where the runs of a curve lie that are notes, in turtle steps.

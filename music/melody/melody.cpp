@@ -284,22 +284,30 @@ private:
                 melody_.breath = ticks_per_quarter / 2;
             }
         }
-        if (const Key* key = pattern_.find("breath")) {
-            const auto ticks =
-                key->value.view() == "none" ? std::optional<std::int64_t>(0) : note_value(key->value.view());
-            if (!ticks) {
-                diagnostics_.error(place_of(*key),
-                                   "expected a note value such as 1/8, up to 16 whole notes, or none");
-            } else if (melody_.phrase_order == 0) {
-                diagnostics_.warning(key->name_at, "'breath:' has no meaning without 'phrases:'");
-            } else {
-                melody_.breath = *ticks;
-            }
-        }
+        if (const Key* key = pattern_.find("breath")) read_breath(*key);
         choose<Cadence>("cadence", melody_.cadence,
                         {{"none", Cadence::none}, {"tonic", Cadence::tonic}, {"alternate", Cadence::alternate}});
         read_articulation();
-        choose<bool>("ending", melody_.has_ritardando, {{"none", false}, {"ritardando", true}});
+        choose<Close>("ending", melody_.close,
+                      {{"none", Close::none}, {"ritardando", Close::ritardando}, {"fermata", Close::fermata}});
+    }
+
+    /// `1/8`, `bar` for a rest until the next bar line, `1/8 bar` for one of at least an eighth.
+    void read_breath(const Key& key) {
+        std::string_view text = key.value.view();
+        const bool is_to_bar = text == "bar" || text.ends_with(" bar");
+        if (is_to_bar) text = trimmed(text.substr(0, text.size() - 3));
+        const bool is_none = text == "none" || (is_to_bar && text.empty());
+        const auto ticks = is_none ? std::optional<std::int64_t>(0) : note_value(text);
+        if (!ticks) {
+            diagnostics_.error(place_of(key),
+                               "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar or none");
+        } else if (melody_.phrase_order == 0) {
+            diagnostics_.warning(key.name_at, "'breath:' has no meaning without 'phrases:'");
+        } else {
+            melody_.breath = *ticks;
+            melody_.breathes_to_bar = is_to_bar;
+        }
     }
 
     /// The sub-curves of a form are marked as phrases are.
@@ -310,9 +318,6 @@ private:
         if (melody_.phrase_order > 0 && layout.form_order > 0 && layout.form_order != melody_.phrase_order) {
             diagnostics_.error(place_of(*key),
                                "the sub-curves of the form are of another order than those of 'phrases:'");
-        }
-        if (melody_.harmony == Harmony::bass) {
-            diagnostics_.error(place_of(*key), "'form:' cannot be combined with `harmony: bass`");
         }
         if (layout.form_order > 0) melody_.phrase_order = layout.form_order;
         if (layout.form_order == 0) layout.form_order = melody_.phrase_order;

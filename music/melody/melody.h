@@ -52,6 +52,9 @@ enum class Articulation { legato, detached, by_depth };
 /// What the last notes of a phrase lead to by step: nothing; the tonic; the fifth and the tonic in turn.
 enum class Cadence { none, tonic, alternate };
 
+/// How a score ends: as before; the last two bars slow down; and the last notes are held.
+enum class Close { none, ritardando, fermata };
+
 /// Settings of a melody.
 struct Melody {
     Mapping mapping = Mapping::runs;
@@ -74,14 +77,15 @@ struct Melody {
     double swing = 0.5;     ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
     std::int64_t phrase_order = 0;  ///< phrases are sub-curves of that order; 0: none
-    std::int64_t breath = 0;        ///< ticks of rest after a phrase
+    std::int64_t breath = 0;        ///< ticks of rest after a phrase, or the least of them
+    bool breathes_to_bar = false;   ///< whether the rest lasts until a bar line
     Articulation articulation = Articulation::legato;
     double sounding = 0.6;  ///< share of a note that sounds, if detached
     Cadence cadence = Cadence::none;
     Harmony harmony = Harmony::none;
     std::vector<Chord> progression;  ///< one a bar, again and again
     std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
-    bool has_ritardando = false;     ///< whether the last two bars slow down
+    Close close = Close::none;
     double tempo = 120.0;            ///< quarters a minute
     Meter meter;
     int program = 0;               ///< General MIDI, 0 to 127

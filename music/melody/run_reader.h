@@ -96,7 +96,7 @@ public:
             end_run();
             release_held();
             end_phrases();
-            clock_.breathe(stretch.marks);
+            clock_.breathe(stretch.marks, state_.time);
             is_counted_ = false;
             levels_ = {};  // the mark after the stretch tells
             walk_.skip(state_.at, stretch);
@@ -313,7 +313,10 @@ private:
         if (due_ == 0) return;
         emitter_.end_phrase(0, clock_.is_odd());
         if (melody_.vertical == Vertical::voice) emitter_.end_phrase(1, clock_.is_odd());
-        clock_.breathe(due_);
+        const Number now = std::max(state_.time, state_.other_time);
+        clock_.breathe(due_, now);
+        // Two voices begin together at a bar line.
+        if (melody_.breathes_to_bar) state_.time = state_.other_time = now;
         emitter_.begin_phrase(ticks(std::max(state_.time, state_.other_time)));
         due_ = 0;
     }

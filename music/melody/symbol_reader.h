@@ -111,7 +111,7 @@ public:
         if (room < 0 || length > Integer(room) || abs(stretch.rise) >= farthest) return false;
         end_note();
         end_phrases();
-        clock_.breathe(stretch.marks);
+        clock_.breathe(stretch.marks, state_.time);
         is_counted_ = false;
         level_ = 0;  // the mark after the stretch tells
         state_.time += length.convert_to<double>();
@@ -243,7 +243,7 @@ private:
         if (due_ == 0) return;
         end_ = ticks(state_.time);
         emitter_.end_phrase(0, clock_.is_odd());
-        clock_.breathe(due_);
+        clock_.breathe(due_, state_.time);
         emitter_.begin_phrase(ticks(state_.time));
         due_ = 0;
     }

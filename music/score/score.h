@@ -40,6 +40,7 @@ struct Note {
     std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, where a curve follows it
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
     Glide glide{};             ///< of `vertical: glissando`
+    bool has_fermata = false;  ///< it is held at the end
 
     /// The end of the piece of the curve it comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }

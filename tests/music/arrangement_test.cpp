@@ -134,6 +134,38 @@ TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
     EXPECT_EQ(told(list, 3), "600:48/240 840:50/240 1080:52/240 1320:50/480");
 }
 
+/// Two tempos in print: tuplets say exactly what sounds.
+TEST(Arrangement, TemposOfTheirOwnArePrinted) {
+    for (const auto& [speed, actual] : {std::pair{"3:2", "3"}, {"5:4", "5"}, {"2:1", ""}, {"1:2", ""}}) {
+        const std::string text = track("instrument = \"Violin\"\n") +
+                                 track(fmt::format("speed = \"{}\"\ninstrument = \"Cello\"\n", speed));
+        MemoryDestination memory;
+        const auto remarks = plan_score(read(text), "musicxml", {})->make(memory, "x", {}).remarks;
+        EXPECT_EQ(remarks.size(), 1u) << speed;  // none about notes that were moved
+        pugi::xml_document xml;
+        ASSERT_TRUE(xml.load_string(memory.take("x").c_str()));
+        const auto tuplets = xml.select_nodes("//part[2]//time-modification/actual-notes");
+        EXPECT_EQ(tuplets.empty(), std::string(actual).empty()) << speed;
+        for (const auto& one : tuplets) EXPECT_EQ(one.node().text().get(), std::string(actual));
+        // The divisions of a quarter are the same in both parts.
+        const NoteList list = notes_of(text);
+        double divisions = xml.select_node("//divisions").node().text().as_double();
+        std::vector<double> onsets;
+        double now = 0;
+        for (const auto& one : xml.select_nodes("//part[2]//note")) {
+            const pugi::xml_node note = one.node();
+            const bool goes_on = note.select_node("tie[@type='stop']");
+            if (note.child("pitch") && !goes_on) onsets.push_back(now * 480 / divisions);
+            now += note.child("duration").text().as_double();
+        }
+        std::vector<double> expected;
+        for (const Note& note : list.notes) {
+            if (note.voice == 1) expected.push_back(static_cast<double>(note.onset));
+        }
+        EXPECT_EQ(onsets, expected) << speed;
+    }
+}
+
 TEST(Arrangement, TracksHaveNames) {
     const auto names = [](const std::string& text) {
         MemoryDestination memory;

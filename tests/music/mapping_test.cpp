@@ -854,8 +854,9 @@ TEST(Form, PiecesEqualTheWholeCut) {
         melody.articulation = Articulation::detached;
         melody.swing = 0.66;
         melody.swing_unit = unit;
-        for (const char* rhythm : {"", "x.~xx", "E(5,8)"}) {
-            melody.rhythm = read_rhythm_template(rhythm, problem);
+        for (const char* rhythm : {"", "x.~xx", "E(5,8)", "bar x.~xx"}) {
+            melody.breathes_to_bar = rhythm[0] == 'b';
+            melody.rhythm = read_rhythm_template(rhythm + (melody.breathes_to_bar ? 4 : 0), problem);
             for (const Vertical vertical : {Vertical::ignore, Vertical::rest, Vertical::extend, Vertical::voice}) {
                 if (mapping != Mapping::runs && vertical != Vertical::ignore) continue;
                 melody.vertical = vertical;
@@ -868,6 +869,7 @@ TEST(Form, PiecesEqualTheWholeCut) {
         options.from = 123'456'789'012'345 * 8 * unit;
         options.to = options.from + 128 * unit;
         melody.anchor = Anchor::piece;
+        melody.breathes_to_bar = false;
         EXPECT_GT(played(hilbert(40), melody, options).all.size(), 10u);
     }
 }

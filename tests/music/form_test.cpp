@@ -1,0 +1,191 @@
+// tests/music/form_test.cpp: phrases that begin at bar lines, endings, and basses of scores.
+#include "music/scores.h"
+#include "tests/midi_tools.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+const std::string hilbert = "title: H\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\n";
+const std::string hilbert_4 = hilbert + "derivation length: 4\n";
+
+NoteList notes_of(const std::string& text) {
+    const Document document = parse("f.lsys", text);
+    return list_notes({&document, 1}, {}, {});
+}
+
+std::vector<Note> of_voice(const NoteList& list, int voice) {
+    std::vector<Note> notes;
+    for (const Note& note : list.notes) {
+        if (note.voice == voice) notes.push_back(note);
+    }
+    return notes;
+}
+
+std::int64_t end_of(const Note& note) {
+    return note.onset + note.duration;
+}
+
+/// The phrases of a voice, which rests end.
+std::vector<std::vector<Note>> phrases_of(const std::vector<Note>& notes) {
+    std::vector<std::vector<Note>> phrases;
+    for (const Note& note : notes) {
+        if (phrases.empty() || note.onset > end_of(phrases.back().back())) phrases.emplace_back();
+        phrases.back().push_back(note);
+    }
+    return phrases;
+}
+
+TEST(Breath, UntilTheBarLine) {
+    // The sub-curves themselves: what a phrase has without a breath.
+    std::vector<std::size_t> sizes;
+    for (const auto& phrase : phrases_of(notes_of(hilbert_4 + "vertical: extend\nphrases: 2\nbreath: 2\n").notes)) {
+        sizes.push_back(phrase.size());
+    }
+    ASSERT_EQ(sizes.size(), 16u);
+    for (const auto& [breath, least] : {std::pair<std::string, int>{"bar", 0}, {"1/8 bar", 240}, {"1/2 bar", 960}}) {
+        for (const char* meter : {"4/4", "3/4", "7/8"}) {
+            const NoteList list = notes_of(fmt::format("{}vertical: extend\nphrases: 2\nbreath: {}\nmeter: {}\n",
+                                                       hilbert_4, breath, meter));
+            const std::int64_t bar = list.meter.bar();
+            std::size_t at = 0;
+            for (std::size_t i = 0; i < sizes.size(); ++i) {
+                const Note& first = list.notes[at];
+                EXPECT_EQ(first.onset % bar, 0) << breath << meter << i;
+                if (i > 0) {
+                    const std::int64_t rest = first.onset - end_of(list.notes[at - 1]);
+                    EXPECT_GE(rest, least);
+                    EXPECT_LT(rest, least + bar);
+                }
+                at += sizes[i];
+            }
+            EXPECT_EQ(at, list.notes.size());
+        }
+    }
+    // The rhythm begins with the phrase.
+    for (const auto& phrase : phrases_of(notes_of(hilbert_4 + "phrases: 2\nbreath: 1/2 bar\nrhythm: Xx.xx.xx\n").notes)) {
+        EXPECT_EQ(phrase.front().onset % 1920, 0);
+        EXPECT_EQ(phrase.front().velocity, 96);
+    }
+    // Two voices begin together.
+    const NoteList two = notes_of(hilbert_4 + "vertical: voice\nphrases: 2\nbreath: 1/4 bar\n");
+    std::map<std::int64_t, std::set<int>> begins;
+    for (int voice = 0; voice < 2; ++voice) {
+        for (const Note& note : of_voice(two, voice)) {
+            if (note.onset % 1920 == 0) begins[note.onset].insert(voice);
+        }
+    }
+    EXPECT_EQ(std::count_if(begins.begin(), begins.end(), [](const auto& one) { return one.second.size() == 2; }), 16);
+    // Sections of forms are whole bars, those at the end of the curve, too.
+    const NoteList form = notes_of(hilbert_4 + "vertical: extend\nphrases: 2\nbreath: 1/4 bar\nform: P A P\n");
+    const std::vector<Note> notes = form.notes;
+    const std::size_t first = sizes.back();
+    ASSERT_EQ(notes.size(), 2 * first + sizes.front());
+    EXPECT_EQ(notes[first].onset % 1920, 0);
+    EXPECT_GE(notes[first].onset - end_of(notes[first - 1]), 480);
+    EXPECT_EQ(notes[first + sizes.front()].onset % 1920, 0);
+    EXPECT_EQ(form.end, end_of(notes.back()));
+    for (const char* bad : {"bars", "0 bar", "1/8 bars", "x bar", "17 bar"}) {
+        EXPECT_THROW(notes_of(hilbert_4 + "phrases: 2\nbreath: " + bad + "\n"), PatternError) << bad;
+    }
+}
+
+TEST(Endings, LastNotesAreHeld) {
+    const auto ends = [](const std::string& text) {
+        const NoteList plain = notes_of(text + "ending: ritardando\n");
+        const NoteList held = notes_of(text + "ending: fermata\n");
+        EXPECT_EQ(held.notes.size(), plain.notes.size()) << text;
+        const std::int64_t bar = held.meter.bar();
+        EXPECT_EQ(held.end % bar, 0) << text;
+        EXPECT_GE(held.end, plain.end) << text;
+        EXPECT_LE(held.end, plain.end + 2 * bar) << text;
+        int longer = 0;
+        for (std::size_t i = 0; i < plain.notes.size(); ++i) {
+            EXPECT_EQ(held.notes[i].onset, plain.notes[i].onset);
+            EXPECT_EQ(held.notes[i].key, plain.notes[i].key);
+            if (held.notes[i].duration == plain.notes[i].duration) continue;
+            ++longer;
+            EXPECT_EQ(end_of(held.notes[i]), held.end) << text;
+            EXPECT_GE(held.notes[i].duration, bar / 2);
+        }
+        return longer;
+    };
+    EXPECT_EQ(ends(hilbert_4), 1);
+    EXPECT_EQ(ends(hilbert_4 + "meter: 7/8\nunit: 1/16\n"), 1);
+    EXPECT_GE(ends(hilbert_4 + "vertical: voice\n"), 1);
+    EXPECT_GE(ends(hilbert_4 + "harmony: triads\n"), 1);
+    EXPECT_EQ(ends(hilbert_4 + "canon: 1 -12\ncounterpoint: strict\n"), 2);
+    // The voice that was there first has ended long ago.
+    EXPECT_EQ(ends(hilbert_4 + "canon: 5 -12\n"), 1);
+    EXPECT_EQ(ends(hilbert_4 + "form: AABA\n"), 1);
+    // Drums are not held, and notes that ended before the last one are not either.
+    const std::string table = "title: T\naxiom: [AACB][kkkkk]\nmapping: symbols\nnote A: C4 1/4\nnote B: D4 1/8\n"
+                              "chord C: C4 E4 G4 1/8\ndrum k: bass drum 1/8\n";
+    EXPECT_EQ(ends(table), 1);
+    // A piece has no more bars than were asked for.
+    const Document document = parse("f.lsys", hilbert_4 + "ending: fermata\n");
+    EXPECT_EQ(list_notes({&document, 1}, {{"bars", "3"}}, {}).end, 3 * 1920);
+    // Files and streams hold the same notes, whatever is shaped by the curve.
+    const std::string shaped = hilbert_4 + "ending: fermata\nvelocity: by y\npan: by x\nharmony: progression I-IV-V-I\n";
+    const MidiFile file = read_midi(play(parse("f.lsys", shaped), "mid"));
+    const NoteList list = notes_of(shaped);
+    ASSERT_EQ(file.notes.size(), list.notes.size());
+    std::multiset<std::pair<std::int64_t, std::int64_t>> found;
+    std::multiset<std::pair<std::int64_t, std::int64_t>> expected;
+    for (const MidiNote& note : file.notes) found.emplace(note.onset, note.duration);
+    for (const Note& note : list.notes) expected.emplace(note.onset, note.duration);
+    EXPECT_EQ(found, expected);
+}
+
+TEST(Basses, OfWordsAnglesAndForms) {
+    // 243 notes of the arrowhead over 27.
+    const std::string arrowhead =
+        "title: A\nangle factor: 6\naxiom: YF\nX --> YF+XF+Y\nY --> XF-YF-X\nmapping: symbols\n";
+    const NoteList list = notes_of(arrowhead + "derivation length: 5\nharmony: bass 2\n");
+    const std::vector<Note> bass = of_voice(list, 1);
+    ASSERT_EQ(bass.size(), 27u);
+    std::vector<double> coarse;
+    for (const Note& note : notes_of(arrowhead + "derivation length: 3\n").notes) {
+        coarse.push_back(note.key - 24);
+    }
+    for (std::size_t i = 0; i < bass.size(); ++i) {
+        EXPECT_EQ(bass[i].onset, static_cast<std::int64_t>(i) * 9 * 240);
+        EXPECT_EQ(bass[i].key, coarse[i]);
+    }
+    // A range moves with the bass.
+    for (const Note& note : of_voice(notes_of(hilbert_4 + "range: reflect C4-C5\nharmony: bass\n"), 1)) {
+        EXPECT_GE(note.key, 36);
+        EXPECT_LE(note.key, 48);
+    }
+    // Sections end together, and what is repeated is the same again.
+    const NoteList form = notes_of(hilbert + "derivation length: 5\nharmony: bass\nform: A1 A2 B A2\n");
+    const std::vector<Note> upper = of_voice(form, 0);
+    const std::vector<Note> lower = of_voice(form, 1);
+    EXPECT_EQ(end_of(upper.back()), end_of(lower.back()));
+    const auto starts = [](const std::vector<Note>& notes, std::int64_t tick) {
+        return std::any_of(notes.begin(), notes.end(), [&](const Note& note) { return note.onset == tick; });
+    };
+    // A section of Hilbert's curve of order 5 has 64 steps, perhaps one more or less.
+    int borders = 0;
+    for (std::int64_t section = 1; section < 4; ++section) {
+        for (std::int64_t tick = (64 * section - 3) * 240; tick <= (64 * section + 3) * 240; tick += 240) {
+            borders += starts(upper, tick) && starts(lower, tick) ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(borders, 3);
+    EXPECT_THROW(notes_of(hilbert_4 + "harmony: bass\nform: AB\nphrases: 2\n"), ScoreError);
+    EXPECT_THROW(notes_of(hilbert_4 + "harmony: bass\nvertical: voice\n"), ScoreError);
+    EXPECT_THROW(notes_of("axiom: F[+F]F\nF --> FF\nderivation length: 3\nharmony: bass\n"), ScoreError);
+}
+
+}  // namespace
+}  // namespace sikku
