@@ -296,6 +296,9 @@ void report_notation(const Notation& notation, Made& made) {
                         "64th; `unit: 1/8` keeps the rhythm",
                         notation.moved == 1 ? "1 note does" : counted(notation.moved, "note") + " do"));
     }
+    if (notation.merged > 0) {
+        made.fact(fmt::format("{} in unison with other voices printed once", counted(notation.merged, "note")));
+    }
     if (notation.bent > 0) {
         made.warn(fmt::format("{} written as the nearest quarter tone, with the difference in cents",
                               notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are"));

@@ -101,16 +101,19 @@ public:
         put("M:{}\nL:1/8\nQ:{}/{}={}\n{}", meter_name(head_.meter), beat.value.dotted ? 3 : 1,
             beat.value.divisor * (beat.value.dotted ? 2 : 1),
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
-        put("K:{}\n", key_name(notation_.parts.front().keys.front().key));
+        // abc2midi would break chords a little.
+        put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
             for (const Staff& staff : notated.staves) {
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
-                    put("V:{} clef={}{}\n{}\n[K:{}] ", ++number, clef_name(staff.changes.front().clef),
+                    const std::string_view clef = clef_name(staff.changes.front().clef);
+                    // Keys without a clef would set the octaves back.
+                    put("V:{} clef={}{}\n{}\n[K:{} clef={}] ", ++number, clef,
                         notated.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(notated.name)),
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
-                        key_name(notated.keys.front().key));
+                        key_name(notated.keys.front().key), clef);
                     write_voice(staff, k, notated.keys);
                 }
             }
@@ -195,7 +198,7 @@ private:
         for (const NotatedSymbol& symbol : voice.symbols) {
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 signs = signs_of(key->key);
-                put("[K:{}] ", key_name(key->key));
+                put("[K:{} clef={}] ", key_name(key->key), clef_name(clef));
             }
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {

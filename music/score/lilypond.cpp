@@ -151,7 +151,21 @@ private:
             "  system-system-spacing = #'((basic-distance . 16) (minimum-distance . 10) (padding . 4) "
             "(stretchability . 60))\n"
             "  last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) "
-            "(stretchability . 30))\n}}\n\n");
+            "(stretchability . 30))\n");
+        // LilyPond takes systems with tuplets for lower than they are, and then has to squeeze a page.
+        if (has_tuplets()) put("  page-breaking-system-system-spacing.padding = #6\n");
+        put("}}\n\n");
+    }
+
+    bool has_tuplets() const {
+        for (const NotatedPart& part : notation_.parts) {
+            for (const Staff& staff : part.staves) {
+                for (const NotatedVoice& voice : staff.voices) {
+                    if (!voice.tuplets.empty()) return true;
+                }
+            }
+        }
+        return false;
     }
 
     /// Room for names; staves that rest throughout a system are left out of it.

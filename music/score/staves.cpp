@@ -222,17 +222,18 @@ PartPlan share_staves(const std::vector<StaffVoice>& voices) {
             continue;
         }
         until = note.onset + note.duration;
-        auto free = std::find_if(shared.begin(), shared.end(), [&, onset = note.onset](const StaffVoice& line) {
-            return line.notes.back().onset + line.notes.back().duration <= onset;
-        });
-        if (free == shared.end()) {
-            shared.push_back({voice, {}});
-            free = shared.end() - 1;
+        // The line whose last note is nearest.
+        StaffVoice* free = nullptr;
+        for (StaffVoice& line : shared) {
+            const Note& last = line.notes.back();
+            if (last.onset + last.duration > note.onset) continue;
+            if (!free || std::fabs(last.key - note.key) < std::fabs(free->notes.back().key - note.key)) free = &line;
         }
+        if (!free) free = &shared.emplace_back(StaffVoice{voice, {}});
         free->notes.push_back(note);
     }
     sort_by_height(shared);
-    const std::size_t staves = (shared.size() + 1) / 2;
+    const std::size_t staves = shared.size() <= most_own_staves ? shared.size() : (shared.size() + 1) / 2;
     if (staves > most_shared_staves) {
         throw ScoreError(
             fmt::format("{} notes sound at once, which needs too many staves for a page; a smaller n has "

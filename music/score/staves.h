@@ -35,7 +35,8 @@ bool is_keyboard(int program);
 /// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
 /// low ones. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases change hands,
 /// where that saves ledger lines. If more than twelve voices sound, notes that another voice has too are merged, and
-/// the rest share as few staves as possible, two voices each.
+/// the rest is divided into as few lines as possible: up to twelve have staves of their own, more share them in
+/// pairs.
 /// @throws ScoreError for more than 24 notes at once
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
                      std::int64_t bar_length);

@@ -679,16 +679,17 @@ TEST(Notation, EveryVoiceHasAStaff) {
 }
 
 TEST(Notation, VeryManyVoicesShareStavesAndMergeUnisons) {
-    TestScore score = many_voices(21);
+    TestScore score = many_voices(25);
     const Notation notation = notate(score);
-    ASSERT_EQ(notation.parts[0].staves.size(), 10u);
+    ASSERT_EQ(notation.parts[0].staves.size(), 12u);
     for (const Staff& staff : notation.parts[0].staves) EXPECT_EQ(staff.voices.size(), 2u);
     EXPECT_EQ(joined(notation), plain(score.notes));
     for (Note& note : score.notes) note.key = note.voice < 10 ? 60 : 64;
     const Notation merged = notate(score);
-    EXPECT_EQ(merged.merged, 18u);
-    ASSERT_EQ(merged.parts[0].staves.size(), 1u);
-    EXPECT_EQ(keys_of(merged.parts[0].staves[0]), (std::vector<double>{64, 60}));
+    EXPECT_EQ(merged.merged, 22u);
+    ASSERT_EQ(merged.parts[0].staves.size(), 2u);
+    EXPECT_EQ(keys_of(merged.parts[0].staves[0]), (std::vector<double>{64}));
+    EXPECT_EQ(keys_of(merged.parts[0].staves[1]), (std::vector<double>{60}));
 }
 
 TEST(Notation, OneRestOfABarIsEnough) {

@@ -96,7 +96,8 @@ std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool 
                 return ticks;
             };
             if (match[2].matched) {
-                key = key_of(match[2]);
+                const std::string name = match[2];
+                key = key_of(name.substr(0, name.find(' ')));
             } else if (match[4].matched) {
                 EXPECT_EQ(here % bar, 0);
                 EXPECT_EQ(left, 0);
