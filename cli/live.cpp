@@ -156,6 +156,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
                     "play now, to this MIDI port: a name or address from `sikku ports`, or a device such as "
                     "/dev/snd/midiC1D0; changes of the pattern files are heard from the next bar on")
         ->type_name("PORT")
+        ->check([](const std::string& text) { return text.empty() ? "expected a name, an address or a device" : ""; })
         ->group("Live");
     options.repeat_option =
         command.add_option("--repeat", options.repeat, "with --port: how often (until ctrl-C)")

@@ -413,10 +413,16 @@ int line_of(const Ensemble& ensemble, int voice) {
         throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
                                      bars_of(ticks, ensemble.meter).str()));
     }
+    const Layout& layout = ensemble.players.front().melody.layout;
+    if (all.past && layout.first_bar > 1) {
+        throw ScoreError(
+            fmt::format("the excerpt contains no notes: the melody ends before bar {}", layout.first_bar));
+    }
+    if (playing.to <= playing.from) throw ScoreError("the requested time is shorter than a tick, a 480th of a quarter");
     throw ScoreError(
         fmt::format("the {} no notes{}",
                     playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains",
-                    reason_of_silence(ensemble.players.front().melody, all.lost)));
+                    reason_of_silence(ensemble.players.front(), all.lost)));
 }
 
 }  // namespace

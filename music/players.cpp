@@ -183,9 +183,19 @@ std::string scale_of(const Melody& melody) {
     return fmt::format("{} from {}", melody.scale.title, note_name(melody.tonic + melody.transpose, spelling));
 }
 
-std::string reason_of_silence(const Melody& melody, std::uint64_t lost) {
+std::string reason_of_silence(const Player& player, std::uint64_t lost) {
+    const Melody& melody = player.melody;
     if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
-    if (!melody.table.empty()) return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
+    const Grammar& grammar = player.document.grammar();
+    const std::vector<char> reached = grammar.reachable();
+    const auto moves = [&](Symbol symbol) {
+        const Action action = grammar.symbols()[symbol].command.action;
+        return reached[symbol] != 0 && (action == Action::draw || action == Action::move);
+    };
+    bool has_steps = false;
+    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) has_steps = has_steps || moves(symbol);
+    if (!has_steps && melody.table.empty()) return ": the word has no steps such as F";
+    if (melody.mapping == Mapping::symbols && !melody.table.empty()) return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
     if (melody.mapping != Mapping::runs) return {};
     return std::string(": the curve has no horizontal run there") +
            (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
@@ -246,7 +256,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
                        slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
         if (played && played->notes == 0) {
-            fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(melody, played->lost));
+            fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(player, played->lost));
         }
         if (played && !played->skipped.empty()) {
             fmt::format_to(out, "skipped   {}\n", skipped_text(played->skipped));

@@ -57,8 +57,8 @@ int voices_of(const Player& player, const PlayOptions& playing);
 /// The scale in words, with its tonic.
 std::string scale_of(const Melody& melody);
 
-/// Why a melody has no notes, and what may help; empty if unknown. @param lost  notes without a length or a key
-std::string reason_of_silence(const Melody& melody, std::uint64_t lost);
+/// Why a part has no notes, and what may help; empty if unknown. @param lost  notes without a length or a key
+std::string reason_of_silence(const Player& player, std::uint64_t lost);
 
 /// Number of bars that so many ticks begin.
 Integer bars_of(const Integer& ticks, const Meter& meter);

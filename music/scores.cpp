@@ -358,7 +358,8 @@ public:
         const bool is_limited = midi_.microtonal && midi_.tuning != Tuning::mpe;
         score.head = make_head(playing, is_limited ? most_channels : most_voices);
         score.midi = midi_;
-        score.midi.share_channels = !is_limited && pitched_voices(score.head) > most_channels;
+        score.midi.share_channels = !is_limited && midi_.tuning != Tuning::mpe && pitched_voices(score.head) > most_channels;
+        if (score.midi.share_channels) channel_slots(score.head);  // refuses what has too many instruments
         score.humanise = settings_.humanise;
         score.seed = settings_.seed;
         return stream_notes(std::move(score), ensemble_, playing);

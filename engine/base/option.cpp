@@ -15,10 +15,14 @@
 namespace sikku {
 namespace {
 
-bool is_whole(std::string_view text) {
+/// What is wrong with a whole number; null if nothing.
+const char* whole_problem(std::string_view text) {
     std::uint64_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && stop == text.data() + text.size();
+    if (error == std::errc::invalid_argument || stop != text.data() + text.size()) {
+        return "expected a whole number, 0 or more";
+    }
+    return error == std::errc() ? nullptr : "too large";
 }
 
 }  // namespace
@@ -69,7 +73,9 @@ void check_option(const OptionInfo& option, const std::string& given) {
         if (text != "true" && text != "false") refuse("expected true or false");
         return;
     }
-    if (option.kind == OptionKind::whole && !is_whole(text)) refuse("expected a whole number, 0 or more");
+    if (option.kind == OptionKind::whole) {
+        if (const char* problem = whole_problem(text)) refuse(problem);
+    }
     double number = 0;
     if (!read_number(text, number)) refuse("expected a number");
     const bool has_least = option.least > -1e300;

@@ -42,7 +42,8 @@ Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
     : head_(head),
       midi_(midi),
       is_mpe_(midi.tuning == Tuning::mpe),
-      bend_range_(is_mpe_ ? mpe_bend_range : midi.bend_range) {
+      bend_range_(is_mpe_ ? mpe_bend_range : midi.bend_range),
+      slots_(midi.share_channels ? channel_slots(head) : std::vector<int>()) {
     for (const Part& part : head.parts) voice_count_ += std::max(part.voices, 0);
     sounding_.resize(static_cast<std::size_t>(voice_count_));
     values_.resize(static_cast<std::size_t>(voice_count_));
@@ -68,7 +69,7 @@ int Voices::part_of(int voice) const {
 
 int Voices::channel_of(int voice) const {
     if (is_drum(voice)) return drums;
-    const int slot = (midi_.share_channels ? part_of(voice) : voice) % 15;
+    const int slot = (midi_.share_channels ? slots_[static_cast<std::size_t>(part_of(voice))] : voice) % 15;
     return slot < drums ? slot : slot + 1;
 }
 

@@ -90,8 +90,10 @@ Marked marked(Grammar grammar, const Melody& melody) {
 /// Everything a reader needs, made ready once.
 class Player {
 public:
-    Player(const Grammar& grammar, const Melody& melody, const Marks& marks, const PlayOptions& options)
-        : grammar_(grammar), melody_(melody), marks_(marks), options_(options), lattice_(make_lattice(grammar)) {
+    /// @param plain  the grammar without marks
+    Player(const Grammar& grammar, const Grammar& plain, const Melody& melody, const Marks& marks,
+           const PlayOptions& options)
+        : grammar_(grammar), plain_(plain), melody_(melody), marks_(marks), options_(options), lattice_(make_lattice(grammar)) {
         is_grid_ = is_on_grid(lattice_, first_);
         const std::vector<char> reached = grammar.reachable();
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
@@ -136,7 +138,7 @@ public:
         const bool is_piece = !has_voices_ && !shares_ && options_.to < INT64_MAX;
         const bool is_long =
             static_cast<double>(options_.to - options_.from) > options_.budget * static_cast<double>(melody_.unit);
-        if (!is_piece || is_long) require_affordable(grammar_, true, options_.budget);
+        if (!is_piece || is_long) require_affordable(plain_, true, options_.budget);
         try {
             derive(grammar_, *reader, derivation);
         } catch (const Enough&) {
@@ -205,7 +207,7 @@ private:
 
     /// Reads the word once to learn what its branches would last by themselves.
     void measure_spans() {
-        require_affordable(grammar_, true, options_.budget);
+        require_affordable(plain_, true, options_.budget);
         PlayOptions all = options_;
         all.ahead = 0;
         all.degrees = all.phrase_ends = nullptr;
@@ -229,7 +231,7 @@ private:
     };
 
     Origin survey() const {
-        require_affordable(grammar_, true, options_.budget);
+        require_affordable(plain_, true, options_.budget);
         PlayOptions all = options_;
         all.ahead = 0;
         all.degrees = all.phrase_ends = nullptr;
@@ -274,6 +276,7 @@ private:
     }
 
     const Grammar& grammar_;
+    const Grammar& plain_;
     const Melody& melody_;
     const Marks& marks_;
     const PlayOptions& options_;
@@ -293,10 +296,12 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    Marked with_marks = marked(shorten(given), melody);
+    const Grammar plain = shorten(given);
+    Marked with_marks = marked(plain, melody);
     Grammar grammar = resolve_contexts(std::move(with_marks.grammar), whole_words);
     if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
-    return Player(grammar, melody, with_marks.marks, options).play(sink);
+    const bool has_marks = with_marks.marks.phrase || with_marks.marks.whole > 0;
+    return Player(grammar, has_marks ? plain : grammar, melody, with_marks.marks, options).play(sink);
 }
 
 Integer period(const Melody& melody) {

@@ -509,18 +509,7 @@ private:
         }
         if (wanted == "piano") return;  // the first of all, and the default
         // A part of a name will do: `guitar`, `strings`.
-        for (std::size_t i = 0; i < folded.size() && wanted.size() >= 4; ++i) {
-            if (folded[i].find(wanted) == std::string::npos) continue;
-            melody_.program = static_cast<int>(i);
-            const auto others = std::count_if(folded.begin(), folded.end(), [&](const std::string& name) {
-                return name.find(wanted) != std::string::npos;
-            });
-            diagnostics_.warning(
-                key->value,
-                fmt::format("instrument '{}' is taken to be {} ({}){}", text, instrument_names()[i], i + 1,
-                            others > 1 ? fmt::format(", the first of {} with this word", others) : ""));
-            return;
-        }
+        if (wanted.size() >= 4 && choose_by_word(*key, wanted, folded)) return;
         // The nearest name, or the one with the nearest word.
         std::string_view near = nearest(wanted, names);
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
@@ -533,9 +522,30 @@ private:
         const std::string problem =
             text.empty() ? "expected" : fmt::format("unknown instrument '{}'; expected", text);
         diagnostics_.error(text.empty() ? key->name_at : key->value,
-                           near.empty()
+                           near.empty() || text.empty()
                                ? problem + " a General MIDI name such as flute or sitar, or a number from 1 to 128"
                                : fmt::format("unknown instrument '{}'; did you mean '{}'?", text, near));
+    }
+
+    /// Takes the first name with a word or a part of a word, and says so; whole words come first.
+    bool choose_by_word(const Key& key, const std::string& wanted, const std::vector<std::string>& names) {
+        for (const bool is_word : {true, false}) {
+            const auto matches = [&](const std::string& name) {
+                const std::string padded = ' ' + name + ' ';
+                return padded.find(is_word ? ' ' + wanted + ' ' : wanted) != std::string::npos;
+            };
+            const auto first = std::find_if(names.begin(), names.end(), matches);
+            if (first == names.end()) continue;
+            const auto program = static_cast<std::size_t>(first - names.begin());
+            const auto others = std::count_if(names.begin(), names.end(), matches);
+            melody_.program = static_cast<int>(program);
+            diagnostics_.warning(
+                key.value,
+                fmt::format("instrument '{}' is taken to be {} ({}){}", key.value.view(), instrument_names()[program],
+                            program + 1, others > 1 ? fmt::format(", the first of {} with this word", others) : ""));
+            return true;
+        }
+        return false;
     }
 
     const Pattern& pattern_;

@@ -219,7 +219,8 @@ private:
     std::string read_degree(std::string_view word, SymbolRow& row) const {
         const auto degree = whole(word.starts_with('+') ? word.substr(1) : word);
         if (!degree || *degree < -most_degree || *degree > most_degree) {
-            return fmt::format("unknown degree '{}'; expected a whole number; 0 is the tonic", word);
+            return fmt::format("unknown degree '{}'; expected a whole number from -{} to {}; 0 is the tonic", word,
+                               most_degree, most_degree);
         }
         row.pitches.push_back({*degree, std::nullopt});
         return {};

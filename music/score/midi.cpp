@@ -239,7 +239,8 @@ public:
           sink_(sink),
           options_(options),
           is_mpe_(options.tuning == Tuning::mpe),
-          bend_range_(is_mpe_ ? mpe_bend_range : options.bend_range) {
+          bend_range_(is_mpe_ ? mpe_bend_range : options.bend_range),
+          slots_(options.share_channels ? channel_slots(head) : std::vector<int>()) {
         check_options();
         std::size_t voices = 0;
         for (const Part& part : head_.parts) voices += static_cast<std::size_t>(std::max(part.voices, 0));
@@ -377,8 +378,8 @@ private:
         if (options_.bend_range < 1 || options_.bend_range > 24) {
             throw ScoreError(fmt::format("a bend range of {} semitones: expected 1 to 24", options_.bend_range));
         }
-        if (options_.share_channels && (options_.microtonal || is_mpe_ || head_.parts.size() > most_voices)) {
-            throw ScoreError("voices can share channels only without microtones, and in at most 15 parts");
+        if (options_.share_channels && (options_.microtonal || is_mpe_)) {
+            throw ScoreError("voices can share channels only without microtones");
         }
         const Meter& meter = head_.meter;
         const bool is_power =
@@ -532,7 +533,7 @@ private:
         }
         auto voice = std::make_unique<Voice>();
         voice->number = number;
-        const int slot = options_.share_channels         ? part_of(number)
+        const int slot = options_.share_channels         ? slots_[static_cast<std::size_t>(part_of(number))]
                          : voices_.size() <= most_voices ? number
                                                          : static_cast<int>(pitched_);
         voice->is_drums = is_drums;
@@ -882,6 +883,7 @@ private:
     const MidiOptions options_;
     const bool is_mpe_;
     const int bend_range_;
+    const std::vector<int> slots_;  // of channels, by part, if they are shared
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
     std::vector<Note> collected_;                 // with MPE, until finish()
     std::array<std::map<int, int>, channels> sent_;  // values of controllers, by channel, with MPE
@@ -896,6 +898,24 @@ private:
 };
 
 }  // namespace
+
+std::vector<int> channel_slots(const ScoreHead& head) {
+    std::vector<int> slots;
+    if (head.parts.size() <= most_voices) {
+        for (std::size_t i = 0; i < head.parts.size(); ++i) slots.push_back(static_cast<int>(i));
+        return slots;
+    }
+    std::map<int, int> of_program;
+    for (const Part& part : head.parts) {
+        const auto next = static_cast<int>(of_program.size());
+        slots.push_back(part.is_drums ? 0 : of_program.try_emplace(part.program, next).first->second);
+    }
+    if (of_program.size() > most_voices) {
+        throw ScoreError(fmt::format("{} instruments in {} parts: MIDI has channels for {} beside the drums'",
+                                     of_program.size(), head.parts.size(), most_voices));
+    }
+    return slots;
+}
 
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options) {
     return std::make_unique<MidiWriter>(head, sink, options);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace sikku {
 
@@ -18,10 +19,15 @@ struct MidiOptions {
     bool microtonal = false;  ///< whether keys with a fraction may come; each voice then prepares its channel
     Tuning tuning = Tuning::bend;
     int bend_range = 2;  ///< semitones of a full bend, 1 to 24; with MPE it is 48
-    /// Voices of a part share its channel, so that there may be more than 15. Only without microtones; notes on one
-    /// key of a part must not overlap: see UnisonMerger.
+    /// Voices of a part share its channel, so that there may be more than 15; of more than 15 parts, those of an
+    /// instrument: see channel_slots(). Only without microtones; notes on one key of a channel must not overlap: see
+    /// UnisonMerger.
     bool share_channels = false;
 };
+
+/// Which parts share a channel where voices do, by part, counted from 0: each has its own or, if there are more than
+/// 15, those of one instrument share. Numbers of drums mean nothing. @throws ScoreError for more than 15 instruments
+std::vector<int> channel_slots(const ScoreHead& head);
 
 /// Writes a Standard MIDI File of 480 ticks a quarter, the same bytes for the same notes.
 ///
@@ -42,7 +48,7 @@ struct MidiOptions {
 /// Cost: in format 1 voice 0 goes to the sink in blocks, the bytes of others wait in memory until finish(); in format
 /// 0 all do; with MPE all notes do. @throws ScoreError, here for what the head tells (a tempo, meter, key, program or
 /// bend range that no file can hold) and then by notes() and finish(): more than 15 voices with notes that are no
-/// drums (or parts, if channels are shared), or with MPE more than 14 notes at the same time, a voice of no part,
+/// drums (or instruments, if channels are shared), or with MPE more than 14 notes at the same time, a voice of no part,
 /// notes that overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above 2^28 -
 /// 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});

@@ -449,7 +449,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<button type=\"button\" id=\"play\"><svg viewBox=\"0 0 10 10\" aria-hidden=\"true\"><path "
         "d=\"M1 0l8 5-8 5z\"/></svg><span>Play</span></button>\n"
         "<label class=\"long\">Position <input type=\"range\" id=\"place\" min=\"0\" max=\"1000\" step=\"any\" "
-        "value=\"0\"/> <span id=\"place-text\"></span></label>\n"
+        "value=\"0\" aria-label=\"Position\"/> <span id=\"place-text\" aria-hidden=\"true\"></span></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
         "<output id=\"tempo-text\"></output></label>\n</div>\n",
         title, xml_escaped(subtitle(head, melody)), number(slowest, 4), number(fastest, 4), number(head.tempo, 4));

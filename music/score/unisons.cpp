@@ -1,5 +1,7 @@
 #include "music/score/unisons.h"
 
+#include "music/score/midi.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +13,12 @@ namespace sikku {
 
 UnisonMerger::UnisonMerger(NoteSink& sink, const ScoreHead& head, std::size_t most, bool merges_all)
     : sink_(sink), most_(most) {
-    std::size_t next = 0;
-    std::size_t drums = 0;  // all drum parts are one, on one channel
-    for (const Part& part : head.parts) {
-        for (int i = 0; i < part.voices; ++i) {
-            if (part.is_drums && drums == 0) drums = ++next;
-            parts_.push_back(part.is_drums ? drums : merges_all && i > 0 ? next : ++next);
+    const std::vector<int> slots = merges_all ? channel_slots(head) : std::vector<int>(head.parts.size());
+    constexpr std::size_t drums = 0;  // all drum parts are one, on one channel
+    for (std::size_t i = 0; i < head.parts.size(); ++i) {
+        for (int voice = 0; voice < head.parts[i].voices; ++voice) {
+            const std::size_t own = merges_all ? static_cast<std::size_t>(slots[i]) : parts_.size();
+            parts_.push_back(head.parts[i].is_drums ? drums : own + 1);
         }
     }
 }

@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Collects notes and hands them on without two at a time on one key of one part: of notes that begin together the
+/// Collects notes and hands them on without two at a time on one key of one part, or of parts that share a channel: of notes that begin together the
 /// longest stays, with the loudest velocity; a later one ends the one before, and goes on as long as that did. Voices
 /// come one after the other. Memory: O(notes).
 class UnisonMerger : public NoteSink {
@@ -26,7 +26,7 @@ public:
 private:
     NoteSink& sink_;
     std::size_t most_;
-    std::vector<std::size_t> parts_;  ///< of each voice
+    std::vector<std::size_t> parts_;  ///< of each voice; one number for those on one channel
     std::vector<Note> notes_;
 };
 
