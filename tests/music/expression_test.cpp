@@ -132,6 +132,30 @@ TEST(Expression, LevelsAreOrdersOfSubCurves) {
     EXPECT_EQ(velocities, (std::vector<int>{100, 10, 40, 10, 70, 10, 40, 10}));
 }
 
+/// Levels are those of the whole in a piece from the middle, too, with phrases and without, and in all mappings.
+TEST(Expression, LevelsOfPiecesAreThoseOfTheWhole) {
+    const std::string curve =
+        "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 6\nunit: 1/16\n";
+    for (const char* more : {"", "phrases: 2\n", "vertical: voice\n", "vertical: glissando\n", "vertical: extend\n",
+                             "mapping: counterpoint\n", "mapping: symbols\n"}) {
+        const std::vector<Document> documents = {parse("e.lsys", curve + more + "velocity: by level 10-100\n")};
+        const NoteList whole = list_notes(documents, {}, {});
+        const NoteList piece = list_notes(documents, {{"from-bar", "21"}, {"bars", "16"}}, {});
+        const std::int64_t from = 20 * whole.meter.bar();
+        std::map<std::pair<std::int64_t, int>, int> levels;
+        for (const Note& note : whole.notes) levels[{note.onset - from, note.voice}] = note.level;
+        int highest = 0;
+        for (const Note& note : piece.notes) {
+            if (note.onset > 0) {
+                EXPECT_EQ(note.level, (levels[{note.onset, note.voice}])) << more << note.onset;
+            }
+            highest = std::max<int>(highest, note.level);
+        }
+        EXPECT_GE(highest, 3) << more;
+        EXPECT_EQ(whole.notes.front().level, 6) << more;
+    }
+}
+
 TEST(Expression, DepthCountsBrackets) {
     std::vector<int> velocities;
     const MidiFile file = midi_of(

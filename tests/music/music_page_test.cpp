@@ -360,6 +360,9 @@ TEST(MusicPage, IsWellFormedAndNamesWhatItHas) {
     // Every control has a name, every picture a text.
     const auto inputs = html.select_nodes("//input");
     EXPECT_EQ(inputs.size(), 2U);
+    // The time changes every second, and is no part of a name that a screen reader would read again.
+    EXPECT_STREQ(html.select_node("//input[@id='place']").node().attribute("aria-label").value(), "Position");
+    EXPECT_STREQ(html.select_node("//*[@id='place-text']").node().attribute("aria-hidden").value(), "true");
     for (const auto& input : inputs) EXPECT_STREQ(input.node().parent().name(), "label");
     for (const auto& canvas : html.select_nodes("//canvas")) {
         EXPECT_TRUE(canvas.node().attribute("aria-label") || canvas.node().attribute("aria-hidden"));

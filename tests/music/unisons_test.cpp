@@ -2,6 +2,7 @@
 
 #include "music/score/midi.h"
 #include "tests/midi_reader.h"
+#include "tests/midi_tools.h"
 #include "tests/notation_tools.h"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,28 @@ TEST(Unisons, VoicesOfAPartShareItsChannel) {
     }
     EXPECT_EQ(channels, (std::set<int>{0, 1}));
     EXPECT_GT(notes, 300u);
+}
+
+/// Of more parts than channels, those of an instrument share one.
+TEST(Unisons, PartsOfAnInstrumentShareAChannel) {
+    TestScore score = random_voices(2, 40, 1);
+    for (std::size_t i = 0; i < 40; ++i) score.head.parts[i].program = static_cast<int>(i % 15);
+    MemorySink sink;
+    MidiOptions options;
+    options.share_channels = true;
+    const auto writer = write_midi(score.head, sink, options);
+    UnisonMerger merger(*writer, score.head, 10'000);
+    merger.notes(score.notes);
+    merger.finish(score.end);
+    EXPECT_EQ(midi_faults(sink.text), "");
+    std::map<int, std::set<int>> programs;
+    for (const MidiEvent& event : read_midi(sink.text).events) {
+        if ((event.status & 0xF0) == 0xC0) programs[event.status & 0x0F].insert(event.data[0]);
+    }
+    EXPECT_EQ(programs.size(), 15u);
+    for (const auto& [channel, own] : programs) EXPECT_EQ(own.size(), 1u) << channel;
+    score.head.parts[39].program = 15;
+    EXPECT_THROW(write_midi(score.head, sink, options), ScoreError);
 }
 
 TEST(Unisons, HasALimit) {

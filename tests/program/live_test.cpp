@@ -278,6 +278,8 @@ TEST(Live, WrongCommandLines) {
         {{"--clock", "send"}, 2, "--clock needs --port"},
         {{"--clock", "lead", "--port", "x"}, 2, "send"},
         {{"--repeat", "0", "--port", "x"}, 2, "--repeat"},
+        {{"--port", ""}, 2, "expected a name, an address or a device"},
+        {{"--port", "/dev/null", "-n", "40", "--velocity", "by level"}, 1, "(n = 40) is above the budget"},
         {{"--port", file}, 1, "neither a MIDI device nor a pipe; -o writes files"},
         {{"--port", "/nowhere/x"}, 1, "cannot open: No such file or directory"},
         {{"--port", "/dev/null", "--clock", "follow"}, 1, "no clock can be read from it"},

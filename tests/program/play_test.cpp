@@ -258,6 +258,11 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"-n", "10"}, 2, "6 hours 45 minutes", "x.wav");
     refused(hilbert, {}, 2, "unknown extension", "x.ogg");
     refused("axiom: FFF\n", {}, 2, "no horizontal run");
+    refused("axiom: +++\n", {}, 2, "the word has no steps such as F");
+    refused(hilbert, {"--excerpt", "9-9"}, 2, "the melody ends before bar 9");
+    refused(hilbert, {"--seconds", "1e-9"}, 2, "shorter than a tick");
+    refused(hilbert, {"--from-bar", "99999999999999999999"}, 2, "too large");
+    refused(hilbert, {"--instrument", ""}, 2, "expected a General MIDI name");
     refused("axiom: F]\n", {"--set", "heading=0"}, 2, "']' without '['");
     std::string branches = "heading: 0\naxiom: ";
     for (int i = 0; i < 20; ++i) branches += "[FFFF]";
@@ -270,6 +275,8 @@ TEST(Play, GuessedInstrumentsAreReported) {
     const Outcome strings = played(hilbert, {"--instrument", "strings"});
     EXPECT_NE(strings.errors.find("'strings' is taken to be Tremolo Strings (45), the first of "), std::string::npos)
         << strings.errors;
+    const Outcome harp = played(hilbert, {"--instrument", "harp"});
+    EXPECT_NE(harp.errors.find("taken to be Orchestral Harp (47)"), std::string::npos) << "whole words come first";
     const Outcome drums = played(hilbert, {"--instrument", "drums"});
     EXPECT_NE(drums.errors.find("taken to be Steel Drums (115)"), std::string::npos) << drums.errors;
     for (const char* name : {"flute", "piano", "Violin"}) {
