@@ -36,7 +36,7 @@ private:
     void add_wedge(glm::dvec2 centre, glm::dvec2 first, glm::dvec2 last, double angle, std::uint32_t layer);
 
     double tolerance_;
-    const Monitor& monitor_;
+    Monitor monitor_;
     std::vector<LayerEdge> edges_;
 };
 

@@ -1,7 +1,7 @@
 #include "art/relief/solid.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -10,7 +10,25 @@ namespace {
 
 constexpr std::uint32_t frame_points = 4;
 constexpr double first_joint = 25;  // half the side of the squares, in micrometres
-constexpr int most_rounds = 10;
+constexpr int rounds_of_joints = 3;
+
+/// Visits the triangles around a point anticlockwise, from one of them on.
+template <class Visit>
+void visit_around(const PlaneRegions& plane, std::uint32_t triangle, std::uint32_t point, Visit&& visit) {
+    std::uint32_t here = triangle;
+    do {
+        visit(here);
+        const auto& corners = plane.triangles[here].corners;
+        const std::size_t corner = corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
+        here = plane.triangles[here].neighbours[(corner + 2) % 3];
+    } while (here != triangle);
+}
+
+double area_of(const PlaneRegions& plane, std::uint32_t triangle) {
+    const auto at = [&](std::size_t i) { return plane.points[plane.triangles[triangle].corners[i]]; };
+    const double x = at(1).x - at(0).x, y = at(1).y - at(0).y;
+    return 0.5 * (x * (at(2).y - at(0).y) - y * (at(2).x - at(0).x));
+}
 
 /// Heights of a solid over the triangles of a plane.
 class Heights {
@@ -26,14 +44,10 @@ public:
     /// The heights around a point, anticlockwise from one of its triangles, equal neighbours once.
     void around(std::uint32_t triangle, std::uint32_t point, std::vector<std::int32_t>& heights) const {
         heights.clear();
-        std::uint32_t here = triangle;
-        do {
-            const auto& corners = plane_.triangles[here].corners;
+        visit_around(plane_, triangle, point, [&](std::uint32_t here) {
             const std::int32_t height = of(here);
             if (heights.empty() || heights.back() != height) heights.push_back(height);
-            const std::size_t corner = corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
-            here = plane_.triangles[here].neighbours[(corner + 2) % 3];
-        } while (here != triangle);
+        });
         if (heights.size() > 1 && heights.front() == heights.back()) heights.pop_back();
     }
 
@@ -84,6 +98,67 @@ std::vector<LayerEdge> joints(const PlaneRegions& plane, std::span<const ReliefR
         }
     }
     return edges;
+}
+
+/// Triangles around a point that have the same height, and stand side by side.
+struct Sector {
+    std::vector<std::uint32_t> triangles;
+    std::int32_t height = 0;
+    double area = 0;
+};
+
+std::vector<Sector> sectors_of(const PlaneRegions& plane, const Heights& heights, std::uint32_t triangle,
+                               std::uint32_t point) {
+    std::vector<Sector> sectors;
+    visit_around(plane, triangle, point, [&](std::uint32_t here) {
+        if (sectors.empty() || sectors.back().height != heights.of(here))
+            sectors.push_back({{}, heights.of(here), 0});
+        sectors.back().triangles.push_back(here);
+        sectors.back().area += area_of(plane, here);
+    });
+    if (sectors.size() > 1 && sectors.front().height == sectors.back().height) {
+        Sector& first = sectors.front();
+        first.triangles.insert(first.triangles.end(), sectors.back().triangles.begin(),
+                               sectors.back().triangles.end());
+        first.area += sectors.back().area;
+        sectors.pop_back();
+    }
+    return sectors;
+}
+
+/// Raises the smaller valleys between prisms that touch at a point only: joints do not help where these are so
+/// narrow that their sides have the same micrometres. Every step raises some triangles, so that this ends.
+void fill_valleys(PlaneRegions& plane, std::span<const ReliefRegion> regions, const Monitor& monitor) {
+    Pulse pulse(monitor);
+    const Heights heights(plane, regions);
+    std::vector<std::uint32_t> pending(plane.triangles.size());
+    std::iota(pending.begin(), pending.end(), 0U);
+    std::vector<std::int32_t> around;
+    while (!pending.empty()) {
+        pulse();
+        const std::uint32_t triangle = pending.back();
+        pending.pop_back();
+        for (const std::uint32_t point : plane.triangles[triangle].corners) {
+            if (point < frame_points) continue;
+            for (heights.around(triangle, point, around); is_pinched(around);
+                 heights.around(triangle, point, around)) {
+                const std::vector<Sector> sectors = sectors_of(plane, heights, triangle, point);
+                const Sector *least = nullptr, *rim = nullptr;
+                for (std::size_t i = 0; i < sectors.size(); ++i) {
+                    const Sector& before = sectors[(i + sectors.size() - 1) % sectors.size()];
+                    const Sector& after = sectors[(i + 1) % sectors.size()];
+                    if (!(sectors[i].height < before.height && sectors[i].height < after.height)) continue;
+                    if (least && least->area <= sectors[i].area) continue;
+                    least = &sectors[i];
+                    rim = before.height < after.height ? &before : &after;
+                }
+                for (const std::uint32_t raised : least->triangles) {
+                    plane.triangles[raised].region = plane.triangles[rim->triangles.front()].region;
+                    pending.push_back(raised);
+                }
+            }
+        }
+    }
 }
 
 /// The walls over the edges of a plane between different heights.
@@ -154,7 +229,7 @@ RegionOf region_with_joints(std::span<const ReliefRegion> regions) {
 PlaneRegions with_joints(PlaneRegions plane, std::span<const ReliefRegion> regions, const Monitor& monitor) {
     const RegionOf region_of = region_with_joints(regions);
     double half = first_joint;
-    for (int round = 0; round < most_rounds; ++round, half *= 1.4) {
+    for (int round = 0; round < rounds_of_joints; ++round, half *= 1.4) {
         const std::vector<LayerEdge> squares = joints(plane, regions, static_cast<std::int32_t>(half));
         if (squares.empty()) return plane;
         std::vector<LayerEdge> edges = outlines_of(plane, same);
@@ -162,8 +237,8 @@ PlaneRegions with_joints(PlaneRegions plane, std::span<const ReliefRegion> regio
         plane = divide_plane(edges, 0, region_of, monitor);
         plane = divide_plane(outlines_of(plane, same), 0, region_of, monitor);
     }
-    throw std::runtime_error(
-        "parts of the relief touch at more places than can be joined: it is too fine; choose a larger size");
+    fill_valleys(plane, regions, monitor);
+    return plane;
 }
 
 }  // namespace
@@ -206,9 +281,7 @@ double Solid::volume() const {
     double sum = 0;
     const Heights heights(plane_, regions_);
     for (std::uint32_t t = 0; t < plane_.triangles.size(); ++t) {
-        const auto at = [&](std::size_t i) { return plane_.points[plane_.triangles[t].corners[i]]; };
-        const double x = at(1).x - at(0).x, y = at(1).y - at(0).y;
-        sum += 0.5e-9 * (x * (at(2).y - at(0).y) - y * (at(2).x - at(0).x)) * heights.of(t);
+        sum += 1e-9 * area_of(plane_, t) * heights.of(t);
     }
     return sum;
 }

@@ -31,12 +31,12 @@ using SolidTriangle = std::array<SolidPoint, 3>;
 
 /// The prisms over all regions of a plane, united. Each edge belongs to two triangles, in opposite directions, and no
 /// corner lies within an edge. Where prisms touch only along an upright edge, squares of 50 µm or more as high as the
-/// highest one join them.
+/// highest one join them; where that does not help, narrow gaps are filled.
 class Solid {
 public:
     /// @param plane    outlines divided once, so that they do not cross
     /// @param regions  at least one; those of `plane` are numbers of them
-    /// @throws std::runtime_error if prisms touch at too many places to be joined; Stopped
+    /// @throws Stopped
     Solid(PlaneRegions plane, std::vector<ReliefRegion> regions, const Monitor& monitor);
 
     using Visit = std::function<void(std::uint32_t region, const SolidTriangle&)>;
@@ -49,7 +49,7 @@ public:
 private:
     PlaneRegions plane_, bottom_;
     std::vector<ReliefRegion> regions_;
-    const Monitor& monitor_;
+    Monitor monitor_;
 };
 
 }  // namespace sikku

@@ -93,7 +93,7 @@ def test_texts(format: str) -> None:
 
 @pytest.mark.parametrize(
     ("format", "start"),
-    [("pdf", b"%PDF"), ("png", b"\x89PNG"), ("jpg", b"\xff\xd8"), ("glb", b"glTF"), ("exr", b"v/1\x01")],
+    [("pdf", b"%PDF"), ("png", b"\x89PNG"), ("jpg", b"\xff\xd8"), ("glb", b"glTF"), ("stl", b"Binary STL"), ("exr", b"v/1\x01")],
 )
 def test_bytes(format: str, start: bytes) -> None:
     drawn = sikku.load("hilbert", n=3).draw(format, **({} if format == "glb" else {"size": "50x50mm"}))

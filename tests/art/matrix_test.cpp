@@ -141,6 +141,15 @@ std::vector<Feature> features() {
             {"CMYK", kolam, {}, {{"cmyk", cmyk_profile}}, {}},
             {"one bit", kolam, {}, {{"bits", "1"}}, {}},
             {"screening", kolam, {}, {{"bits", "1"}, {"screen", "diffusion"}}, {{"bits", "1"}}},
+            {"relief", shape, {}, {{"relief", "3mm"}}, {}},
+            {"heights of lines",
+             kolam,
+             {{"dots", "3mm white"}},
+             {{"relief", ""}, {"ridge", "1mm"}},
+             {{"relief", ""}},
+             {{"dots", "3mm white"}}},
+            {"base of a relief", shape, {}, {{"relief", ""}, {"base", "3mm,2mm"}}, {{"relief", ""}}},
+            {"grooves", squares, {}, {{"relief", ""}, {"groove", "2mm"}}, {{"relief", ""}}},
             {"tiles", kolam, {}, {{"tile", "60x60mm"}}, {}},
             {"sheet of generations", kolam, {}, {{"generations", "0:2"}}, {}},
             {"frames", kolam, {}, {{"generations", "0:2"}, {"frames", "true"}}, {}}};
@@ -170,14 +179,17 @@ std::vector<Target> targets() {
             {"DXF", "dxf", one},
             {"OBJ", "obj", one},
             {"glTF", "glb", one},
+            {"STL", "stl", {{"relief", "1mm,2mm"}}},
             {"poster", "svg", one, true},
             {"sheet", "svg", growth},
             {"tile", "svg", {{"tile", "60x60mm"}}},
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Combinations where a feature rightly changes nothing: HP-GL, G-code and DXF are always plots, which fill fields
-/// only by hatching, a light only by pictures, and a sheet of generations is compared with itself.
+/// Combinations where a feature rightly changes nothing: an STL has no colours, is always a relief, and has
+/// grooves instead of the edges of tiles, HP-GL, G-code
+/// and DXF are always plots, which fill fields only by hatching, a light only by pictures, and a sheet of generations
+/// is compared with itself.
 const std::set<std::string> unchanged = {"light on SVG",
                                          "light on PDF",
                                          "light on EPS",
@@ -200,6 +212,10 @@ const std::set<std::string> unchanged = {"light on SVG",
                                          "sheet of generations on frame",
                                          "sheet of generations on sheet",
                                          "frames on frame",
+                                         "relief on STL",
+                                         "powders on STL",
+                                         "colours of tiles on STL",
+                                         "edges of tiles on STL",
                                          "tiles on tile"};
 
 using Outputs = std::map<std::string, std::string>;

@@ -26,5 +26,7 @@ END
 for pattern in bush-3d flowering-plant honda-trees dragon; do
     "$program" --quiet draw "$pattern" -o "$pattern.glb"
 done
+"$program" --quiet draw penrose-rhombs -n 3 --relief 2mm,3mm --size 100x100mm -o relief.glb
+"$program" --quiet draw snake-kolam -n 2 --dots --relief=-0.8mm --base 2mm,5mm --size 100x100mm -o sunk.glb
 "$program" --quiet draw bush-3d --set 'palette=#5a463280 red' -o translucent.glb
 node validate.mjs ./*.glb
