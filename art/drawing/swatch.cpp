@@ -294,7 +294,7 @@ private:
     }
 
     [[noreturn]] void refuse() const {
-        if (patch_.tiles() == 0) throw SwatchError("this drawing has no tiles, which are polygons between { and }");
+        if (patch_.tiles() == 0) throw SwatchError("this drawing has no tiles, which are closed polygons between { and }");
         if (patch_.tiles() < fewest_tiles) {
             throw SwatchError(fmt::format("a period cannot be found in {} tiles, up to a derivation length of {}",
                                           patch_.tiles(), patch_.steps));

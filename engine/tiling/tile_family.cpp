@@ -24,17 +24,13 @@ void add(PolygonMass& sum, const PolygonMass& mass) {
 glm::dvec2 product(glm::dvec2 a, glm::dvec2 b) {
     return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
-glm::dvec2 conjugate(glm::dvec2 a) {
-    return {a.x, -a.y};
-}
 
-/// A turn and a scale, perhaps of the mirror image.
+/// A turn and a scale.
 struct Turn {
     glm::dvec2 factor{1.0, 0.0};
-    bool reflects = false;
 
-    glm::dvec2 operator()(glm::dvec2 at) const { return product(factor, reflects ? conjugate(at) : at); }
-    glm::dmat3x2 map(glm::dvec2 shift) const { return {(*this)({1, 0}), (*this)({0, 1}), shift}; }
+    glm::dvec2 operator()(glm::dvec2 at) const { return product(factor, at); }
+    glm::dmat3x2 map(glm::dvec2 shift) const { return {factor, {-factor.y, factor.x}, shift}; }
 };
 
 /// Places that a map should bring together, with weights.
@@ -70,30 +66,20 @@ double remainder(const std::vector<Pair>& pairs, const glm::dmat3x2& map) {
     return weight > 0 ? sum / weight : 0;
 }
 
-/// The similarity that brings pairs together by least squares; nullopt if there are too few. A mirror image has to be
-/// much better.
+/// The turn and scale that bring pairs together by least squares; nullopt if there are too few.
 std::optional<Turn> best_turn(const std::vector<Pair>& pairs) {
     constexpr std::size_t fewest = 6;
     if (pairs.size() < fewest) return std::nullopt;
     const Means mean(pairs);
-    std::optional<Turn> best;
-    double least = 0;
-    for (const bool reflects : {false, true}) {
-        glm::dvec2 sum(0.0);
-        double square = 0;
-        for (const Pair& pair : pairs) {
-            const glm::dvec2 from = reflects ? conjugate(pair.from - mean.from) : pair.from - mean.from;
-            sum += product(pair.to - mean.to, conjugate(from)) * pair.weight;
-            square += scalar_product(from, from) * pair.weight;
-        }
-        if (!(square > 0)) return std::nullopt;
-        const Turn turn{sum / square, reflects};
-        const double rest = remainder(pairs, turn.map(mean.to - turn(mean.from)));
-        if (best && rest > least / 4) continue;
-        best = turn;
-        least = rest;
+    glm::dvec2 sum(0.0);
+    double square = 0;
+    for (const Pair& pair : pairs) {
+        const glm::dvec2 from = pair.from - mean.from;
+        sum += product(pair.to - mean.to, {from.x, -from.y}) * pair.weight;
+        square += scalar_product(from, from) * pair.weight;
     }
-    return best;
+    if (!(square > 0)) return std::nullopt;
+    return Turn{sum / square};
 }
 
 /// The parts of each symbol of the word before, and the tiles that it draws.
@@ -138,7 +124,7 @@ public:
         double parents = 0, parts = 0;
         for (const PolygonMass& mass : before_masses_) parents += mass.area;
         for (const PolygonMass& mass : after_masses_) parts += mass.area;
-        return {{parents > 0 && parts > 0 ? std::sqrt(parts / parents) : 1.0, 0}, false};
+        return {{parents > 0 && parts > 0 ? std::sqrt(parts / parents) : 1.0, 0}};
     }
 
     /// @param is_exact  the turn keeps the start of the turtle in its place
@@ -316,7 +302,7 @@ std::vector<TileDivision> tile_divisions(const std::vector<TileGeneration>& gene
     }
     // Generations of few tiles grow as the next one.
     std::optional<Turn> turn;
-    if (factor) turn = Turn{*factor, false};
+    if (factor) turn = Turn{*factor};
     std::vector<TileDivision> divisions(finders.size());
     for (std::size_t i = finders.size(); i-- > 0;) {
         monitor.check();
