@@ -90,7 +90,7 @@ TEST_F(LowLimits, OfFiles) {
     if (sanitized) GTEST_SKIP() << "without descriptors the sanitizer takes every object for invalid";
     for (const char* limit : {"-n 5", "-n 8", "-n 12", "-f 1", "-f 8"}) {
         SCOPED_TRACE(limit);
-        for (const char* name : {"x.png", "x.tif", "x.svg", "x.pdf", "x.gcode", "x.obj"}) {
+        for (const char* name : {"x.png", "x.tif", "x.svg", "x.pdf", "x.gcode", "x.obj", "x.stl"}) {
             expect_result_or_message(limited(limit, {"draw", "hilbert", "-o", name}), name);
         }
         expect_result_or_message(limited(limit, {"play", "hilbert", "-o", "x.mid"}), "x.mid");

@@ -158,6 +158,7 @@ TEST(Signals, LongWorkEndsSoonAndLeavesNothing) {
         {"kolam", "--grid", "999x1000", "--single-line", "-o", "x.lsys"},
         {"kolam", "--grid", "6x6", "--symmetry", "C2", "--enumerate", "-o", "x.txt"},
         {"draw", "bush-3d", "-n", "9", "-o", "x.obj"},
+        {"draw", "penrose-rhombs", "-n", "12", "--relief", "1mm,2mm", "--size", "1x1m", "-o", "x.stl"},
         {"draw", "hilbert", "-n", "11", "--colour-by", "strand", "-o", "x.pdf"},
     };
     for (const auto& command : commands) {
