@@ -1,12 +1,9 @@
 // cli/tiling.cpp: `sikku tiling`: examines whether the polygons of a pattern or a file tile a region.
 #include "engine/tiling/tiling.h"
 #include "art/reading/polygon_files.h"
-#include "art/style/length.h"
-#include "art/tile_templates.h"
-#include "cli/command.h"
+#include "cli/piece_options.h"
 #include "engine/base/input_file.h"
 #include "engine/derivation/derivation.h"
-#include "engine/tiling/cut_list.h"
 #include "engine/tiling/tile_origins.h"
 #include "engine/tiling/tiling_text.h"
 
@@ -30,82 +27,46 @@ void write_json(const std::string& title, std::optional<std::int64_t> n, const T
     });
 }
 
-/// Examines the polygons of a file. @param tolerance  0: the usual one
-void examine_file(const std::string& file, double tolerance, bool as_json, bool quiet) {
-    Progress progress(quiet);
-    TilingOptions how;
-    how.monitor = progress.monitor();
+/// Reads a file of polygons and examines them. @param tolerance  0: the usual one
+std::pair<PolygonList, TilingResult> read_polygons(const std::string& file, double tolerance,
+                                                   const TilingOptions& how, bool quiet) {
     const std::string text = read_file(file, file, most_polygon_bytes, how.monitor);
-    const auto examine = [&] {
+    try {
         if (text.size() > most_polygon_bytes) {
             throw std::runtime_error(fmt::format("larger than {} MB", most_polygon_bytes >> 20U));
         }
         const bool is_svg = lower_case(std::filesystem::path(file).extension().string()) == ".svg";
-        const PolygonList polygons =
-            is_svg ? read_polygons_svg(text, how.monitor) : read_polygons_json(text, how.monitor);
+        PolygonList polygons = is_svg ? read_polygons_svg(text, how.monitor) : read_polygons_json(text, how.monitor);
         for (const std::string& note : polygons.notes) tell_unless(quiet, "{}: {}\n", file, note);
-        const double within = tolerance > 0 || polygons.size() == 0 ? tolerance : usual_tolerance(polygons);
         if (polygons.size() == 0) throw std::runtime_error("the list has no polygons");
-        return std::pair(polygons.title, examine_polygons(polygons, within, how));
-    };
-    const auto result = [&] {
-        try {
-            return examine();
-        } catch (const Stopped&) {
-            throw;
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
-        }
-    }();
-    const std::string title = result.first.empty() ? std::filesystem::path(file).filename().string() : result.first;
+        TilingResult result = examine_polygons(polygons, tolerance > 0 ? tolerance : usual_tolerance(polygons), how);
+        return {std::move(polygons), std::move(result)};
+    } catch (const Stopped&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", file, error.what()));
+    }
+}
+
+/// Examines the polygons of a file, or cuts them.
+void examine_file(const std::string& file, double tolerance, const PieceOptions& pieces, bool as_json, bool quiet) {
+    Progress progress(quiet);
+    TilingOptions how;
+    how.monitor = progress.monitor();
+    const auto [polygons, result] = read_polygons(file, tolerance, how, quiet);
+    const std::string title =
+        polygons.title.empty() ? std::filesystem::path(file).filename().string() : polygons.title;
+    if (pieces.any()) {
+        const auto colour_name = [&names = polygons.colour_names](std::int32_t colour) {
+            const auto index = static_cast<std::size_t>(colour);
+            return index < names.size() ? fmt::format("{} {}", colour, names[index]) : std::to_string(colour);
+        };
+        return cut_pieces(pieces, {title, std::nullopt, "", colour_name}, result, as_json, how.monitor, quiet);
+    }
     TileGrowth growth;
     growth.unknown = growth.no_limit = growth.no_length = "a file of polygons has no productions";
-    if (as_json) return write_json(title, std::nullopt, result.second, growth, nullptr, how.monitor);
-    fmt::print("{}", tiling_text(title, std::nullopt, result.second.examination, growth));
-}
-
-/// Options for those who cut the pieces.
-struct CutOptions {
-    bool lists = false;
-    std::string step = "10mm";
-    std::string seam;  ///< empty: no templates
-    std::string kerf = "0mm";
-    std::string output;
-};
-
-double length_in(const char* option, const std::string& text, double least, double most) {
-    const auto length = parse_length(text, 300);
-    if (!length || !(*length >= least && *length <= most)) {
-        throw UsageError(fmt::format("--{} {}: expected a length from {} mm to {} mm", option, text, least, most));
-    }
-    return *length;
-}
-
-/// Prints the list of pieces, or writes their templates.
-void cut(const CutOptions& options, bool as_json, const Document& document, const TilingResult& result) {
-    const double step = length_in("step", options.step, 0.001, 10'000);
-    const std::string title = document.text("title");
-    const std::int64_t n = document.grammar().steps();
-    if (options.lists) {
-        fmt::print("{}", as_json ? cut_list_json(title, n, result, step) : cut_list_text(title, n, result, step));
-    }
-    if (options.seam.empty()) return;
-    TemplateOptions templates;
-    templates.seam = length_in("templates", options.seam, 0, 100);
-    templates.kerf = length_in("kerf", options.kerf, 0, 10);
-    templates.title = title;
-    templates.pattern = document.source().text();
-    write_templates(cut_list(result, step), templates, *print_format(options.output), options.output, file_system());
-}
-
-/// Checks what can be checked before anything is derived.
-void check(const CutOptions& options) {
-    const auto format = print_format(options.output);
-    if (options.seam.empty()) return;
-    if (format != PrintFormat::svg && format != PrintFormat::pdf && format != PrintFormat::dxf) {
-        throw UsageError(fmt::format("--templates needs -o with a name that ends in .svg, .pdf or .dxf{}",
-                                     options.output.empty() ? "" : ", not '" + options.output + "'"));
-    }
+    if (as_json) return write_json(title, std::nullopt, result, growth, nullptr, how.monitor);
+    fmt::print("{}", tiling_text(title, std::nullopt, result.examination, growth));
 }
 
 }  // namespace
@@ -132,17 +93,11 @@ void add_tiling(CLI::App& app, bool& quiet) {
             double value = 0;
             return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
         });
-    auto cutting = std::make_shared<CutOptions>();
-    auto* lists = command->add_flag("--cut-list", cutting->lists,
-                                    "list the pieces by kind: number, hand, colour, area and sides");
-    auto* seam = command->add_option("--templates", cutting->seam,
-                                     "draw an outline of each shape with this seam allowance, 0 to 100mm, into -o");
-    command->add_option("--step", cutting->step, "length of a step, for --cut-list and --templates (10mm)");
-    command->add_option("--kerf", cutting->kerf, "width of the cut, 0 to 10mm: templates grow by half of it (0mm)")
-        ->needs(seam);
-    command->add_option("-o,--output", cutting->output, "file of the templates: .svg, .pdf or .dxf")->needs(seam);
-    lists->excludes("--counts");
-    seam->excludes("--counts");
+    auto pieces = std::make_shared<PieceOptions>();
+    add_piece_options(*command, *pieces);
+    for (const char* name : {"--cut-list", "--templates", "--cutting-sheet"}) {
+        command->get_option(name)->excludes("--counts");
+    }
     add_budget_option(*command, *budget);
     command->footer(
         "A tile is a closed polygon { }; its corners are the points where it turns. Tiles form a tiling of a region "
@@ -161,10 +116,15 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "polygons are the tiles: paths of straight lines, polygon and rect, with their transforms; without fills, "
         "all "
         "closed lines. Curves are refused with their line. Such a file has no n and no growth.\n\n"
-        "Templates are for single pieces: --kerf moves their outlines outwards by half the width of the cut. In a "
-        "drawing of the whole tiling neighbours share their edges, so the kerf cannot be made up for. Labels give "
-        "the "
-        "names in --cut-list and the numbers of pieces. Seams are dashed.\n\n"
+        "--cut-list counts the pieces, --templates draws each shape and hand once, and --cutting-sheet lays all of "
+        "them on sheets of material, those of each colour (of the pattern, or of its tile colours) on sheets of "
+        "their own: in rows, each second piece turned by 180 degrees, shifted against each other so that gaps are "
+        "small. Mirror images are kept apart, because most materials have a right side. A sheet that is cut several "
+        "times is drawn once. Files are numbered, x-1.svg, or are pages of one PDF. The list says how much of the "
+        "material is in use.\n\n"
+        "Outlines are for single pieces: they lie half a cut, --kerf, outside of the finished size and its seam "
+        "allowance. Pieces without a gap share their cuts, which are drawn once. Labels give the names in "
+        "--cut-list; seams are dashed. Pens and layers are labels, seams and cuts, in this order.\n\n"
         "The exit status is 0 whether or not the drawing is a tiling. Keys of --json: title, n, tiling, exact, "
         "tolerance, lattice (k, rank, basis: where the coordinates' units point), polygons, tiles, violations, "
         "violation_list (fault: open, empty, crossing, duplicate or overlap; tile, other, at, origins: lines and "
@@ -183,20 +143,23 @@ void add_tiling(CLI::App& app, bool& quiet) {
         "  sikku tiling chair --json\n"
         "  sikku tiling polygons.svg --tolerance 0.01\n"
         "  sikku tiling penrose-rhombs --cut-list --step 40mm\n"
-        "  sikku tiling hat --templates 6mm --step 20mm -o hat.pdf");
-    command->callback([command, options, counts, as_json, budget, tolerance, cutting, &quiet] {
+        "  sikku tiling hat --templates 6mm --step 20mm -o hat.pdf\n"
+        "  sikku tiling hat --cutting-sheet 50x110cm --seam 6mm --step 20mm -o fabric.pdf\n"
+        "  sikku tiling chair --cutting-sheet A3 --kerf 0.2mm --gap 1mm -o wood.dxf\n"
+        "  sikku tiling polygons.svg --cut-list --step 1mm");
+    command->callback([command, options, counts, as_json, budget, tolerance, pieces, &quiet] {
         if (has_polygons(options->pattern)) {
-            for (const char* name : {"--steps", "--set", "--variant", "--seed", "--counts", "--budget", "--cut-list",
-                                     "--templates", "--step"}) {
+            for (const char* name : {"--steps", "--set", "--variant", "--seed", "--counts", "--budget"}) {
                 if (command->count(name) == 0) continue;
                 throw UsageError(fmt::format("{} applies to patterns, not to a file of polygons", name));
             }
-            return examine_file(options->pattern, *tolerance, *as_json, quiet);
+            check_piece_options(*command, *pieces);
+            return examine_file(options->pattern, *tolerance, *pieces, *as_json, quiet);
         }
         if (*tolerance > 0) {
             throw UsageError("--tolerance applies to a .json or .svg file of polygons, not to patterns");
         }
-        check(*cutting);
+        check_piece_options(*command, *pieces);
         const Document loaded = load(*options, quiet);
         require_turtle(loaded, "it draws no tiles");
         const std::string title = loaded.text("title");
@@ -218,7 +181,11 @@ void add_tiling(CLI::App& app, bool& quiet) {
             }
         };
         TilingResult result = examine();
-        if (cutting->lists || !cutting->seam.empty()) return cut(*cutting, *as_json, loaded, result);
+        if (pieces->any()) {
+            const PieceSource source{title, n, loaded.source().text(),
+                                     colour_as_drawn(loaded, result, *budget, how.monitor)};
+            return cut_pieces(*pieces, source, result, *as_json, how.monitor, quiet);
+        }
         find_origins(loaded, result.examination, how.monitor);
         if (!*as_json) {
             fmt::print("{}", tiling_text(title, n, result.examination, growth));

@@ -118,6 +118,16 @@ ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawO
 
 }  // namespace
 
+void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& options, Output& output,
+                 const std::filesystem::path& file, DrawReport& report) {
+    if (options.plot || is_for_plotters(options.format)) {
+        draw_plot(drawing, print, options, output, report);
+    } else {
+        draw_page(drawing, print, options, output, file, report);
+    }
+    drawing.report(report);
+}
+
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file, Destination& destination) {
     const DrawOptions options = with_locked_watch(given_options);
@@ -137,12 +147,7 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
         return report;
     }
     const auto output = destination.open(file);
-    if (options.plot || is_for_plotters(options.format)) {
-        draw_plot(*drawing, print, options, *output, report);
-    } else {
-        draw_page(*drawing, print, options, *output, file, report);
-    }
-    drawing->report(report);
+    draw_placed(*drawing, print, options, *output, file, report);
     output->commit();
     return report;
 }

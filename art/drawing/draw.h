@@ -19,6 +19,10 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& options,
                 Destination& destination = file_system());
 
 class Drawing;
+/// Writes a drawing that is placed on `print`: as a plot if the options or the format request it, else as a page.
+/// Fills in the findings of the report. @param file  name of the output, whose extension selects the picture format
+void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& options, Output& output,
+                 const std::filesystem::path& file, DrawReport& report);
 /// Writes a drawing that is placed on `print` as a plot. Fills in the plot of the report.
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report);
 

@@ -2,8 +2,6 @@
 
 #include "art/drawing/tile_colours.h"
 #include "art/drawing/tile_decorator.h"
-#include "art/plotter/plot_join.h"
-#include "art/plotter/plot_layer.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/tiling/polygon_place.h"
@@ -201,9 +199,9 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     if (layers_) {
         std::vector<UnitedLines::Line> lines = found.lines;
         for (UnitedLines::Line& line : lines) line.pen.colour = *layers_ + (line.is_inner ? 0 : 1);
-        draw_lines(lines, sink);
+        draw_lines(lines, sink, options_.monitor);
     } else if (unites) {
-        draw_lines(found.lines, old);
+        draw_lines(found.lines, old, options_.monitor);
     }
     decorate(print, window, old);
 }
@@ -225,33 +223,6 @@ std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const
         if (auto numbers = colours_of_repeated(middles, found.neighbours, *options_.tile_period)) return *numbers;
     }
     return colours_of_neighbours(united.tiles(), found.neighbours);
-}
-
-/// Joins the lines of each pen.
-void TileDrawing::draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const {
-    double size = 0;
-    std::vector<Pen> pens;
-    for (const UnitedLines::Line& line : lines) {
-        size = std::max({size, std::fabs(line.from.x), std::fabs(line.from.y)});
-        if (std::find(pens.begin(), pens.end(), line.pen) == pens.end()) pens.push_back(line.pen);
-    }
-    std::vector<glm::dvec2> ends;
-    for (const Pen& pen : pens) {
-        PlotNodes nodes(std::max(1e-9 * size, 1e-300));
-        PlotGraph graph;
-        for (const UnitedLines::Line& line : lines) {
-            if (line.pen == pen) graph.segments.push_back({nodes.at(line.from), nodes.at(line.to)});
-        }
-        graph.points = std::move(nodes.points);
-        const PlotStrokes strokes = join_segments(graph, options_.monitor);
-        for (const PlotStroke& stroke : strokes.strokes) {
-            ends.clear();
-            for (const PlotEnd end : strokes.ends(stroke)) ends.push_back(graph.point(end ^ 1U));
-            sink.begin_stroke(graph.point(strokes.ends(stroke).front()), pen);
-            sink.lines(ends);
-            sink.end_stroke(stroke.closed);
-        }
-    }
 }
 
 }  // namespace sikku

@@ -42,7 +42,6 @@ private:
                                        const std::vector<glm::dvec2>& middles) const;
     void add_layers();
     void decorate(const Print& print, const Window& window, PathSink& sink) const;
-    void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink) const;
 
     std::unique_ptr<Drawing> drawing_;
     std::uint64_t seed_;

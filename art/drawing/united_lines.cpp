@@ -1,5 +1,7 @@
 #include "art/drawing/united_lines.h"
 
+#include "art/plotter/plot_join.h"
+#include "art/plotter/plot_layer.h"
 #include "engine/derivation/derivation.h"
 
 #include <fmt/format.h>
@@ -209,6 +211,32 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
     std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.first < b.first; });
     for (Drawn& piece : drawn) result.lines.push_back(piece.line);
     return result;
+}
+
+void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink, const Monitor& monitor) {
+    double size = 0;
+    std::vector<Pen> pens;
+    for (const UnitedLines::Line& line : lines) {
+        size = std::max({size, std::fabs(line.from.x), std::fabs(line.from.y)});
+        if (std::find(pens.begin(), pens.end(), line.pen) == pens.end()) pens.push_back(line.pen);
+    }
+    std::vector<glm::dvec2> ends;
+    for (const Pen& pen : pens) {
+        PlotNodes nodes(std::max(1e-9 * size, 1e-300));
+        PlotGraph graph;
+        for (const UnitedLines::Line& line : lines) {
+            if (line.pen == pen) graph.segments.push_back({nodes.at(line.from), nodes.at(line.to)});
+        }
+        graph.points = std::move(nodes.points);
+        const PlotStrokes strokes = join_segments(graph, monitor);
+        for (const PlotStroke& stroke : strokes.strokes) {
+            ends.clear();
+            for (const PlotEnd end : strokes.ends(stroke)) ends.push_back(graph.point(end ^ 1U));
+            sink.begin_stroke(graph.point(strokes.ends(stroke).front()), pen);
+            sink.lines(ends);
+            sink.end_stroke(stroke.closed);
+        }
+    }
 }
 
 }  // namespace sikku

@@ -68,4 +68,7 @@ private:
     std::vector<Pen> pens_;
 };
 
+/// Draws lines, those of each pen joined into as few strokes as there can be. @throws Stopped
+void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink, const Monitor& monitor);
+
 }  // namespace sikku

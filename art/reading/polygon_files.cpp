@@ -231,6 +231,10 @@ public:
     PolygonList finish() {
         const bool has_fills = filled_.size() > 0;
         PolygonList result = std::move(has_fills ? filled_ : outlined_);
+        result.colour_names.resize(colours_.size());
+        for (const auto& [fill, colour] : colours_) {
+            result.colour_names[static_cast<std::size_t>(colour)] = printable(fill, 40);
+        }
         const auto note = [&](std::size_t count, const char* thing) {
             if (count > 0) result.notes.push_back(fmt::format("{} left out", counted(count, thing)));
         };

@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/polygon_classes.h"
 #include "engine/tiling/tiling_text.h"
 
 #include <fmt/format.h>
@@ -38,16 +39,35 @@ const char* hand_name(const TilingExamination& examination, const CutKind& kind)
     return kind.is_reflected ? "mirrored" : "as drawn";
 }
 
+/// A number for each class of tiles: the same for those that differ by a half turn.
+std::vector<std::uint32_t> half_turn_classes(const TilingResult& result) {
+    const TileSet& tiles = result.patch.tiles;
+    PolygonClasses classes(result.patch.plane.is_rough() ? 4 * result.patch.plane.tolerance() : 0);
+    std::vector<std::uint32_t> numbers;
+    for (const TileClass& in_class : tiles.classes) {
+        std::vector<glm::dvec2> corners, turned;
+        for (const std::uint32_t corner : tiles.corners(in_class.first)) {
+            corners.push_back(result.patch.plane.at(corner));
+            turned.push_back(-corners.back());
+        }
+        numbers.push_back(std::min(classes.classify(corners).direction, classes.classify(turned).direction));
+    }
+    return numbers;
+}
+
 }  // namespace
 
-std::vector<CutKind> cut_list(const TilingResult& result, double step) {
+std::vector<CutKind> cut_list(const TilingResult& result, double step, bool keeps_direction) {
     const TileSet& tiles = result.patch.tiles;
     std::vector<CutKind> kinds;
-    std::map<std::tuple<std::uint32_t, bool, std::int32_t>, std::size_t> known;
+    std::map<std::tuple<std::uint32_t, bool, std::int32_t, std::uint32_t>, std::size_t> known;
+    const std::vector<std::uint32_t> directions =
+        keeps_direction ? half_turn_classes(result) : std::vector<std::uint32_t>(tiles.classes.size(), 0);
     for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
         const TileClass& in_class = tiles.class_of(tile);
-        const auto [at, is_new] =
-            known.try_emplace({in_class.shape, in_class.is_reflected, tiles.colour[tile]}, kinds.size());
+        const auto [at, is_new] = known.try_emplace(
+            {in_class.shape, in_class.is_reflected, tiles.colour[tile], directions[tiles.in_class[tile]]},
+            kinds.size());
         if (is_new) {
             CutKind& kind = kinds.emplace_back();
             kind.name = kind_name(at->second);
@@ -64,10 +84,11 @@ std::vector<CutKind> cut_list(const TilingResult& result, double step) {
     return kinds;
 }
 
-std::string cut_list_text(const std::string& title, std::int64_t n, const TilingResult& result, double step) {
+std::string cut_list_text(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                          double step) {
     const TilingExamination& t = result.examination;
-    std::string text = fmt::format("{}, n = {}, a step of {} mm\n", title.empty() ? "(untitled)" : printable(title),
-                                   n, hundredths(step));
+    std::string text = fmt::format("{}{}, a {} of {} mm\n", title.empty() ? "(untitled)" : printable(title),
+                                   n ? fmt::format(", n = {}", *n) : "", n ? "step" : "unit", hundredths(step));
     text += "kind    pieces  hand      colour     area mm2  all cm2     sides in mm; angles\n";
     double area = 0;
     for (const CutKind& kind : cut_list(result, step)) {
@@ -86,7 +107,8 @@ std::string cut_list_text(const std::string& title, std::int64_t n, const Tiling
     return text;
 }
 
-std::string cut_list_json(const std::string& title, std::int64_t n, const TilingResult& result, double step) {
+std::string cut_list_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                          double step) {
     const TilingExamination& t = result.examination;
     std::string kinds;
     for (const CutKind& kind : cut_list(result, step)) {
@@ -102,7 +124,8 @@ std::string cut_list_json(const std::string& title, std::int64_t n, const Tiling
             kind.pieces, kind.area, corners);
     }
     return fmt::format("{{\"title\": {}, \"n\": {}, \"step\": {}, \"pieces\": {}, \"area\": {}, \"kinds\": [{}]}}\n",
-                       json_string(title), n, step, t.tiles, t.area * step * step, kinds);
+                       json_string(title), n ? std::to_string(*n) : "null", step, t.tiles, t.area * step * step,
+                       kinds);
 }
 
 }  // namespace sikku

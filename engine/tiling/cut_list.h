@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,16 @@ struct CutKind {
     std::vector<glm::dvec2> corners;  ///< of its first tile, anticlockwise, in millimetres
 };
 
-/// Sorts tiles into kinds. Cost: linear. @param step  millimetres
-std::vector<CutKind> cut_list(const TilingResult& result, double step);
+/// Sorts tiles into kinds. Cost: linear. @param step  millimetres  @param keeps_direction  pieces that are turned
+/// against each other by other angles than 180 degrees are of different kinds
+std::vector<CutKind> cut_list(const TilingResult& result, double step, bool keeps_direction = false);
 
-/// A table with one line for each kind, and the sums. @param title  title of the pattern  @param n  derivation length
-std::string cut_list_text(const std::string& title, std::int64_t n, const TilingResult& result, double step);
+/// A table with one line for each kind, and the sums. @param title  title of the pattern  @param n  derivation
+/// length, if there is one
+std::string cut_list_text(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                          double step);
 /// The same as one line of JSON.
-std::string cut_list_json(const std::string& title, std::int64_t n, const TilingResult& result, double step);
+std::string cut_list_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                          double step);
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
 // Lists of pieces and templates: against counts from the literature, areas of outlines, and an independent offset.
-#include "art/tile_templates.h"
+#include "art/cutting/tile_templates.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -93,16 +93,18 @@ TEST(TileTemplates, AllowancesWiderThanNotchesAreRefused) {
 
 TEST(TileTemplates, FilesContainOneOutlineForEachShapeAndHand) {
     const std::vector<CutKind> kinds = cut_list(examined("hat", "2"), 20);
-    TemplateOptions options;
-    options.pattern = "title: Hat\naxiom: F\n";
-    for (const auto& [name, format] :
-         {std::pair("a.svg", PrintFormat::svg), {"a.pdf", PrintFormat::pdf}, {"a.dxf", PrintFormat::dxf}}) {
-        MemoryDestination memory;
-        write_templates(kinds, options, format, name, memory);
-        const std::string bytes = memory.take(name);
-        MemoryDestination again;
-        write_templates(kinds, options, format, name, again);
-        EXPECT_EQ(bytes, again.take(name));
+    PieceWriting writing;
+    writing.pattern = "title: Hat\naxiom: F\n";
+    for (const PrintFormat format : {PrintFormat::svg, PrintFormat::pdf, PrintFormat::eps, PrintFormat::dxf,
+                                     PrintFormat::hpgl, PrintFormat::gcode}) {
+        writing.drawing.format = format;
+        const auto written = [&] {
+            MemoryDestination memory;
+            write_templates(kinds, {}, writing, "a", memory);
+            return memory.take("a");
+        };
+        const std::string bytes = written();
+        EXPECT_EQ(bytes, written());
         if (format != PrintFormat::dxf) continue;
         std::size_t outlines = 0;
         for (std::size_t at = bytes.find("POLYLINE\n8\nCUT\n"); at != std::string::npos;
@@ -113,12 +115,8 @@ TEST(TileTemplates, FilesContainOneOutlineForEachShapeAndHand) {
         EXPECT_NE(bytes.find("\nSEAM\n"), std::string::npos);
         EXPECT_NE(bytes.find("\nLABEL\n"), std::string::npos);
     }
-    EXPECT_THROW(
-        {
-            MemoryDestination memory;
-            write_templates({}, options, PrintFormat::svg, "a.svg", memory);
-        },
-        std::runtime_error);
+    MemoryDestination memory;
+    EXPECT_THROW(write_templates({}, {}, writing, "a.svg", memory), std::runtime_error);
 }
 
 }  // namespace sikku

@@ -1,0 +1,38 @@
+// art/cutting/outline.h: outlines of pieces to cut: their allowances, how they are drawn, and where labels fit.
+#pragma once
+
+#include "art/print/page.h"
+#include "engine/geometry/path.h"
+
+#include <glm/vec2.hpp>
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// Lengths are millimetres, y up.
+
+Box box_of(std::span<const glm::dvec2> points);
+/// Points turned about the origin. @param angle  radians anticlockwise
+std::vector<glm::dvec2> turned(std::span<const glm::dvec2> points, double angle);
+
+/// An outline moved outwards by a distance. Corners are mitred; the tips of those whose mitre would be longer than
+/// twice the distance are cut off there. @param corners  anticlockwise
+/// @throws std::runtime_error if the result crosses itself, as in notches narrower than twice the distance
+std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, double distance);
+
+void draw_closed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
+/// Each side begins and ends with a dash.
+void draw_dashed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
+
+/// Where a text begins, and the height of its capital letters: see write_text().
+struct LabelPlace {
+    glm::dvec2 start{0.0};
+    double height = 0;
+};
+/// A place for a text within an outline, where it is roomiest. Cost: 1,000 times the number of sides.
+LabelPlace label_place(std::string_view text, std::span<const glm::dvec2> outline, double most_height);
+
+}  // namespace sikku

@@ -1,0 +1,57 @@
+// cli/piece_options.h: the options of `sikku tiling` for those who cut the pieces of a tiling.
+#pragma once
+
+#include "cli/command.h"
+#include "cli/options.h"
+#include "engine/tiling/tiling.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace sikku {
+
+struct PieceOptions {
+    bool lists = false;
+    std::string templates;  ///< seam allowance of templates; empty: none
+    std::string sheet;      ///< size of cutting sheets; empty: none
+    std::string step = "10mm";
+    std::string seam = "0mm";
+    std::string kerf = "0mm";
+    std::string gap = "0mm";
+    std::string margin = "10mm";
+    bool grain = false;
+    bool labels = true;
+    std::string output;
+    TableOptions print;  ///< those of the machine and of pictures
+
+    bool draws() const { return !templates.empty() || !sheet.empty(); }
+    bool any() const { return lists || draws(); }
+};
+
+/// Where the pieces come from.
+struct PieceSource {
+    std::string title;
+    std::optional<std::int64_t> n;  ///< derivation length, if there is one
+    std::string pattern;            ///< text of the pattern file
+    std::function<std::string(std::int32_t)> colour_name;
+};
+
+void add_piece_options(CLI::App& command, PieceOptions& options);
+
+/// Checks what can be checked before anything is derived. @throws UsageError, SettingError
+void check_piece_options(const CLI::App& command, const PieceOptions& options);
+
+/// Prints the list of pieces, or draws their templates or cutting sheets.
+/// @throws UsageError, SettingError; std::runtime_error
+void cut_pieces(const PieceOptions& options, const PieceSource& source, const TilingResult& result, bool as_json,
+                const Monitor& monitor, bool quiet);
+
+/// Gives tiles the colours that `tile colours:` of a pattern requests, and returns names for these.
+/// @throws as a print of the pattern
+std::function<std::string(std::int32_t)> colour_as_drawn(const Document& document, TilingResult& result,
+                                                         double budget, const Monitor& monitor);
+
+}  // namespace sikku

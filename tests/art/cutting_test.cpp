@@ -1,0 +1,263 @@
+// Cutting sheets: densities from the literature, overlaps by a second algorithm, sums, limits.
+#include "art/cutting/cutting_sheets.h"
+#include "art/cutting/outline.h"
+#include "art/cutting/piece_rows.h"
+#include "art/cutting/slide.h"
+#include "art/drawing/ink_shape.h"
+#include "tests/files.h"
+#include "tests/reference.h"
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+std::vector<CutKind> kinds_of(const std::string& tiling, const std::string& steps, double step, bool grain = false) {
+    return cut_list(
+        examine_tiling(
+            reference::grammar_of(contents(bundled("tilings/" + tiling)), {{"-n", "derivation length", steps}}), {}),
+        step, grain);
+}
+
+Polygon regular(int corners, double radius) {
+    Polygon polygon;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / corners;
+        polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return polygon;
+}
+
+Polygon placed(const Polygon& polygon, const PieceCopy& copy) {
+    Polygon result = turned(polygon, copy.turn);
+    for (glm::dvec2& corner : result) corner += copy.at;
+    return result;
+}
+
+/// Length of a horizontal line that lies in both polygons, at some height: by intervals between crossings.
+double common_width(const Polygon& a, const Polygon& b, double y) {
+    const auto crossings = [&](const Polygon& polygon) {
+        std::vector<double> found;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec2 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+            if ((from.y > y) != (to.y > y))
+                found.push_back(from.x + (to.x - from.x) * (y - from.y) / (to.y - from.y));
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    };
+    const std::vector<double> first = crossings(a), second = crossings(b);
+    double width = 0;
+    for (std::size_t i = 0; i + 1 < first.size(); i += 2) {
+        for (std::size_t k = 0; k + 1 < second.size(); k += 2) {
+            width += std::max(0.0, std::min(first[i + 1], second[k + 1]) - std::max(first[i], second[k]));
+        }
+    }
+    return width;
+}
+
+/// The largest width in common of any two polygons, on lines at many heights.
+double worst_overlap(const std::vector<Polygon>& polygons) {
+    double worst = 0;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        const Box a = box_of(polygons[i]);
+        for (std::size_t k = i + 1; k < polygons.size(); ++k) {
+            const Box b = box_of(polygons[k]);
+            if (b.low.x > a.high.x || a.low.x > b.high.x) continue;
+            const double low = std::max(a.low.y, b.low.y), high = std::min(a.high.y, b.high.y);
+            for (int line = 0; line < 40 && low + 1e-6 < high; ++line) {
+                // Not through horizontal sides, which are at round parts of the height.
+                const double y = low + (high - low) * (line + 0.3183) / 40;
+                worst = std::max(worst, common_width(polygons[i], polygons[k], y));
+            }
+        }
+    }
+    return worst;
+}
+
+std::vector<Polygon> laid(const Polygon& piece, const LaidPieces& pieces) {
+    std::vector<Polygon> polygons;
+    for (const PieceCopy& copy : pieces.copies) polygons.push_back(placed(piece, copy));
+    return polygons;
+}
+
+double share(const Polygon& piece, double side) {
+    const LaidPieces pieces = PieceRows(piece, false, {}).fill({{0, 0}, {side, side}}, 1'000'000);
+    return static_cast<double>(pieces.copies.size()) * polygon_area(piece) / (side * side);
+}
+
+}  // namespace
+
+TEST(PieceRows, ReachTheDensitiesOfTheLiterature) {
+    // Tiles of the plane, but for the border of a sheet of 100 pieces across.
+    for (const Polygon& piece :
+         {regular(3, 1), regular(4, 1), regular(6, 1), Polygon{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}}) {
+        EXPECT_GT(share(piece, 200), 0.97);
+        EXPECT_LE(share(piece, 200), 1 + 1e-9);
+    }
+    // Kuperberg & Kuperberg 1990: (5 - sqrt 5) / 3 is the density of the best double lattice of regular pentagons.
+    const double best = (5 - std::sqrt(5.0)) / 3;
+    EXPECT_GT(share(regular(5, 1), 400), best - 0.01);
+    EXPECT_LE(share(regular(5, 1), 400), best);
+    // A hat is eight of nine kites of its lattice.
+    EXPECT_GT(share(kinds_of("hat", "1", 1).front().corners, 600), 8.0 / 9 - 0.02);
+}
+
+TEST(PieceRows, PiecesNeitherOverlapNorLeaveTheirArea) {
+    const Box area{{3, 5}, {83, 115}};
+    for (const std::string tiling : {"hat", "chair", "spectre", "sphinx", "penrose-rhombs", "penrose-kite-dart",
+                                     "pinwheel", "l-tetromino", "half-hex", "p-pentomino", "equithirds"}) {
+        for (const CutKind& kind : kinds_of(tiling, "2", 4)) {
+            for (const double allowance : {0.0, 1.0}) {
+                const Polygon piece = offset_outline(kind.corners, allowance);
+                for (const bool grain : {false, true}) {
+                    const LaidPieces pieces = PieceRows(piece, grain, {}).fill(area, 60);
+                    ASSERT_FALSE(pieces.copies.empty()) << tiling;
+                    const std::vector<Polygon> polygons = laid(piece, pieces);
+                    EXPECT_LT(worst_overlap(polygons), 1e-5) << tiling << ' ' << kind.name << ' ' << allowance;
+                    for (const Polygon& polygon : polygons) {
+                        const Box box = box_of(polygon);
+                        EXPECT_TRUE(box.low.x > area.low.x - 1e-6 && box.low.y > area.low.y - 1e-6);
+                        EXPECT_TRUE(box.high.x < area.high.x + 1e-6 && box.high.y < area.high.y + 1e-6);
+                        // What is left is free.
+                        EXPECT_GE(box.low.y, pieces.below.high.y - 1e-6);
+                        EXPECT_FALSE(!pieces.beside.empty() && box.high.x > pieces.beside.low.x + 1e-6 &&
+                                     box.low.y < pieces.beside.high.y - 1e-6)
+                            << tiling;
+                    }
+                    for (const PieceCopy& copy : pieces.copies) {
+                        EXPECT_TRUE(!grain || std::fabs(std::sin(copy.turn)) < 1e-12);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Profile, SlidesUntilOutlinesTouch) {
+    const Polygon notched = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {3, 2}, {3, 3}, {0, 3}};
+    const Polygon bar = {{0, 0}, {2, 0}, {2, 1}, {0, 1}};
+    EXPECT_NEAR(Profile(notched, 0).slide(Profile(bar, 0), 1), 1, 1e-12);
+    EXPECT_NEAR(Profile(notched, 0).slide(Profile(bar, 0), 0.5), 3, 1e-12);
+    EXPECT_EQ(Profile(notched, 0).slide(Profile(bar, 0), 3), -std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(Profile(notched, 1).slide(Profile(bar, 1), 0), 3, 1e-12);
+    const Polygon wedge = {{0, 0}, {2, 0}, {0, 1}};
+    const Profile flipped = Profile(wedge, 0).turned();
+    EXPECT_NEAR(Profile(wedge, 0).slide(flipped, 1), 2, 1e-12);
+}
+
+TEST(CuttingPlan, LaysEveryPieceOnceOnSheetsOfItsColour) {
+    CuttingOptions options;
+    options.sheet = {297, 420, 10};
+    options.kerf = 0.2;
+    for (const bool grain : {false, true}) {
+        options.grain = grain;
+        for (const std::string tiling : {"hat", "penrose-rhombs", "snub-square", "pinwheel"}) {
+            const std::vector<CutKind> kinds = kinds_of(tiling, "4", 9, grain);
+            const CuttingPlan plan = plan_cutting(kinds, options, {});
+            std::map<std::size_t, std::uint64_t> counted;
+            std::uint64_t sheets = 0;
+            for (const CuttingSheet& sheet : plan.sheets) {
+                std::vector<Polygon> polygons;
+                for (const PlacedForm& piece : sheet.pieces) {
+                    const PieceForm& form = plan.forms[piece.form];
+                    counted[form.kind] += sheet.copies;
+                    EXPECT_EQ(plan.kinds[form.kind].colour, sheet.colour);
+                    polygons.push_back(placed(form.cut, {0, piece.at}));
+                    if (polygons.size() > 120) polygons.pop_back();
+                }
+                EXPECT_LT(worst_overlap(polygons), 1e-5) << tiling;
+                EXPECT_TRUE(sheet.in_use > 0 && sheet.in_use < 1) << tiling;
+                sheets += sheet.copies;
+            }
+            EXPECT_EQ(sheets, plan.sheet_count);
+            for (std::size_t kind = 0; kind < kinds.size(); ++kind) EXPECT_EQ(counted[kind], kinds[kind].pieces);
+        }
+    }
+}
+
+TEST(CuttingPlan, ManyPiecesNeedFewDifferentSheets) {
+    CuttingOptions options;
+    options.sheet = {297, 420, 10};
+    std::vector<CutKind> kinds = kinds_of("chair", "2", 10);
+    for (CutKind& kind : kinds) kind.pieces = 1'000'000;
+    const CuttingPlan plan = plan_cutting(kinds, options, {});
+    EXPECT_LE(plan.sheets.size(), 2 * kinds.size());
+    EXPECT_GT(plan.sheet_count, 10'000U);
+}
+
+TEST(CuttingPlan, NeighboursKeepTheirGap) {
+    CuttingOptions options;
+    options.sheet = {200, 200, 5};
+    options.gap = 3;
+    const CuttingPlan plan = plan_cutting(kinds_of("sphinx", "2", 8), options, {});
+    for (const CuttingSheet& sheet : plan.sheets) {
+        std::vector<Polygon> grown;
+        for (const PlacedForm& piece : sheet.pieces) {
+            const PieceForm& form = plan.forms[piece.form];
+            grown.push_back(offset_outline(placed(form.cut, {0, piece.at}), 1.5));
+            const Box box = box_of(placed(form.cut, {0, piece.at}));
+            EXPECT_TRUE(box.low.x > 5 - 1e-6 && box.high.x < 195 + 1e-6);
+        }
+        EXPECT_LT(worst_overlap(grown), 1e-5);
+    }
+}
+
+TEST(CuttingPlan, RefusesPiecesThatDoNotFit) {
+    CuttingOptions options;
+    options.sheet = {100, 80, 10};
+    try {
+        plan_cutting(kinds_of("chair", "1", 45), options, {});
+        FAIL() << "90 x 90 mm do not fit into 80 x 60 mm";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(),
+                     "piece A needs 90.0 x 90.0 mm, but the sheets have 80 x 60 mm within their margins");
+    }
+    EXPECT_THROW(plan_cutting({}, options, {}), std::runtime_error);
+    options.sheet = {10'000, 10'000, 0};
+    std::vector<CutKind> many = kinds_of("chair", "1", 1);
+    many.front().pieces = 100'000'000;
+    EXPECT_THROW(plan_cutting(many, options, {}), std::runtime_error);
+}
+
+TEST(CuttingSheets, FilesAppearInAllFormats) {
+    CuttingOptions options;
+    options.sheet = {120, 90, 8};
+    options.seam = 2;
+    const CuttingPlan plan = plan_cutting(kinds_of("penrose-rhombs", "2", 12), options, {});
+    ASSERT_GT(plan.sheets.size(), 1U);
+    const std::vector<std::string> materials(plan.sheets.size(), "red");
+    for (const PrintFormat format : {PrintFormat::svg, PrintFormat::pdf, PrintFormat::eps, PrintFormat::png,
+                                     PrintFormat::hpgl, PrintFormat::gcode, PrintFormat::dxf}) {
+        PieceWriting writing;
+        writing.drawing.format = format;
+        writing.dpi = 50;
+        const std::string name = "x." + std::string(info(format).extension);
+        const auto files = sheet_files(name, format == PrintFormat::pdf ? 1 : plan.sheets.size());
+        const auto written = [&] {
+            MemoryDestination memory;
+            write_cutting_sheets(plan, options, materials, true, writing, name, memory);
+            std::string all;
+            for (const auto& file : files) all += memory.take(file);
+            return all;
+        };
+        const std::string bytes = written();
+        EXPECT_FALSE(bytes.empty()) << name;
+        EXPECT_EQ(bytes, written()) << name;
+    }
+    EXPECT_EQ(sheet_files("a/b.svg", 12)[3], std::filesystem::path("a/b-04.svg"));
+    EXPECT_EQ(sheet_files("b.svg", 1)[0], std::filesystem::path("b.svg"));
+}
+
+}  // namespace sikku
