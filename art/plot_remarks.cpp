@@ -69,8 +69,10 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
     if (is_plot && report.fields > 0 && !settings.hatch) {
         warnings.emplace_back("plots fill fields only by hatching: set 'hatch'");
     }
-    if (!style.powders.empty() && !style.fields) {
-        warnings.emplace_back("'powders' has no effect: powders colour fields; set 'fields', for example to kind");
+    if (!style.powders.empty() && !style.fields && !style.tile_colours) {
+        warnings.emplace_back(
+            "'powders' has no effect: powders colour fields and tiles; set 'fields', for example to kind, or 'tile "
+            "colours'");
     }
     if (report.woven && *report.woven == 0) warnings.emplace_back("'weave' has no effect: the lines do not cross");
     if (report.parallel && style.parallel.is_spaced && report.parallel->spacing < 0.999 * report.parallel->wanted) {

@@ -141,13 +141,24 @@ std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint6
     return std::make_unique<LessonDrawing>(std::move(by_hand), options);
 }
 
+/// The grammar, with a mark after each part that `tile colours: by generation` colours.
+Grammar with_generations(const Grammar& grammar, const Style& style) {
+    if (style.tile_colours != TileColours::generation) return grammar;
+    auto marked = grammar.with_marks(style.tile_generation);
+    if (!marked) {
+        throw std::runtime_error(
+            "'tile colours: by generation' needs productions without contexts, parameters and random choices");
+    }
+    return *std::move(marked);
+}
+
 }  // namespace
 
 std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
     if (grammar.map()) {
         return surrounded(make_map_drawing(grammar, style, options), grammar.seed(), style, options);
     }
-    auto shared = std::make_shared<const Grammar>(resolved(grammar, options));
+    auto shared = std::make_shared<const Grammar>(resolved(with_generations(grammar, style), options));
     std::string why;
     if (auto parts = seen_parts(*shared, style, options, why)) {
         return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);

@@ -12,6 +12,7 @@
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/plain_form.h"
 #include "engine/geometry/turtle.h"
 #include "engine/measure/clumps.h"
 #include "engine/measure/fold.h"
@@ -366,8 +367,9 @@ std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& sty
 
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why) {
     if (grammar.is_spatial()) throw std::runtime_error("this drawing cannot be shown through a window: " + why);
+    const auto plain = plain_form(grammar);
     try {
-        require_affordable(grammar, true, options.budget);
+        require_affordable(plain ? *plain : grammar, true, options.budget);
     } catch (const BudgetError&) {
         throw std::runtime_error("the window of this drawing needs its whole word, which is too long: " + why);
     }

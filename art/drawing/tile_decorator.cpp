@@ -1,5 +1,6 @@
 #include "art/drawing/tile_decorator.h"
 
+#include "art/drawing/tile_worms.h"
 #include "art/drawing/united_lines.h"
 #include "art/plotter/plot_join.h"
 #include "art/plotter/plot_layer.h"
@@ -177,7 +178,7 @@ private:
 };
 
 void TileDecorator::add(std::span<const glm::dvec2> vertices, const Pen& pen) {
-    if (static_cast<double>(vertices_.size() + vertices.size()) > most_) {
+    if (static_cast<double>(tiles_.vertices().size() + vertices.size()) > most_) {
         throw BudgetError(fmt::format(
             "the drawing has more than {:.0f} edges of tiles, the limit of the budget for decorating them", most_));
     }
@@ -193,19 +194,19 @@ void TileDecorator::add(std::span<const glm::dvec2> vertices, const Pen& pen) {
                             last, colour, colours_.size() + 1, vertices.size(), vertices.size()));
         }
     }
-    vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
-    begins_.push_back(vertices_.size());
+    tiles_.add(vertices);
     colours_.push_back(colour);
 }
 
 /// The sides of each tile, anticlockwise, cut at the corners of others.
 std::vector<std::vector<TileDecorator::Side>> TileDecorator::cut_sides(const Monitor& monitor) const {
     UnitedLines united(most_);
-    for (std::size_t i = 0; i < colours_.size(); ++i) united.add_tile(tile(i));
+    for (std::size_t i = 0; i < colours_.size(); ++i) united.add_tile(tiles_[i]);
     std::vector<std::vector<Side>> sides(colours_.size());
     const UnitedLines::Result found = united.unite(UnitedLines::Kept::sides, monitor);
     double size = 0;
-    for (const glm::dvec2 vertex : vertices_) size = std::max({size, std::fabs(vertex.x), std::fabs(vertex.y)});
+    for (const glm::dvec2 vertex : tiles_.vertices())
+        size = std::max({size, std::fabs(vertex.x), std::fabs(vertex.y)});
     PlotNodes nodes(std::max(1e-9 * size, 1e-300));
     std::vector<std::map<std::uint32_t, std::pair<std::uint32_t, bool>>> next(colours_.size());
     for (const UnitedLines::Side& side : found.sides) {
@@ -217,7 +218,7 @@ std::vector<std::vector<TileDecorator::Side>> TileDecorator::cut_sides(const Mon
     for (std::size_t i = 0; i < sides.size(); ++i) {
         if (next[i].empty()) continue;
         // From the tile's first vertex on, so that the sides do not depend on the order of pieces.
-        const auto first = next[i].find(nodes.at(tile(i)[0]));
+        const auto first = next[i].find(nodes.at(tiles_[i][0]));
         std::uint32_t at = first != next[i].end() ? first->first : next[i].begin()->first;
         while (sides[i].size() < next[i].size()) {
             const auto side = next[i].find(at);
@@ -233,7 +234,7 @@ std::vector<std::vector<TileDecorator::Side>> TileDecorator::cut_sides(const Mon
 /// Curves that the pattern gives to tiles of a colour.
 void TileDecorator::draw_own(Curves& curves) const {
     for (std::size_t i = 0; i < colours_.size(); ++i) {
-        const std::span<const glm::dvec2> corners = tile(i);
+        const std::span<const glm::dvec2> corners = tiles_[i];
         const double inwards = twice_area(corners) < 0 ? -1 : 1;
         const auto place = [&](double at) {
             const auto side = std::min(static_cast<std::size_t>(at), corners.size() - 1);
@@ -303,14 +304,17 @@ void TileDecorator::draw(PathSink& sink, const Monitor& monitor) const {
                 // A line of an odd number ends in the middle.
                 if (count % 2 == 1) {
                     const std::size_t left = first + count - 1;
-                    curves.line(0, half(left), middle(tile(i)));
-                    curves.dot(0, middle(tile(i)));
+                    curves.line(0, half(left), middle(tiles_[i]));
+                    curves.dot(0, middle(tiles_[i]));
                 }
             }
         }
     }
+    if (decoration.worms) {
+        for (const WormLink& link : find_worms(tiles_, monitor)) curves.line(0, link.from, link.to);
+    }
     if (decoration.dots) {
-        for (std::size_t i = 0; i < colours_.size(); ++i) curves.dot(0, middle(tile(i)));
+        for (std::size_t i = 0; i < colours_.size(); ++i) curves.dot(0, middle(tiles_[i]));
     }
     curves.draw(decoration.strands, sink, monitor);
 }

@@ -1,6 +1,7 @@
 // art/drawing/tile_decorator.h: draws the decoration of tiles: curves on each, joined into long strokes.
 #pragma once
 
+#include "art/drawing/tile_outlines.h"
 #include "art/style/style.h"
 #include "engine/base/monitor.h"
 #include "engine/geometry/path.h"
@@ -40,17 +41,13 @@ private:
         bool is_inner = false;  ///< another tile lies on its right
     };
 
-    std::span<const glm::dvec2> tile(std::size_t number) const {
-        return std::span(vertices_).subspan(begins_[number], begins_[number + 1] - begins_[number]);
-    }
     std::vector<std::vector<Side>> cut_sides(const Monitor& monitor) const;
     void draw_own(Curves& curves) const;
 
     const Style& style_;
     std::uint64_t seed_;
     double most_;
-    std::vector<glm::dvec2> vertices_;
-    std::vector<std::size_t> begins_{0};
+    TileOutlines tiles_;
     std::vector<int> colours_;  ///< of tiles, as indices into the palette
 };
 

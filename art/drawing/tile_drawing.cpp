@@ -2,6 +2,7 @@
 
 #include "art/drawing/tile_colours.h"
 #include "art/drawing/tile_decorator.h"
+#include "art/drawing/tile_worms.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/tiling/polygon_place.h"
@@ -13,18 +14,21 @@
 #include <utility>
 
 namespace sikku {
-namespace {
-
-bool depends_on_neighbours(TileColours colours) {
-    return colours == TileColours::distance || colours == TileColours::neighbours;
-}
 
 /// Collects the straight lines and the polygons of a drawing.
 class TileGatherer : public PathSink {
 public:
     /// @param middles  receives the middles of the polygons, unless it is null
     TileGatherer(UnitedLines& united, const Style& style, std::vector<glm::dvec2>* middles)
-        : united_(united), style_(style), middles_(middles) {}
+        : united_(united),
+          style_(style),
+          middles_(middles),
+          keeps_outlines_(style.tile_colours == TileColours::worms) {}
+
+    /// The outlines of all polygons, if colours need them.
+    const TileOutlines& outlines() const { return outlines_; }
+    /// For each polygon the number of marks before it.
+    const std::vector<std::uint32_t>& parts() const { return parts_; }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         at_ = start;
@@ -42,9 +46,12 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
         united_.add_tile(vertices);
         if (middles_) middles_->push_back(mass_of(vertices).centre);
+        parts_.push_back(part_);
+        if (keeps_outlines_) outlines_.add(vertices);
     }
     void area(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
+    void mark() override { ++part_; }
 
 private:
     void take(const Pen& pen) {
@@ -56,9 +63,56 @@ private:
     UnitedLines& united_;
     const Style& style_;
     std::vector<glm::dvec2>* middles_;
+    bool keeps_outlines_;
+    TileOutlines outlines_;
+    std::vector<std::uint32_t> parts_;
+    std::uint32_t part_ = 0;
     Pen pen_;
     glm::dvec2 at_{0.0};
     bool draws_ = false;
+};
+
+namespace {
+
+/// True if the colours of tiles follow from all of them.
+bool depends_on_others(TileColours colours) {
+    return colours == TileColours::distance || colours == TileColours::neighbours ||
+           colours == TileColours::generation || colours == TileColours::worms;
+}
+
+/// Numbers for the parts of a drawing so that parts with neighbouring tiles differ.
+std::vector<std::uint32_t> colours_of_parts(const std::vector<std::uint32_t>& parts,
+                                            std::span<const UnitedLines::Pair> neighbours) {
+    if (parts.empty()) return {};
+    std::vector<UnitedLines::Pair> pairs;
+    for (const auto& [a, b] : neighbours) {
+        if (parts[a] != parts[b]) pairs.emplace_back(std::min(parts[a], parts[b]), std::max(parts[a], parts[b]));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    const std::vector<std::uint32_t> colours =
+        colours_of_neighbours(*std::max_element(parts.begin(), parts.end()) + 1, pairs);
+    std::vector<std::uint32_t> result;
+    result.reserve(parts.size());
+    for (const std::uint32_t part : parts) result.push_back(colours[part]);
+    return result;
+}
+
+/// Classifies polygons.
+class ClassSink : public PathSink {
+public:
+    explicit ClassSink(PolygonClasses& classes) : classes_(classes) {}
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override { classes_.classify(vertices); }
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    PolygonClasses& classes_;
 };
 
 /// Hands on polygons in the colours of their numbers and, if edges are drawn afterwards, no straight lines.
@@ -66,8 +120,11 @@ class TilePainter : public PathFilter {
 public:
     /// @param numbers  of the polygons in their order; absent: by their classes
     TilePainter(PathSink& sink, const Style& drawn, std::size_t first, std::size_t colours,
-                const std::vector<std::uint32_t>* numbers)
-        : Forwarding(sink), drawn_(drawn), first_(first), colours_(colours), numbers_(numbers) {}
+                const std::vector<std::uint32_t>* numbers, const Drawing& drawing)
+        : Forwarding(sink), drawn_(drawn), first_(first), colours_(colours), numbers_(numbers) {
+        ClassSink samples(classes_);
+        drawing.read_samples(samples);
+    }
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         if (!drawn_.tile_colours) return sink_.polygon(vertices, pen);
@@ -170,10 +227,10 @@ void TileDrawing::add_layers() {
 
 void TileDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
     OldColours old(sink, drawn_);
-    const bool needs_neighbours = drawn_.tile_colours && depends_on_neighbours(*drawn_.tile_colours);
+    const bool needs_all = drawn_.tile_colours && depends_on_others(*drawn_.tile_colours);
     const bool unites = drawn_.tile_edges != TileEdges::each;
-    if (!unites && !needs_neighbours) {
-        TilePainter painter(sink, drawn_, first_colour_, colours_, nullptr);
+    if (!unites && !needs_all) {
+        TilePainter painter(sink, drawn_, first_colour_, colours_, nullptr, *drawing_);
         OldColours inner(painter, drawn_);
         drawing_->read(print, window, inner);
         return decorate(print, window, old);
@@ -188,8 +245,8 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
                                                                : UnitedLines::Kept::none;
     const UnitedLines::Result found = united.unite(kept, options_.monitor);
     const std::vector<std::uint32_t> chosen =
-        needs_neighbours ? numbers(united, found, middles) : std::vector<std::uint32_t>{};
-    TilePainter painter(sink, drawn_, first_colour_, colours_, needs_neighbours ? &chosen : nullptr);
+        needs_all ? numbers(gatherer, united, found, middles) : std::vector<std::uint32_t>{};
+    TilePainter painter(sink, drawn_, first_colour_, colours_, needs_all ? &chosen : nullptr, *drawing_);
     OldColours inner(painter, drawn_);
     // A pen that does not hatch draws only the outlines of polygons, which are among the lines.
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
@@ -214,10 +271,18 @@ void TileDrawing::decorate(const Print& print, const Window& window, PathSink& s
     decorator.draw(sink, options_.monitor);
 }
 
-std::vector<std::uint32_t> TileDrawing::numbers(const UnitedLines& united, const UnitedLines::Result& found,
+std::vector<std::uint32_t> TileDrawing::numbers(const TileGatherer& gatherer, const UnitedLines& united,
+                                                const UnitedLines::Result& found,
                                                 const std::vector<glm::dvec2>& middles) const {
-    if (*drawn_.tile_colours == TileColours::distance) {
-        return distances_from_border(united.tiles(), found.neighbours, found.border);
+    switch (*drawn_.tile_colours) {
+        case TileColours::distance:
+            return distances_from_border(united.tiles(), found.neighbours, found.border);
+        case TileColours::generation:
+            return colours_of_parts(gatherer.parts(), found.neighbours);
+        case TileColours::worms:
+            return ranks_of_worms(united.tiles(), find_worms(gatherer.outlines(), options_.monitor));
+        default:
+            break;
     }
     if (options_.tile_period) {
         if (auto numbers = colours_of_repeated(middles, found.neighbours, *options_.tile_period)) return *numbers;

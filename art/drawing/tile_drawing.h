@@ -12,6 +12,8 @@
 
 namespace sikku {
 
+class TileGatherer;
+
 /// True if a style requests colours or decorations of tiles, or their edges otherwise than each tile draws them.
 bool has_tile_work(const Style& style);
 
@@ -38,7 +40,8 @@ public:
     void report(DrawReport& report) const override { drawing_->report(report); }
 
 private:
-    std::vector<std::uint32_t> numbers(const UnitedLines& united, const UnitedLines::Result& found,
+    std::vector<std::uint32_t> numbers(const TileGatherer& gatherer, const UnitedLines& united,
+                                       const UnitedLines::Result& found,
                                        const std::vector<glm::dvec2>& middles) const;
     void add_layers();
     void decorate(const Print& print, const Window& window, PathSink& sink) const;

@@ -21,10 +21,10 @@ class Patches;
 /// Cost: the visible parts, times the derivation length; 0.1 us a node.
 class WindowDrawing : public Drawing {
 public:
-    /// Nullptr, with the reason in `why`, if the parts cannot be composed: for words that depend on contexts,
-    /// parameters or chance, for angles that are no parts of a turn, for brackets, polygons and colours that reach
-    /// over more than 10,000 symbols, for splines, and for ornaments that need the whole drawing. Also, with `why`
-    /// unchanged, without a window and for short words, which are better read whole.
+    /// Nullptr, with the reason in `why`, if the parts cannot be composed: for words that depend on contexts or
+    /// chance, for brackets, polygons and colours that reach over more than 10,000 symbols, for lengths in decimals
+    /// that add up to errors of a thousandth of a step, for splines, and for ornaments that need the whole drawing.
+    /// Also, with `why` unchanged, without a window and for short words, which are better read whole.
     /// @param grammar  with resolved contexts; in the plane
     static std::unique_ptr<WindowDrawing> make(std::shared_ptr<const Grammar> grammar, const Style& style,
                                                const DrawOptions& options, std::string& why);
@@ -36,13 +36,14 @@ public:
     double scale() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
+    void read_samples(PathSink& sink) const override;
     void report(DrawReport& report) const override;
 
 private:
     WindowDrawing(std::shared_ptr<const Grammar> grammar, std::unique_ptr<Patches> patches, const Style& style,
                   const DrawOptions& options);
 
-    std::shared_ptr<const Grammar> grammar_;
+    std::shared_ptr<const Grammar> grammar_;  ///< in plain form; the patches refer to it
     std::unique_ptr<Patches> patches_;
     Style style_;
     DrawnExtent extent_;

@@ -216,7 +216,14 @@ public:
         }
         if (std::string fill = svg_property(node, "fill"); !fill.empty()) around.fill = std::move(fill);
         try {
+            if (node.attribute("transform").empty() && !svg_property(node, "transform").empty()) {
+                refuse("its transform is a style; expected an attribute");
+            }
             around.transform = around.transform * parse_transform(node.attribute("transform").value());
+            if (name == "svg" && level > 0) {
+                if (!node.attribute("viewBox").empty()) refuse("a picture in a picture cannot have a viewBox");
+                around.transform = around.transform * Transform{.e = number(node, "x"), .f = number(node, "y")};
+            }
             element(name, node, around);
         } catch (const Refused&) {
             throw;

@@ -14,7 +14,7 @@ namespace sikku {
 namespace {
 
 constexpr std::string_view expected =
-    "kolam, truchet, dots, strands, or 'tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER'";
+    "kolam, truchet, worms, dots, strands, or 'tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER'";
 constexpr int most_colour = 4095;
 
 /// Reads words separated by blanks and semicolons.
@@ -32,7 +32,7 @@ public:
             return {};
         }
         for (bool has_word = true; has_word && !has_failed_;) has_word = item();
-        if (result_.strands && !result_.kolam && !result_.truchet && result_.curves.empty()) {
+        if (result_.strands && !result_.kolam && !result_.truchet && !result_.worms && result_.curves.empty()) {
             complain(key_.value, "'strands' colours lines; name lines too, such as 'kolam strands'");
         }
         return has_failed_ ? TileDecoration{} : std::move(result_);
@@ -56,6 +56,7 @@ private:
     bool item() {
         if (text_ == "kolam") return set(result_.kolam);
         if (text_ == "truchet") return set(result_.truchet);
+        if (text_ == "worms") return set(result_.worms);
         if (text_ == "dots") return set(result_.dots);
         if (text_ == "strands") return set(result_.strands);
         if (text_ == "tile") return tiles();
@@ -63,8 +64,8 @@ private:
         if (text_ == "arc") return curve(TileCurve::Kind::arc);
         if (text_ == "line") return curve(TileCurve::Kind::line);
         if (text_ == "dot") return curve(TileCurve::Kind::dot);
-        const std::string_view near =
-            nearest(text_, {"kolam", "truchet", "dots", "strands", "tile", "colour", "arc", "line", "dot", "none"});
+        const std::string_view near = nearest(
+            text_, {"kolam", "truchet", "worms", "dots", "strands", "tile", "colour", "arc", "line", "dot", "none"});
         return complain(
             word_, near.empty() ? fmt::format("unexpected {}: expected {}", quoted_value(word_.view()), expected)
                                 : fmt::format("unexpected {}; did you mean '{}'?", quoted_value(word_.view()), near));

@@ -23,11 +23,12 @@ struct TileCurve {
 struct TileDecoration {
     bool kolam = false;    ///< strands that cross in the middles of sides, and turn back along the border
     bool truchet = false;  ///< arcs between the middles of neighbouring sides, one of the possible ways by chance
+    bool worms = false;    ///< centre lines of Conway worms: rows of three rhombs around a vertex
     bool dots = false;     ///< a dot in the middle of each tile
     bool strands = false;  ///< the colours of strands follow their lengths
     std::vector<TileCurve> curves;
 
-    bool is_set() const { return kolam || truchet || dots || !curves.empty(); }
+    bool is_set() const { return kolam || truchet || worms || dots || !curves.empty(); }
 
     static constexpr std::size_t most_curves = 1000;
     static constexpr double most_sides = 1000;  ///< places are less

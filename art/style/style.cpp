@@ -377,18 +377,37 @@ void read_fields(const Key& key, Style& style, Diagnostics& diagnostics) {
 }
 
 void read_tile_colours(const Key& key, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected =
+        "by shape, by hand, by direction, by distance, by neighbours, by generation, by worms, blank or none";
+    constexpr double most_generations = 1e6;
+    // A generation may have a number.
+    std::size_t at = 0;
+    Span word = next_word(key.value, at, false);
+    if (lower_case(word.view()) == "by") word = next_word(key.value, at, false);
+    const Span number = next_word(key.value, at, false);
+    if (lower_case(word.view()) == "generation" && !number.empty()) {
+        const auto generation = number_in(number.view(), 1, most_generations);
+        const Span more = next_word(key.value, at, false);
+        if (!generation || *generation != std::floor(*generation) || !more.empty()) {
+            diagnostics.error(more.empty() ? number : more,
+                              "expected a number of steps, 1 or more, after 'by generation'");
+            return;
+        }
+        style.tile_colours = TileColours::generation;
+        style.tile_generation = static_cast<std::int64_t>(*generation);
+        return;
+    }
     using Way = std::pair<std::string_view, std::optional<TileColours>>;
     constexpr std::array ways = {Way{"shape", TileColours::shape},
                                  Way{"hand", TileColours::hand},
                                  Way{"direction", TileColours::direction},
                                  Way{"distance", TileColours::distance},
                                  Way{"neighbours", TileColours::neighbours},
+                                 Way{"generation", TileColours::generation},
+                                 Way{"worms", TileColours::worms},
                                  Way{"blank", TileColours::blank},
                                  Way{"none", std::nullopt}};
-    style.tile_colours =
-        read_choice(key, ways, "by shape, by hand, by direction, by distance, by neighbours, blank or none",
-                    diagnostics)
-            .value_or(std::nullopt);
+    style.tile_colours = read_choice(key, ways, expected, diagnostics).value_or(std::nullopt);
 }
 
 void read_tile_edges(const Key& key, Style& style, Diagnostics& diagnostics) {

@@ -49,7 +49,7 @@ struct BorderStyle {
 enum class TileEdges : std::uint8_t { each, once, border, none };
 
 /// The property that determines the colour of a polygon; `blank`: it is not filled.
-enum class TileColours : std::uint8_t { shape, hand, direction, distance, neighbours, blank };
+enum class TileColours : std::uint8_t { shape, hand, direction, distance, neighbours, generation, worms, blank };
 
 /// The property that determines the colour of a field between lines.
 enum class FieldsBy { chessboard, kind, distance, centre, strand, symmetry };
@@ -77,7 +77,9 @@ struct Style {
     std::optional<FieldsBy> fields;         ///< absent: fields between lines are not filled
     TileEdges tile_edges = TileEdges::each;
     std::optional<TileColours> tile_colours;  ///< absent: polygons have the colours of their pens
-    TileDecoration decoration;                ///< lines on polygons
+    /// Of TileColours::generation: steps before the last, in which the parts were tiles whose colours differ.
+    std::int64_t tile_generation = 1;
+    TileDecoration decoration;       ///< lines on polygons
     std::vector<Colour> powders;     ///< colours of fields, transparent for `none`; empty: the first set of powders
     bool powders_are_named = false;  ///< a set by its name, from which colours of the lines are left out
     std::optional<double> weave;     ///< gap beside upper strands, in stroke widths; absent: no weave

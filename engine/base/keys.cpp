@@ -24,6 +24,9 @@ constexpr std::array language = {
     KeyInfo{"move", engine, "symbols", "f", "Symbols that move a step without drawing"},
     KeyInfo{"edge SYMBOL", engine, "a word of moves and turns such as -f++f-", "",
             "Length of a straight step: from the start to the end of the word, exactly"},
+    KeyInfo{"mirror", engine, "pairs of symbols such as A a B b", "none",
+            "Symbols that are mirror images: one of a pair has the productions of the other, with left and right "
+            "exchanged"},
     KeyInfo{
         "polygons", engine, "outline, framework", "outline",
         "Vertices of polygons: where `{` stands and the end of each step, or the marks on a framework of branches"},
@@ -76,12 +79,15 @@ constexpr std::array language = {
             KeyScope::all},
     KeyInfo{"fields", art, "chessboard, by kind, by distance, by centre, by strand, by symmetry; none", "none",
             "How the fields between closed lines are coloured"},
-    KeyInfo{"tile colours", art, "by shape, by hand, by direction, by distance, by neighbours; blank; none", "none",
-            "How polygons are coloured, instead of by their pens; blank leaves them unfilled"},
+    KeyInfo{
+        "tile colours", art,
+        "by shape, by hand, by direction, by distance, by neighbours, by generation [STEPS], by worms; blank; none",
+        "none", "How polygons are coloured, instead of by their pens; blank leaves them unfilled"},
     KeyInfo{"tile edges", art, "each, once, border, none", "each",
             "Edges of polygons: each draws its own, shared edges are drawn once, only the border of all, or none"},
     KeyInfo{"decorate", art,
-            "kolam, truchet, dots, strands; tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER; none", "none",
+            "kolam, truchet, worms, dots, strands; tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER; none",
+            "none",
             "Lines drawn on polygons and joined from one to the next: a kind of line, or lines between places on the "
             "outlines of polygons of a colour"},
     KeyInfo{"powders", art, "colours or none; festival, pongal, lotus, peacock, temple, marigold, monsoon, distinct",

@@ -87,8 +87,8 @@ public:
         }
     }
 
-    /// Descends to the symbol of the word at `position`, and reports each symbol on the way: its origin, and its place
-    /// in the word that holds it. Returns whether there is one.
+    /// Descends to the symbol of the word at `position`, and reports each symbol on the way: its origin, and its
+    /// place in the word that holds it. Returns whether there is one.
     template <class Report>
     bool descend(std::uint64_t position, Pulse& pulse, const Report& report) const {
         std::uint64_t before = position - 1;  // symbols of the part that precede it
@@ -129,8 +129,8 @@ private:
         // The first production of a symbol applies.
         for (std::size_t i = table.productions().size(); i > 0; --i) {
             const Production& production = table.productions()[i - 1];
-            if (i > texts.size() || production.predecessor.size() != 1) continue;
-            const ProductionText& text = *texts[i - 1];
+            if (production.text >= texts.size() || production.predecessor.size() != 1) continue;
+            const ProductionText& text = *texts[production.text];
             made[production.predecessor.front()] = {text.whole, symbol_spans(names_, text.successor)};
         }
         known_.push_back(&table);
@@ -163,10 +163,9 @@ OriginTracer::~OriginTracer() = default;
 Origin OriginTracer::origin(std::uint64_t position, const Monitor& monitor) const {
     Origin found;
     Pulse pulse(monitor);
-    const bool is_found = position > 0 && implementation_->descend(position, pulse,
-                                                                   [&](const Origin& origin, const PathStep&) {
-                                                                       found = origin;
-                                                                   });
+    const bool is_found =
+        position > 0 &&
+        implementation_->descend(position, pulse, [&](const Origin& origin, const PathStep&) { found = origin; });
     return is_found ? found : Origin();
 }
 
@@ -174,10 +173,9 @@ std::vector<PathStep> OriginTracer::path(std::uint64_t position) const {
     std::vector<PathStep> steps;
     const Monitor monitor;
     Pulse pulse(monitor);
-    const bool is_found = position > 0 && implementation_->descend(position, pulse,
-                                                                   [&](const Origin&, const PathStep& step) {
-                                                                       steps.push_back(step);
-                                                                   });
+    const bool is_found =
+        position > 0 && implementation_->descend(position, pulse,
+                                                 [&](const Origin&, const PathStep& step) { steps.push_back(step); });
     if (!is_found) return {};
     if (!steps.empty()) steps.pop_back();  // the symbol itself
     return steps;

@@ -44,6 +44,8 @@ public:
     virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
     /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
+    /// A part of the drawing ends: see Grammar::with_marks().
+    virtual void mark() {}
 };
 
 /// Passes a drawing on to another sink; derived classes override what they change.
@@ -59,6 +61,7 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, pen); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, pen); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, pen); }
+    void mark() override { sink_.mark(); }
 
 protected:
     PathSink& sink_;

@@ -36,6 +36,9 @@ void RecordedPath::draw(PathSink& sink) const {
                 sink.disc(points.front(), left.front().x, recorded.pen);
                 left = left.subspan(1);
                 break;
+            case Call::mark:
+                sink.mark();
+                break;
         }
     }
 }

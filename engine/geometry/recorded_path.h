@@ -23,6 +23,7 @@ public:
         add(Call::disc, {&centre, 1}, pen);
         points_.emplace_back(radius, 0.0);
     }
+    void mark() override { add(Call::mark, {}, {}); }
 
     /// Draws it again. Receives the same calls with the same points.
     void draw(PathSink& sink) const;
@@ -30,7 +31,7 @@ public:
     std::size_t points() const { return points_.size(); }
 
 private:
-    enum class Call : std::uint8_t { begin, lines, curves, pen, end, close, polygon, area, disc };
+    enum class Call : std::uint8_t { begin, lines, curves, pen, end, close, polygon, area, disc, mark };
     struct Recorded {
         Call call;
         std::size_t points;

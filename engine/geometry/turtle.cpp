@@ -339,6 +339,9 @@ private:
                     sink_->disc(walker_.point(state_.place), std::fabs(command.value), state_.pen);
                 }
                 break;
+            case Action::mark:
+                if (sink_) sink_->mark();
+                break;
             default:
                 break;
         }

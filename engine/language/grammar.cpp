@@ -83,7 +83,7 @@ std::vector<char> Grammar::reachable() const {
 }
 
 std::optional<Grammar> Grammar::with_steps(std::int64_t steps) const {
-    if (begun_) return std::nullopt;
+    if (begun_ || has_fixed_steps_) return std::nullopt;
     Grammar other = *this;
     other.steps_ = steps;
     if (!other.make_schedule(nullptr)) return std::nullopt;
@@ -159,6 +159,7 @@ std::optional<Grammar> Grammar::with_marks(std::int64_t order, const std::vector
     }
     SymbolInfo info;
     info.letter_index = static_cast<std::uint32_t>(letters_.size());
+    info.command.action = Action::mark;
     other.letters_.emplace_back();
     other.symbols_.push_back(info);
     other.ignored_.push_back(1);
@@ -210,22 +211,41 @@ std::optional<Grammar> Grammar::written_out(const ModuleWord& word) const {
         written.symbols.push_back(found->second);
         if (!fresh) continue;
         if (other.symbols_.size() >= most_symbols) return std::nullopt;
-        SymbolInfo own = info;
-        own.arguments.assign(arguments.begin(), arguments.end());
-        own.arity = 0;
-        Command& command = own.command;
-        if (command.takes_argument) {
-            command.value *= arguments.front();
-            command.takes_argument = false;
-            if (command.action == Action::turn || command.action == Action::pitch || command.action == Action::roll) {
-                command.angle = angle_of_degrees(command.value);
-                command.value = 0;
-            }
-        }
-        other.symbols_.push_back(std::move(own));
+        other.symbols_.push_back(with_values(info, arguments));
         other.ignored_.push_back(ignored_[symbol]);
     }
     other.axiom_ = std::make_shared<const ModuleWord>(std::move(written));
+    return other;
+}
+
+SymbolInfo with_values(const SymbolInfo& symbol, std::span<const double> values) {
+    SymbolInfo own = symbol;
+    own.arguments.assign(values.begin(), values.end());
+    own.arity = 0;
+    Command& command = own.command;
+    if (command.takes_argument) {
+        command.value *= values.front();
+        command.takes_argument = false;
+        if (command.action == Action::turn || command.action == Action::pitch || command.action == Action::roll) {
+            command.angle = angle_of_degrees(command.value);
+            command.value = 0;
+        }
+    }
+    return own;
+}
+
+Grammar Grammar::with_parts(PlainParts parts) const {
+    Grammar other = *this;
+    const std::size_t symbols = parts.symbols.size();
+    other.symbols_ = std::move(parts.symbols);
+    other.axiom_ = std::make_shared<const ModuleWord>(ModuleWord{std::move(parts.axiom), {}, {}});
+    other.tables_.clear();
+    for (std::vector<Production>& table : parts.tables) other.tables_.emplace_back(std::move(table), symbols, true);
+    other.interpretation_.reset();
+    if (parts.interpretation) other.interpretation_.emplace(std::move(*parts.interpretation), symbols, true);
+    other.is_parametric_ = other.is_stochastic_ = false;
+    other.has_fixed_steps_ = true;
+    other.ignored_.assign(symbols, 0);
     return other;
 }
 

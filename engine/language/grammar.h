@@ -52,6 +52,7 @@ enum class Action : std::uint8_t {
     colour_step,   ///< next or previous colour: add `value`
     colour_set,
     disc,     ///< radius `value`; 0 is a dot
+    mark,     ///< nothing, but ends a part: see Grammar::with_marks()
     surface,  ///< the surface of that number, `value` times its size
 };
 struct Command {
@@ -87,6 +88,7 @@ struct Production {
     std::optional<Expression> weight{};     ///< none: not chosen by chance
     std::vector<Expression> arguments{};    ///< arguments of the successor's symbols with arity, in order
     std::uint32_t group = 0;                ///< the same in a table for equal predecessor and contexts
+    std::uint32_t text = 0;                 ///< index of its text among those of its table, shared ones first
     bool has_context() const { return !left.empty() || !right.empty(); }
 };
 
@@ -221,6 +223,16 @@ public:
     /// parameters become symbols of their own. Nullopt if there are more than 524,288 of them.
     std::optional<Grammar> written_out(const ModuleWord& word) const;
 
+    /// A plain system with the same settings and schedule, and with these symbols and productions instead. It has no
+    /// with_steps().
+    struct PlainParts {
+        std::vector<SymbolInfo> symbols;  ///< of arity 0
+        Word axiom;
+        std::vector<std::vector<Production>> tables;
+        std::optional<std::vector<Production>> interpretation;
+    };
+    Grammar with_parts(PlainParts parts) const;
+
     /// The number of steps from the beginning up to and including the last that needs whole words (contexts,
     /// predecessors of several symbols, cuts); 0 if the system is context-free throughout.
     std::int64_t whole_word_steps() const;
@@ -238,6 +250,7 @@ private:
     std::shared_ptr<const MapSystem> map_;
     std::int64_t steps_ = 0;
     bool begun_ = false;
+    bool has_fixed_steps_ = false;
     bool is_parametric_ = false;
     bool is_stochastic_ = false;
     std::uint64_t seed_ = 0;
@@ -254,6 +267,9 @@ private:
     std::vector<char> ignored_;
     std::vector<std::string> names_;
 };
+
+/// A module as a symbol of its own: with its values as constant parameters, and its command with them.
+SymbolInfo with_values(const SymbolInfo& symbol, std::span<const double> values);
 
 /// Compiles and checks what a pattern states. All mistakes go to `diagnostics`; the grammar returned is of use only
 /// if there were none. Cost: linear in the file.

@@ -1,4 +1,5 @@
 #include "engine/language/production_compiler.h"
+#include "engine/language/mirror.h"
 
 #include <fmt/format.h>
 
@@ -27,12 +28,12 @@ using Groups = std::map<std::tuple<Word, Word, Word>, Group>;
 class ProductionCompiler {
 public:
     ProductionCompiler(const Pattern& pattern, WordReader& reader, Diagnostics& diagnostics)
-        : pattern_(pattern), reader_(reader), diagnostics_(diagnostics) {}
+        : pattern_(pattern), reader_(reader), diagnostics_(diagnostics), mirror_(pattern, reader, diagnostics) {}
 
     CompiledProductions run() {
         std::vector<Production> common;
         Groups groups;
-        add_productions(common, pattern_.common, groups, false);
+        add_productions(common, pattern_.common, 0, groups, false);
         std::size_t size = 0;
         for (const Production& production : common) {
             size += 64 + production.left.size() + production.predecessor.size() + production.right.size() +
@@ -50,7 +51,7 @@ public:
             for (const TableText& text : pattern_.tables) {
                 std::vector<Production> table = common;
                 Groups groups_here = groups;
-                add_productions(table, text.productions, groups_here, false);
+                add_productions(table, text.productions, pattern_.common.size(), groups_here, false);
                 weigh(table, groups_here);
                 compiled_.tables.push_back(std::move(table));
             }
@@ -58,7 +59,7 @@ public:
         if (!pattern_.interpret.empty()) {
             std::vector<Production> table;
             Groups groups_here;
-            add_productions(table, pattern_.interpret, groups_here, true);
+            add_productions(table, pattern_.interpret, 0, groups_here, true);
             weigh(table, groups_here);
             compiled_.interpretation = std::move(table);
         }
@@ -95,9 +96,13 @@ private:
         return result;
     }
 
+    /// @param first  index of the first of these texts among those of the table
     void add_productions(std::vector<Production>& productions, const std::vector<ProductionText>& texts,
-                         Groups& groups, bool homomorphism) {
+                         std::size_t first, Groups& groups, bool homomorphism) {
+        const std::size_t before = productions.size();
+        auto number = static_cast<std::uint32_t>(first);
         for (const ProductionText& text : texts) {
+            const std::uint32_t own_number = number++;
             if (text.predecessor.view() == "*" || text.predecessor.view() == "\xCE\xB5") {
                 diagnostics_.error(text.predecessor, "the empty word cannot be a predecessor");
                 continue;
@@ -163,7 +168,30 @@ private:
             }
             productions.push_back({std::move(*left), std::move(*predecessor), std::move(*right),
                                    std::move(*successor), std::move(condition), std::move(weight),
-                                   std::move(arguments), group.number});
+                                   std::move(arguments), group.number, own_number});
+        }
+        if (mirror_.has_pairs()) add_images(productions, before, groups);
+    }
+
+    /// Adds the mirror images of productions from `first` on whose predecessors and contexts have no productions.
+    void add_images(std::vector<Production>& productions, std::size_t first, Groups& groups) {
+        const Groups stated = groups;
+        const std::size_t end = productions.size();
+        for (std::size_t i = first; i < end; ++i) {
+            Production image = productions[i];
+            image.left = mirror_.image(image.left);
+            image.predecessor = mirror_.image(image.predecessor);
+            image.right = mirror_.image(image.right);
+            if (stated.contains({image.left, image.predecessor, image.right})) continue;
+            image.successor = mirror_.image(image.successor);
+            Group group = stated.at({productions[i].left, productions[i].predecessor, productions[i].right});
+            group.number = static_cast<std::uint32_t>(groups.size()) + 1;
+            image.group =
+                groups.try_emplace({image.left, image.predecessor, image.right}, group).first->second.number;
+            productions.push_back(std::move(image));
+        }
+        if (reader_.symbols().size() > most_symbols) {
+            diagnostics_.error(pattern_.find("mirror")->value, "the mirror images have too many different symbols");
         }
     }
 
@@ -231,6 +259,7 @@ private:
     const Pattern& pattern_;
     WordReader& reader_;
     Diagnostics& diagnostics_;
+    Mirror mirror_;
     CompiledProductions compiled_;
 };
 

@@ -34,6 +34,11 @@ Symbol WordReader::intern(std::string letter, bool is_name, std::vector<double> 
     return found->second;
 }
 
+Symbol WordReader::renamed(Symbol symbol, const std::string& letter, bool is_name) {
+    const SymbolInfo info = symbols_[symbol];
+    return intern(letter, is_name, info.arguments, info.arity);
+}
+
 std::optional<Word> WordReader::word(const Span& span, WordPlace place, std::vector<Expression>* arguments) {
     Word result;
     const std::string_view text = span.view();

@@ -34,6 +34,9 @@ public:
     /// Compiles an expression with formal parameters and defines; nullopt after an error in it.
     std::optional<Expression> expression(const Span& text);
 
+    /// The number of a symbol with the same parameters and another letter.
+    Symbol renamed(Symbol symbol, const std::string& letter, bool is_name);
+
     /// The symbols read so far.
     std::vector<SymbolInfo>& symbols() { return symbols_; }
     std::vector<std::string>& letters() { return letters_; }

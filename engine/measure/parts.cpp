@@ -53,8 +53,8 @@ bool is_bracket(Action action) {
 }
 
 bool is_plain(Action action) {
-    return action == Action::pass || action == Action::draw || action == Action::move || action == Action::turn ||
-           is_bracket(action);
+    return action == Action::pass || action == Action::mark || action == Action::draw || action == Action::move ||
+           action == Action::turn || is_bracket(action);
 }
 
 }  // namespace

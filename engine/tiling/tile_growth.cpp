@@ -1,5 +1,6 @@
 #include "engine/tiling/tile_growth.h"
 
+#include "engine/derivation/plain_form.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/geometry/turtle.h"
 
@@ -84,13 +85,10 @@ glm::dvec2 product(glm::dvec2 a, glm::dvec2 b) {
 
 class GrowthFinder {
 public:
-    explicit GrowthFinder(const Grammar& grammar) : grammar_(grammar) {}
+    /// @param has_parameters  `grammar` is the plain form of a system with parameters
+    GrowthFinder(const Grammar& grammar, bool has_parameters) : grammar_(grammar), has_parameters_(has_parameters) {}
 
     TileGrowth find() {
-        if (!grammar_.is_plain() || grammar_.whole_word_steps() > 0) {
-            result_.unknown = "productions with parameters, contexts or random choices";
-            return std::move(result_);
-        }
         find_reachable();
         if (!read_tiles()) {
             result_.unknown = "polygons are drawn by several symbols together";
@@ -168,8 +166,10 @@ private:
         const auto known = forecast(grammar_, false);
         for (const auto& [kind, symbols] : kinds_) {
             TileKindCount each{kind.shape, kind.is_reflected, {}, 0};
+            std::set<std::string> letters;
             for (const auto& [symbol, times] : symbols) {
-                each.letters += (each.letters.empty() ? "" : " ") + grammar_.symbols()[symbol].letter;
+                const std::string& letter = grammar_.symbols()[symbol].letter;
+                if (letters.insert(letter).second) each.letters += (each.letters.empty() ? "" : " ") + letter;
                 if (known && known->counts) each.count += (*known->counts)[symbol] * times;
             }
             result_.counts.push_back(std::move(each));
@@ -317,6 +317,8 @@ private:
             const double square = scalar_product(own.way, own.way);
             if (square < accuracy) continue;
             const Word* successor = grammar_.tables().front().successor(symbol);
+            // Modules with the values of the last step have no productions in the plain form.
+            if (!successor && has_parameters_ && !grammar_.symbols()[symbol].arguments.empty()) continue;
             const Move next = successor ? move_of(*successor, true) : own;
             const glm::dvec2 turned = next.turn - own.turn;
             const glm::dvec2 ratio = product(next.way, {own.way.x, -own.way.y}) / square;
@@ -342,6 +344,7 @@ private:
     }
 
     const Grammar& grammar_;
+    bool has_parameters_;
     TileGrowth result_;
     std::vector<Symbol> symbols_;                            // reachable, sorted
     std::map<Kind, std::map<Symbol, std::uint32_t>> kinds_;  // how many of them each symbol draws
@@ -379,11 +382,16 @@ std::string quadratic_form(double value) {
 std::string closed_form(double value) {
     if (std::string form = quadratic_form(value); !form.empty()) return form;
     const std::string square = quadratic_form(value * value);
-    return square.empty() ? "" : fmt::format("√({})", square);
+    if (square.empty()) return {};
+    return square.find(' ') == std::string::npos ? "√" + square : fmt::format("√({})", square);
 }
 
 TileGrowth find_growth(const Grammar& grammar) {
-    return GrowthFinder(grammar).find();
+    const auto plain = plain_form(grammar);
+    if (plain && plain->whole_word_steps() == 0) return GrowthFinder(*plain, !grammar.is_plain()).find();
+    TileGrowth growth;
+    growth.unknown = "productions with contexts or random choices, or with parameters of too many values";
+    return growth;
 }
 
 }  // namespace sikku

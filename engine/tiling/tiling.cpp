@@ -2,7 +2,7 @@
 
 #include "engine/base/threads.h"
 #include "engine/derivation/forecast.h"
-#include "engine/geometry/turtle.h"
+#include "engine/tiling/exactness.h"
 #include "engine/tiling/vertex_figures.h"
 
 #include <fmt/format.h>
@@ -151,12 +151,36 @@ TilingResult examine_tiling(const Grammar& given, const TilingOptions& options) 
     whole_words.watch = [&options](std::uint64_t symbols) { options.monitor.advance(symbols); };
     const Grammar grammar = resolve_contexts(shorten(given), whole_words);
     const Lattice lattice = make_lattice(grammar);
-    try {
-        return examine(grammar, lattice, options.exact, options);
-    } catch (const TilePlane::OutOfRange&) {
-        return examine(grammar, lattice, false, options);
-    }
+    TilingResult result = [&] {
+        try {
+            return examine(grammar, lattice, options.exact, options);
+        } catch (const TilePlane::OutOfRange&) {
+            TilingResult rounded = examine(grammar, lattice, false, options);
+            rounded.examination.inexact = "coordinates are too large for 64 bits";
+            return rounded;
+        }
+    }();
+    TilingExamination& found = result.examination;
+    if (!found.is_exact && found.inexact.empty()) found.inexact = inexact_reason(grammar, lattice);
+    return result;
 }
+
+namespace {
+
+constexpr double largest_tolerance = 1e-3;  // as a share of the size of all polygons
+
+/// The longer side of the box of all polygons.
+double size_of(const PolygonList& polygons) {
+    glm::dvec2 low(0.0), high(0.0);
+    if (!polygons.corners.empty()) low = high = polygons.corners.front();
+    for (const glm::dvec2 corner : polygons.corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    return std::max(high.x - low.x, high.y - low.y);
+}
+
+}  // namespace
 
 double usual_tolerance(const PolygonList& polygons) {
     std::vector<double> lengths;
@@ -170,7 +194,7 @@ double usual_tolerance(const PolygonList& polygons) {
     if (lengths.empty()) throw std::runtime_error("the polygons have no edges with a length");
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
-    return *middle / 500;
+    return std::min(*middle / 500, largest_tolerance * size_of(polygons));
 }
 
 namespace {
@@ -203,14 +227,8 @@ TilingResult examine_polygons(const PolygonList& polygons, double tolerance, con
         throw BudgetError(
             fmt::format("there are {} polygons; at most {:.0f} are examined", polygons.size(), options.limits.tiles));
     }
-    glm::dvec2 low(0.0), high(0.0);
-    if (!polygons.corners.empty()) low = high = polygons.corners.front();
-    for (const glm::dvec2 corner : polygons.corners) {
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-    }
-    const double size = std::max(high.x - low.x, high.y - low.y);
-    if (!(tolerance >= 1e-12 && tolerance <= size / 1000 && tolerance >= size * 1e-13)) {
+    const double size = size_of(polygons);
+    if (!(tolerance >= 1e-12 && tolerance <= largest_tolerance * size && tolerance >= size * 1e-13)) {
         throw std::runtime_error(fmt::format(
             "a tolerance of {:g} does not suit polygons that extend over {:g}; expected 1e-12 or more, and a 10^13th "
             "to a thousandth of their size",

@@ -101,9 +101,10 @@ std::string lattice_json(const TilePlane& plane) {
 std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
     const TilingExamination& t = result.examination;
     std::string text = fmt::format(
-        "\"tiling\": {}, \"exact\": {}, \"tolerance\": {}, \"lattice\": {}, \"polygons\": {}, \"tiles\": {}, ",
-        json(t.is_tiling()), json(t.is_exact), fmt::format("{}", t.tolerance), lattice_json(result.patch.plane),
-        t.polygons, t.tiles);
+        "\"tiling\": {}, \"exact\": {}, \"inexact\": {}, \"tolerance\": {}, \"lattice\": {}, \"polygons\": {}, "
+        "\"tiles\": {}, ",
+        json(t.is_tiling()), json(t.is_exact), t.inexact.empty() ? "null" : json_string(t.inexact),
+        fmt::format("{}", t.tolerance), lattice_json(result.patch.plane), t.polygons, t.tiles);
     text += fmt::format(
         "\"violations\": {}, \"violation_list\": {}, ", t.violations.count,
         array(t.violations.list, [](const TileViolation& violation) {

@@ -279,9 +279,8 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
          : !n       ? fmt::format("no: corners within {:.3g} of each other count as one, and so do points that near "
                                         "an edge and points on it",
                                   t.tolerance)
-                    : fmt::format("no: angles or lengths do not fit a lattice; points within {:.6f} steps of "
-                                        "each other count as one",
-                                  t.tolerance));
+                    : fmt::format("no: {}{}points within {:.6f} steps of each other count as one", t.inexact,
+                            t.inexact.empty() ? "" : "; ", t.tolerance));
     return text;
 }
 

@@ -93,6 +93,10 @@ TEST(PolygonFiles, ReadElementsWithTheirTransforms) {
     EXPECT_EQ(list.notes, (std::vector<std::string>{"1 outline without a fill left out", "1 open line left out",
                                                     "1 text or picture left out"}));
     EXPECT_EQ(read_polygons_svg(svg("<g fill=\"none\"><path d=\"M0 0h1v1z\"/></g>")).size(), 1U);
+    // A picture in a picture has its own place.
+    const PolygonList nested = read_polygons_svg(
+        svg("<g transform=\"scale(2)\"><svg x=\"3\" y=\"4\"><rect width=\"1\" height=\"1\"/></svg></g>"));
+    EXPECT_EQ(nested.polygon(0)[0], glm::dvec2(6, -8));
 }
 
 TEST(PolygonFiles, NameThePlaceOfAFaultInAnSvg) {
@@ -111,6 +115,10 @@ TEST(PolygonFiles, NameThePlaceOfAFaultInAnSvg) {
         svg_refusal("<g transform=\"scale(1e11)\"><rect width=\"9\" height=\"9\"/></g>").find("larger than 1e+09"),
         std::string::npos);
     EXPECT_EQ(svg_refusal("<line x1=\"3\"/>"), "the SVG has no closed polygons");
+    EXPECT_NE(svg_refusal("<svg viewBox=\"0 0 1 1\"><rect width=\"1\" height=\"1\"/></svg>").find("viewBox"),
+              std::string::npos);
+    EXPECT_NE(svg_refusal("<g style=\"transform: scale(2)\"><rect width=\"1\" height=\"1\"/></g>").find("is a style"),
+              std::string::npos);
     EXPECT_NE(refusal([] { read_polygons_svg("<svg>\n<g></svg>"); }).find("line 2, column "), std::string::npos);
     std::string deep;
     for (int i = 0; i < 10'000; ++i) deep += "<g>";
@@ -155,6 +163,8 @@ TEST(PolygonFiles, AreTilesWithinTheTolerance) {
     EXPECT_FALSE(examine_polygons(squares(8, 0.0006), 0.0001, {}).examination.is_tiling());
     EXPECT_FALSE(examine_polygons(squares(8, 0.02), 0.002, {}).examination.is_tiling());
     EXPECT_NEAR(usual_tolerance(squares(3, 0)), 0.002, 1e-12);
+    // A single tile has a tolerance, too.
+    EXPECT_TRUE(examine_polygons(squares(1, 0), usual_tolerance(squares(1, 0)), {}).examination.is_tiling());
 }
 
 TEST(PolygonFiles, FindGapsOverlapsAndDuplicates) {

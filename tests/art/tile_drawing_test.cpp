@@ -290,6 +290,45 @@ TEST(TileDrawing, SvgHasTheColoursOfTilesAndLongStrokes) {
     EXPECT_EQ(fills(direction), (std::set<std::string>{"#111111", "#222222", "#333333", "#444444"}));
 }
 
+/// Fills of the tiles in drawing order.
+std::vector<std::string> fills_of_tiles(const std::string& tiling, OptionValues values) {
+    values.push_back({"name-tiles", "true"});
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(svg_of(tiling, values).c_str()));
+    std::vector<std::string> fills;
+    for (const auto& path : document.select_nodes("//*[@id]")) {
+        pugi::xml_node node = path.node();
+        while (node.attribute("fill").empty()) node = node.parent();
+        fills.emplace_back(node.attribute("fill").value());
+    }
+    return fills;
+}
+
+/// Chairs come four by four out of the chairs of the step before; so do their colours.
+TEST(TileDrawing, TilesOfOneAncestorHaveOneColour) {
+    for (const auto& [steps, tiles] : {std::pair("1", 4), std::pair("2", 16), std::pair("3", 64)}) {
+        const auto fills = fills_of_tiles(
+            "chair", {{"derivation length", "4"}, {"tile-colours", std::string("by generation ") + steps}});
+        ASSERT_EQ(fills.size(), 256u);
+        std::set<std::string> colours;
+        for (std::size_t i = 0; i < fills.size(); ++i) {
+            EXPECT_EQ(fills[i], fills[i / static_cast<std::size_t>(tiles) * static_cast<std::size_t>(tiles)]) << i;
+            colours.insert(fills[i]);
+        }
+        // Four chairs around a corner touch each other.
+        EXPECT_GE(colours.size(), 2u) << steps;
+        EXPECT_LE(colours.size(), 4u) << steps;
+    }
+    EXPECT_EQ(fills_of_tiles("chair", {{"derivation length", "3"}, {"tile-colours", "by generation"}}),
+              fills_of_tiles("chair", {{"derivation length", "3"}, {"tile-colours", "generation 1"}}));
+    const auto one = fills_of_tiles("chair", {{"derivation length", "2"}, {"tile-colours", "by generation 9"}});
+    EXPECT_EQ(std::set<std::string>(one.begin(), one.end()).size(), 1u) << "all come from the axiom";
+    // Several symbols of the axiom: each has its own colour; halves without tiles do not count.
+    const auto star =
+        fills_of_tiles("ammann-beenker", {{"derivation length", "1"}, {"tile-colours", "by generation"}});
+    EXPECT_EQ(std::set<std::string>(star.begin(), star.end()).size(), 2u);
+}
+
 /// Numbers of elements by class: 170 thin and 275 thick rhombs in five directions each; the sphinx in both hands.
 TEST(TileDrawing, SvgNamesEachTile) {
     const auto classes = [](const std::string& tiling, const std::string& steps) {
@@ -332,6 +371,10 @@ TEST(TileDrawing, WhatHasNoTilesIsRefused) {
     EXPECT_NE(message("plants/bush-3d", {{"tile-edges", "once"}}).find("drawings in space have no edges of tiles"),
               std::string::npos);
     EXPECT_NE(message("tilings/chair", {{"tile-colours", "by shapes"}}).find("did you mean 'shape'?"),
+              std::string::npos);
+    EXPECT_NE(message("tilings/chair", {{"tile-colours", "by generation 0"}}).find("expected a number of steps"),
+              std::string::npos);
+    EXPECT_NE(message("tilings/chair", {{"tile-colours", "by generation 1 2"}}).find("expected a number of steps"),
               std::string::npos);
     EXPECT_NE(message("tilings/chair", {{"tile-edges", "twice"}}).find("each, once, border or none"),
               std::string::npos);

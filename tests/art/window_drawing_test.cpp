@@ -129,6 +129,12 @@ TEST(WindowDrawing, ShowsTheTilesOfTheWholeWord) {
                                                                    {"hat", "5"},
                                                                    {"spectre", "5"},
                                                                    {"danzer", "5"},
+                                                                   {"socolar", "4"},
+                                                                   {"shield", "7"},
+                                                                   {"ammann-a3", "10"},
+                                                                   {"golden-bee", "23"},
+                                                                   {"pinwheel", "7"},
+                                                                   {"pinwheel-13", "4"},
                                                                    {"snub-square", "200"}};
     for (const auto& [name, steps] : tilings) {
         const auto grammar = tiling(name, steps);
@@ -160,17 +166,16 @@ TEST(WindowDrawing, ShowsTheTilesOfTheWholeWord) {
 
 /// Fifteen places, up to half way to the border, in tilings of up to 10^33 tiles.
 TEST(WindowDrawing, LeavesNoGapsFarOut) {
-    const std::vector<std::tuple<const char*, const char*, double>> tilings{{"penrose-rhombs", "40", 1e8},
-                                                                            {"penrose-rhombs", "80", 1e16},
-                                                                            {"penrose-kite-dart", "40", 1e7},
-                                                                            {"ammann-beenker", "40", 1e14},
-                                                                            {"chair", "40", 1e12}};
+    const std::vector<std::tuple<const char*, const char*, double>> tilings{
+        {"penrose-rhombs", "40", 1e8},  {"penrose-rhombs", "80", 1e16}, {"penrose-kite-dart", "40", 1e7},
+        {"ammann-beenker", "40", 1e14}, {"pinwheel", "20", 1e6},        {"chair", "40", 1e12}};
     for (const auto& [name, steps, reach] : tilings) {
         const auto grammar = tiling(name, steps);
         for (const double direction : {0.3, 1.9, 4.0}) {
             const double x = std::round(reach * 0.3 * std::cos(direction));
             const double y = std::round(reach * 0.3 * std::sin(direction));
-            if (std::string_view(name) == "chair" && direction > 1) continue;
+            const bool is_in_a_corner = std::string_view(name) == "chair" || std::string_view(name) == "pinwheel";
+            if (is_in_a_corner && direction > 1) continue;
             const Tiles seen = shown(grammar, fmt::format("{:.0f},{:.0f},{:.0f},{:.0f}", x, y, x + 30, y + 20));
             double area = 0;
             for (const Tile& tile : seen.all) area += area_inside(tile.corners, seen.box);
@@ -184,7 +189,8 @@ TEST(WindowDrawing, FillsPages) {
         return find_filled_page(*tiling(name, "3"), plain_print().style, size, 2, {}, why);
     };
     std::string why;
-    for (const char* name : {"penrose-rhombs", "chair", "hat", "spectre", "snub-square", "rauzy", "danzer"}) {
+    for (const char* name :
+         {"penrose-rhombs", "chair", "hat", "spectre", "snub-square", "rauzy", "danzer", "pinwheel"}) {
         const auto found = filled(name, {30, 20}, why);
         ASSERT_TRUE(found) << name << ": " << why;
         const auto number = [](Quad value) { return fmt::format("{:.0f}", static_cast<double>(value)); };
@@ -202,7 +208,6 @@ TEST(WindowDrawing, FillsPages) {
         for (const Tile& tile : tiles.all) area += area_inside(tile.corners, box);
         EXPECT_NEAR(area, 34 * 24, 1e-5) << name << " at " << number(at.x0) << ' ' << number(at.y0);
     }
-    EXPECT_FALSE(filled("pinwheel", {30, 20}, why));
     EXPECT_FALSE(filled("chair", {3e4, 2e4}, why));
     EXPECT_NE(why.find("square steps"), std::string::npos);
 }
@@ -227,6 +232,48 @@ TEST(WindowDrawing, IsDrawnInColoursAndWithEdgesOnce) {
     EXPECT_EQ(fills(svg({{"tile-colours", "by neighbours"}})), 3u);
     EXPECT_LT(svg({{"tile-edges", "once"}}).size(), svg({}).size());
     EXPECT_EQ(svg({}), svg({}));
+}
+
+/// Tiles of one direction have one colour in all windows of a tiling.
+TEST(WindowDrawing, HasTheSameColoursEverywhere) {
+    Style style = plain_print().style;
+    style.tile_colours = TileColours::direction;
+    std::map<std::vector<std::pair<long, long>>, int> colours;  // of the sides of a tile
+    for (const char* window : {"100000000,3,100000030,23", "-3000000,7000000,-2999970,7000020", "5,5,25,25"}) {
+        const auto drawing = make_drawing(*tiling("penrose-rhombs", "40"), style, window_options(window));
+        Print print = plain_print();
+        drawing->place(print);
+        Box box;
+        box.add({0, 0});
+        box.add({30, 20});
+        Tiles tiles(box);
+        drawing->read(print, tiles);
+        EXPECT_GT(tiles.all.size(), 100u);
+        for (const Tile& tile : tiles.all) {
+            std::vector<std::pair<long, long>> sides;
+            for (std::size_t i = 0; i < tile.corners.size(); ++i) {
+                const glm::dvec2 side = tile.corners[(i + 1) % tile.corners.size()] - tile.corners[i];
+                sides.emplace_back(std::lround(side.x * 1e4), std::lround(side.y * 1e4));
+            }
+            std::rotate(sides.begin(), std::min_element(sides.begin(), sides.end()), sides.end());
+            EXPECT_EQ(colours.try_emplace(sides, tile.colour).first->second, tile.colour);
+        }
+    }
+    EXPECT_EQ(colours.size(), 10u);
+}
+
+/// Lengths that are computed add up to errors, and windows are refused before tiles part.
+TEST(WindowDrawing, RefusesPlacesThatAreNotPrecise) {
+    std::string why;
+    EXPECT_FALSE(WindowDrawing::make(tiling("pinwheel", "40"), plain_print().style,
+                                     window_options("10000000,5,10000030,25"), why));
+    EXPECT_NE(why.find("lengths in decimals"), std::string::npos) << why;
+    try {
+        draw(load(bundled("tilings/pinwheel")), "svg", {{"derivation length", "40"}, {"window", "5,5,25,25"}});
+        FAIL();
+    } catch (const std::exception& error) {
+        EXPECT_NE(std::string(error.what()).find("a smaller derivation length"), std::string::npos) << error.what();
+    }
 }
 
 TEST(WindowDrawing, SaysWhyPartsCannotBeFound) {

@@ -459,6 +459,21 @@ TEST(TilingExamination, RefusesTooManyTilesBeforeDeriving) {
     EXPECT_THROW(examine_tiling(grammar, few), BudgetError);
 }
 
+TEST(TilingExamination, SaysWhatIsNotExact) {
+    EXPECT_EQ(word(square).inexact, "");
+    EXPECT_EQ(bundled("pinwheel", 2).examination.inexact, "the parameters of 'f' are computed");
+    EXPECT_EQ(word("{F+(26.56505117707799)F+F}").inexact,
+              "'+(26.56505117707799)' does not turn by a simple fraction of 360 degrees");
+    EXPECT_EQ(word("{F+F+F+F}", 22).inexact, "turns by 360/22 degrees lead to places with more than 8 coordinates");
+    const std::string golden = word("{F(1.618033988749895)+++F+F+++F(1.618033988749895)}", 10).inexact;
+    EXPECT_EQ(golden,
+              "the length of 'F(1.618033988749895)' is not a short decimal; 'edge SYMBOL:' states lengths "
+              "exactly");
+    const TilingExamination far = word("[f(1000000000000){F+F+F+F}]f(0.000001)");
+    EXPECT_FALSE(far.is_exact);
+    EXPECT_FALSE(far.inexact.empty());
+}
+
 TEST(TilingExamination, StopsOnRequest) {
     TilingOptions options;
     options.monitor = Monitor([](void*) { return true; });
@@ -506,7 +521,16 @@ TEST(TileGrowth, FindsThePublishedFactors) {
         EXPECT_FALSE(growth.length.has_value()) << name;
     }
     for (const char* name : {"trihexagonal", "herringbone"}) EXPECT_FALSE(growth_of(name, 5).tiles) << name;
-    EXPECT_FALSE(growth_of("pinwheel", 5).unknown.empty());
+    // Systems with parameters are counted in plain form.
+    const std::map<std::string, std::string> computed = {
+        {"pinwheel", "√5"}, {"pinwheel-10", "√10"}, {"pinwheel-13", "√13"}, {"golden-bee", "√τ"}};
+    for (const auto& [name, form] : computed) {
+        const TileGrowth growth = growth_of(name, 20);
+        ASSERT_TRUE(growth.length.has_value()) << name << growth.unknown << growth.no_limit << growth.no_length;
+        EXPECT_EQ(closed_form(*growth.length), form) << name;
+        EXPECT_NEAR(*growth.length * *growth.length, growth.tiles.value_or(0), 1e-9) << name;
+    }
+    EXPECT_FALSE(growth_of("padovan-spiral", 10).tiles);
     EXPECT_EQ(closed_form(std::sqrt(4 + std::sqrt(15.0))), "√(4 + √15)");
     EXPECT_EQ(closed_form(2 + std::sqrt(3.0)), "2 + √3");
     EXPECT_EQ(closed_form(std::acos(-1.0)), "");
@@ -565,6 +589,8 @@ TEST(TileGrowth, CountsWithoutDeriving) {
     }
     EXPECT_EQ(total(growth_of("spectre", 60)), now);
     EXPECT_EQ(total(growth_of("chair", 60)), Integer(1) << 120);
+    EXPECT_EQ(total(growth_of("pinwheel", 60)), 2 * boost::multiprecision::pow(Integer(5), 60));
+    EXPECT_EQ(total(growth_of("padovan-spiral", 15)), 16);
     // Thick and thin rhombs are five times Fibonacci numbers.
     const TileGrowth rhombs = growth_of("penrose-rhombs", 60);
     ASSERT_EQ(rhombs.counts.size(), 2U);

@@ -148,8 +148,8 @@ TEST(TilingCommand, TellsWhereTilesAreDerived) {
                                           "A --> A[fA]B\nB --> [ffB]A\nf --> ff\n"
                                           "interpret:\nA --> [{F+F+F+F}]\nB --> [{F+F+F+F}]\n");
     const Outcome text = run({"tiling", file});
-    EXPECT_NE(text.output.find("violation  tile 6 duplicates tile 1 at 0 0, drawn by 10:16 (A 1, A 1, A 1) and 10:16 "
-                               "(A 1, B 6, A 5)\n"),
+    EXPECT_NE(text.output.find("violation  tile 8 duplicates tile 1 at 0 0, drawn by 10:16 (A 1, A 1, A 1) and 10:16 "
+                               "(A 1, B 6, A 6)\n"),
               std::string::npos)
         << text.output;
     const Json json = tiling({file});
