@@ -77,7 +77,7 @@ TEST(Chords, NoVoicesMoveInParallel) {
 
 TEST(Chords, StrongBeatsAreThoseOfTheGroups) {
     for (const auto& [meter, beats] : {std::pair<std::string, std::vector<int>>{"3+2+2/8", {0, 3, 5}},
-                                       {"7/8", {0, 2, 4}},
+                                       {"7/8", {0, 3, 5}},
                                        {"4+2+2/8", {0, 4, 6}},
                                        {"6/8", {0, 3}},
                                        {"3/4", {0}},

@@ -760,8 +760,8 @@ TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
     EXPECT_EQ(completed({"sikku", "draw", "--s"}),
-              (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--sway", "--stroke", "--split",
-                                     "--spot", "--step", "--steps"}));
+              (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--swatch", "--sway", "--stroke",
+                                     "--split", "--spot", "--step", "--steps"}));
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));

@@ -106,7 +106,7 @@ TEST(Play, FormRhythmAndHarmonyRefuseWhatTheyCannotRead) {
         {{"--harmony", "progression I-X"}, "expected chords from I to VII"},
         {{"--harmony", "bass 0"}, "from 1 to 30"},
         {{"--brackets", "sequential"}, "expected voices, sequence or shares"},
-        {{"--ending", "bang"}, "expected none or ritardando"}};
+        {{"--ending", "bang"}, "expected none, ritardando or fermata"}};
     for (const auto& [options, message] : bad) {
         const Outcome outcome = played(hilbert, options);
         EXPECT_EQ(outcome.status, 2) << options[1];
