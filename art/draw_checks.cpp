@@ -225,43 +225,45 @@ void check_swatch(const DrawSettings& settings, PrintFormat format) {
     if (settings.swatch == SwatchChoice::none) return;
     constexpr const char* placed = "a swatch has its own place and page";
     constexpr const char* whole = "a swatch is a part of a tiling that goes on; it has nothing around it";
-    refuse_first({{settings.plotter || is_for_plotters(format), "swatch", "its edges would cut the strokes of a plot"},
-                  {format == PrintFormat::gif, "swatch", "a swatch is one picture, not an animation"},
-                  {settings.generations.has_value(), "generations", "a swatch has the derivation length that it takes"},
-                  {settings.fit, "fit", placed},
-                  {settings.window.has_value(), "window", placed},
-                  {settings.fills_page, "fill-page", placed},
-                  {settings.repeat.has_value(), "repeat", placed},
-                  {settings.composes, "compose", placed},
-                  {settings.dot_spacing.has_value(), "dot-spacing", "the length of a step sets the size of a swatch"},
-                  {settings.lesson.has_value(), "lesson", placed},
-                  {settings.animation.has_value(), "animate", "a swatch is one picture, not an animation"},
-                  {settings.division.has_value(), "divide", "a swatch is one picture, not an animation"},
-                  {settings.tile.has_value(), "tile", placed},
-                  {settings.border && *settings.border != "none", "border", whole},
-                  {settings.title_line.has_value(), "title-line", whole},
-                  {!settings.edition.empty(), "edition", whole},
-                  {settings.press.bleed > 0, "bleed", whole},
-                  {settings.press.marks, "marks", whole},
-                  {settings.press.registration, "registration", whole}});
+    refuse_first(
+        {{settings.plotter || is_for_plotters(format), "swatch", "its edges would cut the strokes of a plot"},
+         {format == PrintFormat::gif, "swatch", "a swatch is one picture, not an animation"},
+         {settings.generations.has_value(), "generations", "a swatch has the derivation length that it takes"},
+         {settings.fit, "fit", placed},
+         {settings.window.has_value(), "window", placed},
+         {settings.fills_page, "fill-page", placed},
+         {settings.repeat.has_value(), "repeat", placed},
+         {settings.composes, "compose", placed},
+         {settings.dot_spacing.has_value(), "dot-spacing", "the length of a step sets the size of a swatch"},
+         {settings.lesson.has_value(), "lesson", placed},
+         {settings.animation.has_value(), "animate", "a swatch is one picture, not an animation"},
+         {settings.division.has_value(), "divide", "a swatch is one picture, not an animation"},
+         {settings.tile.has_value(), "tile", placed},
+         {settings.border && *settings.border != "none", "border", whole},
+         {settings.title_line.has_value(), "title-line", whole},
+         {!settings.edition.empty(), "edition", whole},
+         {settings.press.bleed > 0, "bleed", whole},
+         {settings.press.marks, "marks", whole},
+         {settings.press.registration, "registration", whole}});
 }
 
 void check_division(const DrawSettings& settings, PrintFormat format) {
     if (!settings.division) return;
     constexpr const char* moving = "does not apply to tiles that divide";
-    refuse_first({{format != PrintFormat::svg && format != PrintFormat::gif, "divide",
-                   "only a .gif and an animated SVG show how tiles divide"},
-                  {settings.plotter, "divide", "a plot does not move"},
-                  {settings.animation.has_value(), "animate", "cannot be combined with 'divide', which has its own times"},
-                  {settings.lesson.has_value(), "lesson", moving},
-                  {settings.frames, "frames", "all generations of tiles that divide are in one file"},
-                  {settings.fit_frames, "fit-frames", "tiles that divide keep their place and their scale"},
-                  {settings.tile.has_value(), "tile", "an animation cannot be cut into sheets"},
-                  {settings.fills_page, "fill-page", "sets the derivation length, of which 'divide' needs several"},
-                  {settings.repeat.has_value(), "repeat", moving},
-                  {settings.names_tiles, "name-tiles", "tiles that divide have other names in each generation"},
-                  {settings.dot_spacing.has_value(), "dot-spacing",
-                   "does not apply to tiles that divide; 'step' sets their scale"}});
+    refuse_first(
+        {{format != PrintFormat::svg && format != PrintFormat::gif, "divide",
+          "only a .gif and an animated SVG show how tiles divide"},
+         {settings.plotter, "divide", "a plot does not move"},
+         {settings.animation.has_value(), "animate", "cannot be combined with 'divide', which has its own times"},
+         {settings.lesson.has_value(), "lesson", moving},
+         {settings.frames, "frames", "all generations of tiles that divide are in one file"},
+         {settings.fit_frames, "fit-frames", "tiles that divide keep their place and their scale"},
+         {settings.tile.has_value(), "tile", "an animation cannot be cut into sheets"},
+         {settings.fills_page, "fill-page", "sets the derivation length, of which 'divide' needs several"},
+         {settings.repeat.has_value(), "repeat", moving},
+         {settings.names_tiles, "name-tiles", "tiles that divide have other names in each generation"},
+         {settings.dot_spacing.has_value(), "dot-spacing",
+          "does not apply to tiles that divide; 'step' sets their scale"}});
 }
 
 void check_growth(const DrawSettings& settings, PrintFormat format) {
@@ -273,7 +275,8 @@ void check_growth(const DrawSettings& settings, PrintFormat format) {
          {settings.frames && !settings.generations, "frames", "needs 'generations'"},
          {settings.frames && is_gif, "frames", "a .gif contains all generations itself"},
          {settings.frame_time && settings.lesson, "frame-time", "a lesson has its own seconds per stroke"},
-         {settings.frame_time && !is_gif && !settings.division, "frame-time", "applies only to a .gif and to 'divide'"},
+         {settings.frame_time && !is_gif && !settings.division, "frame-time",
+          "applies only to a .gif and to 'divide'"},
          {settings.hold && !is_gif && !settings.division, "hold", "applies only to a .gif and to 'divide'"},
          {settings.fit_frames && (!settings.generations || is_sheet), "fit-frames", "needs a .gif or 'frames'"}});
     if (is_gif) check_gif(settings);

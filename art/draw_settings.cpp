@@ -333,16 +333,17 @@ const std::array own_rows = {
                .kind = flag,
                .is_alone = true},
               [](S& s, Text t) { s.fills_page = is_true(t); }},
-    Option<S>{{.name = "swatch",
-               .help = "the smallest rectangle of a periodic tiling whose copies join without a seam, as the page, at "
-                       "the length of a step that --step sets (a 40th of the page's shorter side); 'turn' turns the "
-                       "tiling where that makes it smaller",
-               .value = "[turn]",
-               .is_alone = true},
-              [](S& s, Text t) {
-                  if (!t.empty() && t != "turn") refuse_option("swatch", t, "expected turn, or no value");
-                  s.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
-              }},
+    Option<S>{
+        {.name = "swatch",
+         .help = "the smallest rectangle of a periodic tiling whose copies join without a seam, as the page, at "
+                 "the length of a step that --step sets (a 40th of the page's shorter side); 'turn' turns the "
+                 "tiling where that makes it smaller",
+         .value = "[turn]",
+         .is_alone = true},
+        [](S& s, Text t) {
+            if (!t.empty() && t != "turn") refuse_option("swatch", t, "expected turn, or no value");
+            s.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
+        }},
     Option<S>{{.name = "window",
                .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
                        "derivation length",
@@ -423,17 +424,18 @@ const std::array own_rows = {
                .kind = flag,
                .is_alone = true},
               [](S& s, Text t) { s.frames = is_true(t); }},
-    Option<S>{{.name = "frame-time",
-               .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); of one with --divide, in which its tiles "
-                       "rest (0.6)",
-               .value = "SECONDS",
-               .group = kolams,
-               .unit = "s",
-               .kind = number,
-               .least = 0.01,
-               .most = 600,
-               .is_alone = true},
-              [](S& s, Text t) { s.frame_time = to_number(t); }},
+    Option<S>{
+        {.name = "frame-time",
+         .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); of one with --divide, in which its tiles "
+                 "rest (0.6)",
+         .value = "SECONDS",
+         .group = kolams,
+         .unit = "s",
+         .kind = number,
+         .least = 0.01,
+         .most = 600,
+         .is_alone = true},
+        [](S& s, Text t) { s.frame_time = to_number(t); }},
     Option<S>{{.name = "hold",
                .help = "minimum seconds for the last generation of a .gif, or with --divide, 0.01 to 600 (2)",
                .value = "SECONDS",

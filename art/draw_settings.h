@@ -63,17 +63,17 @@ struct DrawSettings {
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     bool fills_page = false;           ///< cover the page with a tiling
     SwatchChoice swatch = SwatchChoice::none;
-    std::optional<Swatch> swatch_place{};  ///< the part that was found, set when the print is planned
-    glm::dvec2 swatch_stretch{1.0};        ///< across and down, so that it has whole pixels
-    bool names_tiles = false;          ///< see Print::names_tiles
-    std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
-    std::optional<Page> tile;          ///< sheet of a tiled print
-    std::optional<double> overlap;     ///< overlap of neighbouring sheets; 10 mm
+    std::optional<Swatch> swatch_place{};       ///< the part that was found, set when the print is planned
+    glm::dvec2 swatch_stretch{1.0};             ///< across and down, so that it has whole pixels
+    bool names_tiles = false;                   ///< see Print::names_tiles
+    std::optional<double> lesson;               ///< seconds for each stroke of a drawing lesson
+    std::optional<Page> tile;                   ///< sheet of a tiled print
+    std::optional<double> overlap;              ///< overlap of neighbouring sheets; 10 mm
     std::optional<std::vector<double>> relief;  ///< heights of a relief; empty: the default
     std::vector<double> ridges;                 ///< heights of its lines, instead of those of `relief`
     std::optional<double> base;                 ///< thickness of its base
-    std::optional<double> beyond;               ///< how far the base reaches beyond the drawing; absent: it is the page
-    std::optional<double> groove;               ///< width between its polygons
+    std::optional<double> beyond;  ///< how far the base reaches beyond the drawing; absent: it is the page
+    std::optional<double> groove;  ///< width between its polygons
     bool plotter = false;
     double split = 0.0;                     ///< maximum length of a stroke; 0: no limit
     std::optional<Hatch> hatch;             ///< hatching of filled shapes

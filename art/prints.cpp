@@ -177,10 +177,10 @@ private:
     void drop_border() {
         if (!print_.style.border) return;
         const char* why = settings_.swatch_place ? "a swatch is a part of the drawing"
-                          : settings_.window   ? "a window shows only part of the drawing"
-                          : settings_.lesson ? "a lesson teaches the lines of the drawing"
-                          : is_model()       ? "a model has no page"
-                                             : nullptr;
+                          : settings_.window     ? "a window shows only part of the drawing"
+                          : settings_.lesson     ? "a lesson teaches the lines of the drawing"
+                          : is_model()           ? "a model has no page"
+                                                 : nullptr;
         if (!why) return;
         print_.style.border.reset();
         dropped_border_ = fmt::format("the border of the pattern is not drawn: {}", why);
@@ -606,8 +606,8 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
     const Swatch& swatch = *settings.swatch_place;
     const glm::dvec2 size = (swatch.frame.high - swatch.frame.low) * step;
     if (!(std::max(size.x, size.y) <= most_millimetres)) {
-        refuse_option("swatch", "", fmt::format("the part that repeats would be {:.3g} x {:.3g} m", size.x / 1000,
-                                                size.y / 1000));
+        refuse_option("swatch", "",
+                      fmt::format("the part that repeats would be {:.3g} x {:.3g} m", size.x / 1000, size.y / 1000));
     }
     settings.step = step;
     page = {size.x, size.y, 0};

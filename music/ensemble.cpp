@@ -132,7 +132,9 @@ struct CommonEnds {
         period = period / common * length;
         rest %= period;
     }
-    std::int64_t first() const { return rest + std::max<std::int64_t>(0, (earliest - rest + period - 1) / period) * period; }
+    std::int64_t first() const {
+        return rest + std::max<std::int64_t>(0, (earliest - rest + period - 1) / period) * period;
+    }
 
 private:
     /// The number by which `value` has to be multiplied to leave 1, divided by `modulus`, to which it is coprime.
@@ -418,7 +420,8 @@ int line_of(const Ensemble& ensemble, int voice) {
         throw ScoreError(
             fmt::format("the excerpt contains no notes: the melody ends before bar {}", layout.first_bar));
     }
-    if (playing.to <= playing.from) throw ScoreError("the requested time is shorter than a tick, a 480th of a quarter");
+    if (playing.to <= playing.from)
+        throw ScoreError("the requested time is shorter than a tick, a 480th of a quarter");
     throw ScoreError(
         fmt::format("the {} no notes{}",
                     playing.from > 0 || playing.to < INT64_MAX ? "requested bars contain" : "melody contains",

@@ -99,7 +99,8 @@ bool Bender::slide(const Note& note, double offset, bool from, std::vector<Contr
     const auto length = std::min(note.duration / 2, static_cast<std::int64_t>(longest * ticks_per_second_));
     if (length < 2 * bend_ticks) return false;
     if (from) {
-        add(note, 0, length, [&](double part) { return offset * (1 - smooth(part)); }, points);
+        add(
+            note, 0, length, [&](double part) { return offset * (1 - smooth(part)); }, points);
         points.push_back({note.onset + length, note.voice, ControlPoint::bend, 0});
     } else {
         const auto rise = [&](double part) { return offset * smooth(part); };

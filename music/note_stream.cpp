@@ -149,7 +149,8 @@ private:
     void add_controls(NoteWindow& window) const {
         const auto& all = curves_.controls;
         const auto first = std::lower_bound(all.begin(), all.end(), ControlPoint{window.from}, comes_before);
-        const auto last = window.is_last ? all.end() : std::lower_bound(first, all.end(), ControlPoint{window.to}, comes_before);
+        const auto last =
+            window.is_last ? all.end() : std::lower_bound(first, all.end(), ControlPoint{window.to}, comes_before);
         if (is_sought_) {
             LastControls before;
             std::for_each(all.begin(), first, [&](const ControlPoint& point) { before.add(point); });

@@ -36,8 +36,8 @@ struct NoteWindow {
         double key = 0;
     };
     std::vector<Pitch> pitches;
-    /// Controllers and bends of the notes, by tick; some may lie beyond the window. After seek() those that hold where
-    /// the window begins, too.
+    /// Controllers and bends of the notes, by tick; some may lie beyond the window. After seek() those that hold
+    /// where the window begins, too.
     std::vector<ControlPoint> controls;
     /// Changes of tempo along the curve within the window, by tick; the first holds where it begins.
     std::vector<TempoPoint> tempos;

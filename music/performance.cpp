@@ -129,9 +129,7 @@ void ExpressionSink::fold_ranges(const PlayOptions& playing, bool is_far) {
 bool ExpressionSink::needs_ranges() const {
     if (tempo_) return true;
     return std::any_of(followed_.begin(), followed_.end(), [](const std::vector<Followed>& curves) {
-        return std::any_of(curves.begin(), curves.end(), [](const Followed& one) {
-            return !one.is_known;
-        });
+        return std::any_of(curves.begin(), curves.end(), [](const Followed& one) { return !one.is_known; });
     });
 }
 

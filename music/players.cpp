@@ -70,7 +70,8 @@ Player bass_of(const Player& player) {
     const bool has_voices = melody.branches == Branches::voices && has_brackets(player.document.grammar());
     if (has_voices || melody.own_voices() > 1 || !melody.table.empty()) {
         throw ScoreError(
-            "`harmony: bass` needs a curve or a word that is one line: without branches that are voices, vertical runs "
+            "`harmony: bass` needs a curve or a word that is one line: without branches that are voices, vertical "
+            "runs "
             "that are a voice, counterpoint and a table of symbols");
     }
     const std::int64_t steps = player.document.grammar().steps() - melody.bass_order;
@@ -90,8 +91,9 @@ Player bass_of(const Player& player) {
     bass.melody.program = acoustic_bass;
     bass.melody.phrase_order = std::max<std::int64_t>(0, melody.phrase_order - melody.bass_order);
     if (!melody.layout.form.empty() && melody.phrase_order > 0 && bass.melody.phrase_order == 0) {
-        throw ScoreError(fmt::format("`harmony: bass {}` needs sections of a form that are sub-curves of order {} or more",
-                                     melody.bass_order, melody.bass_order + 1));
+        throw ScoreError(
+            fmt::format("`harmony: bass {}` needs sections of a form that are sub-curves of order {} or more",
+                        melody.bass_order, melody.bass_order + 1));
     }
     constexpr double two_octaves = 24;
     transpose(bass.melody, -two_octaves);
@@ -195,7 +197,8 @@ std::string reason_of_silence(const Player& player, std::uint64_t lost) {
     bool has_steps = false;
     for (Symbol symbol = 0; symbol < reached.size(); ++symbol) has_steps = has_steps || moves(symbol);
     if (!has_steps && melody.table.empty()) return ": the word has no steps such as F";
-    if (melody.mapping == Mapping::symbols && !melody.table.empty()) return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
+    if (melody.mapping == Mapping::symbols && !melody.table.empty())
+        return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
     if (melody.mapping != Mapping::runs) return {};
     return std::string(": the curve has no horizontal run there") +
            (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
@@ -251,9 +254,10 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         const Integer ticks = played ? Integer(played->end) : known->ticks;
         // Parts of several slow down together.
         const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
-        fmt::format_to(out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
-                       bars_of(ticks, melody.meter).str(),
-                       slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
+        fmt::format_to(
+            out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
+            bars_of(ticks, melody.meter).str(),
+            slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
         if (played && played->notes == 0) {
             fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(player, played->lost));

@@ -358,7 +358,8 @@ public:
         const bool is_limited = midi_.microtonal && midi_.tuning != Tuning::mpe;
         score.head = make_head(playing, is_limited ? most_channels : most_voices);
         score.midi = midi_;
-        score.midi.share_channels = !is_limited && midi_.tuning != Tuning::mpe && pitched_voices(score.head) > most_channels;
+        score.midi.share_channels =
+            !is_limited && midi_.tuning != Tuning::mpe && pitched_voices(score.head) > most_channels;
         if (score.midi.share_channels) channel_slots(score.head);  // refuses what has too many instruments
         score.humanise = settings_.humanise;
         score.seed = settings_.seed;
@@ -465,8 +466,8 @@ private:
         Curves curves;
         EnsembleReport report;
         if (ensemble_.has_expression()) {
-            ExpressionSink expressive(ensemble_, is_printed(format_) ? ExpressionSink::Use::print
-                                                                      : ExpressionSink::Use::performance);
+            ExpressionSink expressive(
+                ensemble_, is_printed(format_) ? ExpressionSink::Use::print : ExpressionSink::Use::performance);
             expressive.fold_ranges(playing);
             if (expressive.needs_ranges()) play_all(ensemble_, playing, expressive);
             expressive.write_to(sink);

@@ -122,8 +122,9 @@ public:
             throw DivisionError("this drawing has no tiles, which are polygons between { and }");
         }
         if (generations_.size() < 2) {
-            throw DivisionError(fmt::format(
-                "a tile divides from one derivation length to the next: expected one above {}", generations_[0].steps));
+            throw DivisionError(
+                fmt::format("a tile divides from one derivation length to the next: expected one above {}",
+                            generations_[0].steps));
         }
         divisions_ = tile_divisions(generations_, factor(), options_.monitor);
         require_division();
@@ -194,7 +195,7 @@ private:
     }
 
     static void add_parts(DivisionStage& stage, const std::vector<Colour>& parents, const TileDivision& division) {
-        stage.kind = division.share >= cut_share  ? DivisionKind::cut
+        stage.kind = division.share >= cut_share     ? DivisionKind::cut
                      : division.deviation < rounding ? DivisionKind::across
                                                      : DivisionKind::spread;
         const double start = division_tracks(stage.kind).size.front().value;
@@ -202,9 +203,8 @@ private:
             DivisionStage::Part part;
             part.middle = inner_middle(stage.tiles.polygon(i));
             const glm::dvec2 apart = part.middle - division.family_middle[i];
-            part.way = stage.kind == DivisionKind::cut
-                           ? -closer * apart
-                           : division.parent_middle[i] + start * apart - part.middle;
+            part.way = stage.kind == DivisionKind::cut ? -closer * apart
+                                                       : division.parent_middle[i] + start * apart - part.middle;
             const std::uint32_t parent = division.parent[i];
             part.from = stage.colours[i];
             if (parent != no_number) {

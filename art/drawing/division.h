@@ -1,8 +1,8 @@
 // art/drawing/division.h: generations of tiles that divide, in one place.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/drawing/division_time.h"
+#include "art/drawing/draw_options.h"
 #include "engine/geometry/recorded_path.h"
 #include "engine/tiling/polygon_list.h"
 
@@ -21,7 +21,7 @@ struct DivisionStage {
     struct Part {
         glm::dvec2 middle{0.0};  ///< around which its size changes
         glm::dvec2 way{0.0};     ///< from there to where it begins, or closer to its family
-        Colour from;            ///< colour of its parent
+        Colour from;             ///< colour of its parent
     };
     std::int64_t steps = 0;
     RecordedPath picture;  ///< all that is drawn

@@ -68,7 +68,8 @@ public:
         GifFile gif(given_, options_, output, file);
         for (std::size_t i = 0; i < division_->stages.size(); ++i) {
             const bool is_last = i + 1 == division_->stages.size();
-            if (i > 0) add_frames(gif, clock_.times().division, [i](double share) { return DivisionMoment{i, share}; });
+            if (i > 0)
+                add_frames(gif, clock_.times().division, [i](double share) { return DivisionMoment{i, share}; });
             add_frame(gif, {i}, is_last ? clock_.fade() - clock_.rest(static_cast<int>(i)) : clock_.times().rest);
         }
         const std::size_t last = division_->stages.size() - 1;
@@ -151,9 +152,9 @@ DrawReport draw_division(const Grammar& grammar, const Print& print, const DrawO
     if (print.style.line == Line::spline) throw DivisionError("tiles that divide have straight edges, not splines");
     if (print.style.hand > 0) throw DivisionError("tiles that divide are not drawn by hand");
     if (division.is_gif) prepare_images(options.threads);
-    auto stages = std::make_shared<const Division>(make_division(grammar, print.style, options, division.first,
-                                                                 division.last,
-                                                                 division.is_gif ? most_tiles_of_gif : most_tiles_of_svg));
+    auto stages =
+        std::make_shared<const Division>(make_division(grammar, print.style, options, division.first, division.last,
+                                                       division.is_gif ? most_tiles_of_gif : most_tiles_of_svg));
     const auto output = destination.open(file);
     const Print placed = division.is_gif ? print : as_picture(print);
     DivisionFile animation(std::move(stages), placed, options, division.times);

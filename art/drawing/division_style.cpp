@@ -19,9 +19,7 @@ class CssFrames {
 public:
     explicit CssFrames(double total) : total_(total) {}
 
-    void add(double time, const std::string& values) {
-        frames_[std::llround(time / total_ * parts)] += values + ";";
-    }
+    void add(double time, const std::string& values) { frames_[std::llround(time / total_ * parts)] += values + ";"; }
     /// Changes at once.
     void change(double time, const std::string& before, const std::string& after) {
         const std::int64_t at = std::llround(time / total_ * parts);
@@ -97,12 +95,11 @@ std::string tile_frames(const Division& division, std::size_t i, const DivisionC
     const DivisionStage& stage = division.stages[i];
     const DivisionTracks& tracks = division_tracks(stage.kind);
     CssFrames frames(clock.total());
-    const auto time = [&](double share) {
-        return clock.begin(static_cast<int>(i)) + share * clock.times().division;
-    };
+    const auto time = [&](double share) { return clock.begin(static_cast<int>(i)) + share * clock.times().division; };
     for (const Keyframe& key : tracks.size) frames.add(time(key.at), "scale:" + number(key.value));
     for (const Keyframe& key : tracks.way) {
-        frames.add(time(key.at), fmt::format("translate:calc(var(--u)*{0}px) calc(var(--v)*{0}px)", number(key.value)));
+        frames.add(time(key.at),
+                   fmt::format("translate:calc(var(--u)*{0}px) calc(var(--v)*{0}px)", number(key.value)));
     }
     if (stage.kind != DivisionKind::cut) {
         for (const Keyframe& key : tracks.opacity) frames.add(time(key.at), "opacity:" + number(key.value));
@@ -113,7 +110,8 @@ std::string tile_frames(const Division& division, std::size_t i, const DivisionC
     }
     if (stage.outline) {
         const double width = outline_width(division, stage, placement);
-        for (const Keyframe& key : tracks.outline) frames.add(time(key.at), "stroke-width:" + number(width * key.value));
+        for (const Keyframe& key : tracks.outline)
+            frames.add(time(key.at), "stroke-width:" + number(width * key.value));
     }
     return frames.text(fmt::format("t{}", i));
 }
@@ -143,8 +141,8 @@ Placement stage_placement(const DivisionStage& stage, const Placement& placement
 PartMotion stage_motion(const Division& division, std::size_t i, const Placement& placement) {
     const DivisionStage& stage = division.stages[i];
     PartMotion motion;
-    motion.part = fmt::format(" class=\"g g{}\"{}", i,
-                              i + 1 < division.stages.size() ? " visibility=\"hidden\"" : "");
+    motion.part =
+        fmt::format(" class=\"g g{}\"{}", i, i + 1 < division.stages.size() ? " visibility=\"hidden\"" : "");
     motion.polygons = fmt::format(" class=\"t t{}\"", i);
     motion.lines = fmt::format(" class=\"l l{}\"", i);
     if (stage.outline) {
@@ -164,9 +162,9 @@ PartMotion stage_motion(const Division& division, std::size_t i, const Placement
         const DivisionStage::Part& part = stage.parts[k];
         const Micrometres middle = place(part.middle);
         const Micrometres end = place(part.middle + part.way);
-        motion.each.push_back(
-            fmt::format("class=\"{}\" style=\"transform-origin:{}px {}px;--u:{};--v:{}\" ", parent_class(part.from),
-                        middle.x, middle.y, end.x - middle.x, end.y - middle.y));
+        motion.each.push_back(fmt::format("class=\"{}\" style=\"transform-origin:{}px {}px;--u:{};--v:{}\" ",
+                                          parent_class(part.from), middle.x, middle.y, end.x - middle.x,
+                                          end.y - middle.y));
     }
     return motion;
 }
@@ -179,7 +177,8 @@ std::string division_style(const Division& division, const DivisionClock& clock,
         const DivisionStage& stage = division.stages[i];
         text += fmt::format(".g{} {{ animation-name: g{} }}\n", i, i) + stage_frames(division, i, clock);
         if (i == 0) continue;
-        text += fmt::format(".t{} path {{ animation-name: t{} }}\n", i, i) + tile_frames(division, i, clock, placement);
+        text +=
+            fmt::format(".t{} path {{ animation-name: t{} }}\n", i, i) + tile_frames(division, i, clock, placement);
         if (stage.has_more_lines) {
             text += fmt::format(".l{} {{ animation-name: l{} }}\n", i, i) + line_frames(division, i, clock);
         }

@@ -61,7 +61,8 @@ public:
             }
             if (patch_.tiles() > most_tiles_of_place) {
                 throw SwatchError(fmt::format("the part that repeats is {:.6g} x {:.6g} steps, which is too large",
-                                              glm::length(swatch_.cell.sides[0]), glm::length(swatch_.cell.sides[1])));
+                                              glm::length(swatch_.cell.sides[0]),
+                                              glm::length(swatch_.cell.sides[1])));
             }
         }
         refuse();
@@ -73,7 +74,8 @@ private:
     void refuse_style() const {
         if (grammar_.map() || grammar_.is_spatial()) throw SwatchError("applies only to tilings in the plane");
         if (style_.tile_colours == TileColours::distance) {
-            throw SwatchError("colours by the distance from the border do not repeat: a tiling that goes on has none");
+            throw SwatchError(
+                "colours by the distance from the border do not repeat: a tiling that goes on has none");
         }
         if (style_.line == Line::spline) throw SwatchError("tiles have straight edges, not splines");
         if (style_.hand > 0) throw SwatchError("lines drawn by hand do not repeat; set hand to 0");
@@ -93,7 +95,8 @@ private:
                 throw SwatchError("its polygons overlap, so that it is not a tiling");
             }
             if (patch.tiles() == 0) return true;
-            patch.periods = find_periods(patch.result.patch, kinds_of(*grammar, patch.result.patch), options_.monitor);
+            patch.periods =
+                find_periods(patch.result.patch, kinds_of(*grammar, patch.result.patch), options_.monitor);
             if (patch.periods.count < 2) {
                 const std::vector<std::uint32_t> same(patch.tiles(), 0);
                 patch.without_colours = find_periods(patch.result.patch, same, options_.monitor);
@@ -129,11 +132,13 @@ private:
             std::uint32_t corner = 0;
             const auto corners = tiles.corners(tile);
             for (std::uint32_t i = 0; i < corners.size(); ++i) {
-                if (glm::distance(patch.plane.at(corners[i]), begin) < glm::distance(patch.plane.at(corners[corner]), begin)) {
+                if (glm::distance(patch.plane.at(corners[i]), begin) <
+                    glm::distance(patch.plane.at(corners[corner]), begin)) {
                     corner = i;
                 }
             }
-            kinds[tile] = (kinds[tile] * 4096 + corner) * 4096 + static_cast<std::uint32_t>(tiles.colour[tile] & 4095);
+            kinds[tile] =
+                (kinds[tile] * 4096 + corner) * 4096 + static_cast<std::uint32_t>(tiles.colour[tile] & 4095);
         }
         return kinds;
     }
@@ -194,7 +199,8 @@ private:
                 best = {across, up};
             }
         }
-        if (fewest == no_number) throw SwatchError("no few copies of its smallest part can be coloured so that neighbours differ");
+        if (fewest == no_number)
+            throw SwatchError("no few copies of its smallest part can be coloured so that neighbours differ");
         sides = {static_cast<double>(best[0]) * sides[0], static_cast<double>(best[1]) * sides[1]};
         swatch_.has_tile_period = true;
     }
@@ -214,7 +220,8 @@ private:
         double widest = 0;
         for (const TileClass& each : patch_.result.patch.tiles.classes) {
             double around = 0;
-            for (const std::uint32_t side : each.vectors) around += glm::length(patch_.result.patch.plane.vector_at(side));
+            for (const std::uint32_t side : each.vectors)
+                around += glm::length(patch_.result.patch.plane.vector_at(side));
             widest = std::max(widest, around / 2);
         }
         return widest;
@@ -278,7 +285,7 @@ private:
 
     /// Whatever else is drawn has to repeat, too.
     void compare_pictures() const {
-        constexpr int same = 24;          // levels
+        constexpr int same = 24;             // levels
         constexpr double differing = 0.002;  // of all values
         const std::vector<std::uint8_t> here = picture(glm::dvec2(0.0));
         for (const glm::dvec2 way : swatch_.cell.sides) {
@@ -294,21 +301,24 @@ private:
     }
 
     [[noreturn]] void refuse() const {
-        if (patch_.tiles() == 0) throw SwatchError("this drawing has no tiles, which are closed polygons between { and }");
+        if (patch_.tiles() == 0)
+            throw SwatchError("this drawing has no tiles, which are closed polygons between { and }");
         if (patch_.tiles() < fewest_tiles) {
             throw SwatchError(fmt::format("a period cannot be found in {} tiles, up to a derivation length of {}",
                                           patch_.tiles(), patch_.steps));
         }
         if (patch_.without_colours.count == 2) {
-            throw SwatchError("the tiles repeat, but their colours do not; 'tile colours' by shape or neighbours repeat");
+            throw SwatchError(
+                "the tiles repeat, but their colours do not; 'tile colours' by shape or neighbours repeat");
         }
         if (patch_.periods.count > 0 && patch_.periods.compared * 4 < patch_.tiles()) {
             throw SwatchError("its tiles do not touch along their edges, so that it is not a tiling");
         }
         if (patch_.periods.count == 1) throw SwatchError("this tiling repeats in one direction only");
-        throw SwatchError(fmt::format("this tiling has no period: no translation of up to {:.3g} steps maps its {} tiles "
-                                      "onto each other{}",
-                                      patch_.periods.reach, patch_.tiles(), irrational_shares()));
+        throw SwatchError(
+            fmt::format("this tiling has no period: no translation of up to {:.3g} steps maps its {} tiles "
+                        "onto each other{}",
+                        patch_.periods.reach, patch_.tiles(), irrational_shares()));
     }
 
     /// A tiling with a period has rational shares of its shapes.
@@ -336,8 +346,8 @@ private:
 
 ViewWindow Swatch::window() const {
     Box box;
-    for (const glm::dvec2 at :
-         {cell.corner, cell.corner + cell.sides[0], cell.corner + cell.sides[1], cell.corner + cell.sides[0] + cell.sides[1]}) {
+    for (const glm::dvec2 at : {cell.corner, cell.corner + cell.sides[0], cell.corner + cell.sides[1],
+                                cell.corner + cell.sides[0] + cell.sides[1]}) {
         box.add(at);
     }
     return {box.low.x, box.low.y, box.high.x, box.high.y};

@@ -44,12 +44,12 @@ struct Print {
     std::optional<int> travel_colour;          ///< index of the colour that shows pen-up travel
     bool is_plot = false;                      ///< mark layers that no pen draws
     std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour
-    std::optional<double> animation;   ///< seconds in which an SVG draws its lines, in the order of the turtle
-    std::optional<LessonPart> lesson;  ///< lesson of a part of an SVG: see PrintWriter::begin_part()
+    std::optional<double> animation;     ///< seconds in which an SVG draws its lines, in the order of the turtle
+    std::optional<LessonPart> lesson;    ///< lesson of a part of an SVG: see PrintWriter::begin_part()
     const PartMotion* motion = nullptr;  ///< of a part of an SVG; kept by reference
     std::string style_sheet{};           ///< of an SVG whose parts move
-    bool names_tiles = false;          ///< names for the polygons of an SVG, layers for those of a PDF
-    Press press;                       ///< settings for the print shop
+    bool names_tiles = false;            ///< names for the polygons of an SVG, layers for those of a PDF
+    Press press;                         ///< settings for the print shop
 };
 
 /// A part of a sheet, in millimetres from its top left corner.

@@ -147,11 +147,10 @@ public:
             fmt::format("x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", decimal(window.left, 4),
                         decimal(window.top, 4), decimal(window.width, 4), decimal(window.height, 4));
         if (window.clips) file_.write(fmt::format("<clipPath id=\"window{}\"><rect {}/></clipPath>\n", parts_, box));
-        file_.write(fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}{}{}>\n<title>{}</title>\n",
-                                xml_escaped(part.title),
-                                window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "",
-                                step_class(part.lesson), part.motion ? part.motion->part : "",
-                                xml_escaped(part.title)));
+        file_.write(fmt::format(
+            "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}{}{}>\n<title>{}</title>\n",
+            xml_escaped(part.title), window.clips ? fmt::format(" clip-path=\"url(#window{})\"", parts_) : "",
+            step_class(part.lesson), part.motion ? part.motion->part : "", xml_escaped(part.title)));
         moved_ = 0;
         write_ground(part.style.ground, box);
         take_part(part, window);
@@ -271,7 +270,7 @@ private:
             streaming_ = streaming_ || layer.to_file;
             const LayerText is = text();
             const PartMotion* motion = part_->motion;
-            const std::string_view moves = !motion                                   ? std::string_view()
+            const std::string_view moves = !motion                              ? std::string_view()
                                            : order.first == LayerKind::polygons ? std::string_view(motion->polygons)
                                                                                 : std::string_view(motion->lines);
             layer.text.append(

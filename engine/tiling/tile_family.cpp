@@ -225,8 +225,8 @@ private:
         }
         for (std::uint32_t part = 0; part < result_.parent.size(); ++part) {
             const std::uint32_t parent = result_.parent[part];
-            const glm::dvec2 family = parent == no_number ? families_.at(after_.parent[part]).parts_mass.centre
-                                                          : sums_[parent].centre;
+            const glm::dvec2 family =
+                parent == no_number ? families_.at(after_.parent[part]).parts_mass.centre : sums_[parent].centre;
             result_.family_middle.push_back(family);
             result_.parent_middle.push_back(parent == no_number ? family : mapped(before_masses_[parent].centre));
         }
@@ -257,7 +257,8 @@ private:
         for (const std::uint32_t part : parts_of_[parent]) {
             for (const glm::dvec2 corner : after_.polygons.polygon(part)) {
                 pulse_();
-                if (!contains(outline, middle + result_.share * (corner - sums_[parent].centre), margin)) return false;
+                if (!contains(outline, middle + result_.share * (corner - sums_[parent].centre), margin))
+                    return false;
             }
         }
         return true;

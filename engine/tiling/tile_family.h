@@ -14,8 +14,8 @@
 
 namespace sikku {
 
-/// One division: which tile of a generation, the parent, the tiles of the next one come from, its parts. Places are in
-/// the coordinates of the parts.
+/// One division: which tile of a generation, the parent, the tiles of the next one come from, its parts. Places are
+/// in the coordinates of the parts.
 struct TileDivision {
     /// From the coordinates of the parents to those of the parts: the region is the same, exactly where one factor
     /// multiplies all moves, otherwise as well as a similarity can.
@@ -31,13 +31,13 @@ struct TileDivision {
     double inside = 1;  ///< share of the area of all parts that lies in their own parents
 
     /// For each part:
-    std::vector<std::uint32_t> parent;     ///< index of a tile, or no_number: it lies in none
-    std::vector<glm::dvec2> parent_middle; ///< the middle of the parent; of none: of the family
-    std::vector<glm::dvec2> family_middle; ///< of all parts of the same parent
+    std::vector<std::uint32_t> parent;      ///< index of a tile, or no_number: it lies in none
+    std::vector<glm::dvec2> parent_middle;  ///< the middle of the parent; of none: of the family
+    std::vector<glm::dvec2> family_middle;  ///< of all parts of the same parent
 };
 
-/// Finds the divisions between generations that follow each other; one fewer than there are. The parts of a symbol that
-/// draws no tile, such as a half of one, belong to the tile in which most of them lies.
+/// Finds the divisions between generations that follow each other; one fewer than there are. The parts of a symbol
+/// that draws no tile, such as a half of one, belong to the tile in which most of them lies.
 /// @param factor  the number that multiplies all moves in a step, if there is one
 /// Cost: linear. @throws Stopped
 std::vector<TileDivision> tile_divisions(const std::vector<TileGeneration>& generations,

@@ -129,9 +129,9 @@ std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_
     std::size_t tiles = 0;
     for (std::int64_t steps = 0; steps <= last; ++steps) {
         const auto too_many = [&](const std::string& what) {
-            return BudgetError(steps > first ? fmt::format("{}; the largest derivation length that fits is {}", what,
-                                                           steps - 1)
-                                             : what);
+            return BudgetError(steps > first
+                                   ? fmt::format("{}; the largest derivation length that fits is {}", what, steps - 1)
+                                   : what);
         };
         try {
             if (steps > 0) lineage.step(tables[static_cast<std::size_t>(steps - 1)], parents);

@@ -34,8 +34,8 @@ struct LineageLimits {
 };
 
 /// Derives all generations from `first` to `last`, each from the one before. Memory: the words of two generations, 40
-/// bytes a corner. @throws BudgetError, which names the largest derivation length that fits; WordError, also for maps;
-/// Stopped; LineageError for drawings in space, and where a longer derivation does not continue a shorter one
+/// bytes a corner. @throws BudgetError, which names the largest derivation length that fits; WordError, also for
+/// maps; Stopped; LineageError for drawings in space, and where a longer derivation does not continue a shorter one
 std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_t first, std::int64_t last,
                                              const LineageLimits& limits, const Monitor& monitor);
 

@@ -174,8 +174,8 @@ void reverse(Block& block) {
     std::reverse(block.ends.begin(), block.ends.end());
 }
 
-Block in_form(const Block& block, const Grammar& grammar, const Melody& melody,
-              const std::vector<FormSection>& form, std::span<const std::int64_t> ends) {
+Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
+              std::span<const std::int64_t> ends) {
     std::vector<std::int64_t> borders = {0};
     for (const std::int64_t end : block.ends) {
         if (end > borders.back() && end < block.length) borders.push_back(end);

@@ -27,8 +27,8 @@ public:
     explicit Queue(snd_seq_t* sequencer) : sequencer_(sequencer) {
         number_ = snd_seq_alloc_named_queue(sequencer, "Sikku");
         if (number_ < 0 || snd_seq_queue_status_malloc(&status_) < 0) return;
-        const bool is_started = snd_seq_start_queue(sequencer, number_, nullptr) >= 0 &&
-                                snd_seq_drain_output(sequencer) >= 0;
+        const bool is_started =
+            snd_seq_start_queue(sequencer, number_, nullptr) >= 0 && snd_seq_drain_output(sequencer) >= 0;
         constexpr int tries = 20;
         Nanoseconds best = INT64_MAX;
         for (int i = 0; is_started && i < tries; ++i) best = std::min(best, measure(best));

@@ -32,8 +32,8 @@ std::vector<PortInfo> list_ports();
 /// of them, in any case, that no other port has. @throws PortError with the ports there are
 const PortInfo& choose_port(std::span<const PortInfo> ports, const std::string& name);
 
-/// Opens an output of ALSA's sequencer, whose queue in the kernel delivers messages at their times by CLOCK_MONOTONIC.
-/// Its clock messages are received if `has_input`.
+/// Opens an output of ALSA's sequencer, whose queue in the kernel delivers messages at their times by
+/// CLOCK_MONOTONIC. Its clock messages are received if `has_input`.
 /// @throws PortError
 std::unique_ptr<Port> open_alsa_port(const std::string& name, bool has_input);
 

@@ -60,9 +60,9 @@ private:
     std::vector<int> slots_;  // of channels, by part, if they are shared
     int voice_count_ = 0;
     std::vector<Sounding> sounding_;           // by voice
-    std::vector<std::map<int, int>> values_;      // of controllers, by voice, with MPE
+    std::vector<std::map<int, int>> values_;   // of controllers, by voice, with MPE
     std::array<std::map<int, int>, 16> sent_;  // the same by channel
-    std::vector<int> order_;          // voices that sound, the oldest first
+    std::vector<int> order_;                   // voices that sound, the oldest first
     struct Key {
         int notes = 0;
         std::int64_t since = -1;

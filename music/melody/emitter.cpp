@@ -42,8 +42,8 @@ void Emitter::accompany(std::int64_t begin, const Chord* chord) {
         if (from >= to) continue;
         note.onset = from - options_.from;
         note.duration = to - from;
-        note.voice = static_cast<std::int16_t>(note.voice +
-                                               (options_.chords_from > 0 ? options_.chords_from : melody_.own_voices()));
+        note.voice = static_cast<std::int16_t>(
+            note.voice + (options_.chords_from > 0 ? options_.chords_from : melody_.own_voices()));
         accompanied_ = std::max(accompanied_, to - options_.from);
         ++report.notes;
         block_.push_back(note);

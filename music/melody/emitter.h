@@ -234,11 +234,11 @@ private:
     std::optional<DegreeRange> range_;  // once a note is beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
-    std::int64_t accompanied_ = 0;          // until that tick of the score
-    std::vector<Line> shaped_;              // of each voice
-    std::vector<std::int64_t> busy_until_;  // of each voice, by the notes that have been placed
+    std::int64_t accompanied_ = 0;           // until that tick of the score
+    std::vector<Line> shaped_;               // of each voice
+    std::vector<std::int64_t> busy_until_;   // of each voice, by the notes that have been placed
     std::vector<std::int64_t> taken_until_;  // by the notes before they are shaped, if they are
-    std::vector<char> held_;                // by a branch that has not ended
+    std::vector<char> held_;                 // by a branch that has not ended
     struct Gliding {
         Shaper::Draft note;
         bool falling = false;

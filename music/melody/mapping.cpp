@@ -93,7 +93,12 @@ public:
     /// @param plain  the grammar without marks
     Player(const Grammar& grammar, const Grammar& plain, const Melody& melody, const Marks& marks,
            const PlayOptions& options)
-        : grammar_(grammar), plain_(plain), melody_(melody), marks_(marks), options_(options), lattice_(make_lattice(grammar)) {
+        : grammar_(grammar),
+          plain_(plain),
+          melody_(melody),
+          marks_(marks),
+          options_(options),
+          lattice_(make_lattice(grammar)) {
         is_grid_ = is_on_grid(lattice_, first_);
         const std::vector<char> reached = grammar.reachable();
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {

@@ -86,15 +86,15 @@ struct Melody {
     std::vector<Chord> progression;  ///< one a bar, again and again
     std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
     Close close = Close::none;
-    double tempo = 120.0;            ///< quarters a minute
+    double tempo = 120.0;  ///< quarters a minute
     Meter meter;
-    int program = 0;               ///< General MIDI, 0 to 127
-    double transpose = 0;          ///< semitones, added to every key
-    bool is_inverted = false;      ///< up and down change places around the tonic
-    std::int64_t shift = 0;        ///< degrees of the scale, added to every degree
-    std::int64_t answer = 0;       ///< degrees added to what sounds, once it is shaped and within the range: of canons
-    bool is_accompanied = true;    ///< whether its drone or its chords sound
-    Layout layout;                 ///< its place in the score
+    int program = 0;             ///< General MIDI, 0 to 127
+    double transpose = 0;        ///< semitones, added to every key
+    bool is_inverted = false;    ///< up and down change places around the tonic
+    std::int64_t shift = 0;      ///< degrees of the scale, added to every degree
+    std::int64_t answer = 0;     ///< degrees added to what sounds, once it is shaped and within the range: of canons
+    bool is_accompanied = true;  ///< whether its drone or its chords sound
+    Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
     /// True if notes are changed between the curve and the scale.

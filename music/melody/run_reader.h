@@ -159,8 +159,8 @@ private:
         double pace = 1;         // what a step lasts, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
-    /// How many steps a run is that goes so far: as long as it is wide; with a rhythm off the square grid as long as it
-    /// is, so that each step takes a note of the template, whatever its angle.
+    /// How many steps a run is that goes so far: as long as it is wide; with a rhythm off the square grid as long as
+    /// it is, so that each step takes a note of the template, whatever its angle.
     Number steps_of(Number wide, Number high) const {
         if constexpr (std::is_floating_point_v<Number>) {
             if (!melody_.rhythm.empty() && step_length_ > 0) return std::hypot(wide, high) / step_length_;
@@ -290,8 +290,8 @@ private:
         note_vertex();
         const Number wide = step.x < 0 ? -step.x : step.x;
         const Number high = step.y < 0 ? -step.y : step.y;
-        const bool lasts = !Walk::is_level(step.x) ||
-                           (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice);
+        const bool lasts =
+            !Walk::is_level(step.x) || (melody_.vertical != Vertical::ignore && melody_.vertical != Vertical::voice);
         release_held();
         if (lasts) state_.time += lasting(steps_of(wide, high));
         if (melody_.vertical == Vertical::voice) state_.other_time += lasting(high);
@@ -585,7 +585,7 @@ private:
     const PlayOptions& options_;
     Walk walk_;
     Clock<Walk> clock_;
-    int due_ = 0;  // phrases that end before the next note
+    int due_ = 0;                // phrases that end before the next note
     std::array<int, 2> levels_;  // of the next note of each voice
     bool may_stop_;
     Integer ahead_;  // steps before tick 0 that are still to be skipped

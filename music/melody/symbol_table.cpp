@@ -359,7 +359,8 @@ private:
             if (number) row.amount = std::fabs(static_cast<double>(*number));
             at = has_direction || number ? 2 : 1;
             if (number && words.size() > at) return fmt::format("unexpected '{}'", words[at]);
-            if (row.amount > loudest) return fmt::format("unexpected '{}'; expected how much, from 0 to 127", words[1]);
+            if (row.amount > loudest)
+                return fmt::format("unexpected '{}'; expected how much, from 0 to 127", words[1]);
         } else if (first == "loud" || first == "soft") {
             row.change = SoundChange::level;
             row.amount = *level_of(first == "loud" ? "f" : "p");
@@ -373,7 +374,8 @@ private:
                 return fmt::format("velocity {}; expected 1 to 127, or ppp to fff", row.amount);
             }
         } else {
-            return "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
+            return "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, "
+                   "up 2 or "
                    "down 2";
         }
         if (at < words.size() && row.change != SoundChange::level) {

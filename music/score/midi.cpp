@@ -885,9 +885,9 @@ private:
     const int bend_range_;
     const std::vector<int> slots_;  // of channels, by part, if they are shared
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
-    std::vector<Note> collected_;                 // with MPE, until finish()
+    std::vector<Note> collected_;                    // with MPE, until finish()
     std::array<std::map<int, int>, channels> sent_;  // values of controllers, by channel, with MPE
-    std::vector<std::unique_ptr<Voice>> voices_;  // by number; null while they are silent
+    std::vector<std::unique_ptr<Voice>> voices_;     // by number; null while they are silent
     std::size_t sounding_ = 0;
     std::size_t pitched_ = 0;  // of those, all but drums
     std::string conductor_;

@@ -39,8 +39,8 @@ std::vector<int> channel_slots(const ScoreHead& head);
 /// voices, else as they come. A fraction of a key up to half a cent is none. With MPE the first track tells the
 /// configuration, and a program comes before a note where that of its channel differs.
 ///
-/// Pan, controllers and bends of NoteSink::curves() and controls() are messages of the channel of their voice, with MPE
-/// of that of the note that sounds.
+/// Pan, controllers and bends of NoteSink::curves() and controls() are messages of the channel of their voice, with
+/// MPE of that of the note that sounds.
 ///
 /// A glide is a series of bends of its note (see glide_points()); it needs `microtonal` with Tuning::bend, or MPE. A
 /// glide that leaves the bend range strikes the key anew that it has reached there.
@@ -48,9 +48,9 @@ std::vector<int> channel_slots(const ScoreHead& head);
 /// Cost: in format 1 voice 0 goes to the sink in blocks, the bytes of others wait in memory until finish(); in format
 /// 0 all do; with MPE all notes do. @throws ScoreError, here for what the head tells (a tempo, meter, key, program or
 /// bend range that no file can hold) and then by notes() and finish(): more than 15 voices with notes that are no
-/// drums (or instruments, if channels are shared), or with MPE more than 14 notes at the same time, a voice of no part,
-/// notes that overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above 2^28 -
-/// 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
+/// drums (or instruments, if channels are shared), or with MPE more than 14 notes at the same time, a voice of no
+/// part, notes that overlap, have no length, key or velocity, a fraction without `microtonal`, a rest or note above
+/// 2^28 - 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});
 
 /// No file of so many notes without curves and glides is larger, in bytes.

@@ -9,9 +9,9 @@
 
 namespace sikku {
 
-/// Collects notes and hands them on without two at a time on one key of one part, or of parts that share a channel: of notes that begin together the
-/// longest stays, with the loudest velocity; a later one ends the one before, and goes on as long as that did. Voices
-/// come one after the other. Memory: O(notes).
+/// Collects notes and hands them on without two at a time on one key of one part, or of parts that share a channel:
+/// of notes that begin together the longest stays, with the loudest velocity; a later one ends the one before, and
+/// goes on as long as that did. Voices come one after the other. Memory: O(notes).
 class UnisonMerger : public NoteSink {
 public:
     /// @param most  notes above which a ScoreError is thrown

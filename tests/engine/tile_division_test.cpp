@@ -61,17 +61,18 @@ TEST(Rewriting, TellsParentsAcrossContextsAndCuts) {
         parse("cut.lsys", "axiom: BA[C]A%A[AA]\nB < A --> BAA\nA --> A\nC --> CC\nderivation length: 1\n");
     const Grammar& grammar = document.grammar();
     std::vector<std::uint32_t> parents;
-    const ModuleWord next =
-        rewrite(grammar, grammar.tables()[0], grammar.axiom_modules(), 1, {}, &parents);
+    const ModuleWord next = rewrite(grammar, grammar.tables()[0], grammar.axiom_modules(), 1, {}, &parents);
     EXPECT_EQ(to_text(grammar, next), "BBAA[CC]A");
     EXPECT_EQ(parents, (std::vector<std::uint32_t>{0, 1, 1, 1, 2, 3, 3, 4, 5}));
 }
 
 TEST(TileGenerations, HaveTheNumbersOfTheLiterature) {
-    const std::map<std::string, std::vector<std::size_t>> known = {
-        {"penrose-rhombs", {5, 10, 25, 65, 170, 445}}, {"chair", {1, 4, 16, 64}},
-        {"hat", {1, 8, 55, 377}},                      {"spectre", {1, 9, 71, 559}},
-        {"pinwheel", {2, 10, 50, 250}},                {"twin-dragon", {1, 2, 4, 8, 16}}};
+    const std::map<std::string, std::vector<std::size_t>> known = {{"penrose-rhombs", {5, 10, 25, 65, 170, 445}},
+                                                                   {"chair", {1, 4, 16, 64}},
+                                                                   {"hat", {1, 8, 55, 377}},
+                                                                   {"spectre", {1, 9, 71, 559}},
+                                                                   {"pinwheel", {2, 10, 50, 250}},
+                                                                   {"twin-dragon", {1, 2, 4, 8, 16}}};
     for (const auto& [name, numbers] : known) {
         const auto all = generations(name, static_cast<std::int64_t>(numbers.size()) - 1);
         ASSERT_EQ(all.size(), numbers.size());
@@ -108,8 +109,8 @@ bool lies_within(std::span<const glm::dvec2> corners, glm::dvec2 point) {
 }
 
 TEST(TileDivisions, CutRepTilesIntoTheirParts) {
-    const std::map<std::string, std::size_t> parts = {{"chair", 4},   {"sphinx", 4},      {"half-hex", 4},
-                                                      {"table", 4},   {"p-pentomino", 4}, {"pinwheel", 5},
+    const std::map<std::string, std::size_t> parts = {{"chair", 4},        {"sphinx", 4},      {"half-hex", 4},
+                                                      {"table", 4},        {"p-pentomino", 4}, {"pinwheel", 5},
                                                       {"pinwheel-10", 10}, {"equithirds", 3}};
     for (const auto& [name, count] : parts) {
         const auto all = generations(name, 2);

@@ -1,8 +1,8 @@
 // Periods of tilings: against areas of cells, norms on lattices and translated tiles; rectangles of lattices against
 // divisors.
+#include "engine/tiling/tile_periods.h"
 #include "engine/language/document.h"
 #include "engine/tiling/lattice_rectangle.h"
-#include "engine/tiling/tile_periods.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>
@@ -97,11 +97,11 @@ TEST(TilePeriods, AreFoundInSubstitutionsThatRepeat) {
 }
 
 TEST(TilePeriods, AreNotFoundInAperiodicTilings) {
-    const std::map<std::string, std::int64_t> steps = {{"penrose-rhombs", 8}, {"penrose-kite-dart", 7},
-                                                       {"ammann-beenker", 4}, {"hat", 4},
-                                                       {"spectre", 4},        {"pinwheel", 5},
-                                                       {"chair", 6},          {"table", 6},
-                                                       {"half-hex", 6},       {"sphinx", 6},
+    const std::map<std::string, std::int64_t> steps = {{"penrose-rhombs", 8},  {"penrose-kite-dart", 7},
+                                                       {"ammann-beenker", 4},  {"hat", 4},
+                                                       {"spectre", 4},         {"pinwheel", 5},
+                                                       {"chair", 6},           {"table", 6},
+                                                       {"half-hex", 6},        {"sphinx", 6},
                                                        {"square-triangle", 3}, {"danzer", 3}};
     for (const auto& [name, n] : steps) {
         const TilePeriods found = periods(examined(name, n));
@@ -162,7 +162,8 @@ TEST(LatticeRectangles, AreOneByRootThreeInHexagonalLattices) {
     const auto least = least_rectangle(a, b);
     ASSERT_TRUE(least);
     EXPECT_NEAR(least->area(), std::sqrt(3.0), 1e-9);
-    EXPECT_NEAR(std::fabs(std::atan2(least->across.y, least->across.x)), std::min(0.3, 0.5235987755982988 - 0.3), 1e-9)
+    EXPECT_NEAR(std::fabs(std::atan2(least->across.y, least->across.x)), std::min(0.3, 0.5235987755982988 - 0.3),
+                1e-9)
         << "turned least";
 }
 

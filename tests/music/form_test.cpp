@@ -54,8 +54,8 @@ TEST(Breath, UntilTheBarLine) {
     ASSERT_EQ(sizes.size(), 16u);
     for (const auto& [breath, least] : {std::pair<std::string, int>{"bar", 0}, {"1/8 bar", 240}, {"1/2 bar", 960}}) {
         for (const char* meter : {"4/4", "3/4", "7/8"}) {
-            const NoteList list = notes_of(fmt::format("{}vertical: extend\nphrases: 2\nbreath: {}\nmeter: {}\n",
-                                                       hilbert_4, breath, meter));
+            const NoteList list = notes_of(
+                fmt::format("{}vertical: extend\nphrases: 2\nbreath: {}\nmeter: {}\n", hilbert_4, breath, meter));
             const std::int64_t bar = list.meter.bar();
             std::size_t at = 0;
             for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -72,7 +72,8 @@ TEST(Breath, UntilTheBarLine) {
         }
     }
     // The rhythm begins with the phrase.
-    for (const auto& phrase : phrases_of(notes_of(hilbert_4 + "phrases: 2\nbreath: 1/2 bar\nrhythm: Xx.xx.xx\n").notes)) {
+    for (const auto& phrase :
+         phrases_of(notes_of(hilbert_4 + "phrases: 2\nbreath: 1/2 bar\nrhythm: Xx.xx.xx\n").notes)) {
         EXPECT_EQ(phrase.front().onset % 1920, 0);
         EXPECT_EQ(phrase.front().velocity, 96);
     }
@@ -84,7 +85,8 @@ TEST(Breath, UntilTheBarLine) {
             if (note.onset % 1920 == 0) begins[note.onset].insert(voice);
         }
     }
-    EXPECT_EQ(std::count_if(begins.begin(), begins.end(), [](const auto& one) { return one.second.size() == 2; }), 16);
+    EXPECT_EQ(std::count_if(begins.begin(), begins.end(), [](const auto& one) { return one.second.size() == 2; }),
+              16);
     // Sections of forms are whole bars, those at the end of the curve, too.
     const NoteList form = notes_of(hilbert_4 + "vertical: extend\nphrases: 2\nbreath: 1/4 bar\nform: P A P\n");
     const std::vector<Note> notes = form.notes;
@@ -128,14 +130,16 @@ TEST(Endings, LastNotesAreHeld) {
     EXPECT_EQ(ends(hilbert_4 + "canon: 5 -12\n"), 1);
     EXPECT_EQ(ends(hilbert_4 + "form: AABA\n"), 1);
     // Drums are not held, and notes that ended before the last one are not either.
-    const std::string table = "title: T\naxiom: [AACB][kkkkk]\nmapping: symbols\nnote A: C4 1/4\nnote B: D4 1/8\n"
-                              "chord C: C4 E4 G4 1/8\ndrum k: bass drum 1/8\n";
+    const std::string table =
+        "title: T\naxiom: [AACB][kkkkk]\nmapping: symbols\nnote A: C4 1/4\nnote B: D4 1/8\n"
+        "chord C: C4 E4 G4 1/8\ndrum k: bass drum 1/8\n";
     EXPECT_EQ(ends(table), 1);
     // A piece has no more bars than were asked for.
     const Document document = parse("f.lsys", hilbert_4 + "ending: fermata\n");
     EXPECT_EQ(list_notes({&document, 1}, {{"bars", "3"}}, {}).end, 3 * 1920);
     // Files and streams hold the same notes, whatever is shaped by the curve.
-    const std::string shaped = hilbert_4 + "ending: fermata\nvelocity: by y\npan: by x\nharmony: progression I-IV-V-I\n";
+    const std::string shaped =
+        hilbert_4 + "ending: fermata\nvelocity: by y\npan: by x\nharmony: progression I-IV-V-I\n";
     const MidiFile file = read_midi(play(parse("f.lsys", shaped), "mid"));
     const NoteList list = notes_of(shaped);
     ASSERT_EQ(file.notes.size(), list.notes.size());

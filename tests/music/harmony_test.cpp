@@ -15,7 +15,8 @@ namespace sikku {
 namespace {
 
 const std::string hilbert =
-    "title: H\naxiom: X\nderivation length: 5\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nrange: reflect C4-C6\n";
+    "title: H\naxiom: X\nderivation length: 5\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nrange: reflect "
+    "C4-C6\n";
 
 NoteList notes_of(const std::string& text) {
     const Document document = parse("h.lsys", text);
@@ -32,7 +33,8 @@ std::map<int, std::vector<Note>> by_voice(const NoteList& list) {
 int parallels(const std::vector<Note>& a, const std::vector<Note>& b) {
     int count = 0;
     for (std::size_t i = 1; i < a.size(); ++i) {
-        const auto same = std::find_if(b.begin(), b.end(), [&](const Note& note) { return note.onset == a[i].onset; });
+        const auto same =
+            std::find_if(b.begin(), b.end(), [&](const Note& note) { return note.onset == a[i].onset; });
         if (same == b.end() || same == b.begin()) continue;
         if (a[i].key == a[i - 1].key || same->key == (same - 1)->key) continue;
         const auto before = std::lround(std::fabs(a[i - 1].key - (same - 1)->key)) % 12;
@@ -44,8 +46,9 @@ int parallels(const std::vector<Note>& a, const std::vector<Note>& b) {
 
 TEST(Chords, NoVoicesMoveInParallel) {
     for (const char* scale : {"major", "minor", "dorian", "harmonic minor", "phrygian", "mela 65"}) {
-        for (const char* harmony : {"triads", "progression I-IV-V-I", "progression I-II-III-IV-V-VI-VII",
-                                    "progression I-V-II-VI", "progression blues", "progression I-VI-IV-V7-I-IV-V-I"}) {
+        for (const char* harmony :
+             {"triads", "progression I-IV-V-I", "progression I-II-III-IV-V-VI-VII", "progression I-V-II-VI",
+              "progression blues", "progression I-VI-IV-V7-I-IV-V-I"}) {
             const NoteList list = notes_of(fmt::format("{}scale: {}\nharmony: {}\n", hilbert, scale, harmony));
             const auto voices = by_voice(list);
             ASSERT_EQ(voices.size(), 4u) << harmony;

@@ -770,8 +770,8 @@ TEST(Rhythms, AreLaidOverTheStepsOfACurve) {
         times += fmt::format("{}/{}:{} ", note.voice, note.onset / unit, note.duration / unit);
     }
     EXPECT_EQ(times, "1/3:1 1/4:2 0/0:2 0/3:1 ");
-    for (const auto change : {+[](Melody& one) { one.phrase_order = 1; },
-                              +[](Melody& one) { one.cadence = Cadence::tonic; }}) {
+    for (const auto change :
+         {+[](Melody& one) { one.phrase_order = 1; }, +[](Melody& one) { one.cadence = Cadence::tonic; }}) {
         Melody phrased = melody;
         change(phrased);
         Collector unheard;

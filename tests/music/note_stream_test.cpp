@@ -196,7 +196,8 @@ std::vector<Event> curves_of(NoteStream& stream, std::int64_t from) {
                 events.emplace_back(point.tick, bend_kind, static_cast<int>(std::lround(point.value * 8192 / 12)));
             }
         }
-        for (const TempoPoint& point : window.tempos) events.emplace_back(point.tick, tempo_kind, tempo(point.factor));
+        for (const TempoPoint& point : window.tempos)
+            events.emplace_back(point.tick, tempo_kind, tempo(point.factor));
         if (window.is_last) return changes(events);
     }
 }

@@ -303,9 +303,10 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
               "'AB' is not one symbol; names of several letters are listed under 'symbols:'");
     EXPECT_EQ(error_of("chord T: VIII\naxiom: T\n"),
               "unknown chord 'VIII'; expected I to VII or V7, notes such as C4 E4 G4, or degrees 0 2 4");
-    EXPECT_EQ(error_of("change L: faster\naxiom: LF\n"),
-              "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
-              "down 2");
+    EXPECT_EQ(
+        error_of("change L: faster\naxiom: LF\n"),
+        "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
+        "down 2");
     EXPECT_EQ(error_of("change L: octave 300\naxiom: LF\n"), "unexpected '300'; expected how much, from 0 to 127");
     EXPECT_EQ(error_of("change L: octave 1 up\naxiom: LF\n"), "unexpected 'up'");
     EXPECT_EQ(error_of("note N:\naxiom: N(0,0)\n"),

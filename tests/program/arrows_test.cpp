@@ -79,7 +79,8 @@ const std::vector<Room>& rooms() {
         {"art/relief", "engine/* art/style art/print art/kolam art/plotter art/space", ""},
         {"art/image", "engine/*", "oiio lcms posix zlib"},
         {"art/drawing",
-         "engine/* art/style art/print art/kolam art/hand art/vector art/raster art/plotter art/space art/relief art/image",
+         "engine/* art/style art/print art/kolam art/hand art/vector art/raster art/plotter art/space art/relief "
+         "art/image",
          "tbb"},
         {"art/cutting", "engine/* art/style art/print art/vector art/plotter art/image art/drawing", ""},
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing", "tbb"},
