@@ -114,7 +114,8 @@ TilingResult result_in(TilePlane plane) {
 }
 
 void examine(TilingResult& both, const TilingOptions& options) {
-    auto& [result, patch] = both;
+    TilingExamination& result = both.examination;
+    TilingPatch& patch = both.patch;
     const TileSet& tiles = patch.tiles;
     result.is_exact = patch.plane.is_exact();
     result.tolerance = result.is_exact ? 0 : patch.plane.tolerance();
