@@ -181,7 +181,8 @@ private:
         const PolygonFinder finder(before_.polygons);
         const glm::dmat3x2 back = inverse();
         std::map<std::uint32_t, double> votes;
-        for (const auto& [symbol, family] : families_) {
+        for (const auto& entry : families_) {
+            const auto& family = entry.second;
             votes.clear();
             for (const std::uint32_t part : family.parts) {
                 pulse_();
