@@ -39,8 +39,7 @@ async function bundle(entry) {
         logLevel: "warning",
         external: ["module", "fs", "path", "url", "crypto", "worker_threads"],
         define: { "import.meta.url": '""', "import.meta": "{}" },
-        loader: { ".css": "empty" },
-        plugins: [notices_as_module, workers_as_text],
+        plugins: [notices_as_module, styles_as_text, workers_as_text],
     });
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 }
@@ -71,14 +70,22 @@ const workers_as_text = {
     },
 };
 
-// The shared tokens and widgets come first, then the rules of each part.
-async function style() {
-    const folder = join(here, "page");
-    const files = readdirSync(folder, { recursive: true })
-        .filter((name) => name.endsWith(".css"))
-        .sort();
-    const ordered = ["studio.css", ...files.filter((name) => name !== "studio.css")];
-    const contents = ordered.map((name) => readFileSync(join(folder, name), "utf8")).join("\n");
+// `panel-styles` is the rules of the panels. They come with the script, compressed; the rules of the whole page are in
+// its head.
+const styles_as_text = {
+    name: "styles",
+    setup(plugins) {
+        plugins.onResolve({ filter: /^panel-styles$/ }, ({ path }) => ({ path, namespace: "styles" }));
+        plugins.onLoad({ filter: /.*/, namespace: "styles" }, async () => {
+            const names = readdirSync(join(here, "page")).filter((name) => name.endsWith(".css") && name !== page_style);
+            return { contents: await style(names.sort()), loader: "text" };
+        });
+    },
+};
+
+const page_style = "studio.css";
+async function style(names) {
+    const contents = names.map((name) => readFileSync(join(here, "page", name), "utf8")).join("\n");
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
@@ -110,7 +117,7 @@ function packed(contents) {
 
 const boot = await bundle("boot.ts");
 const parts = {
-    style: await style(),
+    style: await style([page_style]),
     boot,
     "script-hash": `'sha256-${createHash("sha256").update(boot).digest("base64")}'`,
     script: packed(await bundle("main.ts")),

@@ -11,6 +11,7 @@ import { givenEntries, openGiven } from "./given";
 import { applyTheme, makeLayout } from "./layout";
 import { makeMapPanel } from "./map";
 import { acceptDrops } from "./open_file";
+import panelStyles from "panel-styles";
 import { Panels } from "./panels";
 import { makePlayPanel } from "./play";
 import type { Help, Patterns } from "./protocol";
@@ -43,6 +44,7 @@ const first: Work = {
 };
 
 async function main(): Promise<void> {
+    document.head.append(element("style", {}, panelStyles));
     applyTheme();
     makeLayout();
     const store = new History(first);
