@@ -2,7 +2,7 @@
 //     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE] [--measure]
 import { chromium } from "playwright-core";
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
@@ -39,6 +39,9 @@ const browser = await chromium.launch({
 });
 
 const ctrl = "Control";
+const bundled = readdirSync(new URL("../../patterns", import.meta.url), { recursive: true }).filter((name) =>
+    name.endsWith(".lsys"),
+).length;
 const wide = { width: 1280, height: 800 };
 const narrow = { width: 390, height: 844 };
 
@@ -275,7 +278,7 @@ test("the gallery finds and opens patterns", async ({ page }) => {
     await page.locator(".card .picture.drawn").nth(5).waitFor();
     await screenshot(page, "gallery");
     await search.fill("hilbert todi");
-    await page.locator(".gallery-count", { hasText: "1 of 282" }).waitFor();
+    await page.locator(".gallery-count", { hasText: `1 of ${bundled}` }).waitFor();
     await search.fill("snake");
     await page.getByRole("button", { name: "kolams", exact: true }).click();
     await page.locator(".card:visible").first().click();
@@ -540,7 +543,7 @@ test("patterns that the program wrote into the page are open and in the gallery"
     await page.getByRole("tab", { name: "Gallery" }).click();
     await page.locator(".cost", { hasText: "8 segments" }).waitFor();
     await page.getByRole("button", { name: "yours", exact: true }).click();
-    await page.locator(".gallery-count", { hasText: "1 of 283" }).waitFor();
+    await page.locator(".gallery-count", { hasText: `1 of ${bundled + 1}` }).waitFor();
     await page.context().close();
     rmSync(folder, { recursive: true });
 });
