@@ -123,16 +123,10 @@ void write_sheets(const PieceOptions& options, const PieceSource& source, const 
 }
 
 /// Collects the colours of polygons in their order.
-class ColourReader : public PathSink {
+class ColourReader : public PolygonSink {
 public:
     std::vector<std::int32_t> colours;
     void polygon(std::span<const glm::dvec2>, const Pen& pen) override { colours.push_back(pen.colour); }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 };
 
 }  // namespace

@@ -43,14 +43,9 @@ private:
 };
 
 /// Passes only polygons on.
-class OnlyPolygons : public PathFilter {
+class OnlyPolygons : public WithoutStrokes<PathFilter> {
 public:
-    using Forwarding::Forwarding;
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
+    using WithoutStrokes::WithoutStrokes;
     void area(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
 };

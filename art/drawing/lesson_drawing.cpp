@@ -50,16 +50,10 @@ void add_layer(Style& style, Colour colour) {
 }
 
 /// Takes nothing.
-class NoAreas : public PathSink {
+class NoAreas : public PolygonSink {
 public:
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void area(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 };
 
 /// Takes points in millimetres of the page, y up from its top left corner.

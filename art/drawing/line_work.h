@@ -67,14 +67,9 @@ private:
 };
 
 /// Hands on polygons and discs only.
-class OnlyAreas : public PathFilter {
+class OnlyAreas : public WithoutStrokes<PathFilter> {
 public:
-    using Forwarding::Forwarding;
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
+    using WithoutStrokes::WithoutStrokes;
 };
 
 }  // namespace sikku

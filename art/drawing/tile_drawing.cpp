@@ -99,17 +99,11 @@ std::vector<std::uint32_t> colours_of_parts(const std::vector<std::uint32_t>& pa
 }
 
 /// Classifies polygons.
-class ClassSink : public PathSink {
+class ClassSink : public PolygonSink {
 public:
     explicit ClassSink(PolygonClasses& classes) : classes_(classes) {}
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen&) override { classes_.classify(vertices); }
     void area(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
 private:
     PolygonClasses& classes_;
@@ -164,18 +158,12 @@ private:
 };
 
 /// Collects the polygons of a drawing for its decoration.
-class DecorationGatherer : public PathSink {
+class DecorationGatherer : public PolygonSink {
 public:
     explicit DecorationGatherer(TileDecorator& decorator) : decorator_(decorator) {}
 
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { decorator_.add(vertices, pen); }
     void area(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
 private:
     TileDecorator& decorator_;

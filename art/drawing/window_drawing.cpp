@@ -104,15 +104,9 @@ void WindowDrawing::report(DrawReport& report) const {
 namespace {
 
 /// Adds up the area that polygons cover within a box.
-class CoverSink : public PathSink {
+class CoverSink : public PolygonSink {
 public:
     explicit CoverSink(const Box& box) : box_(box) {}
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
     /// Cut at each side of the box. Source: Sutherland & Hodgman, CACM 17, 1974.
     void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
         corners_.assign(vertices.begin(), vertices.end());

@@ -68,6 +68,24 @@ protected:
 };
 using PathFilter = Forwarding<PathSink>;
 
+/// Ignores strokes.
+template <typename Sink>
+class WithoutStrokes : public Sink {
+public:
+    using Sink::Sink;
+    void begin_stroke(glm::dvec2, const Pen&) override {}
+    void lines(std::span<const glm::dvec2>) override {}
+    void curves(std::span<const glm::dvec2>) override {}
+    void change_pen(const Pen&) override {}
+    void end_stroke(bool) override {}
+};
+
+/// Takes only polygons, and areas as polygons.
+class PolygonSink : public WithoutStrokes<PathSink> {
+public:
+    void disc(glm::dvec2, double, const Pen&) override {}
+};
+
 /// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
 /// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.
 class OutlineSink {

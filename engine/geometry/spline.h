@@ -66,15 +66,10 @@ private:
 };
 
 /// Counts strokes and notes which of them are closed; draws nothing.
-class StrokeCensus : public PathSink {
+class StrokeCensus : public PolygonSink {
 public:
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
     void end_stroke(bool is_closed) override { closed.push_back(is_closed); }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     std::vector<bool> closed;
 };

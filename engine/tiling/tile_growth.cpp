@@ -46,7 +46,7 @@ TileShape shape_of(std::span<const glm::dvec2> outline) {
 }
 
 /// Classifies the polygons of a turtle.
-class ShapeReader : public PathSink {
+class ShapeReader : public PolygonSink {
 public:
     struct Kind {
         std::uint32_t shape = 0;
@@ -60,12 +60,6 @@ public:
         if (found.shape == shapes.size()) shapes.push_back(shape_of(vertices));
         kinds.push_back({found.shape, found.is_reflected});
     }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     std::vector<TileShape> shapes;
     std::vector<Kind> kinds;  ///< of the polygons since it was cleared

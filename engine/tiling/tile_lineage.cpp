@@ -21,7 +21,7 @@ std::vector<std::uint32_t> tables_of(const Grammar& grammar) {
 }
 
 /// Collects the polygons of a word, each with the symbol that draws it.
-class PolygonReader : public PathSink, public PlaceSink {
+class PolygonReader : public PolygonSink, public PlaceSink {
 public:
     /// @param makers  symbol before `interpret:` of each symbol of the word
     PolygonReader(TileGeneration& generation, const std::vector<std::uint32_t>& makers)
@@ -38,12 +38,6 @@ public:
         generation_.symbol.push_back(makers_[position_ - 1]);
         position_ = 0;
     }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
 private:
     TileGeneration& generation_;

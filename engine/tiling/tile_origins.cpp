@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_told = 24;  // steps of a path in a text
 
 /// Collects the positions in the word of the `}` of all polygons.
-class PositionReader : public PathSink, public PlaceSink {
+class PositionReader : public PolygonSink, public PlaceSink {
 public:
     explicit PositionReader(std::vector<std::uint64_t>& positions) : positions_(positions) {}
     void places(std::span<const std::int64_t>) override {}
@@ -24,12 +24,6 @@ public:
         positions_.push_back(position_);
         position_ = 0;
     }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
 private:
     std::vector<std::uint64_t>& positions_;

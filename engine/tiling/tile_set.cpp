@@ -330,7 +330,7 @@ void TileCollector::add(std::span<const std::uint32_t> points, std::int32_t colo
 namespace {
 
 /// Reads the polygons of a turtle.
-class TileReader : public PathSink, public PlaceSink {
+class TileReader : public PolygonSink, public PlaceSink {
 public:
     TileReader(TilePlane& plane, TileCollector& collector)
         : plane_(plane),
@@ -351,12 +351,6 @@ public:
         for (const glm::dvec2 vertex : vertices) points_.push_back(plane_.point({}, vertex));
         collector_.add(points_, pen.colour, is_closed_);
     }
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
 private:
     TilePlane& plane_;

@@ -58,15 +58,9 @@ struct Strokes : PathSink {
 };
 
 /// Hands the polygons of a drawing to a decorator.
-struct Tiles : PathSink {
+struct Tiles : PolygonSink {
     explicit Tiles(TileDecorator& given) : decorator(given) {}
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { decorator.add(vertices, pen); }
-    void disc(glm::dvec2, double, const Pen&) override {}
     TileDecorator& decorator;
 };
 

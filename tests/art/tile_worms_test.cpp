@@ -27,14 +27,8 @@ Grammar grammar_of(const std::string& tiling, int n) {
 }
 
 /// Collects the outlines of polygons.
-struct Outlines : PathSink {
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
+struct Outlines : PolygonSink {
     void polygon(std::span<const glm::dvec2> vertices, const Pen&) override { tiles.add(vertices); }
-    void disc(glm::dvec2, double, const Pen&) override {}
     TileOutlines tiles;
 };
 
