@@ -692,7 +692,8 @@ const std::array own_rows = {
                .is_on = true},
               [](S& s, Text t) { s.press.icc = is_true(t); }},
     Option<S>{{.name = "dpi",
-               .help = "pixels per inch of pictures, and of px in lengths, 1 to 10,000 (300)",
+               .help = "pixels per inch of pictures, and of px in lengths, 1 to 10,000 (300, or 640 pixels along the "
+                       "longer side of a .gif)",
                .value = "DPI",
                .group = pictures,
                .unit = "dpi",

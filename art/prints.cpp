@@ -620,10 +620,22 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
     return document.with({Setting{"swatch", "derivation length", std::to_string(swatch.steps)}});
 }
 
+/// Unless `values` names a resolution, the longer side of a .gif has 640 pixels: at 300 dpi, an animation of A4 would
+/// take ten minutes.
+OptionValues with_resolution(const OptionValues& values, PrintFormat format) {
+    const auto is_dpi = [](const OptionValue& value) { return value.name == "dpi"; };
+    if (format != PrintFormat::gif || std::any_of(values.begin(), values.end(), is_dpi)) return values;
+    const Page page = read_draw_settings(values).page;
+    const double dpi = 640 * 25.4 / std::max(page.width, page.height);
+    OptionValues result = values;
+    result.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 300.0))});
+    return result;
+}
+
 /// @throws SettingError, PatternError
 std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
                                       const std::filesystem::path& folder = {}) {
-    DrawSettings settings = read_draw_settings(values, &folder);
+    DrawSettings settings = read_draw_settings(with_resolution(values, format), &folder);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
     if (settings.swatch != SwatchChoice::none) {
@@ -654,7 +666,8 @@ public:
     std::span<const FormatName> formats() const override { return formats_; }
     std::span<const OptionInfo* const> options() const override { return options_; }
     void check(std::string_view format, const OptionValues& values) const override {
-        check_draw_settings(read_draw_settings(values), known(format));
+        const PrintFormat named = known(format);
+        check_draw_settings(read_draw_settings(with_resolution(values, named)), named);
     }
     std::unique_ptr<Work> plan(const Document& document, std::string_view format, const OptionValues& values,
                                const std::filesystem::path& folder) const override {

@@ -88,7 +88,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         "  sikku draw bush-3d --view 30,15,perspective -o bush.png\n"
         "  sikku draw bush-3d -o bush.glb\n"
         "  sikku draw penrose-rhombs -n 4 --relief 2mm,3mm --size 150x150mm -o tiles.stl\n"
-        "  sikku draw bush-3d --generations 1:7 --size 100x100mm --dpi 100 -o growth.gif\n"
+        "  sikku draw bush-3d --generations 1:7 --size 100x100mm -o growth.gif\n"
         "  sikku draw spiral-tiling -o spiral.gcode --profile z\n"
         "  sikku draw snake-kolam --cmyk press.icc --bleed 3mm --marks -o press.pdf\n"
         "  sikku draw 'https://…/sikku-studio.html#sikku1.…' -o print.pdf\n"
