@@ -147,6 +147,12 @@ Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions
     BlockSink sink(block, degrees);
     report = play(grammar, melody, sink, recording);
     sort(block.notes);
+    block.next = block.length;
+    const bool is_whole = block.length < options.to - options.from;
+    while (!block.ends.empty() && block.ends.back() >= block.length) {
+        if (is_whole) block.next = block.ends.back();
+        block.ends.pop_back();
+    }
     return block;
 }
 
@@ -181,9 +187,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         if (end > borders.back() && end < block.length) borders.push_back(end);
     }
     // The last sub-curve breathes like the others if more follows it.
-    const std::int64_t bar = melody.meter.bar();
-    const std::int64_t breathed = block.length + (melody.phrase_order > 0 ? melody.breath : 0);
-    borders.push_back(melody.breathes_to_bar ? (breathed + bar - 1) / bar * bar : breathed);
+    borders.push_back(block.next);
     Block result;
     for (const FormSection& section : form) {
         const auto at = static_cast<std::size_t>(section.letter);

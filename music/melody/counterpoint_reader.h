@@ -72,7 +72,9 @@ public:
     void finish() override {
         stack_.require_closed();
         for (Voice& voice : voices_) end_note(voice);
-        emitter_.finish(ticks(time_));
+        const std::int64_t last = ticks(time_);
+        end_last_phrases(clock_, emitter_, due_, time_);
+        emitter_.finish(last);
     }
 
     bool skip(const GridStretch& stretch) override {

@@ -93,6 +93,16 @@ struct Marks {
     int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }
 };
 
+/// Ends the last phrases of the word as all others: what would follow them begins after their breath.
+/// @param due  their number
+/// @param end  of the word, in steps
+template <class Walk>
+void end_last_phrases(Clock<Walk>& clock, const Emitter& emitter, int due, typename Walk::Number end) {
+    if (due == 0) return;
+    clock.breathe(due, end);
+    emitter.begin_phrase(clock.ticks(end));
+}
+
 class Reader : public SymbolSink {
 public:
     /// Times and positions after a part that is passed over. Of Readers on the grid only.

@@ -77,7 +77,10 @@ public:
         stack_.require_closed();
         end_run();
         release_held();
-        emitter_.finish(ticks(std::max(state_.time, state_.other_time)));
+        const Number end = std::max(state_.time, state_.other_time);
+        const std::int64_t last = ticks(end);
+        end_last_phrases(clock_, emitter_, due_, end);
+        emitter_.finish(last);
     }
 
     bool skip(const GridStretch& stretch) override {

@@ -99,9 +99,11 @@ public:
 
     void finish() override {
         stack_.require_closed();
-        due_ = 0;  // the end closes the last phrase
+        const int due = std::exchange(due_, 0);  // the end closes the last phrase
         end_note();
-        emitter_.finish(end_ > 0 ? end_ : ticks(state_.time));
+        const std::int64_t last = end_ > 0 ? end_ : ticks(state_.time);
+        end_last_phrases(clock_, emitter_, due, state_.time);
+        emitter_.finish(last);
     }
 
     bool skip(const GridStretch& stretch) override {

@@ -101,6 +101,32 @@ TEST(Breath, UntilTheBarLine) {
     }
 }
 
+TEST(Forms, LastSubCurveRestsAsOthers) {
+    // Played before another one, a sub-curve lasts the same whether or not the curve goes on after it.
+    for (const char* body : {"FF+F-F+F-", "FF+F-ff", "Ff", "F+F+"}) {
+        for (const char* rhythm : {"x~~", "xx~", "x.~~", "xxx~", "curve"}) {
+            for (const char* breath : {"none", "1/4", "bar", "1/8 bar"}) {
+                for (const char* mapping : {"runs", "counterpoint", "symbols"}) {
+                    const auto played = [&](const char* axiom) {
+                        return notes_of(fmt::format("axiom: {}\nX --> {}\nheading: 0\nderivation length: 1\n"
+                                                    "unit: 1/4\nmapping: {}\nrhythm: {}\nphrases: 1\n"
+                                                    "breath: {}\nform: DA order 1\n",
+                                                    axiom, body, mapping, rhythm, breath));
+                    };
+                    const NoteList last = played("XXXX");
+                    const NoteList inner = played("XXXXX");
+                    const std::string place = fmt::format("{} {} {} {}", body, rhythm, breath, mapping);
+                    ASSERT_EQ(last.notes.size(), inner.notes.size()) << place;
+                    for (std::size_t i = 0; i < last.notes.size(); ++i) {
+                        EXPECT_EQ(last.notes[i].onset, inner.notes[i].onset) << place << ' ' << i;
+                        EXPECT_EQ(last.notes[i].duration, inner.notes[i].duration) << place << ' ' << i;
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(Endings, LastNotesAreHeld) {
     const auto ends = [](const std::string& text) {
         const NoteList plain = notes_of(text + "ending: ritardando\n");
