@@ -26,10 +26,29 @@ public:
     std::int64_t end_ticks(Number steps) const {
         return has_rhythm_ ? slot_ticks(steps - begin_, true) + breaths_ : ticks(steps);
     }
-    /// The steps of so many ticks, a multiple of period().
-    Integer steps(const Integer& ticks) const {
-        const Integer slots = ticks / melody_.unit;
-        return has_rhythm_ ? slots / melody_.rhythm.slots * melody_.rhythm.hits.size() : slots;
+    /// The most ticks that so many steps and phrases last.
+    Integer longest(const Integer& steps, const Integer& phrases) const {
+        return (steps / hits() + 1) * cycle() + phrases * melody_.breath;
+    }
+    /// Goes on by so many steps and phrases, which do not begin at bar lines, and takes off `ahead` as many ticks as
+    /// it can: what follows comes so much earlier, on the same hits of the rhythm.
+    /// @param time  in steps
+    /// @return the time that follows it, in steps
+    std::int64_t skip(std::int64_t time, const Integer& steps, const Integer& phrases, Integer& ahead) {
+        Integer end = time + steps;
+        const Integer lasts = exact_ticks(end) - exact_ticks(time) + phrases * melody_.breath;
+        const Integer taken = std::min(lasts, ahead);
+        ahead -= taken;
+        // Whole cycles are taken off the steps, the rest off the breaths.
+        Integer breaths = breaths_ + phrases * melody_.breath - taken;
+        if (breaths < 0) {
+            const Integer cycles = std::min<Integer>((cycle() - 1 - breaths) / cycle(), end / hits());
+            end -= cycles * hits();
+            breaths += cycles * cycle();
+        }
+        breaths_ = breaths.convert_to<std::int64_t>();
+        phrases_ += (phrases & 1).convert_to<int>();
+        return end.convert_to<std::int64_t>();
     }
     bool is_accented(Number steps) const {
         return has_rhythm_ && melody_.rhythm.hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
@@ -60,6 +79,15 @@ public:
     bool is_odd() const { return phrases_ % 2 != 0; }
 
 private:
+    /// Steps after which the rhythm begins again, and what they last in ticks.
+    Integer hits() const { return has_rhythm_ ? Integer(melody_.rhythm.hits.size()) : Integer(1); }
+    Integer cycle() const { return Integer(has_rhythm_ ? melody_.rhythm.slots : 1) * melody_.unit; }
+    Integer exact_ticks(const Integer& steps) const {
+        const auto index = Integer(steps % hits()).convert_to<std::int64_t>();
+        const std::int64_t onset = has_rhythm_ ? melody_.rhythm.onset(index) : 0;
+        return steps / hits() * cycle() + Integer(onset) * melody_.unit;
+    }
+
     std::int64_t slot_ticks(Number steps, bool is_end) const {
         const auto whole = static_cast<std::int64_t>(std::floor(static_cast<double>(steps) + 1e-6));
         const auto index = std::is_floating_point_v<Number> ? whole : static_cast<std::int64_t>(steps);

@@ -117,10 +117,10 @@ public:
         const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
         if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody, marks.phrase);
         if (options.ahead > 0 && (!fold_ || has_voices_ || melody.mapping != Mapping::runs ||
-                                  melody.vertical == Vertical::voice || melody.phrase_order > 0)) {
+                                  melody.vertical == Vertical::voice || melody.breathes_to_bar)) {
             throw ScoreError(
-                "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without phrases and "
-                "voices");
+                "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without voices, and "
+                "without phrases that begin at bar lines");
         }
     }
 

@@ -21,7 +21,7 @@ public:
           clock_(melody),
           levels_{marks.whole, marks.whole},
           may_stop_(!has_voices),
-          ahead_(clock_.steps(options.ahead)) {
+          ahead_(options.ahead) {
         const bool moves_sound = draws_nothing(grammar);
         for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command, moves_sound));
         for (Symbol symbol = 0; symbol < kinds_.size(); ++symbol) {
@@ -93,21 +93,14 @@ public:
             Integer longest = both ? Integer(across + up) : across;
             if (melody_.vertical == Vertical::voice) longest = std::max(across, up);
             const Integer phrases = stretch.marks + due_ + state_.run.marks;
-            const std::int64_t room =
-                clock_.steps_before(options_.from, phrases) - margin_units - std::max(state_.time, state_.other_time);
-            if (room < 0 || longest > ahead_ + room) return false;
+            if (!has_room(longest, phrases)) return false;
             end_run();
             release_held();
             end_phrases();
-            clock_.breathe(stretch.marks, state_.time);
             is_counted_ = false;
             levels_ = {};  // the mark after the stretch tells
             walk_.skip(state_.at, stretch);
-            Integer lasts = both ? Integer(across + up) : across;
-            const Integer beyond = std::min(lasts, ahead_);
-            ahead_ -= beyond;
-            lasts -= beyond;
-            state_.time += lasts.convert_to<std::int64_t>();
+            state_.time = clock_.skip(state_.time, both ? Integer(across + up) : across, stretch.marks, ahead_);
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
             state_.has_sounded = true;
             return true;
@@ -123,6 +116,7 @@ public:
     std::int64_t lowest_degree() const override { return lowest_degree_; }
 
 private:
+    static constexpr std::int64_t counted_in_skips = std::int64_t{1} << 48;  // ticks, far before the piece
     using Number = typename Walk::Number;
     using Position = typename Walk::Position;
     using Step = typename Walk::Step;
@@ -180,6 +174,14 @@ private:
     }
     std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
     static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
+
+    /// True if a part lies before the piece with some margin. It may reach a little into what is counted.
+    bool has_room(const Integer& steps, const Integer& phrases) const {
+        if (ahead_ > 0) return clock_.longest(steps, phrases) <= ahead_ + counted_in_skips;
+        const std::int64_t room =
+            clock_.steps_before(options_.from, phrases) - margin_units - std::max(state_.time, state_.other_time);
+        return room >= 0 && steps <= room;
+    }
 
     /// A part of the word that recurs, as its straight runs.
     struct Block {
@@ -591,7 +593,7 @@ private:
     int due_ = 0;                // phrases that end before the next note
     std::array<int, 2> levels_;  // of the next note of each voice
     bool may_stop_;
-    Integer ahead_;  // steps before tick 0 that are still to be skipped
+    Integer ahead_;  // ticks before tick 0 that are still to be skipped
     std::vector<Kind> kinds_;
     State state_;
     Brackets<State> stack_;

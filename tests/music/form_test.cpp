@@ -108,10 +108,11 @@ TEST(Forms, LastSubCurveRestsAsOthers) {
             for (const char* breath : {"none", "1/4", "bar", "1/8 bar"}) {
                 for (const char* mapping : {"runs", "counterpoint", "symbols"}) {
                     const auto played = [&](const char* axiom) {
-                        return notes_of(fmt::format("axiom: {}\nX --> {}\nheading: 0\nderivation length: 1\n"
-                                                    "unit: 1/4\nmapping: {}\nrhythm: {}\nphrases: 1\n"
-                                                    "breath: {}\nform: DA order 1\n",
-                                                    axiom, body, mapping, rhythm, breath));
+                        return notes_of(
+                            fmt::format("axiom: {}\nX --> {}\nheading: 0\nderivation length: 1\n"
+                                        "unit: 1/4\nmapping: {}\nrhythm: {}\nphrases: 1\n"
+                                        "breath: {}\nform: DA order 1\n",
+                                        axiom, body, mapping, rhythm, breath));
                     };
                     const NoteList last = played("XXXX");
                     const NoteList inner = played("XXXXX");

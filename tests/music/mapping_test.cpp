@@ -539,9 +539,14 @@ TEST(Census, EqualsWhatIsPlayed) {
 
 TEST(Pieces, BeyondTheTicksOf64Bits) {
     // Sub-curves of equal order are equal, so that a bar of a far one sounds as in the first, degrees higher.
-    for (const char* rhythm : {"", "x..xx."}) {
+    for (const auto& [rhythm, breath] : {std::pair("", 0), {"x..xx.", 0}, {"", 100}, {"x..xx.", 100}, {"", 240}}) {
         Melody melody = plain();
         melody.anchor = Anchor::piece;
+        if (breath > 0) {
+            melody.phrase_order = 2;
+            melody.breath = breath;
+            melody.cadence = Cadence::alternate;
+        }
         if (*rhythm != 0) {
             std::string problem;
             melody.rhythm = read_rhythm_template(rhythm, problem);
@@ -554,10 +559,10 @@ TEST(Pieces, BeyondTheTicksOf64Bits) {
         split.ahead = ((Integer(1) << 50) - (Integer(1) << 49)) / period(melody) * period(melody);
         split.from = (Integer(near.from) - split.ahead).convert_to<std::int64_t>();
         split.to = split.from + 8 * melody.meter.bar();
-        EXPECT_EQ(told(played(grammar, melody, split)), told(played(grammar, melody, near))) << rhythm;
+        EXPECT_EQ(told(played(grammar, melody, split)), told(played(grammar, melody, near))) << rhythm << breath;
         PlayOptions far = near;
         far.ahead = Integer("1920000000000000000000") / period(melody) * period(melody);
-        EXPECT_GT(played(grammar, melody, far).all.size(), 20u) << rhythm;
+        EXPECT_GT(played(grammar, melody, far).all.size(), 20u) << rhythm << breath;
     }
     PlayOptions far;
     far.ahead = Integer(1) << 70;
@@ -565,6 +570,7 @@ TEST(Pieces, BeyondTheTicksOf64Bits) {
     far.to = far.from + 1920;
     Melody phrased = plain();
     phrased.phrase_order = 2;
+    phrased.breathes_to_bar = true;
     EXPECT_THROW(played(hilbert(60), phrased, far), ScoreError);
     EXPECT_THROW(played(grammar_of("angle factor: 6\naxiom: F+F\n"), plain(), far), ScoreError);
 }
