@@ -29,6 +29,7 @@
 #include "music/score/spelling.h"
 #include "music/score/strudel.h"
 #include "music/score/unisons.h"
+#include "music/shared_channels.h"
 
 #include <fmt/format.h>
 
@@ -615,6 +616,14 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     const bool is_limited = is_midi() && midi_.microtonal && !is_mpe;
     const ScoreHead head = make_head(playing, is_limited ? most_channels : most_voices);
     midi_.share_channels = !midi_.microtonal && !is_mpe && pitched_voices(head) > most_channels;
+    if (is_midi() && !is_mpe) {
+        const auto names = parts_controlled_together(ensemble_, head, midi_.share_channels);
+        if (!names.empty()) {
+            made.warn(fmt::format("voices of {} share MIDI channels, and with them pan and controllers{}",
+                                  fmt::join(names, ", "),
+                                  midi_.share_channels ? "; `--tuning mpe` gives each note a channel" : ""));
+        }
+    }
     const auto output = destination.open(name);
     if (output->can_insert()) {
         write(head, playing, *output, made);

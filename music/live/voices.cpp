@@ -36,6 +36,24 @@ Message bend(int channel, int value) {
     return {0xE0 | channel, value & 0x7F, value >> 7};
 }
 
+/// Channels by voice. Beside the drums they go round where there are too few, as with MPE, which needs none of them.
+std::vector<int> channels_of(const ScoreHead& head, bool share) {
+    const std::vector<int> slots = share ? channel_slots(head) : std::vector<int>();
+    std::vector<int> channels;
+    int pitched = 0;
+    for (std::size_t i = 0; i < head.parts.size(); ++i) {
+        for (int voice = 0; voice < head.parts[i].voices; ++voice) {
+            if (head.parts[i].is_drums) {
+                channels.push_back(drums);
+                continue;
+            }
+            const int slot = share ? slots[i] : pitched++ % 15;
+            channels.push_back(slot < drums ? slot : slot + 1);
+        }
+    }
+    return channels;
+}
+
 }  // namespace
 
 Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
@@ -43,8 +61,8 @@ Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
       midi_(midi),
       is_mpe_(midi.tuning == Tuning::mpe),
       bend_range_(is_mpe_ ? mpe_bend_range : midi.bend_range),
-      slots_(midi.share_channels ? channel_slots(head) : std::vector<int>()) {
-    for (const Part& part : head.parts) voice_count_ += std::max(part.voices, 0);
+      channels_(channels_of(head, midi.share_channels)),
+      voice_count_(static_cast<int>(channels_.size())) {
     sounding_.resize(static_cast<std::size_t>(voice_count_));
     values_.resize(static_cast<std::size_t>(voice_count_));
     programs_.fill(-1);
@@ -68,9 +86,7 @@ int Voices::part_of(int voice) const {
 }
 
 int Voices::channel_of(int voice) const {
-    if (is_drum(voice)) return drums;
-    const int slot = (midi_.share_channels ? slots_[static_cast<std::size_t>(part_of(voice))] : voice) % 15;
-    return slot < drums ? slot : slot + 1;
+    return channels_[static_cast<std::size_t>(voice)];
 }
 
 void Voices::prepare(std::vector<Message>& messages) const {

@@ -57,7 +57,7 @@ private:
     MidiOptions midi_;
     bool is_mpe_;
     int bend_range_;
-    std::vector<int> slots_;  // of channels, by part, if they are shared
+    std::vector<int> channels_;  // by voice
     int voice_count_ = 0;
     std::vector<Sounding> sounding_;           // by voice
     std::vector<std::map<int, int>> values_;   // of controllers, by voice, with MPE

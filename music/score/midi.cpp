@@ -14,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -900,19 +901,28 @@ private:
 }  // namespace
 
 std::vector<int> channel_slots(const ScoreHead& head) {
-    std::vector<int> slots;
-    if (head.parts.size() <= most_voices) {
-        for (std::size_t i = 0; i < head.parts.size(); ++i) slots.push_back(static_cast<int>(i));
-        return slots;
-    }
-    std::map<int, int> of_program;
+    std::set<int> programs;
     for (const Part& part : head.parts) {
-        const auto next = static_cast<int>(of_program.size());
-        slots.push_back(part.is_drums ? 0 : of_program.try_emplace(part.program, next).first->second);
+        if (!part.is_drums) programs.insert(part.program);
     }
-    if (of_program.size() > most_voices) {
+    if (programs.size() > most_voices) {
         throw ScoreError(fmt::format("{} instruments in {} parts: MIDI has channels for {} beside the drums'",
-                                     of_program.size(), head.parts.size(), most_voices));
+                                     programs.size(), head.parts.size(), most_voices));
+    }
+    std::size_t spare = most_voices - programs.size();
+    std::map<int, int> of_program;
+    std::vector<int> slots;
+    int next = 0;
+    for (const Part& part : head.parts) {
+        if (part.is_drums) {
+            slots.push_back(0);
+            continue;
+        }
+        const auto known = of_program.find(part.program);
+        const bool has_own = known == of_program.end() || spare > 0;
+        if (known != of_program.end() && spare > 0) --spare;
+        slots.push_back(has_own ? next++ : known->second);
+        of_program.try_emplace(part.program, slots.back());
     }
     return slots;
 }

@@ -279,6 +279,31 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
               (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
 }
 
+TEST(Arrangement, WarnsOfSharedPan) {
+    const auto tracks = [](int count, const std::string& keys, const std::string& pattern = "steps") {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += track(keys, pattern);
+        return text;
+    };
+    using Remarks = std::vector<std::string>;
+    const std::string shared = "voices of {} share MIDI channels, and with them pan and controllers";
+    const std::string mpe = "; `--tuning mpe` gives each note a channel";
+    const std::string pan = "instrument = \"Flute\"\npan = \"by x\"\n";
+    EXPECT_EQ(remarks_of(tracks(15, pan)), Remarks());
+    EXPECT_EQ(remarks_of(tracks(16, pan)), Remarks({fmt::format(fmt::runtime(shared), "Flute") + mpe}));
+    EXPECT_EQ(remarks_of(tracks(16, pan), "musicxml"), Remarks());
+    // The flutes have their own, the violins share one.
+    EXPECT_EQ(remarks_of(tracks(14, pan) + tracks(2, "instrument = \"Violin\"\n")), Remarks());
+    EXPECT_EQ(remarks_of(tracks(14, pan) + tracks(2, "instrument = \"Violin\"\ncontroller = \"74 by y\"\n")),
+              Remarks({fmt::format(fmt::runtime(shared), "Violin") + mpe}));
+    EXPECT_EQ(remarks_of(tracks(6, pan, "branches")), Remarks({fmt::format(fmt::runtime(shared), "Flute") + mpe}));
+    // Drums share one in any case.
+    const std::string drums =
+        "[[pattern]]\nname = \"drums\"\ntext = \"\"\"\naxiom: kk\nmapping: symbols\ndrum k: bass drum\n\"\"\"\n";
+    EXPECT_EQ(remarks_of(drums + tracks(1, pan, "drums")), Remarks());
+    EXPECT_EQ(remarks_of(drums + tracks(2, pan, "drums")), Remarks({fmt::format(fmt::runtime(shared), "Drums")}));
+}
+
 TEST(Arrangement, TooManyVoicesAreCountedWithTheirCause) {
     const auto error_of = [](const std::string& keys, int tracks, const std::string& pattern = "steps") {
         std::string text;

@@ -1,6 +1,7 @@
 #include "music/live/performer.h"
 
 #include "music/live/ahead.h"
+#include "music/live/voices.h"
 #include "tests/midi_tools.h"
 
 #include <gtest/gtest.h>
@@ -721,6 +722,26 @@ TEST(Performer, UnisonsOnOneChannelAreStruckOnce) {
     one.play(std::make_unique<FakeStream>(score, midi));
     EXPECT_EQ(one.heard(), (std::vector<Stroke>{{0, 60}, {second / 4, 60}}));
     EXPECT_EQ(times_of(one.port.sent, 0x80), (std::vector<Nanoseconds>{second / 4, second}));
+}
+
+/// Voices of drums take no channels from the others.
+TEST(Performer, ChannelsDoNotDependOnDrums) {
+    ScoreHead head;
+    for (const bool is_drums : {false, true, false}) {
+        Part& part = head.parts.emplace_back();
+        part.is_drums = is_drums;
+        part.voices = is_drums ? 14 : 1;
+        part.program = static_cast<int>(head.parts.size());
+    }
+    Voices voices(head, {});
+    std::vector<Message> messages;
+    voices.prepare(messages);
+    std::map<int, std::vector<int>> programs;
+    for (const Message& message : messages) {
+        if (message.kind() == 0xC0) programs[message.channel()].push_back(message.bytes[1]);
+    }
+    EXPECT_EQ(programs[0], std::vector<int>{1});
+    EXPECT_EQ(programs[1], std::vector<int>{3});
 }
 
 TEST(Performer, ReadsTheClockAmongOtherBytes) {

@@ -130,6 +130,15 @@ TEST(Unisons, PartsOfAnInstrumentShareAChannel) {
     EXPECT_THROW(write_midi(score.head, sink, options), ScoreError);
 }
 
+/// No part shares a channel while another is free.
+TEST(Unisons, PartsHaveChannelsOfTheirOwnAsFarAsTheyGo) {
+    ScoreHead head;
+    head.parts.resize(18);
+    for (std::size_t i = 0; i < 18; ++i) head.parts[i].program = i == 16 ? 7 : static_cast<int>(i % 2);
+    head.parts[3].is_drums = true;
+    EXPECT_EQ(channel_slots(head), (std::vector<int>{0, 1, 2, 0, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 1, 14, 1}));
+}
+
 TEST(Unisons, HasALimit) {
     const TestScore score = random_voices(1, 1, 2);
     Collector collector;
