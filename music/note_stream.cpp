@@ -349,7 +349,15 @@ private:
             return known && known->notes.convert_to<double>() > many_notes;
         });
         measured_->fold_ranges(playing_, is_far);
-        if (measured_->needs_ranges()) play_all(ensemble_, playing_, *measured_);
+        if (!measured_->needs_ranges()) return;
+        try {
+            play_all(ensemble_, playing_, *measured_);
+        } catch (const BudgetError& error) {
+            throw BudgetError(
+                fmt::format("what follows the curve needs its least and greatest value in the whole score before it "
+                            "begins, but {}; `--bars 64` plays a piece",
+                            error.what()));
+        }
     }
 
     EnsembleReport play_piece(const PlayOptions& options, NoteSink& sink, std::vector<TempoPoint>& tempos) const {

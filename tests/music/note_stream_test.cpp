@@ -306,5 +306,21 @@ TEST(NoteStream, AnEndlessCurveBeginsAtOnce) {
     EXPECT_EQ(heard, expected);
 }
 
+/// Of a curve without end a level is known in a piece only.
+TEST(NoteStream, SaysWhyItHasToBeReadFirst) {
+    const Document document = document_of(
+        "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 40\n"
+        "velocity: by level\n");
+    try {
+        stream_notes({&document, 1}, {});
+        FAIL();
+    } catch (const BudgetError& error) {
+        EXPECT_NE(std::string(error.what()).find("what follows the curve needs its least and greatest value"),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_GT(collect(*stream_notes({&document, 1}, {{"bars", "4"}})).size(), 20u);
+}
+
 }  // namespace
 }  // namespace sikku
