@@ -14,13 +14,16 @@ constexpr double silent = -1;
 // Semitones from the tonic: where the octave of the bass begins, the range of the voices above it, and its middle.
 constexpr double bass_register = -21;
 constexpr double lowest_tone = -12;
-constexpr double highest_tone = 7;
+constexpr double highest_tone = 8;
 constexpr double middle_tone = -3;
-constexpr double least_above_bass = 3;
+constexpr double least_above_bass = 2.5;
 constexpr double widest_pair = 12;
 // Unrest of voices that move in parallel, and of a semitone that a pair of voices lies off the middle.
 constexpr double unrest_of_parallels = 100;
 constexpr double unrest_off_middle = 0.25;
+// Of an octave and of a fourth where the scale has a fifth.
+constexpr double unrest_of_octave = 6;
+constexpr double unrest_of_fourth = 12;
 
 /// Ticks of a bar at which a tanpura is plucked: at its groups, if there are three, or else at three beats.
 std::array<std::int64_t, 3> plucks(const Meter& meter) {
@@ -127,6 +130,13 @@ std::vector<Accompaniment::Voicing> Accompaniment::voicings_of(const Chord& chor
     std::vector<Voicing> voicings;
     if (chord.cents.size() == 2) {
         for (const double key : places(1)) voicings.push_back({bass, key, silent});
+        if (interval_class(chord.cents[0] / 100, chord.cents[1] / 100) != 7) return voicings;
+        // Fifths need not go on in parallel: the root alone, in octaves, or the fifth in the bass.
+        const double other = key_above(chord.cents[1], bass_register);
+        for (const double key : places(0)) {
+            voicings.push_back({bass, key, silent});
+            voicings.push_back({other, key, silent});
+        }
         return voicings;
     }
     Voicing any{};
@@ -142,16 +152,21 @@ std::vector<Accompaniment::Voicing> Accompaniment::voicings_of(const Chord& chor
 }
 
 double Accompaniment::distance(const Voicing& voicing) const {
-    const double top = voicing[2] == silent ? voicing[1] : voicing[2];
+    const bool is_pair = voicing[2] == silent;
+    const double top = is_pair ? voicing[1] : voicing[2];
     const double middle = melody_.tonic + melody_.transpose + middle_tone;
-    return unrest_off_middle * std::fabs((voicing[1] + top) / 2 - middle);
+    const double off = unrest_off_middle * std::fabs((voicing[1] + top) / 2 - middle);
+    if (!is_pair || voicing[1] == silent) return off;
+    const int interval = interval_class(voicing[0], voicing[1]);
+    return off + (interval == 0 ? unrest_of_octave : interval == 5 ? unrest_of_fourth : 0);
 }
 
 /// How far the upper voices move, with a penalty for parallels.
 double Accompaniment::unrest(const Voicing& before, const Voicing& voicing) const {
     double sum = distance(voicing);
     for (std::size_t i = 1; i < voicing.size(); ++i) {
-        if (before[i] != silent && voicing[i] != silent) sum += std::fabs(voicing[i] - before[i]);
+        if (before[i] == silent || voicing[i] == silent) continue;
+        sum += std::fabs(voicing[i] - before[i]);
         for (std::size_t below = 0; below < i; ++below) {
             if (is_parallel(before[below], before[i], voicing[below], voicing[i])) sum += unrest_of_parallels;
         }

@@ -10,7 +10,8 @@
 namespace sikku::mapping {
 
 /// Plays what accompanies a melody, bar by bar. Chords have their root in the bass, and two voices above it that move
-/// as little as they can; no two voices move in parallel fifths or octaves.
+/// as little as they can; no two voices move in parallel fifths or octaves, where the chords permit. Chords without a
+/// third have one voice above the bass, which perhaps is their fifth.
 class Accompaniment {
 public:
     explicit Accompaniment(const Melody& melody);

@@ -78,6 +78,37 @@ TEST(Chords, NoVoicesMoveInParallel) {
     }
 }
 
+/// Where scales lack thirds, chords are fifths, octaves or fourths, so that no two voices of neighbouring bars move
+/// in parallel.
+TEST(Chords, FifthsWithoutThirdsDoNotMoveInParallel) {
+    int pairs = 0;
+    for (const char* scale : {"blues", "major-blues", "major-pentatonic", "suspended-pentatonic", "raga-sivaranjani",
+                              "raga-suddha-saveri", "slendro-equal", "in-sen", "kumoi", "messiaen-4"}) {
+        for (const char* chords : {"I-IV-V-I", "I-II-V-I", "I-VI-II-V", "I-V-IV"}) {
+            const NoteList list =
+                notes_of(fmt::format("{}scale: {}\nharmony: progression {}\n", hilbert, scale, chords));
+            std::map<std::int64_t, std::map<int, double>> bars;
+            for (const Note& note : list.notes) {
+                if (note.voice > 0) bars[note.onset / 1920][note.voice] = note.key;
+            }
+            for (const auto& [bar, keys] : bars) {
+                const auto& before = bars[std::max<std::int64_t>(0, bar - 1)];
+                for (const auto& [high, high_key] : keys) {
+                    for (int low = 1; low < high; ++low) {
+                        if (!before.contains(low) || !before.contains(high)) continue;
+                        pairs += keys.size() == 2 ? 1 : 0;
+                        if (before.at(low) == keys.at(low) || before.at(high) == high_key) continue;
+                        const auto then = std::lround(before.at(high) - before.at(low)) % 12;
+                        const auto now = std::lround(high_key - keys.at(low)) % 12;
+                        EXPECT_FALSE(then == now && (now == 0 || now == 7)) << scale << ' ' << chords << ' ' << bar;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(pairs, 300);
+}
+
 TEST(Chords, StrongBeatsAreThoseOfTheGroups) {
     for (const auto& [meter, beats] : {std::pair<std::string, std::vector<int>>{"3+2+2/8", {0, 3, 5}},
                                        {"7/8", {0, 3, 5}},
