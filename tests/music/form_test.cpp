@@ -101,6 +101,34 @@ TEST(Breath, UntilTheBarLine) {
     }
 }
 
+/// The leaf of Worth & Stepney 2005. One branch after another it is one voice of 67 notes with seven values; of its
+/// branches as voices, after five steps, nine pitches sound at once.
+TEST(Branches, LeafOfWorthAndStepney) {
+    const std::string leaf = "axiom: X\nX --> F[+X][-X]FX\nF --> FF\nmapping: symbols\nunit: 1/16\n";
+    const NoteList list = notes_of(leaf + "derivation length: 4\nbrackets: sequence\n");
+    EXPECT_EQ(list.notes.size(), 67u);
+    std::set<std::int64_t> values;
+    std::int64_t now = 0;
+    for (const Note& note : list.notes) {
+        EXPECT_EQ(note.voice, 0);
+        EXPECT_EQ(note.onset, now);
+        now = end_of(note);
+        values.insert(note.duration);
+    }
+    EXPECT_EQ(values.size(), 7u);
+    EXPECT_EQ(now / 960, 16);  // seconds, at 120 quarters a minute
+    const NoteList naive = notes_of(leaf + "derivation length: 5\n");
+    std::size_t most = 0;
+    for (const Note& first : naive.notes) {
+        std::set<double> keys;
+        for (const Note& note : naive.notes) {
+            if (note.onset <= first.onset && end_of(note) > first.onset) keys.insert(note.key);
+        }
+        most = std::max(most, keys.size());
+    }
+    EXPECT_EQ(most, 9u);
+}
+
 TEST(Forms, LastSubCurveRestsAsOthers) {
     // Played before another one, a sub-curve lasts the same whether or not the curve goes on after it.
     for (const char* body : {"FF+F-F+F-", "FF+F-ff", "Ff", "F+F+"}) {
