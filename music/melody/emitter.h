@@ -123,7 +123,11 @@ private:
         }
         depth = here;
         level = begun;
-        for (const auto& [begin, chord] : shaper_->take_chords()) accompany(begin, chord);
+        const std::int64_t bar = melody_.meter.bar();
+        for (const auto& [begin, end, chord] : shaper_->take_chords()) {
+            std::int64_t at = std::max(begin, options_.from / bar * bar);
+            for (; at < std::min(end, options_.to); at += bar) accompany(at, chord);
+        }
     }
 
     /// Plays what accompanies a bar.

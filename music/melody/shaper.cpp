@@ -79,6 +79,7 @@ void Shaper::finish(bool is_end) {
         pending_[voice].clear();
     }
     close_bar();
+    go_on_until(INT64_MAX);
 }
 
 std::int64_t Shaper::first_pending() const {
@@ -151,6 +152,14 @@ void Shaper::harmonise(Draft note) {
     bar_.push_back(note);
 }
 
+/// Where a note is held over a whole bar and more, its chord sounds again.
+void Shaper::go_on_until(std::int64_t tick) {
+    if (!latest_.chord || sounding_until_ <= latest_.end) return;
+    const std::int64_t bar = melody_.meter.bar();
+    const std::int64_t end = std::min((sounding_until_ + bar - 1) / bar * bar, tick);
+    if (latest_.end < end) chords_.push_back({latest_.end, end, latest_.chord});
+}
+
 /// Chooses the triad with which the most sounds, its beginnings on strong beats twice.
 void Shaper::close_bar() {
     if (bar_.empty()) return;
@@ -167,7 +176,11 @@ void Shaper::close_bar() {
         best = &chord;
     }
     const std::int64_t bar = melody_.meter.bar();
-    chords_.push_back({bar_.front().onset / bar * bar, best});
+    const std::int64_t begin = bar_.front().onset / bar * bar;
+    go_on_until(begin);
+    latest_ = {begin, begin + bar, best};
+    chords_.push_back(latest_);
+    sounding_until_ = bar_.back().end;
     for (Draft& note : bar_) {
         if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*best, note.degree);
         perform(note);

@@ -48,9 +48,10 @@ public:
     void finish(bool is_end);
     /// Onset of the first note that is held back; INT64_MAX if there is none.
     std::int64_t first_pending() const;
-    /// A chord of a bar that is complete.
+    /// A chord of bars that are complete.
     struct BarChord {
-        std::int64_t begin = 0;  ///< tick
+        std::int64_t begin = 0;  ///< tick of the first
+        std::int64_t end = 0;    ///< of the last
         const Chord* chord = nullptr;
     };
     std::vector<BarChord> take_chords() { return std::exchange(chords_, {}); }
@@ -66,6 +67,7 @@ private:
     void release(Draft note);
     void harmonise(Draft note);
     void close_bar();
+    void go_on_until(std::int64_t tick);
     void perform(Draft note);
     bool is_strong(const Draft& note) const;
     std::int64_t swung(std::int64_t tick) const;
@@ -79,7 +81,9 @@ private:
     std::vector<Chord> triads_;
     std::vector<Draft> bar_;  // of the first voice, until its chord is known
     std::vector<BarChord> chords_;
-    std::int64_t last_bar_ = -1;  // its tick, once the melody has ended
+    BarChord latest_;                  // chosen
+    std::int64_t sounding_until_ = 0;  // the last note of its bar
+    std::int64_t last_bar_ = -1;       // its tick, once the melody has ended
     std::vector<Draft> ready_;
     std::vector<Draft> taken_;
 };

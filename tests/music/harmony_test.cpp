@@ -109,6 +109,33 @@ TEST(Chords, FifthsWithoutThirdsDoNotMoveInParallel) {
     EXPECT_GT(pairs, 300);
 }
 
+/// Where a note is held over bars, its chord sounds in each.
+TEST(Chords, GoOnUnderLongNotes) {
+    const std::string leaf = "axiom: X\nX --> F[+X][-X]FX\nF --> FF\nmapping: symbols\nderivation length: 5\n";
+    for (const std::string& text :
+         {leaf, leaf + "brackets: sequence\n", hilbert + "unit: 5/4\n", hilbert + "unit: 4/1\n"}) {
+        const NoteList list = notes_of(text + "harmony: triads\n");
+        int chords = 0;  // the first of their voices
+        for (const Note& note : list.notes) chords = std::max(chords, note.voice - 2);
+        std::map<std::int64_t, std::set<double>> bars;
+        std::map<std::int64_t, std::int64_t> begins;  // onsets of the first voice by their bars
+        for (const Note& note : list.notes) {
+            if (note.voice >= chords) bars[note.onset / 1920].insert(note.key);
+            if (note.voice == 0) begins[note.onset / 1920] = note.onset;
+        }
+        EXPECT_EQ(static_cast<std::int64_t>(bars.size()), list.end / 1920);
+        for (const auto& [bar, keys] : bars) {
+            ASSERT_EQ(keys.size(), 3u);
+            if (begins.contains(bar)) continue;
+            std::set<int> classes;
+            std::set<int> before;
+            for (const double key : keys) classes.insert(static_cast<int>(key) % 12);
+            for (const double key : bars.at(bar - 1)) before.insert(static_cast<int>(key) % 12);
+            EXPECT_EQ(classes, before) << bar;
+        }
+    }
+}
+
 TEST(Chords, StrongBeatsAreThoseOfTheGroups) {
     for (const auto& [meter, beats] : {std::pair<std::string, std::vector<int>>{"3+2+2/8", {0, 3, 5}},
                                        {"7/8", {0, 3, 5}},

@@ -85,6 +85,8 @@ TEST(NoteStream, WindowsMakeTheWhole) {
         {{"phrases", "2"}, {"cadence", "alternate"}},
         {{"harmony", "drone"}},
         {{"harmony", "triads"}},
+        {{"harmony", "triads"}, {"unit", "7/4"}},
+        {{"harmony", "triads"}, {"unit", "4/1"}, {"from-bar", "9"}, {"bars", "57"}},
         {{"harmony", "progression I-IV-V7-I"}, {"meter", "3/4"}},
         {{"harmony", "bass 2"}},
         {{"canon", "2 -12, 3.5 fifth below"}},
