@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -62,7 +63,12 @@ std::vector<Setting> part_settings(const std::string& name, std::string_view tex
         if (equals == std::string_view::npos) {
             settings.back().value += fmt::format(",{}", one);
         } else {
-            settings.push_back(part_setting(one.substr(0, equals), std::string(one.substr(equals + 1))));
+            const Setting setting = part_setting(one.substr(0, equals), std::string(one.substr(equals + 1)));
+            if (std::any_of(settings.begin(), settings.end(),
+                            [&](const Setting& other) { return other.key == setting.key; })) {
+                throw UsageError(fmt::format("{}: {} is given twice", name, setting.key));
+            }
+            settings.push_back(setting);
         }
         text.remove_prefix(std::min(end + 1, text.size()));
     }

@@ -123,8 +123,8 @@ private:
         }
         depth = here;
         level = begun;
-        const std::int64_t bar = melody_.meter.bar();
         for (const auto& [begin, end, chord] : shaper_->take_chords()) {
+            const std::int64_t bar = melody_.meter.bar();
             std::int64_t at = std::max(begin, options_.from / bar * bar);
             for (; at < std::min(end, options_.to); at += bar) accompany(at, chord);
         }

@@ -86,6 +86,8 @@ TEST(Play, PartsHaveKeysOfTheirOwn) {
         {"hilbert-in-c@transposition=x", "expected semitones"},
         {"hilbert-in-c@rhythm=E(0,8)", "expected 1 to 256 notes"},
         {"hilbert-in-c@start=1000000", "expected bars"},
+        {"hilbert-in-c@start=1,n=3,start=2", "start is given twice"},
+        {"hilbert-in-c@transpose=1,transposition=2", "transposition is given twice"},
         {"hilbert-in-c@inversion=maybe", "expected no or yes"}};
     for (const auto& [name, message] : bad) {
         const Outcome outcome = run({"play", name, "-o", folder.file("x.mid")});
