@@ -25,14 +25,6 @@ Ratio to_score(const Player& player) {
     return {tempo.below, tempo.above};
 }
 
-/// The part of the melody that is played at all, in its own ticks.
-void cut_excerpt(const Layout& layout, const Meter& meter, PlayOptions& options) {
-    const std::int64_t first = (layout.first_bar - 1) * meter.bar();
-    options.from += first;
-    if (options.to < INT64_MAX) options.to += first;
-    if (layout.bars > 0) options.to = std::min(options.to, first + layout.bars * meter.bar());
-}
-
 /// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
 class PartSink : public NoteSink {
 public:
@@ -207,13 +199,21 @@ private:
                     options.to, std::max<std::int64_t>(
                                     1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
             }
-            cut_excerpt(layout, player.melody.meter, options);
+            cut_excerpt(player, options);
             // A drone goes on evenly, whatever becomes of the melody.
             const bool has_drone = player.melody.harmony == Harmony::drone;
             Melody alone = player.melody;
             if (has_drone) alone.harmony = Harmony::none;
             PlayReport one;
-            part.block = play_block(player.document.grammar(), alone, options, one);
+            try {
+                part.block = play_block(player.document.grammar(), alone, options, one);
+            } catch (const BudgetError& error) {
+                if (options.to < INT64_MAX) throw;
+                throw BudgetError(
+                    fmt::format("parts in forms, reversed, repeated or strict are read as a whole, but "
+                                "{}; `excerpt: 1-64` reads a part of it",
+                                error.what()));
+            }
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
@@ -448,7 +448,7 @@ PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOp
         options.from = layout.tempo.of(options.from);
         if (options.to < INT64_MAX) options.to = layout.tempo.of(options.to);
     }
-    cut_excerpt(layout, player.melody.meter, options);
+    cut_excerpt(player, options);
     return options;
 }
 

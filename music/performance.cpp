@@ -110,11 +110,10 @@ void ExpressionSink::fold_ranges(const PlayOptions& playing, bool is_far) {
     if (playing.to < INT64_MAX || (playing.from > 0 && !is_far) || ensemble_.needs_whole()) return;
     for (std::size_t i = 0; i < followed_.size(); ++i) {
         const Player& player = ensemble_.players[i];
-        const Layout& layout = player.melody.layout;
         const bool has_place = std::any_of(followed_[i].begin(), followed_[i].end(), [](const Followed& one) {
             return one.curve.source == ExpressionSource::x || one.curve.source == ExpressionSource::y;
         });
-        if (!has_place || player.is_bass || layout.first_bar > 1 || layout.bars > 0) continue;
+        if (!has_place || player.is_bass || has_excerpt(player)) continue;
         const auto box = note_box(player.document.grammar(), player.melody);
         if (!box) continue;
         for (Followed& one : followed_[i]) {

@@ -205,6 +205,19 @@ std::string reason_of_silence(const Player& player, std::uint64_t lost) {
                                                : "");
 }
 
+bool has_excerpt(const Player& player) {
+    return player.melody.layout.first_bar > 1 || player.melody.layout.bars > 0;
+}
+
+void cut_excerpt(const Player& player, PlayOptions& options) {
+    const Layout& layout = player.melody.layout;
+    const std::int64_t bar = player.melody.meter.bar();
+    const std::int64_t first = (layout.first_bar - 1) * bar;
+    options.from += first;
+    if (options.to < INT64_MAX) options.to += first;
+    if (layout.bars > 0) options.to = std::min(options.to, first + layout.bars * bar);
+}
+
 Integer bars_of(const Integer& ticks, const Meter& meter) {
     return (ticks + meter.bar() - 1) / meter.bar();
 }
@@ -239,11 +252,14 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         if (player.is_bass) continue;
         const Melody& melody = player.melody;
         const std::string title = player.document.text("title");
-        const auto known = is_whole ? census(player.document.grammar(), melody) : std::nullopt;
+        const bool is_all = is_whole && !has_excerpt(player);
+        const auto known = is_all ? census(player.document.grammar(), melody) : std::nullopt;
         std::optional<PlayReport> played;
+        PlayOptions of_part = playing;
+        cut_excerpt(player, of_part);
         try {
             Nobody nobody;
-            played = play(player.document.grammar(), melody, nobody, playing);
+            played = play(player.document.grammar(), melody, nobody, of_part);
         } catch (const BudgetError&) {
             if (!known) throw;
         }

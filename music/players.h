@@ -42,6 +42,12 @@ using FileWitness = std::function<void(const std::string& name, const std::strin
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness);
 
+/// True if only some bars of the melody are played.
+bool has_excerpt(const Player& player);
+
+/// Limits a piece, in ticks of the part, to the bars of the melody that are played at all.
+void cut_excerpt(const Player& player, PlayOptions& options);
+
 /// The voices that follow a player in canon.
 std::vector<Player> followers_of(const Player& player);
 

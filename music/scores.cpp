@@ -501,6 +501,7 @@ private:
 void ScoreWork::check_size(const PlayOptions& playing) const {
     if (!is_midi() || playing.to < INT64_MAX) return;
     for (const Player& player : ensemble_.players) {
+        if (player.melody.layout.bars > 0) continue;
         const auto known = census(player.document.grammar(), player.melody);
         if (known && known->notes > 0xFFFFFFFF / 8) {
             throw BudgetError(

@@ -101,6 +101,26 @@ TEST(Breath, UntilTheBarLine) {
     }
 }
 
+/// A curve without end begins as its sub-curves do, and its first bars may be put in any order.
+TEST(Excerpts, OfCurvesWithoutEnd) {
+    for (const char* more : {"", "retrograde: yes\n", "loop: 3\n", "form: B A order 2\n", "harmony: triads\n",
+                             "canon: 2 -12\ncounterpoint: strict\n"}) {
+        const auto text = [&](int n) {
+            return fmt::format("{}derivation length: {}\nexcerpt: 3-10\n{}", hilbert, n, more);
+        };
+        const MidiFile endless = read_midi(play(parse("f.lsys", text(40)), "mid"));
+        const MidiFile other = read_midi(play(parse("f.lsys", text(8)), "mid"));
+        ASSERT_GT(other.notes.size(), 5u) << more;
+        ASSERT_EQ(endless.notes.size(), other.notes.size()) << more;
+        for (std::size_t i = 0; i < other.notes.size(); ++i) {
+            EXPECT_EQ(endless.notes[i].onset, other.notes[i].onset) << more << i;
+            EXPECT_EQ(endless.notes[i].key, other.notes[i].key) << more << i;
+        }
+        const Document document = parse("f.lsys", text(40));
+        EXPECT_NE(describe_score({&document, 1}, {}, {}).find("bars      8\n"), std::string::npos) << more;
+    }
+}
+
 /// The leaf of Worth & Stepney 2005. One branch after another it is one voice of 67 notes with seven values; of its
 /// branches as voices, after five steps, nine pitches sound at once.
 TEST(Branches, LeafOfWorthAndStepney) {
