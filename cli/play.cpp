@@ -82,14 +82,15 @@ std::size_t end_of_name(const std::string& name) {
     return at;
 }
 
-/// An arrangement file: it is played alone. @throws UsageError
-void check_arrangement(const PlayCommand& command) {
+/// An arrangement file: it is played alone. A seed selects a human player, if there is one. @throws UsageError
+void check_arrangement(const PlayCommand& command, const OptionValues& values) {
     const std::string& name = command.patterns.front();
     if (command.patterns.size() > 1) {
         throw UsageError(name + ": an arrangement is played alone; its tracks name the patterns");
     }
     const PatternOptions& pattern = command.pattern;
-    if (!pattern.steps.empty() || !pattern.settings.empty() || !pattern.variant.empty() || !pattern.seed.empty()) {
+    const bool has_seed = !pattern.seed.empty() && !has_option(values, "humanise");
+    if (!pattern.steps.empty() || !pattern.settings.empty() || !pattern.variant.empty() || has_seed) {
         throw UsageError(name +
                          ": -n, --set, --variant and --seed belong to patterns; its tracks have n, set, variant "
                          "and seed");
@@ -97,7 +98,7 @@ void check_arrangement(const PlayCommand& command) {
 }
 
 void play_arrangement(const PlayCommand& command, const std::string& format, const OptionValues& values, bool quiet) {
-    check_arrangement(command);
+    check_arrangement(command, values);
     scores().check(format, values);
     try {
         const auto [arrangement, folder] = read_arrangement_argument(command.patterns.front());
@@ -183,7 +184,7 @@ std::vector<std::filesystem::path> files_of(const PlayCommand& command) {
 
 void play_to_port(const PlayCommand& command, const OptionValues& given, bool quiet) {
     const bool has_arrangement = is_arrangement(command.patterns.front());
-    if (has_arrangement) check_arrangement(command);
+    if (has_arrangement) check_arrangement(command, given);
     LiveScore score;
     score.files = [&] { return files_of(command); };
     score.open = [&, has_arrangement](const Monitor& monitor) {
@@ -204,11 +205,12 @@ void play_to_port(const PlayCommand& command, const OptionValues& given, bool qu
 
 void run(const PlayCommand& command, bool quiet) {
     const std::string format = command.output.empty() ? "mid" : score_format_of(command.output);
-    const OptionValues given = command.options.values();
+    OptionValues given = command.options.values();
     const bool to_port = is_live(command.live, command.output);
     if (!command.pattern.seed.empty()) seed_of(command.pattern);  // throws if it is not a number
     // Before the patterns are read.
     if (!is_link(command.patterns.front())) scores().check(format, given);
+    if (is_arrangement(command.patterns.front())) add_seed(command.pattern, given);
     if (to_port) return play_to_port(command, given, quiet);
     if (is_arrangement(command.patterns.front())) return play_arrangement(command, format, given, quiet);
     const Parts parts = read_parts(command, given, quiet);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,18 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     const std::string canon = folder.file("canon.mid");
     EXPECT_EQ(run(Arguments{"play", "hilbert-in-c@n=3,canon=2 -12, 4 -24,inversion=true", "-o", canon}).errors,
               "75 notes, 8 bars, 15.0 s, D1 to D4\n");
+}
+
+TEST(ArrangementProgram, SeedsSelectHumanPlayers) {
+    const ScratchFolder folder;
+    std::set<std::string> files;
+    for (const char* seed : {"0", "1", "2", "2"}) {
+        const std::string file = folder.file("x.mid");
+        EXPECT_EQ(run(Arguments{"play", "canon", "--humanise", "0.5", "--seed", seed, "-o", file}).status, 0);
+        files.insert(contents(file));
+    }
+    EXPECT_EQ(files.size(), 3u);
+    EXPECT_EQ(run(Arguments{"play", "canon", "--seed", "1", "-o", folder.file("x.mid")}).status, 2);
 }
 
 TEST(ArrangementProgram, ExtremeValuesAreRefusedWithTheirPlaces) {
