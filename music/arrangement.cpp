@@ -93,6 +93,12 @@ public:
         const FileValue* tracks = nullptr;
         const FileValue* form = nullptr;
         for (const auto& [key, value] : root.table) {
+            if (key != "item") continue;
+            fail(value.place,
+                 "a gallery file has [[item]], an arrangement has [[track]]; `sikku gallery --file` takes "
+                 "a gallery file");
+        }
+        for (const auto& [key, value] : root.table) {
             const std::string name = folded(key);
             if (name == "track") {
                 tracks = &value;

@@ -424,6 +424,7 @@ TEST(Arrangement, MistakesHavePlaces) {
         }
     };
     refused("", "a.toml: an arrangement has at least one [[track]]");
+    refused("format = \"mid\"\n[[item]]\npattern = \"steps\"\n", "a.toml:2:3: a gallery file has [[item]]");
     refused("titel = \"x\"\n" + track(""), "a.toml:1:1: unknown key 'titel'; did you mean 'title'?");
     refused(track("strat = 2\n"), "a.toml:3:1: unknown key 'strat'; did you mean 'start'?");
     refused(track("tempo = 90\n"), "a.toml:3:1: tempo belongs to the whole piece");
