@@ -147,8 +147,11 @@ Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions
     BlockSink sink(block, degrees);
     report = play(grammar, melody, sink, recording);
     sort(block.notes);
-    block.next = block.length;
     const bool is_whole = block.length < options.to - options.from;
+    // What stands after the last sub-curve breathes as one.
+    const std::int64_t bar = melody.breathes_to_bar ? melody.meter.bar() : 1;
+    const std::int64_t breath = is_whole && melody.phrase_order > 0 ? melody.breath : 0;
+    block.next = (block.length + breath + bar - 1) / bar * bar;
     while (!block.ends.empty() && block.ends.back() >= block.length) {
         if (is_whole) block.next = block.ends.back();
         block.ends.pop_back();

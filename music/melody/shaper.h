@@ -51,7 +51,7 @@ public:
     /// A chord of bars that are complete.
     struct BarChord {
         std::int64_t begin = 0;  ///< tick of the first
-        std::int64_t end = 0;    ///< of the last
+        std::int64_t end = 0;    ///< after the last
         const Chord* chord = nullptr;
     };
     std::vector<BarChord> take_chords() { return std::exchange(chords_, {}); }
