@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -99,10 +100,27 @@ void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64
     out.write(text);
 }
 
-/// Voices add up; so each has its share of the full scale.
-std::string orchestra(const ScoreHead& head, bool is_panned, bool glides) {
+/// The greatest sum of the velocities that sound together, 1 for one at its loudest.
+double loudest_sum(const std::vector<Note>& notes) {
+    std::vector<std::pair<std::int64_t, int>> changes;  // ends come before beginnings
+    for (const Note& note : notes) {
+        changes.emplace_back(note.onset, note.velocity);
+        changes.emplace_back(note.onset + note.duration, -note.velocity);
+    }
+    std::sort(changes.begin(), changes.end());
+    int sum = 0;
+    int most = 0;
+    for (const auto& [tick, change] : changes) most = std::max(most, sum += change);
+    return most / 127.0;
+}
+
+/// Voices add up; so each has its share of the full scale, and voices in unison do not exceed it.
+std::string orchestra(const ScoreHead& head, const std::vector<Note>& notes, bool is_panned, bool glides) {
     int voices = 0;
     for (const Part& part : head.parts) voices += part.voices;
+    // Notes end a little after their time, so that more may sound than the sum says.
+    constexpr double usual = 0.7;
+    const double share = usual / std::max({std::sqrt(voices), loudest_sum(notes), 1.0});
     std::string text = "sr = 44100\nksmps = 32\nnchnls = 2\n0dbfs = 1\n";
     const std::string_view outs = is_panned
                                       ? "  outs asound * aenvelope * sqrt(1 - p7), asound * aenvelope * sqrt(p7)\n"
@@ -119,6 +137,7 @@ std::string orchestra(const ScoreHead& head, bool is_panned, bool glides) {
             fmt::format_to(
                 std::back_inserter(text),
                 "instr {}  ; {}\n"
+                "  ivoice = p6\n"
                 "  ilow = (p4 <= 36 || p4 == 41 || p4 == 43 || p4 == 45 || p4 == 47 || p4 == 48 || p4 == 50 || "
                 "p4 >= 60 && p4 <= 66 ? 1 : 0)\n"
                 "  ilong = (p4 == 46 || p4 == 49 || p4 == 51 || p4 == 52 || p4 == 55 || p4 == 57 ? 0.6 : 0.12)\n"
@@ -131,18 +150,19 @@ std::string orchestra(const ScoreHead& head, bool is_panned, bool glides) {
                 "  asound = (askin + ahiss) * p5 * {}\n"
                 "  outs asound * aenvelope, asound * aenvelope\n"
                 "endin\n",
-                i + 1, single_line(head.parts[i].name), number(0.7 / std::sqrt(std::max(voices, 1))), outs);
+                i + 1, single_line(head.parts[i].name), number(share), outs);
             continue;
         }
         fmt::format_to(std::back_inserter(text),
                        "instr {}  ; {}\n"
+                       "  ivoice = p6\n"
                        "  aenvelope linsegr 0, 0.005, 1, 0.3, 0.5, 3, 0.1, 0.1, 0\n"
                        "{}"
                        "  awave vco2 p5 * {}, {}, 12\n"
                        "  asound tone awave, {} * 4\n"
                        "{}endin\n",
-                       i + 1, single_line(head.parts[i].name), glides ? slide : "",
-                       number(0.7 / std::sqrt(std::max(voices, 1))), pitch, pitch, outs);
+                       i + 1, single_line(head.parts[i].name), glides ? slide : "", number(share), pitch, pitch,
+                       outs);
     }
     return text;
 }
@@ -159,7 +179,7 @@ void write_csound_file(const ScoreHead& head, const std::vector<Note>& notes, st
                        const Curves& curves) {
     out.write("<CsoundSynthesizer>\n<CsOptions>\n-o dac\n</CsOptions>\n<CsInstruments>\n");
     const bool glides = has_glides(notes);
-    out.write(orchestra(head, has_pan(curves) || glides, glides) + "</CsInstruments>\n<CsScore>\n");
+    out.write(orchestra(head, notes, has_pan(curves) || glides, glides) + "</CsInstruments>\n<CsScore>\n");
     write_statements(head, notes, end, out, curves);
     // Csound does not read what comes after its end.
     out.write("</CsScore>\n</CsoundSynthesizer>\n\n" + head_comments(head, ";"));

@@ -131,7 +131,13 @@ void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& o
     }
     const fs::path print = folder / "score.pdf";
     if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0 || !child::is_readable_file(print)) {
-        throw std::runtime_error("lilypond failed:\n" + child::last_words(messages.get(), "lilypond"));
+        const std::string words = child::last_words(messages.get(), "lilypond");
+        const std::string reason = WIFSIGNALED(*status) ? fmt::format("signal {} ended it", WTERMSIG(*status))
+                                   : WEXITSTATUS(*status) != 0
+                                       ? fmt::format("it ended with status {}", WEXITSTATUS(*status))
+                                       : "it wrote no PDF";
+        throw std::runtime_error(
+            fmt::format("lilypond failed: {}{}{}", reason, words.empty() ? "" : "; its last messages:\n", words));
     }
     constexpr std::size_t most_bytes = std::size_t{1} << 30;
     const std::string whole = with_texts(read_file(print, "the print of lilypond", most_bytes), head);

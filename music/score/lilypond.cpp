@@ -1,5 +1,6 @@
 #include "music/score/lilypond.h"
 
+#include "engine/base/diagnostic.h"
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
@@ -91,12 +92,12 @@ public:
         put("\\version \"2.24.0\"\n\n");
         put("{}", head_comments(head_, "%"));
         put("\n\\header {{\n");
-        if (!head_.title.empty()) put("  title = {}\n", lilypond_string(head_.title));
-        if (!head_.composer.empty()) put("  composer = {}\n", lilypond_string(head_.composer));
+        if (!head_.title.empty()) put("  title = {}\n", text_lines(head_.title, title_width));
+        if (!head_.composer.empty()) put("  composer = {}\n", text_lines(head_.composer, composer_width));
         // The name of a single part stands above it, as in printed music; those of several stand before their staves.
         const bool is_solo = notation_.parts.size() == 1;
-        if (is_solo) put("  instrument = {}\n", lilypond_string(notation_.parts.front().name));
-        if (!head_.source.empty()) put("  copyright = {}\n", lilypond_string(head_.source));
+        if (is_solo) put("  instrument = {}\n", text_lines(notation_.parts.front().name, title_width));
+        if (!head_.source.empty()) put("  copyright = {}\n", text_lines(head_.source, source_width));
         put("  tagline = ##f\n}}\n\n");
         write_drum_table();
         write_paper();
@@ -199,7 +200,8 @@ private:
     /// has its name above the score.
     std::pair<std::string, std::string> names_of(const NotatedPart& part, std::size_t staff) const {
         const bool is_solo = notation_.parts.size() == 1;
-        std::string name = is_solo ? "" : part.name;
+        constexpr std::size_t most = 100;
+        std::string name = is_solo ? "" : shortened(part.name, most);
         std::string abbreviation = is_solo ? "" : part.abbreviation;
         if (part.bracket == Bracket::bracket && part.staves.size() > 1) {
             const std::string_view blank = is_solo ? "" : " ";
@@ -209,16 +211,49 @@ private:
         return {name, abbreviation};
     }
 
-    /// Lines of at most 16 characters, where the words are not longer.
-    static std::vector<std::string> lines_of(std::string_view name) {
-        constexpr std::size_t most = 16;
+    /// Letters that fit on a line of a page.
+    static constexpr std::size_t title_width = 50;
+    static constexpr std::size_t composer_width = 40;
+    static constexpr std::size_t source_width = 100;
+
+    /// A text, or its beginning: more than a few hundred bytes would fill the page, and more than PostScript can hold.
+    static std::string shortened(std::string_view text, std::size_t most) {
+        std::string shown = single_line(text.substr(0, most + 3));  // whole letters
+        if (shown.size() <= most && text.size() <= most) return shown;
+        std::size_t end = 0;
+        for (std::size_t next = 0; next <= std::min(most, shown.size());) {
+            end = next;
+            next += std::max<std::size_t>(1, utf8_length(std::string_view(shown).substr(end)));
+        }
+        return shown.substr(0, end) + "\u2026";
+    }
+
+    /// A text as a string, or centred lines of it, as long as each other.
+    static std::string text_lines(std::string_view text, std::size_t width) {
+        constexpr std::size_t most = 400;
+        const std::string shown = shortened(text, most);
+        std::vector<std::string> lines = lines_of(shown, width);
+        if (lines.size() < 2) return lilypond_string(shown);
+        while (lines_of(shown, width - 1).size() == lines.size()) lines = lines_of(shown, --width);
+        return column_of(lines, "\\center-column");
+    }
+
+    /// Lines of at most so many bytes; longer words are divided.
+    static std::vector<std::string> lines_of(std::string_view name, std::size_t most = 16) {
         std::vector<std::string> lines;
         while (!name.empty()) {
             const std::size_t end = std::min(name.find(' '), name.size());
-            const std::string_view word = name.substr(0, end);
+            std::string_view word = name.substr(0, end);
             name.remove_prefix(std::min(end + 1, name.size()));
+            while (word.size() > 2 * most) {
+                std::size_t part = 0;
+                while (part < most) part += std::max<std::size_t>(1, utf8_length(word.substr(part)));
+                part = std::min(part, word.size());
+                lines.emplace_back(word.substr(0, part));
+                word.remove_prefix(part);
+            }
             if (word.empty()) continue;
-            const bool is_number = word.size() <= 2;
+            const bool is_number = word.size() <= 2 && word.find_first_not_of("0123456789") == word.npos;
             if (lines.empty() || (lines.back().size() + 1 + word.size() > most && !is_number)) {
                 lines.emplace_back(word);
             } else {
@@ -228,12 +263,15 @@ private:
         return lines;
     }
 
-    static std::string name_of(std::string_view name) {
-        const std::vector<std::string> lines = lines_of(name);
-        if (lines.size() < 2) return lilypond_string(name);
-        std::string text = "\\markup \\right-column {";
+    static std::string column_of(const std::vector<std::string>& lines, std::string_view command) {
+        std::string text = fmt::format("\\markup {} {{", command);
         for (const std::string& line : lines) text += " " + lilypond_string(line);
         return text + " }";
+    }
+
+    static std::string name_of(std::string_view name) {
+        const std::vector<std::string> lines = lines_of(name);
+        return lines.size() < 2 ? lilypond_string(name) : column_of(lines, "\\right-column");
     }
 
     static std::string drum_row(int key, int place) {

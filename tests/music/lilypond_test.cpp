@@ -290,6 +290,26 @@ TEST(LilyPond, IsTheSameInAnyLocale) {
     std::setlocale(LC_ALL, "C");
 }
 
+TEST(LilyPond, LongTextsAreLines) {
+    TestScore score = line({4, 4}, {480});
+    score.head.title = "A title of ten words that is too long for one line of a page";
+    score.head.source = std::string(100'000, 'x');
+    score.head.composer.clear();
+    for (int i = 0; i < 1000; ++i) score.head.composer += "\u0101";
+    score.head.parts.front().name = std::string(100'000, 'y');
+    const std::string text = lilypond_of(score);
+    EXPECT_NE(text.find("  title = \\markup \\center-column { \"A title of ten words that is\" "
+                        "\"too long for one line of a page\" }\n"),
+              std::string::npos)
+        << text;
+    for (const std::string_view field : {"  copyright = ", "  composer = ", "  instrument = "}) {
+        const std::size_t at = text.find(field);
+        EXPECT_LT(text.find('\n', at) - at, 500u) << field;
+        EXPECT_LT(text.find("\u2026\" }\n", at) - at, 500u) << field;
+    }
+    EXPECT_EQ(text.find('?'), std::string::npos);
+}
+
 // Takes seconds, so only where LilyPond happens to be: everything that is written at once.
 TEST(LilyPond, CompilesWithoutWarnings) {
     NEEDS("lilypond");

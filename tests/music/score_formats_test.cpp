@@ -191,12 +191,19 @@ TEST(Csound, PlaysTheFile) {
     const ScratchFolder folder;
     TestScore score = random_score(5, true);
     score.head.pattern = "</CsScore>\naxiom: X\n";
+    // Voices in unison, as loud as they can be.
+    for (int i = 0; i < 16; ++i) {
+        score.notes.push_back({.onset = score.end, .duration = 480, .key = 60, .velocity = 127});
+    }
+    score.end += 480;
     MemorySink sink;
     write_csound_file(score.head, score.notes, score.end, sink);
     const auto outcome =
         run("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_NE(outcome.text.find("0 errors in performance"), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find("WARNING"), std::string::npos) << outcome.text;
+    EXPECT_TRUE(std::regex_search(outcome.text, std::regex("overall samples out of range:\\D+0\\D+0\\D"))) << outcome.text;
 }
 
 TEST(Strudel, WeightsAreDurations) {

@@ -61,6 +61,24 @@ TEST(Play, SaysThatLilyPondIsMissing) {
     EXPECT_NE(outcome.errors.find("needs the program lilypond"), std::string::npos) << outcome.errors;
 }
 
+TEST(Play, SaysWhyLilyPondFails) {
+    const ScratchFolder folder;
+    const std::string pattern = folder.write("x.lsys", hilbert);
+    const std::string program = folder.write("lilypond", "");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    for (const auto& [script, reason] : std::vector<std::pair<std::string, std::string>>{
+             {"echo boom >&2; exit 3", "lilypond failed: it ended with status 3; its last messages:\nboom"},
+             {"exit 0", "lilypond failed: it wrote no PDF"},
+             {"kill -9 $$", "lilypond failed: signal 9 ended it"}}) {
+        folder.write("lilypond", "#!/bin/sh\n" + script + "\n");
+        const Outcome outcome = run({"play", pattern, "-o", folder.file("x.pdf")},
+                                    {.environment = {{"PATH", folder.path().string() + ":/usr/bin:/bin"}}});
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_FALSE(std::filesystem::exists(folder.file("x.pdf")));
+        EXPECT_NE(outcome.errors.find(reason), std::string::npos) << outcome.errors;
+    }
+}
+
 TEST(Play, ScoresInLinesContainTheirPattern) {
     const ScratchFolder folder;
     const std::string pattern = folder.write("x.lsys", hilbert);
