@@ -89,6 +89,17 @@ inline TestScore line(const Meter& meter, const std::vector<std::int64_t>& lengt
     return score;
 }
 
+/// Four bars that slow down and end with a held note, over a part that ends with rests.
+inline TestScore held_score(const Meter& meter) {
+    const std::int64_t bar = meter.bar();
+    TestScore score = line(meter, {bar, bar, 480, 2 * bar - 480});
+    score.notes.back().has_fermata = true;
+    score.head.ritardando = 2 * bar;
+    score.head.parts.push_back(plain_part("Bass", 1));
+    score.notes.push_back({.onset = 0, .duration = 480, .key = 40, .voice = 1});
+    return score;
+}
+
 /// Up to three parts of 1 to 4 voices in some meter; lengths are 1 to 9 of a unit from a 16th to a whole.
 /// `quarter_tones`: some keys lie between two semitones.
 inline TestScore random_score(unsigned seed, bool quarter_tones) {

@@ -267,6 +267,8 @@ private:
                       std::set<int>& altered) {
         const bool is_bar = symbol.length == notation_.bar_length && symbol.kind != SymbolKind::note;
         const std::string length = length_of(is_bar ? symbol.length : symbol.value.ticks());
+        if (symbol.slows_down) put("\"^rit.\"");
+        if (symbol.has_fermata) put("!fermata!");
         if (symbol.kind != SymbolKind::note) {
             put("{}{}", symbol.kind == SymbolKind::gap ? "x" : "z", length);
             return;

@@ -428,9 +428,10 @@ private:
                 put("\\tuplet {}/{} {{ ", span.actual, span.normal);
             }
             tuplet = symbol.tuplet;
+            if (symbol.slows_down) put("\\tempo \\markup \\normal-text \\italic \"rit.\" ");
             write_beam_counts(voice.symbols, i);
             write_symbol(symbol);
-            std::string end_marks;
+            std::string end_marks = symbol.has_fermata ? "\\fermata" : "";
             for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
             put("{} ", end_marks);
             const std::int64_t end = symbol.onset + symbol.length;

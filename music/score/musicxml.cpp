@@ -347,6 +347,10 @@ private:
         for (; next < voice.symbols.size() && voice.symbols[next].onset < end; ++next) {
             const NotatedSymbol& symbol = voice.symbols[next];
             if (state) write_changes(*state, symbol.onset + symbol.length, part);
+            if (symbol.slows_down) {
+                go_to(symbol.onset);
+                write_direction("<words font-style=\"italic\">rit.</words>", "above");
+            }
             if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
             go_to(symbol.onset);
             if (const std::vector<int> cents = printed_cents(symbol); !cents.empty()) {
@@ -371,7 +375,7 @@ private:
         symbol.pitch = note.pitch;
         symbol.drum = note.drum;
         symbol.has_sign = note.has_sign;
-        symbol.is_accented = symbol.begins_slide = symbol.ends_slide = false;
+        symbol.is_accented = symbol.begins_slide = symbol.ends_slide = symbol.has_fermata = false;
         symbol.leaves = 0;
         symbol.beams = {};
         write_symbol(symbol, voice, true);
@@ -424,7 +428,7 @@ private:
         const bool is_first = tuplet && tuplet->from == symbol.onset;
         const bool is_last = tuplet && tuplet->to == symbol.onset + symbol.length;
         if (!symbol.tied_back && !symbol.tied_forward && !is_first && !is_last && !symbol.is_accented &&
-            !symbol.begins_slide && !symbol.ends_slide && symbol.leaves == 0) {
+            !symbol.begins_slide && !symbol.ends_slide && symbol.leaves == 0 && !symbol.has_fermata) {
             return;
         }
         put("<notations>{}{}", symbol.tied_back ? "<tied type=\"stop\"/>" : "",
@@ -440,6 +444,7 @@ private:
                 : symbol.leaves < 0 ? "<falloff/>"
                                     : "");
         }
+        if (symbol.has_fermata) put("<fermata/>");
         put("</notations>");
     }
 

@@ -172,6 +172,7 @@ public:
                 symbol.begins_slide = note->begins_slide && !symbol.tied_forward;
                 symbol.ends_slide = note->ends_slide && !symbol.tied_back;
                 symbol.leaves = symbol.tied_forward ? 0 : note->leaves;
+                symbol.has_fermata = note->has_fermata && !symbol.tied_forward;
             }
         }
     }
@@ -282,7 +283,8 @@ std::array<int, 7> signs_of(const std::optional<KeySignature>& key) {
     return signs;
 }
 
-Notator::Notator(const ScoreHead& head) : parts_(head.parts), meter_(head.meter) {
+Notator::Notator(const ScoreHead& head)
+    : parts_(head.parts), meter_(head.meter), ritardando_(head.ritardando) {
     std::size_t voices = 0;
     for (const Part& part : parts_) voices += static_cast<std::size_t>(part.voices);
     voices_.resize(voices);
@@ -330,6 +332,7 @@ void Notator::finish(std::int64_t end) {
     }
     agree_on_keys(printed_, others);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
+    mark_ending(end);
     set_labels(notation_.parts);
     std::vector<std::int64_t>& bars = notation_.double_bars;
     std::sort(bars.begin(), bars.end());
@@ -444,6 +447,29 @@ void Notator::notate_part(std::size_t index) {
     }
 }
 
+/// A ritardando begins in the first voice. Where one voice has a fermata, all have: those that do not hold their last
+/// note, at the end.
+void Notator::mark_ending(std::int64_t end) {
+    std::vector<NotatedSymbol>& first = notation_.parts.front().staves.front().voices.front().symbols;
+    const auto slow = std::find_if(first.begin(), first.end(), [&](const NotatedSymbol& symbol) {
+        return symbol.onset >= std::max<std::int64_t>(0, end - ritardando_);
+    });
+    if (ritardando_ > 0 && slow != first.end()) slow->slows_down = true;
+    const auto is_held = [](const NotatedSymbol& symbol) { return symbol.has_fermata; };
+    std::vector<std::vector<NotatedSymbol>*> others;
+    bool is_any_held = false;
+    for (NotatedPart& part : notation_.parts) {
+        for (Staff& staff : part.staves) {
+            for (NotatedVoice& voice : staff.voices) {
+                const bool holds = std::any_of(voice.symbols.begin(), voice.symbols.end(), is_held);
+                is_any_held = is_any_held || holds;
+                if (!holds && voice.symbols.back().kind != SymbolKind::gap) others.push_back(&voice.symbols);
+            }
+        }
+    }
+    for (auto* symbols : others) symbols->back().has_fermata = is_any_held;
+}
+
 /// The other keys of each note's chord.
 std::vector<std::vector<double>> Notator::chords_of(std::span<const Note> notes, std::size_t index) const {
     std::vector<std::vector<double>> chords(notes.size());
@@ -472,6 +498,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         const Note& note = notes[i];
         NotatedSymbol symbol;
         symbol.is_accented = accents[i];
+        symbol.has_fermata = note.has_fermata;
         const auto meets = [&](std::size_t one) {
             return one + 1 < notes.size() && notes[one].is_sliding &&
                    notes[one].onset + notes[one].duration == notes[one + 1].onset;

@@ -59,6 +59,8 @@ struct NotatedSymbol {
     bool is_accented = false;   ///< much louder than the notes around it
     bool begins_slide = false;  ///< a line leads to the next note
     bool ends_slide = false;    ///< a line leads here from the note before
+    bool has_fermata = false;   ///< notes and rests at the end
+    bool slows_down = false;    ///< a ritardando begins here
     int leaves = 0;             ///< it slides away to no note: 1 up, -1 down
     int tuplet = -1;            ///< of NotatedVoice::tuplets; -1: none
     int cents = 0;              ///< to be printed: how much higher it sounds than its sign says
@@ -161,6 +163,7 @@ private:
     using ChordPlace = std::tuple<std::size_t, std::uint64_t, std::int64_t>;
 
     void notate_part(std::size_t index);
+    void mark_ending(std::int64_t end);
     void gather_chords(std::size_t part, std::size_t first_voice);
     void share_chords();
     void notate_drums(std::size_t index);
@@ -171,6 +174,7 @@ private:
 
     std::vector<Part> parts_;
     Meter meter_;
+    std::int64_t ritardando_;  ///< ticks before the end; 0: none
     std::vector<std::vector<Note>> voices_;
     std::vector<PrintedPart> printed_;
     /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.

@@ -290,6 +290,21 @@ TEST(LilyPond, IsTheSameInAnyLocale) {
     std::setlocale(LC_ALL, "C");
 }
 
+TEST(LilyPond, EndsWithAFermata) {
+    TestScore score = held_score({3, 4});
+    const std::string text = lilypond_of(score);
+    EXPECT_NE(text.find("| % 2\n        \\tempo \\markup \\normal-text \\italic \"rit.\" c''4 c''2~ | % 3\n"
+                        "        c''2.\\fermata \\bar"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("R1*3/4\\fermata \\bar"), std::string::npos) << text;
+    // A ritardando alone has no fermata.
+    score.notes[score.notes.size() - 2].has_fermata = false;
+    const std::string slower = lilypond_of(score);
+    EXPECT_NE(slower.find("\"rit.\""), std::string::npos);
+    EXPECT_EQ(slower.find("fermata"), std::string::npos);
+}
+
 TEST(LilyPond, LongTextsAreLines) {
     TestScore score = line({4, 4}, {480});
     score.head.title = "A title of ten words that is too long for one line of a page";

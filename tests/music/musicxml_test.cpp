@@ -232,6 +232,16 @@ void expect_signs_suffice(const ReadPart& part) {
     }
 }
 
+TEST(MusicXml, EndsWithAFermata) {
+    const pugi::xml_document document = parsed(xml_of(held_score({4, 4})));
+    const auto held = document.select_nodes("//note[notations/fermata]");
+    ASSERT_EQ(held.size(), 2u);
+    for (const auto& each : held) EXPECT_EQ(each.parent().attribute("number").as_int(), 4);
+    const auto words = document.select_nodes("//words[text()='rit.']");
+    ASSERT_EQ(words.size(), 1u);
+    EXPECT_EQ(words.first().parent().parent().parent().attribute("number").as_int(), 3);
+}
+
 TEST(MusicXml, RandomScoresAreReadBack) {
     for (unsigned seed = 0; seed < 150; ++seed) {
         const TestScore score = random_score(seed, seed % 3 == 0);

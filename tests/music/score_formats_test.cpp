@@ -167,6 +167,12 @@ TEST(Abc, TellsWhatTheScoreIs) {
     }
 }
 
+TEST(Abc, EndsWithAFermata) {
+    const std::string text = abc_of(held_score({4, 4}));
+    EXPECT_NE(text.find("c8 | c8 | \"^rit.\"c2 c6- | !fermata!c8 |]"), std::string::npos) << text;
+    EXPECT_NE(text.find("!fermata!z8 |]"), std::string::npos) << text;
+}
+
 TEST(Csound, StatementsAreTheNotes) {
     const TestScore score = random_score(5, true);
     MemorySink sink;
