@@ -101,7 +101,8 @@ public:
         put("M:{}\nL:1/8\nQ:{}/{}={}\n{}", meter_name(head_.meter), beat.value.dotted ? 3 : 1,
             beat.value.divisor * (beat.value.dotted ? 2 : 1),
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
-        // abc2midi would break chords a little.
+        // abc2midi would hold fermatas twice as long, which are held already, and break chords a little.
+        if (notation_.is_held) put("%%MIDI fermatafixed\n");
         put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {

@@ -147,14 +147,16 @@ private:
     void write_paper() {
         std::size_t staves = 0;
         for (const NotatedPart& part : notation_.parts) staves += part.staves.size();
-        if (staves >= 4) put("#(set-global-staff-size {})\n\n", staves >= 10 ? 13 : staves >= 7 ? 15 : 17);
+        if (staves > 1) {
+            put("#(set-global-staff-size {})\n\n", staves >= 10 ? 13 : staves >= 7 ? 15 : staves >= 4 ? 16 : 18);
+        }
         put("\\paper {{\n"
-            "  system-system-spacing = #'((basic-distance . 16) (minimum-distance . 10) (padding . 4) "
+            "  system-system-spacing = #'((basic-distance . 14) (minimum-distance . 8) (padding . 3) "
             "(stretchability . 60))\n"
             "  last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) "
             "(stretchability . 30))\n");
         // LilyPond takes systems with tuplets for lower than they are, and then has to squeeze a page.
-        if (has_tuplets()) put("  page-breaking-system-system-spacing.padding = #6\n");
+        if (has_tuplets()) put("  page-breaking-system-system-spacing.padding = #5\n");
         put("}}\n\n");
     }
 
@@ -187,7 +189,14 @@ private:
             return letters == 0 ? 0 : std::min<std::size_t>(gap + 2 * letters, 80);
         };
         put("  \\layout {{\n    indent = {}\\mm\n    short-indent = {}\\mm\n", room(longest, 10), room(shortest, 6));
-        put("    \\context {{ \\Score \\autoBeamOff }}\n    \\context {{ \\Staff \\numericTimeSignature }}\n"
+        const bool has_bracket =
+            std::any_of(notation_.parts.begin(), notation_.parts.end(), [](const NotatedPart& one) {
+                return one.bracket == Bracket::bracket && one.staves.size() > 1;
+            });
+        // Bar numbers stand clear of the tips of brackets.
+        put("    \\context {{ \\Score \\autoBeamOff{} }}\n",
+            has_bracket ? " \\override BarNumber.padding = #2" : "");
+        put("    \\context {{ \\Staff \\numericTimeSignature }}\n"
             "    \\context {{ \\DrumStaff \\numericTimeSignature }}\n");
         if (staves > 1) {
             put("    \\context {{ \\Staff \\RemoveEmptyStaves }}\n    \\context {{ \\DrumStaff \\RemoveEmptyStaves "

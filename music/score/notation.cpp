@@ -57,14 +57,15 @@ void set_signs(Staff& staff, const PrintedPart& part, std::int64_t bar) {
     }
 }
 
-/// Says which notes have their deviation printed: as signs, once in a bar.
-void set_cents(Staff& staff, std::int64_t bar) {
+/// Says which notes have their deviation printed: as signs, once in a bar; in an accompaniment, which repeats its
+/// notes, once. @param bar  ticks
+void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
     for (NotatedVoice& voice : staff.voices) {
         std::int64_t current_bar = -1;
         std::map<std::pair<int, int>, int> in_force;
         for (NotatedSymbol& symbol : voice.symbols) {
             if (symbol.kind != SymbolKind::note) continue;
-            if (symbol.onset / bar != current_bar) {
+            if (!is_accompaniment && symbol.onset / bar != current_bar) {
                 current_bar = symbol.onset / bar;
                 in_force.clear();
             }
@@ -439,7 +440,7 @@ void Notator::notate_part(std::size_t index) {
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
         hide_rests(staff, notation_.bars, notation_.bar_length);
         set_signs(staff, printed, notation_.bar_length);
-        set_cents(staff, notation_.bar_length);
+        set_cents(staff, part.is_accompaniment, notation_.bar_length);
         std::stable_sort(together.begin(), together.end(),
                          [](const Note& a, const Note& b) { return a.onset < b.onset; });
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
@@ -457,17 +458,16 @@ void Notator::mark_ending(std::int64_t end) {
     if (ritardando_ > 0 && slow != first.end()) slow->slows_down = true;
     const auto is_held = [](const NotatedSymbol& symbol) { return symbol.has_fermata; };
     std::vector<std::vector<NotatedSymbol>*> others;
-    bool is_any_held = false;
     for (NotatedPart& part : notation_.parts) {
         for (Staff& staff : part.staves) {
             for (NotatedVoice& voice : staff.voices) {
                 const bool holds = std::any_of(voice.symbols.begin(), voice.symbols.end(), is_held);
-                is_any_held = is_any_held || holds;
+                notation_.is_held = notation_.is_held || holds;
                 if (!holds && voice.symbols.back().kind != SymbolKind::gap) others.push_back(&voice.symbols);
             }
         }
     }
-    for (auto* symbols : others) symbols->back().has_fermata = is_any_held;
+    for (auto* symbols : others) symbols->back().has_fermata = notation_.is_held;
 }
 
 /// The other keys of each note's chord.

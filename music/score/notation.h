@@ -131,6 +131,7 @@ struct NotatedPart {
 struct Notation {
     std::vector<NotatedPart> parts;
     std::vector<std::int64_t> double_bars;  ///< bar lines at which a part changes its key: ticks, ascending
+    bool is_held = false;  ///< it ends with fermatas
     std::int64_t bars = 1;
     std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point

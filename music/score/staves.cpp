@@ -26,11 +26,12 @@ struct Candidate {
 
 /// Instruments that are written an octave lower than they sound.
 bool is_octave_higher(int program) {
+    constexpr int celesta = 8;
     constexpr int glockenspiel = 9;
     constexpr int xylophone = 13;
     constexpr int piccolo = 72;
     constexpr int whistle = 78;
-    return program == glockenspiel || program == xylophone || program == piccolo || program == whistle;
+    return program == celesta || program == glockenspiel || program == xylophone || program == piccolo || program == whistle;
 }
 
 /// @param is_high  most notes are above the treble clef
@@ -39,7 +40,7 @@ std::vector<Candidate> clefs_of(int program, bool is_high) {
     const auto is_within = [program](int first, int last) { return program >= first && program <= last; };
     if (is_within(24, 31)) return {{Clef::treble_8, 0}};
     if (is_within(32, 39) || program == 43) return {{Clef::bass_8, 0}, {Clef::treble_8, unusual}};
-    if (is_octave_higher(program)) return {{is_high ? Clef::treble_up_8 : Clef::treble, 0}};
+    if (is_octave_higher(program) && is_high) return {{Clef::treble_up_8, 0}};
     if (program == 41) return {{Clef::alto, 0}, {Clef::treble, 0.1}, {Clef::bass, unusual}};
     if (program == 42 || program == 57 || program == 70) {
         return {{Clef::bass, 0}, {Clef::tenor, 0.2}, {Clef::treble, unusual}};

@@ -160,7 +160,7 @@ TEST(LilyPond, WritesALineForEachBar) {
 }
 
 \paper {
-  system-system-spacing = #'((basic-distance . 16) (minimum-distance . 10) (padding . 4) (stretchability . 60))
+  system-system-spacing = #'((basic-distance . 14) (minimum-distance . 8) (padding . 3) (stretchability . 60))
   last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) (stretchability . 30))
 }
 

@@ -427,6 +427,9 @@ TEST(Notation, AMelodyHasOneStaff) {
     EXPECT_EQ(changes(staves_of(24, {52, 60, 64, 55}).front()), "0 treble_8");
     EXPECT_EQ(changes(staves_of(33, {31, 28, 36, 40}).front()), "0 bass_8");
     EXPECT_EQ(changes(staves_of(70, {40, 43, 50, 36}).front()), "0 bass");
+    // A celesta is written an octave lower than it sounds.
+    EXPECT_EQ(changes(staves_of(8, {86, 89, 91, 96}).front()), "0 treble^8");
+    EXPECT_EQ(changes(staves_of(8, {60, 62, 64, 72}).front()), "0 treble");
 }
 
 TEST(Notation, ClefsChangeByPhrase) {
@@ -538,6 +541,14 @@ TEST(Notation, AnAccompanimentHasOneStaff) {
     const NotatedSymbol& first = chords.parts[0].staves[0].voices[0].symbols[0];
     ASSERT_EQ(first.chord.size(), 2u);
     EXPECT_EQ(printed_cents(first), std::vector<int>{14});
+    // What it repeats is printed once.
+    const Notation bars = notate(quarters(part, {{0, 0, 48}, {1, 0, 55.02}, {0, 4, 48}, {1, 4, 55.02}}));
+    const std::vector<NotatedSymbol>& fifths = bars.parts[0].staves[0].voices[0].symbols;
+    EXPECT_EQ(printed_cents(fifths[0]), std::vector<int>{2});
+    const auto second = std::find_if(fifths.begin(), fifths.end(),
+                                     [](const NotatedSymbol& symbol) { return symbol.onset == 4 * 480; });
+    ASSERT_NE(second, fifths.end());
+    EXPECT_EQ(printed_cents(*second), std::vector<int>{});
     // Voices with rhythms of their own stay apart, wherever they meet.
     const Notation drone = notate(quarters(part, {{0, 0, 55}, {0, 1, 60}, {1, 0, 48}}));
     ASSERT_EQ(drone.parts[0].staves.size(), 1u);
