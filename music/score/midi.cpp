@@ -3,15 +3,16 @@
 #include "engine/base/memory.h"
 #include "music/score/curves.h"
 #include "music/score/glides.h"
+#include "music/score/midi_bytes.h"
+#include "music/score/midi_conductor.h"
+#include "music/score/midi_voice.h"
 #include "music/score/mpe.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
@@ -22,19 +23,16 @@
 #include <vector>
 
 namespace sikku {
+
+using namespace midi;
+
 namespace {
 
-/// The largest number that four bytes of seven bits hold.
-constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
 constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t block_bytes = std::size_t{1} << 16;
-constexpr int channels = 16;
-constexpr int drum_channel = 9;  // General MIDI, counted from 0
 constexpr std::size_t most_voices = channels - 1;
 /// Half a cent, which no ear tells; and a little, as halves of cents are no binary numbers.
 constexpr double least_fraction = 0.005 + 1e-9;
-constexpr int centre = 8192;  // of a pitch bend
-constexpr int release = 64;   // the velocity of a note-off that does not matter
+constexpr int release = 64;  // the velocity of a note-off that does not matter
 constexpr std::uint32_t unset = ~std::uint32_t{0};
 constexpr int none = -1;
 
@@ -43,195 +41,7 @@ constexpr std::uint64_t plain_note_bytes = 14;
 constexpr std::uint64_t program_bytes = 3;
 constexpr std::uint64_t bend_bytes = 4;
 constexpr std::uint64_t tuning_bytes = 14;
-constexpr std::size_t note_room = plain_note_bytes + tuning_bytes;
-
-inline char* put_byte(char* out, int byte) {
-    *out = static_cast<char>(byte);
-    return out + 1;
-}
-
-/// A variable-length number: seven bits a byte, the highest first; all but the last byte have bit 7 set.
-inline char* put_delta(char* out, std::uint64_t value) {
-    const auto seven = [value](int shift) { return static_cast<int>(value >> shift & 0x7F); };
-    if (value >= 0x80) {
-        if (value >= 0x4000) {
-            if (value >= 0x200000) out = put_byte(out, 0x80 | seven(21));
-            out = put_byte(out, 0x80 | seven(14));
-        }
-        out = put_byte(out, 0x80 | seven(7));
-    }
-    return put_byte(out, seven(0));
-}
-
-std::string delta(std::uint64_t value) {
-    std::array<char, 4> bytes{};
-    return {bytes.data(), put_delta(bytes.data(), value)};
-}
-
-/// As delta(), but four bytes whatever the value: leading zeros are legal, if wasteful.
-std::string wide_delta(std::uint64_t value) {
-    std::string bytes(4, '\0');
-    for (int i = 0; i < 4; ++i) {
-        put_byte(&bytes[static_cast<std::size_t>(i)],
-                 static_cast<int>(value >> (21 - 7 * i) & 0x7F) | (i < 3 ? 0x80 : 0));
-    }
-    return bytes;
-}
-
-std::string big_endian(std::uint64_t value, int bytes) {
-    std::string text;
-    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 0xFF);
-    return text;
-}
-
-/// The first byte of a channel message.
-int status(int kind, int channel) {
-    return kind | channel;
-}
-
-constexpr int text_type = 0x01;
-constexpr int name_type = 0x03;
-constexpr int instrument_type = 0x04;
-constexpr int end_type = 0x2F;
-constexpr int tempo_type = 0x51;
-constexpr int meter_type = 0x58;
-constexpr int key_type = 0x59;
-
-std::string meta(int type, std::string_view data) {
-    if (data.size() > most_delta) throw ScoreError("a text of 256 MB or more does not fit into a MIDI file");
-    std::string bytes = {'\xFF', static_cast<char>(type)};
-    return bytes.append(delta(data.size())).append(data);
-}
-
-std::string meta_now(int type, std::string_view data) {
-    return '\0' + meta(type, data);
-}
-
-std::string controller_now(int channel, int number, int value) {
-    return {'\0', static_cast<char>(status(0xB0, channel)), static_cast<char>(number), static_cast<char>(value)};
-}
-
-/// A registered parameter: select it, then set both halves of its value.
-std::string parameter_now(int channel, int parameter, int value) {
-    return controller_now(channel, 101, 0) + controller_now(channel, 100, parameter) +
-           controller_now(channel, 6, value) + controller_now(channel, 38, 0);
-}
-
-/// Further data entry changes nothing.
-std::string no_parameter_now(int channel) {
-    return controller_now(channel, 101, 127) + controller_now(channel, 100, 127);
-}
-
-constexpr int bend_range_parameter = 0;
-constexpr int tuning_program_parameter = 3;
-constexpr int tuning_bank_parameter = 4;
-constexpr int mpe_parameter = 6;
-
-/// Makes channels 2 to 16 those of single notes. The range of the bend is repeated for synthesizers without MPE.
-std::string mpe_configuration() {
-    std::string bytes = parameter_now(mpe_master, mpe_parameter, mpe_members) + no_parameter_now(mpe_master);
-    for (int channel = 0; channel < channels; ++channel) {
-        if (!is_mpe_member(channel)) continue;
-        bytes += parameter_now(channel, bend_range_parameter, mpe_bend_range) + no_parameter_now(channel);
-    }
-    return bytes;
-}
-
-/// The melody of one channel as the bytes of a track.
-struct Voice {
-    int number = 0;
-    int channel = 0;
-    bool is_drums = false;
-    std::string name;
-    int program = 0;
-    std::int64_t now = 0;  ///< the tick of the last event
-    int bend = centre;
-    bool has_new_program = false;            ///< with MPE, before the next note
-    std::span<const ControlPoint> controls;  ///< that are still to come
-    std::vector<ControlPoint> own_controls;  ///< those of NoteSink::controls()
-    std::map<int, int> values;               ///< of controllers now, with MPE
-    std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
-    std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
-    std::uint64_t full_bytes = 0;            ///< of all of them
-    std::unique_ptr<char[]> block = std::make_unique<char[]>(block_bytes);
-    char* out = block.get();
-
-    const char* last_start() const { return block.get() + block_bytes - note_room; }
-    std::string_view open_block() const { return {block.get(), static_cast<std::size_t>(out - block.get())}; }
-    std::uint64_t bytes() const { return full_bytes + open_block().size(); }
-};
-
-/// Where events of a tick come in the file.
-int rank(unsigned char status) {
-    switch (status & 0xF0) {
-        case 0xB0:
-            return 1;
-        case 0xC0:
-            return 2;
-        case 0x80:
-            return 3;
-        case 0xE0:
-            return 4;
-        case 0x90:
-            return 5;
-        default:
-            return status == 0xF0 ? 4 : 0;
-    }
-}
-
-/// Goes through the events of a voice; knows just what the writer writes.
-class Events {
-public:
-    explicit Events(const Voice& voice, std::string_view opening) {
-        pieces_.push_back(opening);
-        pieces_.insert(pieces_.end(), voice.full.begin(), voice.full.end());
-        pieces_.push_back(voice.open_block());
-        next();
-    }
-
-    bool done() const { return event_.empty(); }
-    std::int64_t tick() const { return tick_; }
-    /// Events of all voices are sorted by it.
-    std::int64_t place() const { return tick_ * 8 + rank(static_cast<unsigned char>(event_.front())); }
-    std::string_view event() const { return event_; }
-
-    void next() {
-        event_ = {};
-        while (rest_.empty()) {
-            if (piece_ == pieces_.size()) return;
-            rest_ = pieces_[piece_++];
-        }
-        tick_ += static_cast<std::int64_t>(number());
-        const auto first = static_cast<unsigned char>(rest_.front());
-        std::size_t size = (first & 0xF0) == 0xC0 ? 2 : 3;
-        if (first >= 0xF0) {
-            const std::string_view whole = rest_;
-            rest_.remove_prefix(first == 0xFF ? 2 : 1);
-            const auto data = static_cast<std::size_t>(number());
-            size = whole.size() - rest_.size() + data;
-            rest_ = whole;
-        }
-        event_ = rest_.substr(0, size);
-        rest_.remove_prefix(size);
-    }
-
-private:
-    std::uint64_t number() {
-        std::uint64_t value = 0;
-        for (;;) {
-            const auto byte = static_cast<unsigned char>(rest_.front());
-            rest_.remove_prefix(1);
-            value = value << 7 | (byte & 0x7F);
-            if (byte < 0x80) return value;
-        }
-    }
-
-    std::vector<std::string_view> pieces_;
-    std::size_t piece_ = 0;
-    std::string_view rest_;   // of the piece
-    std::string_view event_;  // without its delta
-    std::int64_t tick_ = 0;
-};
+static_assert(note_room >= plain_note_bytes + tuning_bytes);
 
 class MidiWriter final : public NoteSink {
 public:
@@ -241,17 +51,17 @@ public:
           options_(options),
           is_mpe_(options.tuning == Tuning::mpe),
           bend_range_(is_mpe_ ? mpe_bend_range : options.bend_range),
-          slots_(options.share_channels ? channel_slots(head) : std::vector<int>()) {
+          slots_(options.share_channels ? channel_slots(head) : std::vector<int>()),
+          conductor_(head, nullptr, is_mpe_) {
         check_options();
         std::size_t voices = 0;
         for (const Part& part : head_.parts) voices += static_cast<std::size_t>(std::max(part.voices, 0));
         voices_.resize(std::min(voices, std::size_t{std::numeric_limits<std::int16_t>::max()} + 1));
-        conductor_ = conductor();
     }
 
     void curves(const Curves& curves) override {
         curves_ = &curves;
-        conductor_ = conductor();
+        conductor_ = Conductor(head_, curves_, is_mpe_);
     }
 
     void controls(std::span<const ControlPoint> points) override {
@@ -283,9 +93,9 @@ public:
         const auto conductor_end = std::min(static_cast<std::uint64_t>(end), most_delta);
         if (streamed_) {
             sink_.overwrite(10, big_endian(1 + sounding_, 2));
-            sink_.overwrite(conductor_end_at_, closing(end, wide_delta(conductor_end)));
+            sink_.overwrite(conductor_end_at_, conductor_.closing(end, wide_delta(conductor_end)));
         } else {
-            write_head(1 + sounding_, closing(end, delta(conductor_end)));
+            write_head(1 + sounding_, conductor_.closing(end, delta(conductor_end)));
         }
         for (const auto& voice : voices_) {
             if (!voice) continue;
@@ -382,21 +192,6 @@ private:
         if (options_.share_channels && (options_.microtonal || is_mpe_)) {
             throw ScoreError("voices can share channels only without microtones");
         }
-        const Meter& meter = head_.meter;
-        const bool is_power =
-            meter.unit >= 1 && meter.unit <= 64 && std::has_single_bit(static_cast<unsigned>(meter.unit));
-        if (meter.beats < 1 || meter.beats > 255 || !is_power) {
-            throw ScoreError(fmt::format("a MIDI file cannot tell a meter of {}/{}", meter.beats, meter.unit));
-        }
-        for (const Part& part : head_.parts) {
-            if (part.program < 0 || part.program > 127) {
-                throw ScoreError(
-                    fmt::format("part '{}': program {} is not within 0 to 127", part.name, part.program));
-            }
-            if (part.key && (part.key->fifths < -7 || part.key->fifths > 7)) {
-                throw ScoreError(fmt::format("part '{}': a key signature of {} fifths", part.name, part.key->fifths));
-            }
-        }
     }
 
     void check_end(std::int64_t end) const {
@@ -424,37 +219,6 @@ private:
         if (bytes > most_track_bytes) throw ScoreError("a track of a MIDI file cannot be larger than 4 GB");
     }
 
-    /// What stands at the beginning of the first track, all at tick 0.
-    std::string conductor() const {
-        const double tempo = std::round(60e6 / (head_.tempo * first_factor()));  // microseconds a quarter
-        if (!(head_.tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
-            throw ScoreError(fmt::format("a MIDI file cannot tell a tempo of {} quarters a minute", head_.tempo));
-        }
-        std::string bytes;
-        if (!head_.title.empty()) bytes += meta_now(name_type, head_.title);
-        // Texts have no names; so the first is the pattern, be it empty.
-        bytes += meta_now(text_type, head_.pattern);
-        bytes += meta_now(text_type, head_.made);
-        bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(tempo), 3));
-        const int power = std::countr_zero(static_cast<unsigned>(head_.meter.unit));
-        // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
-        const int click = std::max(96 / head_.meter.unit, 1);
-        bytes += meta_now(meter_type, std::string{static_cast<char>(head_.meter.beats), static_cast<char>(power),
-                                                  static_cast<char>(click), 8});
-        if (!head_.parts.empty() && head_.parts.front().key) {
-            const KeySignature key = *head_.parts.front().key;
-            bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
-        }
-        if (is_mpe_) bytes += mpe_configuration();
-        return bytes;
-    }
-
-    /// Of the tempo with which the score begins.
-    double first_factor() const {
-        const bool has_curve = curves_ && !curves_->tempo.empty() && curves_->tempo.front().tick == 0;
-        return has_curve ? curves_->tempo.front().factor : 1;
-    }
-
     static std::string end_of_track(std::int64_t rest) {
         return delta(static_cast<std::uint64_t>(rest)) + meta(end_type, "");
     }
@@ -464,58 +228,15 @@ private:
                big_endian(tracks, 2) + big_endian(ticks_per_quarter, 2);
     }
 
-    struct Change {
-        std::int64_t tick;
-        std::uint32_t micro;  ///< microseconds a quarter
-    };
-    std::vector<Change> changes(std::int64_t end) const {
-        static const Curves nothing;
-        const Curves& curves = curves_ ? *curves_ : nothing;
-        // A long map is not copied for nothing.
-        std::vector<TempoPoint> falling;
-        if (head_.ritardando != 0) falling = tempo_map(head_, curves, end);
-        const std::vector<TempoPoint>& map = head_.ritardando != 0 ? falling : curves.tempo;
-        std::vector<Change> result;
-        result.reserve(map.size());
-        std::int64_t last = 0;
-        for (const TempoPoint& point : map) {
-            // No delta tells what is later.
-            const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
-            const double tempo = is_late ? head_.tempo : head_.tempo * point.factor;
-            // The score begins with it.
-            if (point.tick == 0 && point.factor == first_factor()) continue;
-            if (!is_late) last = point.tick;
-            result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
-        }
-        return result;
-    }
-    static std::string tempo_event(std::uint32_t micro) { return meta(tempo_type, big_endian(micro, 3)); }
-
-    /// What ends the first track; of the same length for every `end`, if `last` is.
-    std::string closing(std::int64_t end, const std::string& last) const {
-        const std::vector<Change> tempos = changes(end);
-        if (tempos.empty()) return last + meta(end_type, "");
-        std::string bytes;
-        bytes.reserve(tempos.size() * (wide_delta(0) + tempo_event(0)).size() + last.size() + 16);
-        std::int64_t now = 0;
-        for (const Change& change : tempos) {
-            bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) += tempo_event(change.micro);
-            now = change.tick;
-        }
-        const auto conductor_end = std::min<std::int64_t>(end, static_cast<std::int64_t>(most_delta));
-        return bytes + wide_delta(static_cast<std::uint64_t>(std::max<std::int64_t>(0, conductor_end - now))) +
-               meta(end_type, "");
-    }
-
     /// @param last  what ends the first track
     void write_head(std::uint64_t tracks, const std::string& last) {
-        const std::uint64_t size = conductor_.size() + last.size();
+        const std::uint64_t size = conductor_.opening().size() + last.size();
         check_track(size);
         const std::string front = header(tracks) + "MTrk" + big_endian(size, 4);
         sink_.write(front);
-        sink_.write(conductor_);
+        sink_.write(conductor_.opening());
         sink_.write(last);
-        conductor_end_at_ = front.size() + conductor_.size();
+        conductor_end_at_ = front.size() + conductor_.opening().size();
         head_bytes_ = front.size() + size;
     }
 
@@ -824,7 +545,7 @@ private:
     /// What is not known yet, finish() fills in.
     void begin_streaming(const Voice& voice) {
         streamed_ = true;
-        write_head(0, closing(0, wide_delta(0)));
+        write_head(0, conductor_.closing(0, wide_delta(0)));
         streamed_length_at_ = head_bytes_ + 4;
         sink_.write("MTrk" + big_endian(0, 4) + open(voice));
     }
@@ -841,7 +562,7 @@ private:
         }
         const std::string head = header(1);
         sink_.write(head + "MTrk" + big_endian(0, 4));
-        std::string block = conductor_;
+        std::string block = conductor_.opening();
         std::uint64_t bytes = 0;
         std::int64_t now = 0;
         const auto write_block = [&] {
@@ -850,11 +571,11 @@ private:
             sink_.write(block);
             block.clear();
         };
-        const std::vector<Change> tempos = changes(end);
+        const std::vector<TempoChange> tempos = conductor_.changes(end);
         auto tempo = tempos.begin();
         const auto change_until = [&](std::int64_t tick) {
             for (; tempo != tempos.end() && tempo->tick <= tick; ++tempo) {
-                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) += tempo_event(tempo->micro);
+                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) += tempo->event();
                 now = tempo->tick;
             }
         };
@@ -885,14 +606,14 @@ private:
     const bool is_mpe_;
     const int bend_range_;
     const std::vector<int> slots_;  // of channels, by part, if they are shared
+    Conductor conductor_;
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
     std::vector<Note> collected_;                    // with MPE, until finish()
     std::array<std::map<int, int>, channels> sent_;  // values of controllers, by channel, with MPE
     std::vector<std::unique_ptr<Voice>> voices_;     // by number; null while they are silent
     std::size_t sounding_ = 0;
     std::size_t pitched_ = 0;  // of those, all but drums
-    std::string conductor_;
-    bool streamed_ = false;  // head and the beginning of voice 0 are in the sink
+    bool streamed_ = false;    // head and the beginning of voice 0 are in the sink
     std::uint64_t head_bytes_ = 0;
     std::uint64_t conductor_end_at_ = 0;
     std::uint64_t streamed_length_at_ = 0;

@@ -1,0 +1,110 @@
+#include "music/score/midi_conductor.h"
+
+#include "music/score/midi_bytes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+namespace sikku::midi {
+namespace {
+
+void check_head(const ScoreHead& head) {
+    const Meter& meter = head.meter;
+    const bool is_power =
+        meter.unit >= 1 && meter.unit <= 64 && std::has_single_bit(static_cast<unsigned>(meter.unit));
+    if (meter.beats < 1 || meter.beats > 255 || !is_power) {
+        throw ScoreError(fmt::format("a MIDI file cannot tell a meter of {}/{}", meter.beats, meter.unit));
+    }
+    for (const Part& part : head.parts) {
+        if (part.program < 0 || part.program > 127) {
+            throw ScoreError(fmt::format("part '{}': program {} is not within 0 to 127", part.name, part.program));
+        }
+        if (part.key && (part.key->fifths < -7 || part.key->fifths > 7)) {
+            throw ScoreError(fmt::format("part '{}': a key signature of {} fifths", part.name, part.key->fifths));
+        }
+    }
+}
+
+}  // namespace
+
+std::string TempoChange::event() const {
+    return meta(tempo_type, big_endian(micro, 3));
+}
+
+Conductor::Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe) : head_(&head), curves_(curves) {
+    check_head(head);
+    opening_ = make_opening(is_mpe);
+}
+
+std::string Conductor::make_opening(bool is_mpe) const {
+    const double tempo = std::round(60e6 / (head_->tempo * first_factor()));  // microseconds a quarter
+    if (!(head_->tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
+        throw ScoreError(fmt::format("a MIDI file cannot tell a tempo of {} quarters a minute", head_->tempo));
+    }
+    std::string bytes;
+    if (!head_->title.empty()) bytes += meta_now(name_type, head_->title);
+    // Texts have no names; so the first is the pattern, be it empty.
+    bytes += meta_now(text_type, head_->pattern);
+    bytes += meta_now(text_type, head_->made);
+    bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(tempo), 3));
+    const int power = std::countr_zero(static_cast<unsigned>(head_->meter.unit));
+    // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
+    const int click = std::max(96 / head_->meter.unit, 1);
+    bytes += meta_now(meter_type, std::string{static_cast<char>(head_->meter.beats), static_cast<char>(power),
+                                              static_cast<char>(click), 8});
+    if (!head_->parts.empty() && head_->parts.front().key) {
+        const KeySignature key = *head_->parts.front().key;
+        bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
+    }
+    if (is_mpe) bytes += mpe_configuration();
+    return bytes;
+}
+
+/// Of the tempo with which the score begins.
+double Conductor::first_factor() const {
+    const bool has_curve = curves_ && !curves_->tempo.empty() && curves_->tempo.front().tick == 0;
+    return has_curve ? curves_->tempo.front().factor : 1;
+}
+
+std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
+    static const Curves nothing;
+    const Curves& curves = curves_ ? *curves_ : nothing;
+    // A long map is not copied for nothing.
+    std::vector<TempoPoint> falling;
+    if (head_->ritardando != 0) falling = tempo_map(*head_, curves, end);
+    const std::vector<TempoPoint>& map = head_->ritardando != 0 ? falling : curves.tempo;
+    std::vector<TempoChange> result;
+    result.reserve(map.size());
+    std::int64_t last = 0;
+    for (const TempoPoint& point : map) {
+        // No delta tells what is later.
+        const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
+        const double tempo = is_late ? head_->tempo : head_->tempo * point.factor;
+        // The score begins with it.
+        if (point.tick == 0 && point.factor == first_factor()) continue;
+        if (!is_late) last = point.tick;
+        result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
+    }
+    return result;
+}
+
+std::string Conductor::closing(std::int64_t end, const std::string& last) const {
+    const std::vector<TempoChange> tempos = changes(end);
+    if (tempos.empty()) return last + meta(end_type, "");
+    std::string bytes;
+    bytes.reserve(tempos.size() * (wide_delta(0) + TempoChange{}.event()).size() + last.size() + 16);
+    std::int64_t now = 0;
+    for (const TempoChange& change : tempos) {
+        bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) += change.event();
+        now = change.tick;
+    }
+    const auto conductor_end = std::min<std::int64_t>(end, static_cast<std::int64_t>(most_delta));
+    return bytes + wide_delta(static_cast<std::uint64_t>(std::max<std::int64_t>(0, conductor_end - now))) +
+           meta(end_type, "");
+}
+
+}  // namespace sikku::midi

@@ -1,0 +1,44 @@
+// music/score/midi_conductor.h: the first track of a MIDI file, which tells texts, tempo, meter and key.
+#pragma once
+
+#include "music/score/curves.h"
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sikku::midi {
+
+struct TempoChange {
+    std::int64_t tick;
+    std::uint32_t micro;  ///< microseconds a quarter
+
+    /// Without its delta.
+    std::string event() const;
+};
+
+class Conductor {
+public:
+    /// @param head, curves  have to outlive this; curves may be null
+    /// @throws ScoreError for a tempo, meter, key or program that no file can hold
+    Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe);
+
+    /// What stands at the beginning of the track, all at tick 0.
+    const std::string& opening() const { return opening_; }
+    /// Those after the tempo of the beginning, by tick.
+    std::vector<TempoChange> changes(std::int64_t end) const;
+    /// What ends the track; of the same length for every `end`, if `last` is.
+    /// @param last  the delta of the end of the track if the tempo does not change
+    std::string closing(std::int64_t end, const std::string& last) const;
+
+private:
+    double first_factor() const;
+    std::string make_opening(bool is_mpe) const;
+
+    const ScoreHead* head_;
+    const Curves* curves_;
+    std::string opening_;
+};
+
+}  // namespace sikku::midi
