@@ -22,7 +22,6 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t eighth_note = ticks_per_quarter / 2;
-constexpr std::int64_t bars_on_a_line = 4;
 
 /// The text of a field: without comments and escapes.
 std::string field(std::string_view text) {
@@ -94,6 +93,7 @@ public:
 
     void write() {
         find_drums();
+        bars_on_a_line_ = bars_on_a_line();
         put("%abc-2.1\n\n{}\nX:1\nT:{}\n", head_comments(head_, "%"), field(head_.title));
         if (!head_.composer.empty()) put("C:{}\n", field(head_.composer));
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
@@ -178,6 +178,22 @@ private:
         }
     }
 
+    /// Programs print the lines of the text as they are: fewer bars where one has many notes.
+    std::int64_t bars_on_a_line() const {
+        std::ptrdiff_t most = 0;
+        for (const NotatedPart& part : notation_.parts) {
+            for (const Staff& staff : part.staves) {
+                for (const NotatedVoice& voice : staff.voices) {
+                    std::map<std::int64_t, std::ptrdiff_t> count;
+                    for (const NotatedSymbol& symbol : voice.symbols) {
+                        most = std::max(most, ++count[symbol.onset / notation_.bar_length]);
+                    }
+                }
+            }
+        }
+        return most <= 12 ? 4 : most <= 24 ? 2 : 1;
+    }
+
     std::string drum_map() const {
         std::string text = "%%MIDI channel 10";
         for (const auto& [key, note] : drum_notes_) text += fmt::format("\n%%MIDI drummap {} {}", note, key);
@@ -235,7 +251,7 @@ private:
                 is_last     ? "|]"
                 : is_double ? "||"
                             : "|",
-                is_last || end / bar % bars_on_a_line == 0 ? "\n" : " ");
+                is_last || end / bar % bars_on_a_line_ == 0 ? "\n" : " ");
         }
     }
 
@@ -290,6 +306,7 @@ private:
     Output& out_;
     fmt::memory_buffer text_;
     std::map<int, std::string> drum_notes_;  // by key
+    std::int64_t bars_on_a_line_ = 4;
 };
 
 }  // namespace

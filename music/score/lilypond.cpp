@@ -142,14 +142,10 @@ private:
         text_.clear();
     }
 
-    /// Staves are smaller in scores of many. Systems are farther apart than their staves, and the foot of the page is
-    /// free.
+    /// Systems are farther apart than their staves, and the foot of the page is free.
     void write_paper() {
-        std::size_t staves = 0;
-        for (const NotatedPart& part : notation_.parts) staves += part.staves.size();
-        if (staves > 1) {
-            put("#(set-global-staff-size {})\n\n", staves >= 10 ? 13 : staves >= 7 ? 15 : staves >= 4 ? 16 : 18);
-        }
+        constexpr int usual = 20;
+        if (const int size = staff_size(notation_); size != usual) put("#(set-global-staff-size {})\n\n", size);
         put("\\paper {{\n"
             "  system-system-spacing = #'((basic-distance . 14) (minimum-distance . 8) (padding . 3) "
             "(stretchability . 60))\n"
@@ -189,13 +185,11 @@ private:
             return letters == 0 ? 0 : std::min<std::size_t>(gap + 2 * letters, 80);
         };
         put("  \\layout {{\n    indent = {}\\mm\n    short-indent = {}\\mm\n", room(longest, 10), room(shortest, 6));
-        const bool has_bracket =
-            std::any_of(notation_.parts.begin(), notation_.parts.end(), [](const NotatedPart& one) {
-                return one.bracket == Bracket::bracket && one.staves.size() > 1;
-            });
+        const bool has_bracket = std::any_of(
+            notation_.parts.begin(), notation_.parts.end(),
+            [](const NotatedPart& one) { return one.bracket == Bracket::bracket && one.staves.size() > 1; });
         // Bar numbers stand clear of the tips of brackets.
-        put("    \\context {{ \\Score \\autoBeamOff{} }}\n",
-            has_bracket ? " \\override BarNumber.padding = #2" : "");
+        put("    \\context {{ \\Score \\autoBeamOff{} }}\n", has_bracket ? " \\override BarNumber.padding = #2" : "");
         put("    \\context {{ \\Staff \\numericTimeSignature }}\n"
             "    \\context {{ \\DrumStaff \\numericTimeSignature }}\n");
         if (staves > 1) {
@@ -225,7 +219,8 @@ private:
     static constexpr std::size_t composer_width = 40;
     static constexpr std::size_t source_width = 100;
 
-    /// A text, or its beginning: more than a few hundred bytes would fill the page, and more than PostScript can hold.
+    /// A text, or its beginning: more than a few hundred bytes would fill the page, and more than PostScript can
+    /// hold.
     static std::string shortened(std::string_view text, std::size_t most) {
         std::string shown = single_line(text.substr(0, most + 3));  // whole letters
         if (shown.size() <= most && text.size() <= most) return shown;

@@ -143,7 +143,12 @@ private:
         put("<miscellaneous>\n");
         put("<miscellaneous-field name=\"made\">{}</miscellaneous-field>\n", xml_escaped(head_.made));
         put("<miscellaneous-field name=\"pattern\">{}</miscellaneous-field>\n", xml_escaped(head_.pattern));
-        put("</miscellaneous>\n</identification>\n<part-list>\n");
+        constexpr double points_per_millimetre = 72.27 / 25.4;
+        // A staff is 40 tenths high.
+        put("</miscellaneous>\n</identification>\n"
+            "<defaults><scaling><millimeters>{:.2f}</millimeters><tenths>40</tenths></scaling></defaults>\n"
+            "<part-list>\n",
+            staff_size(notation_) / points_per_millimetre);
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             const XmlPart& told = parts_[i];
             if (told.begins_group) {
@@ -347,17 +352,16 @@ private:
         for (; next < voice.symbols.size() && voice.symbols[next].onset < end; ++next) {
             const NotatedSymbol& symbol = voice.symbols[next];
             if (state) write_changes(*state, symbol.onset + symbol.length, part);
-            if (symbol.slows_down) {
-                go_to(symbol.onset);
-                write_direction("<words font-style=\"italic\">rit.</words>", "above");
-            }
-            if (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length) continue;
+            const bool is_empty = symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length;
+            if (is_empty && !symbol.slows_down) continue;
             go_to(symbol.onset);
             if (const std::vector<int> cents = printed_cents(symbol); !cents.empty()) {
                 std::string words;
                 for (const int one : cents) words += (words.empty() ? "" : "\n") + cents_text(one);
                 write_direction(fmt::format("<words font-size=\"7\">{}</words>", words), "above");
             }
+            if (symbol.slows_down) write_direction("<words font-style=\"italic\">rit.</words>", "above");
+            if (is_empty) continue;
             write_symbol(symbol, voice);
             for (const ChordNote& note : symbol.chord) write_chord_note(symbol, note, voice);
             here_ += symbol.length;

@@ -242,6 +242,12 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling) {
     return std::abs(raised.quarters) < std::abs(lowered.quarters) ? raised : lowered;
 }
 
+int staff_size(const Notation& notation) {
+    std::size_t staves = 0;
+    for (const NotatedPart& part : notation.parts) staves += part.staves.size();
+    return staves >= 10 ? 13 : staves >= 7 ? 15 : staves >= 4 ? 16 : staves >= 2 ? 18 : 20;
+}
+
 std::vector<int> drums_of(const Staff& staff) {
     std::set<int> drums;
     for (const NotatedVoice& voice : staff.voices) {
@@ -284,8 +290,7 @@ std::array<int, 7> signs_of(const std::optional<KeySignature>& key) {
     return signs;
 }
 
-Notator::Notator(const ScoreHead& head)
-    : parts_(head.parts), meter_(head.meter), ritardando_(head.ritardando) {
+Notator::Notator(const ScoreHead& head) : parts_(head.parts), meter_(head.meter), ritardando_(head.ritardando) {
     std::size_t voices = 0;
     for (const Part& part : parts_) voices += static_cast<std::size_t>(part.voices);
     voices_.resize(voices);

@@ -131,7 +131,7 @@ struct NotatedPart {
 struct Notation {
     std::vector<NotatedPart> parts;
     std::vector<std::int64_t> double_bars;  ///< bar lines at which a part changes its key: ticks, ascending
-    bool is_held = false;  ///< it ends with fermatas
+    bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
     std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
@@ -194,6 +194,9 @@ std::vector<int> drums_of(const Staff& staff);
 std::vector<int> printed_cents(const NotatedSymbol& symbol);
 /// `+14`, `−9` with a minus sign.
 std::string cents_text(int cents);
+
+/// The height of a staff in printer's points (1/72.27 inch), 13 to 20: lower in scores of many staves.
+int staff_size(const Notation& notation);
 
 /// The signature that a part is printed with.
 std::optional<KeySignature> printed_key(const Part& part);

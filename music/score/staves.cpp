@@ -31,7 +31,8 @@ bool is_octave_higher(int program) {
     constexpr int xylophone = 13;
     constexpr int piccolo = 72;
     constexpr int whistle = 78;
-    return program == celesta || program == glockenspiel || program == xylophone || program == piccolo || program == whistle;
+    return program == celesta || program == glockenspiel || program == xylophone || program == piccolo ||
+           program == whistle;
 }
 
 /// @param is_high  most notes are above the treble clef

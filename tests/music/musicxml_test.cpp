@@ -279,6 +279,8 @@ TEST(MusicXml, TellsWhatTheScoreIs) {
     EXPECT_STREQ(identification.child_value("creator"), "Peano");
     EXPECT_STREQ(identification.child_value("source"), "peano.lsys");
     EXPECT_STREQ(identification.child_value("rights"), "peano.lsys");
+    // A staff of 20 points.
+    EXPECT_STREQ(root.child("defaults").child("scaling").child_value("millimeters"), "7.03");
     EXPECT_STREQ(identification.child("encoding").child_value("software"), "sikku 0.1.0");
     EXPECT_FALSE(identification.child("encoding").child("encoding-date"));
     const auto field = [&](const char* name) {

@@ -167,6 +167,17 @@ TEST(Abc, TellsWhatTheScoreIs) {
     }
 }
 
+TEST(Abc, LinesHaveFewBarsOfManyNotes) {
+    const auto lines = [](const std::vector<std::int64_t>& lengths) {
+        const std::string text = abc_of(line({4, 4}, lengths));
+        const std::string music = text.substr(text.find("[K:"));
+        return std::count(music.begin(), music.end(), '\n');
+    };
+    EXPECT_EQ(lines(std::vector<std::int64_t>(16, 480)), 1);  // four bars
+    EXPECT_EQ(lines(std::vector<std::int64_t>(64, 120)), 2);
+    EXPECT_EQ(lines(std::vector<std::int64_t>(128, 60)), 4);
+}
+
 TEST(Abc, EndsWithAFermata) {
     const std::string text = abc_of(held_score({4, 4}));
     EXPECT_NE(text.find("c8 | c8 | \"^rit.\"c2 c6- | !fermata!c8 |]"), std::string::npos) << text;
@@ -209,7 +220,8 @@ TEST(Csound, PlaysTheFile) {
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_NE(outcome.text.find("0 errors in performance"), std::string::npos) << outcome.text;
     EXPECT_EQ(outcome.text.find("WARNING"), std::string::npos) << outcome.text;
-    EXPECT_TRUE(std::regex_search(outcome.text, std::regex("overall samples out of range:\\D+0\\D+0\\D"))) << outcome.text;
+    EXPECT_TRUE(std::regex_search(outcome.text, std::regex("overall samples out of range:\\D+0\\D+0\\D")))
+        << outcome.text;
 }
 
 TEST(Strudel, WeightsAreDurations) {
