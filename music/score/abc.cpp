@@ -108,11 +108,14 @@ public:
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
             for (const Staff& staff : notated.staves) {
+                // Both hands have one name.
+                const bool is_other_hand = notated.bracket == Bracket::brace && &staff != &notated.staves.front();
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
+                    const bool has_name = k == 0 && !is_other_hand && !notated.name.empty();
                     const std::string_view clef = clef_name(staff.changes.front().clef);
                     // Keys without a clef would set the octaves back.
                     put("V:{} clef={}{}\n{}\n[K:{} clef={}] ", ++number, clef,
-                        notated.name.empty() || k > 0 ? "" : fmt::format(" name=\"{}\"", quoted(notated.name)),
+                        has_name ? fmt::format(" name=\"{}\"", quoted(notated.name)) : "",
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
                         key_name(notated.keys.front().key), clef);
                     write_voice(staff, k, notated.keys);
@@ -221,10 +224,10 @@ private:
                  ++change) {
                 const StaffChange& next = staff.changes[change];
                 if (next.clef != clef) put("[K:clef={}] ", clef_name(next.clef));
-                if (octaves != next.octaves)
-                    put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(next.octaves, '('));
                 clef = next.clef;
-                octaves = next.octaves;
+                const int line = std::clamp(next.octaves, -1, 1);
+                if (octaves != line) put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(line, '('));
+                octaves = line;
             }
             for (; is_first && mark < staff.dynamics.size() && staff.dynamics[mark].onset <= symbol.onset; ++mark) {
                 if (!hairpin.empty()) put("!{})!", hairpin);
@@ -255,10 +258,11 @@ private:
         }
     }
 
+    /// Between notes, at a space without width, as programs do not agree on whether a note with the mark is under the
+    /// line. They have no lines of two octaves.
     static std::string line_of_octaves(int octaves, char side) {
         if (octaves == 0) return {};
-        const std::string name = std::string(std::abs(octaves) > 1 ? "15m" : "8v") + (octaves > 0 ? "a" : "b");
-        return "!" + name + side + (side == '(' ? "!" : "! ");
+        return fmt::format("!8v{}{}!y0 ", octaves > 0 ? 'a' : 'b', side);
     }
 
     void write_tuplet(const NotatedVoice& voice, const NotatedSymbol& symbol) {

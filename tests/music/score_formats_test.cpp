@@ -56,7 +56,7 @@ std::vector<PlainNote> read_abc(const std::string& text, std::int64_t bar, bool 
                                                         {"^", 1},     {"^3/2", 1.5},  {"^^", 2}};
     static const std::regex token(
         R"(^(?:(\[K:([A-G][^\]]*)\])|(\[K:clef=[-+\w]+\])|(\|\]?)|(!![^!]*!|![^!]*!)|("[^"]*")|\((\d+):(\d+):(\d+)|)"
-        R"((__|\^\^|_3/2|\^3/2|_/|\^/|_|\^|=)?([A-Ga-g])([',]*)(\d*)(?:/(\d+))?(-)?|([zx])(\d*)(?:/(\d+))?|([ \n]+)))");
+        R"((__|\^\^|_3/2|\^3/2|_/|\^/|_|\^|=)?([A-Ga-g])([',]*)(\d*)(?:/(\d+))?(-)?|([zx])(\d*)(?:/(\d+))?|(y0|[ \n]+)))");
     std::vector<PlainNote> list;
     std::istringstream stream(text);
     std::string row;
@@ -176,6 +176,19 @@ TEST(Abc, LinesHaveFewBarsOfManyNotes) {
     EXPECT_EQ(lines(std::vector<std::int64_t>(16, 480)), 1);  // four bars
     EXPECT_EQ(lines(std::vector<std::int64_t>(64, 120)), 2);
     EXPECT_EQ(lines(std::vector<std::int64_t>(128, 60)), 4);
+}
+
+TEST(Abc, LinesOf8vaStandBetweenNotes) {
+    TestScore score = line({4, 4}, std::vector<std::int64_t>(24, 480));
+    for (std::size_t i = 8; i < 16; ++i) score.notes[i].key = 96;
+    const std::string once = abc_of(score);
+    EXPECT_NE(once.find("c2 | !8va(!y0 c''2 c''2"), std::string::npos) << once;
+    EXPECT_NE(once.find("c''2 |\n!8va)!y0 c2"), std::string::npos) << once;
+    // Two octaves are a line of one.
+    for (std::size_t i = 8; i < 16; ++i) score.notes[i].key = 115;
+    const std::string twice = abc_of(score);
+    EXPECT_NE(twice.find("!8va(!y0 "), std::string::npos) << twice;
+    EXPECT_EQ(twice.find("15ma"), std::string::npos) << twice;
 }
 
 TEST(Abc, EndsWithAFermata) {
