@@ -156,15 +156,25 @@ private:
         put("}}\n\n");
     }
 
-    bool has_tuplets() const {
+    template <typename Predicate>
+    bool any_voice(Predicate predicate) const {
         for (const NotatedPart& part : notation_.parts) {
             for (const Staff& staff : part.staves) {
-                for (const NotatedVoice& voice : staff.voices) {
-                    if (!voice.tuplets.empty()) return true;
-                }
+                if (std::any_of(staff.voices.begin(), staff.voices.end(), predicate)) return true;
             }
         }
         return false;
+    }
+
+    bool has_tuplets() const {
+        return any_voice([](const NotatedVoice& voice) { return !voice.tuplets.empty(); });
+    }
+
+    bool has_slides() const {
+        return any_voice([](const NotatedVoice& voice) {
+            return std::any_of(voice.symbols.begin(), voice.symbols.end(),
+                               [](const NotatedSymbol& symbol) { return symbol.begins_slide; });
+        });
     }
 
     /// Room for names; staves that rest throughout a system are left out of it.
@@ -192,6 +202,10 @@ private:
         put("    \\context {{ \\Score \\autoBeamOff{} }}\n", has_bracket ? " \\override BarNumber.padding = #2" : "");
         put("    \\context {{ \\Staff \\numericTimeSignature }}\n"
             "    \\context {{ \\DrumStaff \\numericTimeSignature }}\n");
+        if (has_slides()) {
+            put("    \\context {{ \\Voice \\override Glissando.minimum-length = #4 "
+                "\\override Glissando.springs-and-rods = #ly:spanner::set-spacing-rods }}\n");
+        }
         if (staves > 1) {
             put("    \\context {{ \\Staff \\RemoveEmptyStaves }}\n    \\context {{ \\DrumStaff \\RemoveEmptyStaves "
                 "}}\n");

@@ -268,6 +268,10 @@ TEST(Expression, SlidesMeetTheirNeighbours) {
     pugi::xml_document xml;
     const std::string tied = "mapping: symbols\nnote A: C4 3/4\nnote B: G4 3/4\naxiom: AB\ngamaka: jaru all\n";
     ASSERT_TRUE(xml.load_string(play(parse("e.lsys", tied), "musicxml").c_str()));
+    // There is room for the line.
+    EXPECT_NE(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly").find("Glissando.minimum-length"),
+              std::string::npos);
+    EXPECT_EQ(play(parse("e.lsys", text), "ly").find("Glissando"), std::string::npos);
     std::vector<std::string> slides;
     for (const auto& note : xml.select_nodes("//note[pitch]")) {
         const pugi::xml_node slide = note.node().child("notations").child("slide");
