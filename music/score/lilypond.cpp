@@ -23,6 +23,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t flush_bytes = std::size_t{1} << 16;
+constexpr std::string_view rit = "\\markup \\normal-text \\italic \"rit.\" ";
 
 }  // namespace
 
@@ -348,7 +349,9 @@ private:
     /// off.
     std::string tempo_mark() const {
         const BeatUnit beat = beat_unit(head_.meter);
-        return fmt::format("\\tempo {}{} = {}", beat.value.divisor, beat.value.dotted ? "." : "",
+        const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();
+        return fmt::format("\\tempo {}{}{} = {}", first.slows_down ? rit : "", beat.value.divisor,
+                           beat.value.dotted ? "." : "",
                            std::max<long long>(1, std::llround(head_.tempo / beat.quarters)));
     }
 
@@ -446,7 +449,7 @@ private:
                 put("\\tuplet {}/{} {{ ", span.actual, span.normal);
             }
             tuplet = symbol.tuplet;
-            if (symbol.slows_down) put("\\tempo \\markup \\normal-text \\italic \"rit.\" ");
+            if (symbol.slows_down && symbol.onset > 0) put("\\tempo {}", rit);
             write_beam_counts(voice.symbols, i);
             write_symbol(symbol);
             std::string end_marks = symbol.has_fermata ? "\\fermata" : "";

@@ -303,6 +303,10 @@ TEST(LilyPond, EndsWithAFermata) {
     const std::string slower = lilypond_of(score);
     EXPECT_NE(slower.find("\"rit.\""), std::string::npos);
     EXPECT_EQ(slower.find("fermata"), std::string::npos);
+    // At the beginning there is one mark, as LilyPond prints no two.
+    score.head.ritardando = 4 * 1440;
+    EXPECT_NE(lilypond_of(score).find("\\tempo \\markup \\normal-text \\italic \"rit.\" 4 = 120\n"),
+              std::string::npos);
 }
 
 TEST(LilyPond, LongTextsAreLines) {
@@ -331,7 +335,10 @@ TEST(LilyPond, CompilesWithoutWarnings) {
     const ScratchFolder folder;
     TestScore score = random_score(5, true);
     score.head.title = "\"#{}$\\ <é> \xFF \x01";
-    score.head.composer = "\\\"";
+    score.head.composer = "\\\"" + std::string(100'000, 'x');
+    score.head.ritardando = score.head.meter.bar();
+    score.notes.back().has_fermata = true;
+    for (Note& note : score.notes) note.is_sliding = note.onset % 960 == 0;
     score.head.pattern = "%{\n\\\n\"\n\xFF\x00 %}\n";
     score.head.tempo = 92.5;
     score.head.parts[0].name = "a \"b\" \\c";
