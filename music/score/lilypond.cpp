@@ -218,7 +218,7 @@ private:
     /// has its name above the score.
     std::pair<std::string, std::string> names_of(const NotatedPart& part, std::size_t staff) const {
         const bool is_solo = notation_.parts.size() == 1;
-        constexpr std::size_t most = 100;
+        constexpr std::size_t most = 45;
         std::string name = is_solo ? "" : shortened(part.name, most);
         std::string abbreviation = is_solo ? "" : part.abbreviation;
         if (part.bracket == Bracket::bracket && part.staves.size() > 1) {
@@ -234,8 +234,7 @@ private:
     static constexpr std::size_t composer_width = 40;
     static constexpr std::size_t source_width = 100;
 
-    /// A text, or its beginning: more than a few hundred bytes would fill the page, and more than PostScript can
-    /// hold.
+    /// A text, or its beginning: long ones would fill the page, and more than PostScript can hold.
     static std::string shortened(std::string_view text, std::size_t most) {
         std::string shown = single_line(text.substr(0, most + 3));  // whole letters
         if (shown.size() <= most && text.size() <= most) return shown;
@@ -244,27 +243,32 @@ private:
             end = next;
             next += std::max<std::size_t>(1, utf8_length(std::string_view(shown).substr(end)));
         }
-        return shown.substr(0, end) + "\u2026";
+        shown.resize(end);
+        while (shown.ends_with(' ')) shown.pop_back();
+        return shown + "\u2026";
     }
 
-    /// A text as a string, or centred lines of it, as long as each other.
+    /// A text as a string, or up to four centred lines of it, as long as each other, and a little space.
     static std::string text_lines(std::string_view text, std::size_t width) {
-        constexpr std::size_t most = 400;
-        const std::string shown = shortened(text, most);
-        std::vector<std::string> lines = lines_of(shown, width);
+        const std::string shown = shortened(text, 7 * width / 2);
+        std::vector<std::string> lines = lines_of(shown, width, width);
         if (lines.size() < 2) return lilypond_string(shown);
-        while (lines_of(shown, width - 1).size() == lines.size()) lines = lines_of(shown, --width);
-        return column_of(lines, "\\center-column");
+        while (lines_of(shown, width - 1, width - 1).size() == lines.size()) {
+            --width;
+            lines = lines_of(shown, width, width);
+        }
+        return fmt::format("\\markup \\center-column {{ {} \\vspace #0.2 }}", strings_of(lines));
     }
 
-    /// Lines of at most so many bytes; longer words are divided.
-    static std::vector<std::string> lines_of(std::string_view name, std::size_t most = 16) {
+    /// Lines of at most so many bytes, but for words up to `longest_word`; longer ones are divided.
+    static std::vector<std::string> lines_of(std::string_view name, std::size_t most = 16,
+                                             std::size_t longest_word = 32) {
         std::vector<std::string> lines;
         while (!name.empty()) {
             const std::size_t end = std::min(name.find(' '), name.size());
             std::string_view word = name.substr(0, end);
             name.remove_prefix(std::min(end + 1, name.size()));
-            while (word.size() > 2 * most) {
+            while (word.size() > longest_word) {
                 std::size_t part = 0;
                 while (part < most) part += std::max<std::size_t>(1, utf8_length(word.substr(part)));
                 part = std::min(part, word.size());
@@ -282,15 +286,16 @@ private:
         return lines;
     }
 
-    static std::string column_of(const std::vector<std::string>& lines, std::string_view command) {
-        std::string text = fmt::format("\\markup {} {{", command);
-        for (const std::string& line : lines) text += " " + lilypond_string(line);
-        return text + " }";
+    static std::string strings_of(const std::vector<std::string>& lines) {
+        std::string text;
+        for (const std::string& line : lines) text += (text.empty() ? "" : " ") + lilypond_string(line);
+        return text;
     }
 
     static std::string name_of(std::string_view name) {
         const std::vector<std::string> lines = lines_of(name);
-        return lines.size() < 2 ? lilypond_string(name) : column_of(lines, "\\right-column");
+        return lines.size() < 2 ? lilypond_string(name)
+                                : fmt::format("\\markup \\right-column {{ {} }}", strings_of(lines));
     }
 
     static std::string drum_row(int key, int place) {

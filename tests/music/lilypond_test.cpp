@@ -318,13 +318,13 @@ TEST(LilyPond, LongTextsAreLines) {
     score.head.parts.front().name = std::string(100'000, 'y');
     const std::string text = lilypond_of(score);
     EXPECT_NE(text.find("  title = \\markup \\center-column { \"A title of ten words that is\" "
-                        "\"too long for one line of a page\" }\n"),
+                        "\"too long for one line of a page\" \\vspace #0.2 }\n"),
               std::string::npos)
         << text;
     for (const std::string_view field : {"  copyright = ", "  composer = ", "  instrument = "}) {
         const std::size_t at = text.find(field);
         EXPECT_LT(text.find('\n', at) - at, 500u) << field;
-        EXPECT_LT(text.find("\u2026\" }\n", at) - at, 500u) << field;
+        EXPECT_LT(text.find("\u2026\" \\vspace #0.2 }\n", at) - at, 500u) << field;
     }
     EXPECT_EQ(text.find('?'), std::string::npos);
 }
