@@ -25,14 +25,14 @@ void refuse_first(std::initializer_list<Conflict> conflicts) {
 
 void check_relief(const DrawSettings& settings, PrintFormat format) {
     if (!is_relief(settings, format)) {
-        constexpr const char* reason = "applies only to a relief: needs 'relief', or STL";
+        constexpr const char* reason = "applies only to reliefs; needs 'relief' or STL";
         return refuse_first({{!settings.ridges.empty(), "ridge", reason},
                              {settings.base.has_value(), "base", reason},
                              {settings.groove.has_value(), "groove", reason}});
     }
     if (info(format).kind != FormatKind::model) refuse_option("relief", "", "a relief is STL, OBJ or glTF");
     constexpr const char* flat = "a relief is made of drawings in the plane, which have neither camera nor light";
-    refuse_first({{settings.tile.has_value(), "tile", "a relief is cut in the program that prints it"},
+    refuse_first({{settings.tile.has_value(), "tile", "a relief can be cut in the program that prints it"},
                   {settings.lesson.has_value(), "lesson", "a lesson has several pages; a relief is one solid"},
                   {settings.generations && !settings.frames, "generations",
                    "a relief is one solid; 'frames' makes one of each generation"},
@@ -224,11 +224,11 @@ void check_lesson(const DrawSettings& settings, PrintFormat format) {
 void check_swatch(const DrawSettings& settings, PrintFormat format) {
     if (settings.swatch == SwatchChoice::none) return;
     constexpr const char* placed = "a swatch has its own place and page";
-    constexpr const char* whole = "a swatch is a part of a tiling that goes on; it has nothing around it";
+    constexpr const char* whole = "a swatch is part of an endless tiling, with nothing around it";
     refuse_first(
         {{settings.plotter || is_for_plotters(format), "swatch", "its edges would cut the strokes of a plot"},
          {format == PrintFormat::gif, "swatch", "a swatch is one picture, not an animation"},
-         {settings.generations.has_value(), "generations", "a swatch has the derivation length that it takes"},
+         {settings.generations.has_value(), "generations", "a swatch determines its own derivation length"},
          {settings.fit, "fit", placed},
          {settings.window.has_value(), "window", placed},
          {settings.fills_page, "fill-page", placed},
@@ -261,7 +261,7 @@ void check_division(const DrawSettings& settings, PrintFormat format) {
          {settings.tile.has_value(), "tile", "an animation cannot be cut into sheets"},
          {settings.fills_page, "fill-page", "sets the derivation length, of which 'divide' needs several"},
          {settings.repeat.has_value(), "repeat", moving},
-         {settings.names_tiles, "name-tiles", "tiles that divide have other names in each generation"},
+         {settings.names_tiles, "name-tiles", "tiles that divide have different names in each generation"},
          {settings.dot_spacing.has_value(), "dot-spacing",
           "does not apply to tiles that divide; 'step' sets their scale"}});
 }

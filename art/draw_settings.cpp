@@ -329,15 +329,15 @@ const std::array own_rows = {
               set_step},
     Option<S>{{.name = "fill-page",
                .help = "cover the whole page with a tiling, at the length of a step that --step sets (a 40th of the "
-                       "page's shorter side): a place is found, with the derivation length that it takes",
+                       "page's shorter side); finds a place and the derivation length it needs",
                .kind = flag,
                .is_alone = true},
               [](S& s, Text t) { s.fills_page = is_true(t); }},
     Option<S>{
         {.name = "swatch",
-         .help = "the smallest rectangle of a periodic tiling whose copies join without a seam, as the page, at "
-                 "the length of a step that --step sets (a 40th of the page's shorter side); 'turn' turns the "
-                 "tiling where that makes it smaller",
+         .help = "draw only the smallest rectangle of a periodic tiling whose copies join without a seam, on a page "
+                 "of its size; --step sets the length of a step (a 40th of the page's shorter side); 'turn' also "
+                 "turns the tiling where that makes the rectangle smaller",
          .value = "[turn]",
          .is_alone = true},
         [](S& s, Text t) {
@@ -426,8 +426,8 @@ const std::array own_rows = {
               [](S& s, Text t) { s.frames = is_true(t); }},
     Option<S>{
         {.name = "frame-time",
-         .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); of one with --divide, in which its tiles "
-                 "rest (0.6)",
+         .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); with --divide, the pause after each division "
+                 "(0.6)",
          .value = "SECONDS",
          .group = kolams,
          .unit = "s",
@@ -508,8 +508,8 @@ const std::array own_rows = {
                .group = reliefs},
               [](S& s, Text t) { s.ridges = heights("ridge", t, s.dpi); }},
     Option<S>{{.name = "base",
-               .help = "thickness of the base, which is as large as the page, or reaches BEYOND the drawing by a "
-                       "length; 0: none (1.2mm)",
+               .help = "thickness of the base (1.2mm; 0: no base), which is as large as the page, or reaches the "
+                       "length BEYOND past the drawing",
                .value = "THICKNESS[,BEYOND]",
                .group = reliefs},
               set_base},

@@ -55,7 +55,7 @@ void report_swatch(const Swatch& swatch, const Print& print, glm::dvec2 stretch,
                           counted(swatch.tiles, "tile"), print.page.width, print.page.height));
     if (swatch.turn != 0) made.fact(fmt::format("the tiling is turned by {:.6g} degrees", swatch.turn));
     if (!swatch.is_rectangle) {
-        made.warn(fmt::format("this tiling repeats by no rectangle: copies lie {:.6g} and {:.6g} steps apart",
+        made.warn(fmt::format("no rectangle of this tiling repeats: copies lie {:.6g} and {:.6g} steps apart",
                               glm::length(swatch.cell.sides[0]), glm::length(swatch.cell.sides[1])));
     }
     const glm::dvec2 parts = 100.0 * (stretch - 1.0);
@@ -93,8 +93,8 @@ void report_relief(const ReliefReport& report, Made& made) {
                               report.lost == 1 ? "1 polygon is" : fmt::format("{} polygons are", report.lost)));
     }
     if (report.narrowest > 0 && report.narrowest < thin - 1e-9) {
-        made.warn(
-            fmt::format("lines are down to {:.2g} mm wide; many 3-D printers need {:g} mm", report.narrowest, thin));
+        made.warn(fmt::format("the narrowest lines are {:.2g} mm wide; many 3-D printers need {:g} mm",
+                              report.narrowest, thin));
     }
 }
 
@@ -190,7 +190,7 @@ private:
     void check_map() const {
         constexpr const char* kolams = "applies to the lines of a turtle, and a map has none";
         if (is_model()) require_turtle(document_, "it cannot be a model");
-        if (settings_.division) refuse_option("divide", "", "a .gif of a map shows without it how cells divide");
+        if (settings_.division) refuse_option("divide", "", "a .gif of a map always shows how cells divide");
         if (settings_.dots || settings_.only_dots) refuse_option("dots", "", kolams);
         if (settings_.dot_spacing) refuse_option("dot-spacing", "", kolams);
         if (settings_.colours_strokes) refuse_option("colour-by", "", kolams);

@@ -139,19 +139,19 @@ void add_piece_options(CLI::App& command, PieceOptions& options) {
         command.add_option(name, value, help)->type_name(type)->group(pieces);
     };
     add("--templates", options.templates,
-        "draw an outline of each shape with this seam allowance, 0 to 100mm, into -o", "SEAM");
+        "draw an outline of each shape with this seam allowance, 0 to 100mm, and write it to -o", "SEAM");
     add("--cutting-sheet", options.sheet,
-        "lay all pieces on sheets of material of this size, such as A3 or 110x100cm, and draw them into -o", "SIZE");
+        "lay all pieces on sheets of material of this size, such as A3 or 110x100cm, and write them to -o", "SIZE");
     add("--step", options.step, "length of a step, or of a unit of a file (10mm)", "LENGTH");
-    add("--seam", options.seam, "seam allowance around each piece of a cutting sheet, 0 to 100mm (0mm)", "LENGTH");
+    add("--seam", options.seam, "seam allowance around each piece on a cutting sheet, 0 to 100mm (0mm)", "LENGTH");
     add("--kerf", options.kerf, "width of the cut, 0 to 10mm: outlines grow by half of it (0mm)", "LENGTH");
     add("--gap", options.gap,
-        "distance between pieces of a cutting sheet, 0 to 100mm; without one, neighbours share cuts (0mm)", "LENGTH");
-    add("--margin", options.margin, "margin of a cutting sheet that stays free (10mm)", "LENGTH");
+        "distance between pieces on a cutting sheet, 0 to 100mm; at 0mm, neighbours share cuts (0mm)", "LENGTH");
+    add("--margin", options.margin, "margin of a cutting sheet (10mm)", "LENGTH");
     command
         .add_flag("--grain", options.grain,
-                  "keep the direction of the pieces of a cutting sheet, as a grain needs: they are turned by 180 "
-                  "degrees only")
+                  "keep the direction of pieces on a cutting sheet, for material with a grain: turn them only by "
+                  "180 degrees")
         ->group(pieces);
     command
         .add_flag("--labels,!--no-labels", options.labels, "write names on the pieces of a cutting sheet (default)")

@@ -108,13 +108,13 @@ struct CommonEnds {
         const std::int64_t common = std::gcd(period, length);
         if ((start - rest) % common != 0) {
             throw ScoreError(
-                "the loops begin at different bars and would never end together: `loop: fill` ends them with the "
-                "longest part");
+                "the loops begin at different bars and would never end together; use `loop: fill` to end them with "
+                "the longest part");
         }
         if (period / common > most_score_bars * bar / length) {
             throw ScoreError(
-                "the loops would end together only after more than 1000000 bars: `loop: fill` ends them with the "
-                "longest part");
+                "the loops would end together only after more than 1000000 bars; use `loop: fill` to end them "
+                "with the longest part");
         }
         // Some repetition of the ends so far is an end of this loop, too.
         const std::int64_t modulus = length / common;

@@ -70,9 +70,8 @@ Player bass_of(const Player& player) {
     const bool has_voices = melody.branches == Branches::voices && has_brackets(player.document.grammar());
     if (has_voices || melody.own_voices() > 1 || !melody.table.empty()) {
         throw ScoreError(
-            "`harmony: bass` needs a curve or a word that is one line: without branches that are voices, vertical "
-            "runs "
-            "that are a voice, counterpoint and a table of symbols");
+            "`harmony: bass` needs a curve or a word of a single line, without branches or vertical runs as voices, "
+            "counterpoint or a table of symbols");
     }
     const std::int64_t steps = player.document.grammar().steps() - melody.bass_order;
     if (steps < 1) {
@@ -106,7 +105,7 @@ Player bass_of(const Player& player) {
     plain.breath = 0;
     const Integer own = length_of(player.document.grammar(), whole);
     const Integer coarse = length_of(bass.document.grammar(), plain);
-    if (coarse == 0) throw ScoreError("`harmony: bass`: the curve of a lower order has no notes");
+    if (coarse == 0) throw ScoreError("`harmony: bass`: the curve of the lower order has no notes");
     const Integer ratio = (own + coarse / 2) / coarse;
     constexpr std::int64_t longest = std::int64_t{1} << 40;
     if (ratio > longest / melody.unit)

@@ -190,8 +190,8 @@ ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrange
     }
     if (pitched > most) {
         throw ScoreError(
-            fmt::format("too many voices: {} at once; {} need a channel of MIDI for each voice, and there are {} "
-                        "beside the drums'",
+            fmt::format("too many voices: {} at once; {} need a MIDI channel for each voice; there are {} besides "
+                        "drums",
                         pitched,
                         ensemble.has_glides()  ? "glissandi"
                         : ensemble.has_bends() ? "gamakas"

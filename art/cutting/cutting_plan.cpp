@@ -59,7 +59,7 @@ private:
                 rows.fill(area, static_cast<std::size_t>(std::min<std::uint64_t>(left, most_pieces + 1)));
             if (laid.copies.size() <= most_pieces) return laid;
             throw std::runtime_error(fmt::format(
-                "more than {} pieces fit on a sheet, the limit; use smaller sheets or a longer step", most_pieces));
+                "more than {} pieces fit on one sheet; use smaller sheets or a longer step", most_pieces));
         };
         for (std::size_t i = 0; i < free_.size() && left > 0; ++i) {
             const FreeArea area = free_[i];
@@ -107,10 +107,10 @@ private:
     [[noreturn]] void refuse(const CutKind& piece, glm::dvec2 size) const {
         const double margins = 2 * options_.sheet.margin;
         size -= glm::dvec2(options_.gap);
-        throw std::runtime_error(fmt::format(
-            "piece {} needs {:.1f} x {:.1f} mm{}, but the sheets have {:g} x {:g} mm within their margins",
-            piece.name, size.x, size.y, options_.seam > 0 ? " with its allowance" : "",
-            options_.sheet.width - margins, options_.sheet.height - margins));
+        throw std::runtime_error(
+            fmt::format("piece {} needs {:.1f} x {:.1f} mm{}, but the sheets are {:g} x {:g} mm within their margins",
+                        piece.name, size.x, size.y, options_.seam > 0 ? " with its allowance" : "",
+                        options_.sheet.width - margins, options_.sheet.height - margins));
     }
 
     /// Adds copies to a sheet and keeps the areas that they leave; copies of a sheet have no room for others.
@@ -156,7 +156,7 @@ CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& optio
     if (kinds.empty()) throw std::runtime_error("there are no pieces to cut");
     if (kinds.size() > most_kinds) {
         throw std::runtime_error(
-            fmt::format("the pieces are of {} kinds; cutting sheets have at most {}", kinds.size(), most_kinds));
+            fmt::format("there are {} kinds of pieces; cutting sheets allow at most {}", kinds.size(), most_kinds));
     }
     CuttingPlan plan;
     plan.kinds = std::move(kinds);

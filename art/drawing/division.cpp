@@ -122,9 +122,8 @@ public:
             throw DivisionError("this drawing has no tiles, which are polygons between { and }");
         }
         if (generations_.size() < 2) {
-            throw DivisionError(
-                fmt::format("a tile divides from one derivation length to the next: expected one above {}",
-                            generations_[0].steps));
+            throw DivisionError(fmt::format("tiles divide between generations; expected a derivation length above {}",
+                                            generations_[0].steps));
         }
         divisions_ = tile_divisions(generations_, factor(), options_.monitor);
         require_division();
@@ -156,8 +155,8 @@ private:
         }
         if (divisions_.back().deviation > most_deviation) {
             throw DivisionError(fmt::format(
-                "no scale keeps the generations of this pattern in one place: their tiles deviate by {:.0f} % of the "
-                "whole",
+                "no scale keeps the generations of this pattern in one place: their tiles deviate by {:.0f} % of "
+                "its size",
                 100 * divisions_.back().deviation));
         }
     }

@@ -74,8 +74,7 @@ private:
     void refuse_style() const {
         if (grammar_.map() || grammar_.is_spatial()) throw SwatchError("applies only to tilings in the plane");
         if (style_.tile_colours == TileColours::distance) {
-            throw SwatchError(
-                "colours by the distance from the border do not repeat: a tiling that goes on has none");
+            throw SwatchError("colours by the distance from the border do not repeat: an endless tiling has none");
         }
         if (style_.line == Line::spline) throw SwatchError("tiles have straight edges, not splines");
         if (style_.hand > 0) throw SwatchError("lines drawn by hand do not repeat; set hand to 0");
@@ -92,7 +91,7 @@ private:
         try {
             Patch patch{steps, examine_tiling(*grammar, options), {}, {}};
             if (patch.tiles() > 0 && !patch.result.examination.has_border) {
-                throw SwatchError("its polygons overlap, so that it is not a tiling");
+                throw SwatchError("the polygons overlap, so this is not a tiling");
             }
             if (patch.tiles() == 0) return true;
             patch.periods =
@@ -200,7 +199,7 @@ private:
             }
         }
         if (fewest == no_number)
-            throw SwatchError("no few copies of its smallest part can be coloured so that neighbours differ");
+            throw SwatchError("neighbours cannot all differ in colour, even in several copies of the smallest part");
         sides = {static_cast<double>(best[0]) * sides[0], static_cast<double>(best[1]) * sides[1]};
         swatch_.has_tile_period = true;
     }
@@ -304,7 +303,7 @@ private:
         if (patch_.tiles() == 0)
             throw SwatchError("this drawing has no tiles, which are closed polygons between { and }");
         if (patch_.tiles() < fewest_tiles) {
-            throw SwatchError(fmt::format("a period cannot be found in {} tiles, up to a derivation length of {}",
+            throw SwatchError(fmt::format("found no period in {} tiles, up to a derivation length of {}",
                                           patch_.tiles(), patch_.steps));
         }
         if (patch_.without_colours.count == 2) {
@@ -312,7 +311,7 @@ private:
                 "the tiles repeat, but their colours do not; 'tile colours' by shape or neighbours repeat");
         }
         if (patch_.periods.count > 0 && patch_.periods.compared * 4 < patch_.tiles()) {
-            throw SwatchError("its tiles do not touch along their edges, so that it is not a tiling");
+            throw SwatchError("the tiles do not touch along their edges, so this is not a tiling");
         }
         if (patch_.periods.count == 1) throw SwatchError("this tiling repeats in one direction only");
         throw SwatchError(

@@ -43,7 +43,7 @@ std::unique_ptr<Patches> make_patches(const Grammar& plain, bool has_parameters,
     const double error = std::max(size.x, size.y) * static_cast<double>(patches->levels()) * rounding;
     if (error <= largest_error) return patches;
     why = fmt::format(
-        "at n = {} lengths in decimals are wrong by more than {} steps where they add up; a window needs a smaller "
+        "at n = {} the rounding errors of decimal lengths add up to more than {} steps; a window needs a smaller "
         "derivation length",
         plain.steps(), largest_error);
     return nullptr;

@@ -66,8 +66,8 @@ void require_affordable(const ReliefShapes& shapes, bool has_lines) {
     constexpr double triangles_of_edge = 4;
     if (edges * triangles_of_edge <= static_cast<double>(most_relief_triangles)) return;
     throw BudgetError(
-        fmt::format("the relief needs about {:.2g} million triangles, and {} million are the limit; choose a shorter "
-                    "derivation or a window",
+        fmt::format("the relief needs about {:.2g} million triangles, more than the limit of {} million; choose a "
+                    "shorter derivation or a window",
                     edges * triangles_of_edge * 1e-6, most_relief_triangles / 1'000'000));
 }
 
@@ -233,7 +233,7 @@ private:
                 "larger size",
                 options_.groove));
         }
-        throw std::runtime_error("nothing is raised: every shape is as high as the base, or outside of the page");
+        throw std::runtime_error("nothing is raised: every shape is as high as the base, or outside the page");
     }
 
     const ReliefShapes& shapes_;

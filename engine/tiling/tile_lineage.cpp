@@ -101,8 +101,8 @@ std::vector<std::uint32_t> common_tables(const Grammar& grammar, std::int64_t fi
         const std::vector<std::uint32_t> tables = shorter ? tables_of(*shorter) : std::vector<std::uint32_t>{};
         if (!shorter || !std::equal(tables.begin(), tables.end(), all.begin())) {
             throw LineageError(
-                "its schedule applies the tables in another order at each derivation length, so that no generation "
-                "is made of the one before");
+                "its schedule applies the tables in a different order at each derivation length, so generations "
+                "are not derived from those before");
         }
     }
     return all;
@@ -114,7 +114,7 @@ std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_
                                              const LineageLimits& limits, const Monitor& monitor) {
     require_word(grammar);
     if (grammar.is_spatial()) {
-        throw LineageError("this drawing pitches, rolls, bends or has surfaces, and tiles lie in the plane");
+        throw LineageError("this drawing pitches, rolls, bends or has surfaces; tiles lie in the plane");
     }
     const std::vector<std::uint32_t> tables = common_tables(grammar, first, last);
     Lineage lineage(grammar, limits, monitor);
@@ -137,7 +137,7 @@ std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_
         TileGeneration& generation = generations.back();
         tiles += generation.symbol.size();
         if (static_cast<double>(tiles) > limits.tiles) {
-            throw too_many(fmt::format("n = {} to {} have {} tiles, and at most {:.0f} are drawn together", first,
+            throw too_many(fmt::format("n = {} to {} have {} tiles together, more than the limit of {:.0f}", first,
                                        steps, tiles, limits.tiles));
         }
         if (steps == first) continue;

@@ -94,7 +94,7 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
         find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
     });
     if (compared > most_compared) {
-        throw BudgetError("the tiles are too many for their very different sizes; use a shorter derivation");
+        throw BudgetError("too many tiles of very different sizes; use a shorter derivation");
     }
     for (const std::vector<Cut>& part : found) cuts.insert(cuts.end(), part.begin(), part.end());
     std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {

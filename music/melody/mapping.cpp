@@ -109,8 +109,8 @@ public:
             melody.phrase_order > 0 || !melody.layout.form.empty() || melody.cadence != Cadence::none;
         if (has_voices_ && has_phrases) {
             throw ScoreError(
-                "phrases, forms and cadences come one after another, but branches that are voices sound at once: "
-                "`brackets: sequence` plays them one after another");
+                "phrases, forms and cadences follow one another, but branches that are voices sound at once; "
+                "`brackets: sequence` plays branches one after another");
         }
         shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
         const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;

@@ -303,7 +303,7 @@ private:
             diagnostics_.error(place_of(key),
                                "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar or none");
         } else if (melody_.phrase_order == 0) {
-            diagnostics_.warning(key.name_at, "'breath:' has no meaning without 'phrases:'");
+            diagnostics_.warning(key.name_at, "'breath:' has no effect without 'phrases:'");
         } else {
             melody_.breath = *ticks;
             melody_.breathes_to_bar = is_to_bar;

@@ -360,7 +360,7 @@ private:
             at = has_direction || number ? 2 : 1;
             if (number && words.size() > at) return fmt::format("unexpected '{}'", words[at]);
             if (row.amount > loudest)
-                return fmt::format("unexpected '{}'; expected how much, from 0 to 127", words[1]);
+                return fmt::format("unexpected '{}'; expected an amount from 0 to 127", words[1]);
         } else if (first == "loud" || first == "soft") {
             row.change = SoundChange::level;
             row.amount = *level_of(first == "loud" ? "f" : "p");
@@ -381,7 +381,7 @@ private:
         if (at < words.size() && row.change != SoundChange::level) {
             const auto amount = whole(words[at]);
             if (!amount || *amount < 0 || *amount > loudest) {
-                return fmt::format("unexpected '{}'; expected how much, from 0 to 127", words[at]);
+                return fmt::format("unexpected '{}'; expected an amount from 0 to 127", words[at]);
             }
             row.amount = static_cast<double>(*amount);
             ++at;

@@ -222,7 +222,7 @@ TEST(CuttingPlan, RefusesPiecesThatDoNotFit) {
         FAIL() << "90 x 90 mm do not fit into 80 x 60 mm";
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(),
-                     "piece A needs 90.0 x 90.0 mm, but the sheets have 80 x 60 mm within their margins");
+                     "piece A needs 90.0 x 90.0 mm, but the sheets are 80 x 60 mm within their margins");
     }
     EXPECT_THROW(plan_cutting({}, options, {}), std::runtime_error);
     options.sheet = {10'000, 10'000, 0};

@@ -267,7 +267,7 @@ TEST(WindowDrawing, RefusesPlacesThatAreNotPrecise) {
     std::string why;
     EXPECT_FALSE(WindowDrawing::make(tiling("pinwheel", "40"), plain_print().style,
                                      window_options("10000000,5,10000030,25"), why));
-    EXPECT_NE(why.find("lengths in decimals"), std::string::npos) << why;
+    EXPECT_NE(why.find("decimal lengths"), std::string::npos) << why;
     try {
         draw(load(bundled("tilings/pinwheel")), "svg", {{"derivation length", "40"}, {"window", "5,5,25,25"}});
         FAIL();

@@ -315,7 +315,7 @@ TEST(Arrangement, TooManyVoicesAreCountedWithTheirCause) {
         }
         return std::string();
     };
-    const std::string end = " need a channel of MIDI for each voice, and there are 15 beside the drums'";
+    const std::string end = " need a MIDI channel for each voice; there are 15 besides drums";
     EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 15), "");
     EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 16), "too many voices: 16 at once; gamakas" + end);
     EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 15, "branches"), "too many voices: 45 at once; gamakas" + end);

@@ -307,7 +307,7 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
         error_of("change L: faster\naxiom: LF\n"),
         "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
         "down 2");
-    EXPECT_EQ(error_of("change L: octave 300\naxiom: LF\n"), "unexpected '300'; expected how much, from 0 to 127");
+    EXPECT_EQ(error_of("change L: octave 300\naxiom: LF\n"), "unexpected '300'; expected an amount from 0 to 127");
     EXPECT_EQ(error_of("change L: octave 1 up\naxiom: LF\n"), "unexpected 'up'");
     EXPECT_EQ(error_of("note N:\naxiom: N(0,0)\n"),
               "symbol 1 of the word: its duration is 0; expected steps above 0, up to 1000000, of 'N'");
