@@ -28,7 +28,7 @@
 
 namespace sikku {
 
-/// Whether a print is the part of a tiling that repeats, and whether the tiling may be turned to make it small.
+/// Whether a print is the repeating part of a tiling, and whether the tiling may be turned to make that smaller.
 enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
@@ -63,14 +63,14 @@ struct DrawSettings {
     std::optional<double> animation;   ///< duration of an SVG that draws itself
     bool fills_page = false;           ///< cover the page with a tiling
     SwatchChoice swatch = SwatchChoice::none;
-    std::optional<Swatch> swatch_place{};       ///< the part that was found, set when the print is planned
-    glm::dvec2 swatch_stretch{1.0};             ///< across and down, so that it has whole pixels
+    std::optional<Swatch> swatch_place{};       ///< the part found, set when the print is planned
+    glm::dvec2 swatch_stretch{1.0};             ///< scale across and down that gives the swatch whole pixels
     bool names_tiles = false;                   ///< see Print::names_tiles
     std::optional<double> lesson;               ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;                   ///< sheet of a tiled print
     std::optional<double> overlap;              ///< overlap of neighbouring sheets; 10 mm
     std::optional<std::vector<double>> relief;  ///< heights of a relief; empty: the default
-    std::vector<double> ridges;                 ///< heights of its lines, instead of those of `relief`
+    std::vector<double> ridges;                 ///< heights of its lines; empty: those of `relief`
     std::optional<double> base;                 ///< thickness of its base
     std::optional<double> beyond;  ///< how far the base reaches beyond the drawing; absent: it is the page
     std::optional<double> groove;  ///< width between its polygons
@@ -113,7 +113,7 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
 /// The sheets that the print is cut into; `tile` must be set.
 TileOptions tile_options(const DrawSettings& settings);
 
-/// Is the print a relief?
+/// True if the print is a relief.
 bool is_relief(const DrawSettings& settings, PrintFormat format);
 /// The options of a relief. Call if is_relief().
 ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format);

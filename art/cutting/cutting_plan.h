@@ -15,8 +15,8 @@ namespace sikku {
 struct CuttingOptions {
     Page sheet;          ///< the material; nothing is laid into its margin
     double seam = 0;     ///< allowance around each piece, 0 to 100
-    double kerf = 0;     ///< width of a cut, 0 to 10: outlines grow by half of it
-    double gap = 0;      ///< between the outlines of neighbours, 0 to 100; 0: they share cuts
+    double kerf = 0;     ///< width of a cut, 0 to 10; outlines grow by half of it
+    double gap = 0;      ///< distance between the outlines of neighbours, 0 to 100; at 0 they share cuts
     bool grain = false;  ///< pieces keep their direction, or are turned by 180 degrees
 };
 
@@ -27,35 +27,35 @@ struct PieceForm {
 };
 struct PlacedForm {
     std::size_t form = 0;  ///< index into CuttingPlan::forms
-    glm::dvec2 at{0.0};    ///< from the bottom left corner of the sheet
+    glm::dvec2 at{0.0};    ///< position from the bottom left corner of the sheet
 };
 
 /// A sheet of material of one colour.
 struct CuttingSheet {
     std::int32_t colour = 0;
     std::vector<PlacedForm> pieces;
-    std::uint64_t copies = 1;                                   ///< sheets that are cut in this way
+    std::uint64_t copies = 1;                                   ///< number of identical sheets
     std::vector<std::pair<std::size_t, std::uint64_t>> counts;  ///< kinds and their pieces on one sheet
     double in_use = 0;                                          ///< area of the outlines to cut, as part of the sheet
-    double length = 0;  ///< of the sheet from its top to the lowest piece, with the margin above
+    double length = 0;  ///< length from the top of the sheet to the lowest piece, including the upper margin
 };
 
 struct CuttingPlan {
     std::vector<CutKind> kinds;
     std::vector<PieceForm> forms;
-    std::vector<CuttingSheet> sheets;  ///< those of a colour follow each other
-    std::uint64_t sheet_count = 0;     ///< with their copies
+    std::vector<CuttingSheet> sheets;  ///< sheets of the same colour are adjacent
+    std::uint64_t sheet_count = 0;     ///< including copies
     double in_use = 0;                 ///< area of the outlines to cut, as part of all sheets
 };
 
-/// Lays pieces on as few sheets as rows allow, those of each colour on sheets of their own, the largest first. Sheets
-/// that are full of one kind are planned once, however many there are, so that the number of pieces does not matter.
-/// @param kinds  by cut_list(), with their directions if the options keep them
+/// Lays pieces on as few sheets as rows allow, the largest first, with separate sheets for each colour. Sheets full
+/// of one kind are planned once, so the cost does not depend on the number of pieces.
+/// @param kinds  result of cut_list(), with directions if the options keep them
 /// @throws std::runtime_error for a piece that is larger than a sheet, for more than 1,000 kinds, 2,000 corners of a
 /// piece, 400 different sheets, and 200,000 pieces on one sheet, and as offset_outline(); Stopped
 CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& options, const Monitor& monitor);
 
-/// The kinds of pieces on a sheet with their numbers: `A × 28, B × 4`.
+/// The kinds of pieces on a sheet and how many of each: `A × 28, B × 4`.
 std::string piece_counts(const CuttingPlan& plan, const CuttingSheet& sheet);
 
 /// A table with one line for each sheet. @param materials, files  names of the colours and the files of the sheets

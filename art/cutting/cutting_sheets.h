@@ -11,7 +11,8 @@
 namespace sikku {
 
 /// Writes the sheets of a plan with their pieces: the outlines to cut, which neighbours without a gap share, the
-/// finished sizes dashed within allowances, and, if `labels`, the names of kinds and in the margin what the sheet is.
+/// finished sizes dashed within allowances, and, if `labels`, the names of kinds, and a description of the sheet in
+/// its margin.
 /// @param materials  names of the colours of the sheets  @throws as write_pieces()
 std::vector<DrawReport> write_cutting_sheets(const CuttingPlan& plan, const CuttingOptions& options,
                                              const std::vector<std::string>& materials, bool labels,

@@ -20,7 +20,7 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Do two sides have a point in common?
+/// True if two sides have a common point.
 bool meet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
     const double first = cross(b - a, c - a), second = cross(b - a, d - a);
     const double third = cross(d - c, a - c), fourth = cross(d - c, b - c);

@@ -1,4 +1,4 @@
-// art/cutting/outline.h: outlines of pieces to cut: their allowances, how they are drawn, and where labels fit.
+// art/cutting/outline.h: outlines of pieces to cut: allowances, dashes, and places for labels.
 #pragma once
 
 #include "art/print/page.h"
@@ -27,12 +27,12 @@ void draw_closed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, cons
 /// Each side begins and ends with a dash.
 void draw_dashed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
 
-/// Where a text begins, and the height of its capital letters: see write_text().
+/// Start of a text, and the height of its capital letters: see write_text().
 struct LabelPlace {
     glm::dvec2 start{0.0};
     double height = 0;
 };
-/// A place for a text within an outline, where it is roomiest. Cost: 1,000 times the number of sides.
+/// The roomiest place for a text within an outline. Cost: 1,000 times the number of sides.
 LabelPlace label_place(std::string_view text, std::span<const glm::dvec2> outline, double most_height);
 
 }  // namespace sikku

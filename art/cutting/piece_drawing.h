@@ -43,17 +43,18 @@ struct PieceWriting {
     DrawOptions drawing{};     ///< with the format, the plot and the monitor
 };
 
-/// The names of several files: `x.svg` becomes `x-1.svg`, with as many digits as `count` has; one keeps its name.
+/// The names of several files: `x.svg` becomes `x-1.svg`, with as many digits as `count` has. A single file keeps its
+/// name.
 std::vector<std::filesystem::path> sheet_files(const std::filesystem::path& file, std::size_t count);
 
-/// Writes sheets, each into its own file of sheet_files(), or as pages of one PDF. Labels, then seams (dashed), then
-/// cuts have a pen of their own, and in DXF the layers LABEL, SEAM and CUT, so that pieces are cut out last.
+/// Writes sheets, each into its own file of sheet_files(), or as pages of one PDF. Labels, seams (dashed) and cuts
+/// have separate pens, and in DXF the layers LABEL, SEAM and CUT, in this order, so that pieces are cut out last.
 /// Files appear together or not at all. @throws as draw()
 std::vector<DrawReport> write_pieces(const std::vector<PieceShape>& shapes, const std::vector<PieceSheet>& sheets,
                                      const PieceWriting& writing, const std::filesystem::path& file,
                                      Destination& destination);
 
-/// False if all sheets become pages of one file.
+/// True if each sheet has its own file; false if all are pages of one.
 bool has_several_files(const PieceWriting& writing);
 
 }  // namespace sikku

@@ -17,7 +17,7 @@ namespace sikku {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Numbers of directions and of displacements that are tried, so that intricate outlines do not take minutes.
+/// Limits for directions and displacements, so that intricate outlines do not take minutes.
 std::size_t most_directions(std::size_t corners) {
     return std::clamp<std::size_t>(4'000 / corners, 4, 24);
 }
@@ -29,8 +29,7 @@ constexpr std::size_t most_kept = 12;   ///< arrangements of each direction
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double near = 1e-9;  ///< relative difference of equal numbers
 
-/// Angles from 0 to 180 degrees by which sides, those of most length first, come to lie along the x axis or the y
-/// axis.
+/// Angles from 0 to 180 degrees that turn sides parallel to the x or y axis, the angles of the longest sides first.
 std::vector<double> turns_of(std::span<const glm::dvec2> outline) {
     std::vector<std::pair<double, double>> found;  // length and angle
     const auto add_sides = [&](std::span<const glm::dvec2> corners) {
@@ -60,7 +59,7 @@ std::vector<double> turns_of(std::span<const glm::dvec2> outline) {
     return turns;
 }
 
-/// Different values, and evenly spaced ones of these if there are too many.
+/// Distinct values; if there are too many, evenly spaced ones of these.
 std::vector<double> few(std::vector<double> values, double size, std::size_t most) {
     std::sort(values.begin(), values.end());
     std::vector<double> different;
@@ -114,10 +113,10 @@ private:
     struct Row {
         std::vector<Copy> unit;
         double period = 0;
-        double waste = 0;  ///< the less, the more promising
+        double waste = 0;  ///< wasted area; less is more promising
     };
 
-    /// Displacements along an axis by which marks of a second copy come to those of the first one.
+    /// Displacements along an axis that move marks of a second copy to marks of the first.
     std::vector<double> alignments(const Copy& first, const Copy& second, int axis) const {
         std::vector<double> values;
         for (const glm::dvec2 a : marks_[first.is_turned]) {
@@ -174,7 +173,7 @@ private:
         }
         return few(std::move(values), size_, most_alignments(corners_[0].size()));
     }
-    /// How far an upper row must be lifted above a lower one. @param most  a result above it may be too small
+    /// How far an upper row must be lifted above a lower one. @param most  results above it may be too small
     double rise_of(const std::vector<Copy>& lower, const std::vector<Copy>& upper, double period, double shift,
                    double most) {
         double rise = -std::numeric_limits<double>::infinity();
@@ -196,7 +195,7 @@ private:
         return rise;
     }
 
-    /// Finds the displacements of such rows with which they are densest.
+    /// Finds the displacements that pack such rows most densely.
     void arrange(const Row& row) {
         Box box;
         for (const Copy& copy : row.unit) {
@@ -217,7 +216,7 @@ private:
             densest_ = std::max(densest_, density);
             found.push_back({direction_, row.unit, row.period, {shift, rise}, density});
         }
-        // Straight columns, where they are as good, come first.
+        // Straight columns come first if they are as good.
         std::stable_sort(found.begin(), found.end(), [](const Arrangement& a, const Arrangement& b) {
             return a.density > b.density * (1 + near);
         });
@@ -228,8 +227,8 @@ private:
 
     std::size_t direction_;
     Pulse pulse_;
-    std::array<std::vector<glm::dvec2>, 2> corners_;  ///< as given, and turned by 180 degrees
-    std::array<std::vector<glm::dvec2>, 2> marks_;    ///< corners and, if they are few, middles of sides
+    std::array<std::vector<glm::dvec2>, 2> corners_;  ///< the corners as given, and turned by 180 degrees
+    std::array<std::vector<glm::dvec2>, 2> marks_;    ///< corners and, if there are few, middles of sides
     Box box_;
     double size_;
     double area_;
@@ -260,7 +259,7 @@ Box PieceRows::box_of(const Arrangement& arrangement, const Copy& copy) const {
 
 namespace {
 
-/// Copies of one of a row's unit that fit into it.
+/// Copies of one piece of a row's unit that fit into the row.
 struct Range {
     double first = 0;  ///< index of the period
     double count = 0;

@@ -18,7 +18,7 @@ struct PieceCopy {
     glm::dvec2 at{0.0};
 };
 
-/// Copies in an area, in rows from top to bottom and from left to right, and what they leave of it.
+/// Copies in an area, in rows from top to bottom and from left to right, and the area that remains.
 struct LaidPieces {
     std::vector<PieceCopy> copies;
     Box below;   ///< the rest of the area below the last row
@@ -30,16 +30,16 @@ struct LaidPieces {
 /// so that they fit into each other. Sides of the piece, or of its convex hull, lie along the rows.
 ///
 /// The arrangements are the double lattices of Kuperberg & Kuperberg 1990, "Double-lattice packings of convex
-/// bodies", as far as pieces slide into their places along the axes. Displacements are tried where corners and, of
-/// simple outlines, middles of sides come to stand beside each other.
+/// bodies", as far as pieces can slide into their places along the axes. Displacements are tried that bring corners
+/// or, for simple outlines, middles of sides next to each other.
 class PieceRows {
 public:
-    /// Finds the arrangements of most area in use. Cost: some 10^7 steps for a dozen corners, 10^9 for hundreds.
+    /// Finds the densest arrangements. Cost: some 10^7 steps for a dozen corners, 10^9 for hundreds.
     /// @param outline  anticlockwise, with half of the gap between pieces  @param keeps_direction  pieces are turned
     /// by 180 degrees only  @throws Stopped
     PieceRows(std::span<const glm::dvec2> outline, bool keeps_direction, const Monitor& monitor);
 
-    /// Fills an area with at most `most` copies: with the arrangement of which most fit, or that needs least height.
+    /// Fills an area with at most `most` copies, in the arrangement that holds most or needs least height.
     LaidPieces fill(const Box& area, std::size_t most) const;
 
     /// The smallest of the sizes of the piece, each with its longer side first.
@@ -56,7 +56,7 @@ private:
         std::vector<Copy> unit;
         double period = 0;
         glm::dvec2 row{0.0};
-        double density = 0;  ///< area of pieces as part of the plane
+        double density = 0;  ///< share of the plane that pieces cover
     };
     /// The piece turned so that a side lies along the rows.
     struct Direction {

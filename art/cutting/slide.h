@@ -11,7 +11,7 @@
 namespace sikku {
 
 /// The extent of a polygon along one axis (0: x, 1: y) at each place of the other axis. Between neighbouring corners
-/// both of its ends are straight. Corners in any sense; the outline must not cross itself.
+/// both of its ends are straight. Corners may run either way; the outline must not cross itself.
 class Profile {
 public:
     /// Cost: k^2 for k corners.

@@ -21,7 +21,7 @@ CellDrawing::CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const
 }
 
 void CellDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
-    constexpr double chord = 1e-3;  // of a side, between curves and their chords
+    constexpr double chord = 1e-3;  // deviation of chords from curves, as a share of a side
     const std::array<glm::dvec2, 2>& sides = cell_.sides;
     if (drawn_.ground) {
         const std::array<glm::dvec2, 4> corners = {cell_.corner, cell_.corner + sides[0],

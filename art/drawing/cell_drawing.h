@@ -7,7 +7,7 @@
 
 namespace sikku {
 
-/// Draws what lies in a parallelogram. The ground fills it, and nothing around it.
+/// Draws the part of a drawing within a parallelogram, which the ground fills.
 class CellDrawing : public Drawing {
 public:
     CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const DrawOptions& options);

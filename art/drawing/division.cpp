@@ -22,11 +22,11 @@
 namespace sikku {
 namespace {
 
-/// A larger part of the size of all tiles by which regions move is seen as a jump.
+/// Movements of a region by more than this share of its size would be visible as jumps.
 constexpr double most_deviation = 0.2;
-/// Parts that nearly fill their parents are cut out of them, too.
+/// Parts that nearly fill their parents also count as cut out of them.
 constexpr double cut_share = 0.9;
-/// Part of the way to the middle of their family by which they draw closer.
+/// Share of the way to the middle of their family that parts move closer.
 constexpr double closer = 0.06;
 constexpr double rounding = 1e-6;
 
@@ -71,7 +71,7 @@ public:
 
 private:
     using Edge = std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
-    /// Without its direction, to a millionth of a step.
+    /// A segment without its direction, to a millionth of a step.
     static Edge edge(glm::dvec2 a, glm::dvec2 b) {
         const auto whole = [](double value) { return std::llround(value * 1e6); };
         const std::pair from(whole(a.x), whole(a.y)), to(whole(b.x), whole(b.y));
@@ -90,7 +90,7 @@ private:
     bool is_drawn_ = false;
 };
 
-/// Without what surrounds a drawing or belongs to its page.
+/// The style without what surrounds a drawing or belongs to its page.
 DrawOptions alone(DrawOptions options) {
     options.window.reset();
     options.frame.reset();

@@ -19,17 +19,17 @@ namespace sikku {
 struct DivisionStage {
     /// How a tile comes out of the one that divides.
     struct Part {
-        glm::dvec2 middle{0.0};  ///< around which its size changes
-        glm::dvec2 way{0.0};     ///< from there to where it begins, or closer to its family
+        glm::dvec2 middle{0.0};  ///< centre of its change of size
+        glm::dvec2 way{0.0};     ///< vector from there to where it begins, or towards its family
         Colour from;             ///< colour of its parent
     };
     std::int64_t steps = 0;
     RecordedPath picture;  ///< all that is drawn
     PolygonList tiles;
     std::vector<Colour> colours;  ///< of the tiles
-    glm::dmat3x2 place{1.0};      ///< to the coordinates of the last stage
+    glm::dmat3x2 place{1.0};      ///< map to the coordinates of the last stage
     double scale = 1;             ///< length of a step in steps of the last stage
-    std::optional<Pen> outline;   ///< of each tile, if their outlines are drawn
+    std::optional<Pen> outline;   ///< pen of each tile's outline, if outlines are drawn
     bool has_more_lines = false;  ///< lines or discs besides the outlines are drawn
 
     std::vector<Part> parts;  ///< for each tile; empty in the first stage
@@ -39,8 +39,8 @@ struct DivisionStage {
 struct Division {
     std::vector<DivisionStage> stages;  ///< at least 2
     Style style;                        ///< of all pictures
-    DrawnExtent seen;                   ///< of all stages together, in the orientation of the page
-    double scale = 1;                   ///< part of the page that it fills
+    DrawnExtent seen;                   ///< extent of all stages together, in the orientation of the page
+    double scale = 1;                   ///< share of the page that it fills
 };
 
 /// The tiles of a drawing do not divide; the message gives the reason.
@@ -49,7 +49,7 @@ class DivisionError : public std::runtime_error {
 };
 
 /// Draws all generations from `first` on; those without tiles before the first with tiles are left out.
-/// @param most_tiles  of all generations together
+/// @param most_tiles  limit for all generations together
 /// @throws BudgetError, WordError, Stopped, DivisionError
 Division make_division(const Grammar& grammar, const Style& style, const DrawOptions& options, std::int64_t first,
                        std::int64_t last, double most_tiles);

@@ -77,7 +77,7 @@ DivisionDrawing::DivisionDrawing(std::shared_ptr<const Division> division, const
     if (stage.has_more_lines) add_picture(stage, value_at(tracks.arrival, moment.share), false);
 }
 
-/// The number of a colour, which is added if need be.
+/// The index of a colour, which is added if it is missing.
 int DivisionDrawing::index_of(Colour colour) {
     const auto begin = style_.palette.begin() + static_cast<std::ptrdiff_t>(division_->style.palette.size());
     auto found = std::find(begin, style_.palette.end(), colour);
@@ -101,7 +101,7 @@ void DivisionDrawing::add_picture(const DivisionStage& stage, double opacity, bo
     stage.picture.draw(has_fills ? static_cast<PathSink&>(moved) : bare);
 }
 
-/// Mixed with the ground, so that no seams are seen.
+/// Mixed with the ground, so that no seams are visible.
 void DivisionDrawing::add_fills(const DivisionStage& stage, double opacity) {
     if (!(opacity > 0)) return;
     Colour ground = style_.ground.value_or(Colour{255, 255, 255, 255});

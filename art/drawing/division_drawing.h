@@ -11,8 +11,8 @@ namespace sikku {
 /// A moment of a division.
 struct DivisionMoment {
     std::size_t stage = 0;  ///< number of the stage whose tiles appear
-    double share = 1;       ///< of the time of its division; 1: it rests
-    double fade = 0;        ///< of the time in which the last stage fades into the first
+    double share = 1;       ///< share of the time of its division that has passed; 1: at rest
+    double fade = 0;        ///< share of the time in which the last stage fades into the first
 };
 
 /// All that is drawn at a moment, in the coordinates of the last stage and with colours added for this moment.
@@ -38,7 +38,7 @@ private:
     RecordedPath path_;
 };
 
-/// Draws the lines, discs and areas of a picture but no polygons.
+/// Draws the lines, discs and areas of a picture without its polygons.
 class WithoutPolygons : public PathFilter {
 public:
     using Forwarding::Forwarding;

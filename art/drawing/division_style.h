@@ -12,7 +12,7 @@ namespace sikku {
 /// Placement of a stage on the page. @param placement  of the last stage
 Placement stage_placement(const DivisionStage& stage, const Placement& placement);
 
-/// The attributes by which a stage moves. The last stage is visible without animation.
+/// The attributes that animate a stage. The last stage is visible without animation.
 PartMotion stage_motion(const Division& division, std::size_t stage, const Placement& placement);
 
 /// Key frames of all stages, which are repeated for ever; none for readers who prefer reduced motion.

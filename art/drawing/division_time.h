@@ -7,10 +7,10 @@ namespace sikku {
 
 /// Display times of generations of tiles that divide, in seconds.
 struct DivisionTimes {
-    double rest = 0.6;      ///< of each generation
+    double rest = 0.6;      ///< pause at each generation
     double division = 1.4;  ///< of each division
-    double hold = 2.0;      ///< at least, of the last generation
-    double fade = 0.8;      ///< of the last generation into the first, before everything is repeated
+    double hold = 2.0;      ///< minimum pause at the last generation
+    double fade = 0.8;      ///< fade from the last generation to the first, before the animation repeats
 };
 
 /// A value at a share of a division's time, 0 to 1.
@@ -26,10 +26,10 @@ double eased(double share);
 
 /// How parts of tiles appear, come apart and settle.
 struct DivisionTracks {
-    Track size;     ///< of a part, about its middle
+    Track size;     ///< size of a part, about its middle
     Track way;      ///< share of the way from where it rests to where it lies
     Track outline;  ///< width of its outline
-    Track colour;   ///< from the colour of its parent, 0, to its own, 1
+    Track colour;   ///< mix of the colour of its parent, 0, and its own, 1
     Track opacity;  ///< of parts
     Track before;   ///< opacity of the generation before
     Track arrival;  ///< opacity of lines and discs of this generation, besides outlines
@@ -51,7 +51,7 @@ public:
     double begin(int generation) const {
         return generation == 0 ? 0 : generation * times_.rest + (generation - 1) * times_.division;
     }
-    /// When they rest.
+    /// When its tiles have come to rest.
     double rest(int generation) const { return generation == 0 ? 0 : begin(generation) + times_.division; }
     /// When the last generation begins to fade into the first.
     double fade() const;
