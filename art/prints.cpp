@@ -76,7 +76,7 @@ bool has_translucent_colours(const Style& style) {
 
 void report_relief(const ReliefReport& report, Made& made) {
     constexpr std::size_t most_named = 8;
-    constexpr double thin = 0.4;  // what the usual nozzle of a 3-D printer can draw
+    constexpr double thin = 0.4;  // width in mm that the usual nozzle of a 3-D printer can draw
     made.fact(fmt::format("{}, {:g} x {:g} x {:g} mm, {:.1f} cm³", counted(report.triangles, "triangle"),
                           report.size.x, report.size.y, report.size.z, report.volume / 1000));
     const auto tell = [&](const char* what, const std::vector<std::pair<Colour, double>>& heights) {
@@ -588,8 +588,8 @@ Document fill_page(const Document& document, DrawSettings& settings) {
     return document.with({Setting{"fill-page", "derivation length", std::to_string(found->steps)}});
 }
 
-/// Sets the page and the place of the settings to the part of a tiling that repeats. Returns the document with the
-/// derivation length that it takes. @throws SettingError if there is none
+/// Sets the page and the place of the settings to the repeating part of a tiling. Returns the document with the
+/// derivation length it needs. @throws SettingError if there is none
 Document take_swatch(const Document& document, DrawSettings& settings, PrintFormat format) {
     constexpr double steps_across = 40, most_millimetres = 10'000;
     Page& page = settings.page;

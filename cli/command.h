@@ -86,7 +86,7 @@ Document load(const PatternOptions& options, const SharedWork* link, bool quiet)
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
 void make(Work& work, const std::string& output, bool quiet);
 
-/// The reading in seconds of a clock that never goes back.
+/// Seconds of a monotonic clock.
 double seconds_now();
 
 /// A bar on standard error, if that is a terminal and the work takes longer than half a second; checks for ctrl-C.

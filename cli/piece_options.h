@@ -1,4 +1,4 @@
-// cli/piece_options.h: the options of `sikku tiling` for those who cut the pieces of a tiling.
+// cli/piece_options.h: the options of `sikku tiling` for cutting the pieces of a tiling.
 #pragma once
 
 #include "cli/command.h"
@@ -25,7 +25,7 @@ struct PieceOptions {
     bool grain = false;
     bool labels = true;
     std::string output;
-    TableOptions print;  ///< those of the machine and of pictures
+    TableOptions print;  ///< options of plotters and pictures
 
     bool draws() const { return !templates.empty() || !sheet.empty(); }
     bool any() const { return lists || draws(); }
@@ -49,7 +49,7 @@ void check_piece_options(const CLI::App& command, const PieceOptions& options);
 void cut_pieces(const PieceOptions& options, const PieceSource& source, const TilingResult& result, bool as_json,
                 const Monitor& monitor, bool quiet);
 
-/// Gives tiles the colours that `tile colours:` of a pattern requests, and returns names for these.
+/// Colours tiles by `tile colours:` of a pattern, and returns names of the colours.
 /// @throws as a print of the pattern
 std::function<std::string(std::int32_t)> colour_as_drawn(const Document& document, TilingResult& result,
                                                          double budget, const Monitor& monitor);

@@ -45,8 +45,8 @@ void add_seed(const PatternOptions& options, OptionValues& values) {
     values.push_back({"seed", std::to_string(seed_of(options))});
 }
 
-/// The values after `@` of a part, such as `start=4,rhythm=E(3,8)`. Commas within parentheses, and those that no
-/// `KEY=` follows, as in `canon=2 -12,4 -24`, separate nothing.
+/// The values after `@` of a part, such as `start=4,rhythm=E(3,8)`. Commas within parentheses, and those not followed
+/// by `KEY=`, as in `canon=2 -12,4 -24`, belong to a value.
 std::vector<Setting> part_settings(const std::string& name, std::string_view text) {
     std::vector<Setting> settings;
     while (!text.empty()) {

@@ -27,7 +27,7 @@ void write_json(const std::string& title, std::optional<std::int64_t> n, const T
     });
 }
 
-/// Reads a file of polygons and examines them. @param tolerance  0: the usual one
+/// Reads a file of polygons and examines them. @param tolerance  0: the default
 std::pair<PolygonList, TilingResult> read_polygons(const std::string& file, double tolerance,
                                                    const TilingOptions& how, bool quiet) {
     const std::string text = read_file(file, file, most_polygon_bytes, how.monitor);

@@ -110,7 +110,7 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
 
 ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawOptions& options,
                          const std::filesystem::path& file, Destination& destination) {
-    constexpr std::size_t points_of_triangle = 2;  // some of them become none, such as those of edges
+    constexpr std::size_t points_of_triangle = 2;  // some of them produce no triangle, such as those of edges
     ReliefShapes shapes(print, points_of_triangle * most_relief_triangles);
     drawing.read_visible(print, whole_page(print.page), shapes);
     return write_relief(shapes, print, *options.relief, file, options.monitor, destination);

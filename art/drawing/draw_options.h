@@ -60,7 +60,7 @@ struct DrawingOptions {
     std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
     std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
     std::optional<Repeat> repeat{};                        ///< draw it many times
-    std::optional<Cell> cell{};                            ///< draw only what lies in it, and the ground only there
+    std::optional<Cell> cell{};                            ///< draw only this part, and the ground only there
     /// Colours of tiles by their neighbours repeat under these translations, in steps.
     std::optional<std::array<glm::dvec2, 2>> tile_period{};
     bool composes = false;     ///< place it by its shape and mass: see PlacementOptions::balance
@@ -84,7 +84,7 @@ struct DrawOptions : DrawingOptions, PlotSetup {
     std::shared_ptr<MapFrames> map_frames{};  ///< shared by all generations of a map; absent: made for each drawing
     double map_share = 1;                     ///< how far a map is on its way from the step before, for animations
     std::optional<DrawnExtent> frame;         ///< extent to place on the page instead of the drawing's own
-    glm::dvec2 stretch{1.0};            ///< of the placed drawing, across and down, about the middle of the page
+    glm::dvec2 stretch{1.0};  ///< scale of the placed drawing, across and down, about the middle of the page
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins.

@@ -70,8 +70,8 @@ public:
     /// its margin
     virtual void read(const Print& print, const Window& window, PathSink& sink) const = 0;
     void read(const Print& print, PathSink& sink) const { read(print, whole_page(print.page), sink); }
-    /// Draws a polygon of each kind that may occur, so that classes of polygons are numbered alike in all windows of
-    /// a drawing. Nothing if the drawing is read whole.
+    /// Draws a polygon of each kind that may occur, so that classes of polygons have the same numbers in all windows
+    /// of a drawing. Draws nothing if the drawing is read whole.
     virtual void read_samples(PathSink&) const {}
     /// Like read(), but omits strokes outside the window of the options, if there is one. Call after place().
     void read_visible(const Print& print, const Window& window, PathSink& sink) const;

@@ -52,7 +52,7 @@ double slack_at(glm::dvec2 at) {
     return slack * (1 + std::fabs(at.x) + std::fabs(at.y));
 }
 
-/// Headings that are parts of a turn: whole numbers. Parts are composed for each heading.
+/// Headings in whole fractions of a turn. Parts are composed for each heading.
 class EvenHeadings {
 public:
     using Heading = std::uint32_t;
@@ -66,7 +66,7 @@ public:
     }
 
     Heading first() const { return 0; }
-    /// Number of headings for which parts are composed; the number of one of them; and that heading.
+    /// Number of headings for which parts are composed; the index of a heading; and the heading with an index.
     std::size_t count() const { return lattice_.headings; }
     std::size_t number(Heading heading) const { return heading; }
     Heading composed(std::size_t number) const { return static_cast<Heading>(number); }
@@ -82,7 +82,7 @@ public:
         const Quad length = lattice_.step_length<Quad>(symbol, value, directions_);
         return {length * directions_[heading].x, length * directions_[heading].y};
     }
-    /// From the frame in which a part was composed.
+    /// Converts from the frame in which a part was composed.
     QuadVector way(const QuadVector& way, Heading) const { return way; }
     Box box(const Box& bound, Heading) const { return bound; }
     glm::dvec2 unit(Heading heading) const { return lattice_.direction[heading]; }
@@ -110,7 +110,7 @@ private:
     std::vector<QuadVector> directions_;
 };
 
-/// Any headings: unit vectors. Parts are composed once, heading along the x axis.
+/// Arbitrary headings, as unit vectors. Parts are composed once, heading along the x axis.
 class FreeHeadings {
 public:
     using Heading = QuadVector;
@@ -194,8 +194,8 @@ private:
 /// How a symbol with some tables still to come is drawn.
 enum class Kind : std::uint8_t {
     unknown,
-    composed,    ///< from its children, each of which is a drawing by itself
-    recorded,    ///< as a whole: its children are no drawings by themselves, as parts of a polygon
+    composed,    ///< from its children, each of which is a complete drawing
+    recorded,    ///< as a whole, because its children are not complete drawings, as parts of a polygon
     incomplete,  ///< as a part of a larger one
 };
 
@@ -239,8 +239,8 @@ public:
     void read_samples(PathSink& sink) const override;
 
 private:
-    /// A symbol with some tables still to come, in one heading: where it leads, and the bound of what it draws, from
-    /// where it starts.
+    /// A symbol with some tables still to come, in one heading: its displacement, and the bound of what it draws,
+    /// relative to its start.
     struct Piece {
         QuadVector way;
         Heading turn{};
@@ -321,7 +321,7 @@ bool PatchesOf<Headings>::compose(std::string& why) {
     return true;
 }
 
-/// Composed if all children are drawings by themselves and brackets balance.
+/// Composed if all children are complete drawings and brackets balance.
 template <class Headings>
 Kind PatchesOf<Headings>::kind_of_word(const Word& word, std::size_t level) {
     int open = 0;
@@ -347,7 +347,7 @@ Kind PatchesOf<Headings>::kind(Symbol symbol, std::size_t level) {
         found = kind_of_word(*word, level - 1);
     } else if (level > 0) {
         found = kind(symbol, level - 1);
-        // What is recorded stays so; the record is that of the lowest level.
+        // Recorded symbols stay recorded, with the record of the lowest level.
         if (found == Kind::recorded) found = Kind::composed;
     } else {
         found = !is_independent(command(symbol).action)  ? Kind::incomplete

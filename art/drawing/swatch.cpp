@@ -25,7 +25,7 @@
 namespace sikku {
 namespace {
 
-// Patches of tiles from the first number on are examined, up to about the second.
+// Least and approximate greatest numbers of tiles in the patches that are examined.
 constexpr std::uint64_t fewest_tiles = 300, most_tiles = 8000, most_tiles_of_place = 60'000;
 
 /// A patch of tiles, and the translations by which it repeats.
@@ -225,7 +225,7 @@ private:
         }
         return widest;
     }
-    /// In steps, generously where it is in millimetres.
+    /// Space for the pen in steps; a generous estimate if it is in millimetres.
     double pen_width() const { return style_.stroke.in_steps ? 2 * style_.stroke.value : 1.0; }
 
     void count_tiles() {
@@ -248,7 +248,7 @@ private:
         }
     }
 
-    /// Pixels of the place, moved by a way in steps.
+    /// Pixels of the place, moved by a displacement in steps.
     std::vector<std::uint8_t> picture(glm::dvec2 way) const {
         constexpr double side = 240;  // pixels
         Swatch moved = swatch_;
@@ -282,7 +282,7 @@ private:
         return pixels;
     }
 
-    /// Whatever else is drawn has to repeat, too.
+    /// Everything else that is drawn has to repeat, too.
     void compare_pictures() const {
         constexpr int same = 24;             // levels
         constexpr double differing = 0.002;  // of all values

@@ -13,10 +13,10 @@ namespace sikku {
 /// A place of a tiling that repeats.
 struct Swatch {
     std::int64_t steps = 0;        ///< derivation length at which the tiling contains the place
-    double turn = 0;               ///< degrees by which the drawing is turned, besides the turn that was given
+    double turn = 0;               ///< degrees by which the drawing is turned, in addition to the given rotation
     bool is_rectangle = true;      ///< along the axes of the page; else a parallelogram
     Cell cell;                     ///< the place, in the coordinates of the drawing
-    Box frame;                     ///< its box, in the orientation of the page
+    Box frame;                     ///< bounding box, in the orientation of the page
     std::size_t tiles = 0;         ///< number of tiles in it
     bool has_tile_period = false;  ///< colours by neighbours are to repeat with the cell
 

@@ -17,7 +17,7 @@ namespace sikku {
 std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours);
 
 /// The same for tiles that repeat: those that two vectors translate onto each other get the same number.
-/// @param middles  of the tiles. Nullopt if a tile is its own neighbour: it has no number then
+/// @param middles  of the tiles. Nullopt if a tile is its own neighbour
 std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const glm::dvec2> middles,
                                                               std::span<const UnitedLines::Pair> neighbours,
                                                               const std::array<glm::dvec2, 2>& vectors);

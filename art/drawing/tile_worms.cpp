@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-constexpr double accuracy = 1e-6;  // of sides, relative, and of angles, in radians
+constexpr double accuracy = 1e-6;  // relative, for sides; in radians, for angles
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;

@@ -1,4 +1,4 @@
-// art/drawing/tile_worms.h: Conway worms: rows of hexagons of three rhombs, each of which can be turned around.
+// art/drawing/tile_worms.h: Conway worms: rows of hexagons of three rhombs that can be flipped.
 #pragma once
 
 #include "art/drawing/tile_outlines.h"
@@ -20,12 +20,12 @@ struct WormLink {
     std::uint32_t length = 0;  ///< number of links of the worm
 };
 
-/// All links, by the order in which the vertices are drawn first. Tiles other than rhombs have none.
-/// Cost: n log n. @throws Stopped
+/// All links, in the order in which their vertices are first drawn. Tiles other than rhombs have none. Cost: n log n.
+/// @throws Stopped
 std::vector<WormLink> find_worms(const TileOutlines& tiles, const Monitor& monitor);
 
-/// For each tile 0 without a worm, or the rank of the longest worm it belongs to among the lengths that occur, from 1
-/// for the shortest.
+/// For each tile, the rank of its longest worm among the lengths that occur, from 1 for the shortest; 0 for tiles
+/// without a worm.
 std::vector<std::uint32_t> ranks_of_worms(std::size_t tiles, const std::vector<WormLink>& links);
 
 }  // namespace sikku

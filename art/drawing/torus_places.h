@@ -14,8 +14,8 @@
 
 namespace sikku {
 
-/// Numbers places so that those which two vectors translate onto each other have one number, in the order in which
-/// they are added. Places within a millionth of the vectors are the same.
+/// Numbers places in the order in which they are added. Places that differ by multiples of two vectors have the same
+/// number. Places within a millionth of the vectors are the same.
 class TorusPlaces {
 public:
     /// @param vectors  not parallel

@@ -21,11 +21,11 @@ namespace {
 
 /// Words up to this length are read whole and clipped, so that their strokes stay whole.
 constexpr double most_clipped_symbols = 1e5;
-/// Lengths and angles in decimals are wrong in their 53rd bit; each step adds one such error.
+/// Decimal lengths and angles have an error in their 53rd bit; each step adds one such error.
 constexpr double rounding = 0x1p-53;
 constexpr double largest_error = 1e-3;  // in steps
 
-/// The plain form of a grammar, which may be itself; null where there is none.
+/// The plain form of a grammar, which may be the grammar itself; null if there is none.
 std::shared_ptr<const Grammar> plain_of(std::shared_ptr<const Grammar> grammar, std::string& why) {
     if (grammar->is_plain()) return grammar;
     if (auto plain = plain_form(*grammar)) return std::make_shared<const Grammar>(*std::move(plain));

@@ -26,10 +26,10 @@ struct LessonPart {
 
 /// How a part of an SVG moves: attributes of its elements, whose classes the style sheet of the whole describes.
 struct PartMotion {
-    std::string part;               ///< of its group
-    std::string polygons;           ///< of the group of its polygons
-    std::string lines;              ///< of those of its lines and discs
-    std::vector<std::string> each;  ///< of its polygons, in their order
+    std::string part;               ///< attributes of its group
+    std::string polygons;           ///< attributes of the group of its polygons
+    std::string lines;              ///< attributes of the groups of its lines and discs
+    std::vector<std::string> each;  ///< attributes of its polygons, in their order
 };
 
 /// A print about to be made. Writers keep it by reference and must not outlive it.
@@ -46,8 +46,8 @@ struct Print {
     std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour
     std::optional<double> animation;     ///< seconds in which an SVG draws its lines, in the order of the turtle
     std::optional<LessonPart> lesson;    ///< lesson of a part of an SVG: see PrintWriter::begin_part()
-    const PartMotion* motion = nullptr;  ///< of a part of an SVG; kept by reference
-    std::string style_sheet{};           ///< of an SVG whose parts move
+    const PartMotion* motion = nullptr;  ///< motion of a part of an SVG; kept by reference
+    std::string style_sheet{};           ///< style sheet of an SVG whose parts move
     bool names_tiles = false;            ///< names for the polygons of an SVG, layers for those of a PDF
     Press press;                         ///< settings for the print shop
 };

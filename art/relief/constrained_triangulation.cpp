@@ -250,7 +250,7 @@ void ConstrainedTriangulation::connect(Point from, Point to, Windings::Id windin
     }
 }
 
-/// Divides a piece. Both parts are shorter, so that this ends.
+/// Divides a piece. Both parts are shorter, so this terminates.
 void ConstrainedTriangulation::pass_through(const Piece& piece, Point point) {
     pending_.push_back({point, piece.to, piece.winding});
     pending_.push_back({piece.from, point, piece.winding});
@@ -281,7 +281,7 @@ std::optional<ConstrainedTriangulation::Edge> ConstrainedTriangulation::first_cr
     return found;
 }
 
-/// Lets a piece become an edge; where it meets points or other edges of outlines, its parts are left pending.
+/// Turns a piece into an edge; where it meets points or other edges of outlines, its parts are left pending.
 void ConstrainedTriangulation::trace(const Piece& piece) {
     std::optional<Edge> edge = first_crossing(piece);
     if (!edge) return;

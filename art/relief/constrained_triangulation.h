@@ -17,9 +17,9 @@ namespace sikku {
 
 /// Triangles whose edges carry windings. Edges that cross are divided where they cross, at the nearest whole
 /// micrometre, and edges that pass near a point are led through it; since outlines stay closed, the windings of the
-/// triangles stay consistent however little the edges move. All decisions are exact. y grows upwards.
-/// No library of Debian that the web build could use, too, does this: CGAL needs GMP and has another licence.
-/// Source: Lawson 1977 (flips); Sloan 1993, "A fast algorithm for generating constrained Delaunay triangulations".
+/// triangles stay consistent however little the edges move. All decisions are exact. y grows upwards. Debian has no
+/// library for this that the web build could also use: CGAL needs GMP and has another licence. Source: Lawson 1977
+/// (flips); Sloan 1993, "A fast algorithm for generating constrained Delaunay triangulations".
 class ConstrainedTriangulation {
 public:
     using Point = std::uint32_t;
@@ -30,10 +30,11 @@ public:
     struct Triangle {
         std::array<Point, 3> corners{none, none, none};
         std::array<std::uint32_t, 3> neighbours{none, none, none};  ///< beyond each edge
-        std::array<Windings::Id, 3> windings{};  ///< of each edge, inside minus outside; 0: not an edge of an outline
+        std::array<Windings::Id, 3>
+            windings{};  ///< windings of each edge, inside minus outside; 0: not an edge of an outline
     };
 
-    /// @param low,high   a box that contains all points in its inside
+    /// @param low,high  a box with all points in its interior
     /// @param tolerance  edges are led through points nearer than this, in micrometres
     ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance, Windings& windings,
                              const Monitor& monitor);
@@ -50,7 +51,7 @@ public:
 private:
     struct Place {
         std::uint32_t triangle = 0;
-        std::optional<int> corner, edge;  ///< on which it lies
+        std::optional<int> corner, edge;  ///< the corner or edge on which it lies
     };
     struct Edge {
         std::uint32_t triangle = 0;

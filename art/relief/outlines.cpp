@@ -120,7 +120,7 @@ Points parallel(const Points& corners, double distance, double tolerance) {
 struct Part {
     glm::dvec2 from{0.0}, to{0.0};
     glm::dvec2 direction{0.0};
-    double turn = 0;                  ///< at its end, in radians; 0 at the end of the stroke
+    double turn = 0;                  ///< angle at its end, in radians; 0 at the end of the stroke
     std::optional<glm::dvec2> mitre;  ///< from its end to the left side of both parts, if they share a straight end
 };
 
@@ -189,7 +189,7 @@ bool Outlines::add_inside(std::span<const glm::dvec2> corners, double distance, 
         add_edges(rest, layer);
         return !rest.empty();
     }
-    // What a line along the outline leaves of it.
+    // The part that a line along the outline leaves.
     constexpr std::uint32_t shape = 0, line = 1;
     Outlines both(tolerance_, monitor_);
     both.add_polygon(points, shape);

@@ -16,13 +16,13 @@ namespace sikku {
 /// that shapes of one layer unite. Lengths are millimetres, y grows upwards; arcs are chords.
 class Outlines {
 public:
-    /// @param tolerance  by which chords deviate from arcs at most
+    /// @param tolerance  maximum deviation of chords from arcs
     Outlines(double tolerance, const Monitor& monitor) : tolerance_(tolerance), monitor_(monitor) {}
 
     /// A polygon that may cross itself (non-zero winding rule).
     void add_polygon(std::span<const glm::dvec2> corners, std::uint32_t layer);
-    /// A polygon with its sides moved inwards: the places that are at least `distance` from its outline, but for the
-    /// tips of mitres where it turns outwards by up to 120 degrees. @return false if nothing is left
+    /// A polygon with its sides moved inwards: the places at least `distance` from its outline, except the tips of
+    /// mitres where it turns outwards by up to 120 degrees. @return false if nothing is left
     bool add_inside(std::span<const glm::dvec2> corners, double distance, std::uint32_t layer);
     /// A line with round joins and caps. @param points  at least one; of a closed line, the first again at the end
     void add_stroke(std::span<const glm::dvec2> points, bool is_closed, double radius, std::uint32_t layer);

@@ -54,7 +54,7 @@ std::vector<Border> borders_of(std::span<const LayerEdge> edges, const Monitor& 
     return borders;
 }
 
-/// The place on a Z-shaped curve, which keeps neighbours together.
+/// The position along a Z-order curve, which keeps neighbours together.
 std::uint64_t curve_place(Micrometres point, Micrometres low) {
     const auto spread = [](std::uint64_t bits) {
         bits = (bits | bits << 16) & 0x0000ffff0000ffffU;

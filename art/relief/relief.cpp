@@ -27,7 +27,7 @@ Colour opaque(Colour colour) {
     return colour;
 }
 
-/// Gives each colour of some shapes, in the order of the palette, the next of some heights.
+/// Assigns heights in turn to the colours of some shapes, in the order of the palette.
 template <class Chosen>
 std::vector<ColourHeight> heights_of(const ReliefShapes& shapes, const std::vector<double>& heights,
                                      const Chosen& is_chosen) {
@@ -130,7 +130,7 @@ private:
         return {shape.kind == Kind::line || shape.kind == Kind::disc, height, shown(colour)};
     }
 
-    /// An STL has no colours, so that regions as high as each other are one.
+    /// An STL has no colours, so regions of equal height are one.
     Colour shown(Colour colour) const { return options_.format == PrintFormat::stl ? Colour{} : colour; }
 
     void add_layers() {

@@ -13,10 +13,10 @@
 
 namespace sikku {
 
-/// Lengths are millimetres. Heights are those above the base; negative ones lie in it.
+/// Lengths are millimetres. Heights are measured from the top of the base; negative ones are depths.
 struct ReliefOptions {
-    std::vector<double> heights{2.0};  ///< of colours, in the order of the palette, repeated
-    std::vector<double> ridges{};      ///< the same for lines; empty: `heights` are of lines, too
+    std::vector<double> heights{2.0};  ///< heights of colours, in the order of the palette, repeated
+    std::vector<double> ridges{};      ///< the same for lines; empty: `heights` apply to lines, too
     double base = 1.2;                 ///< thickness, 0 or more
     std::optional<double> beyond{};    ///< how far the base reaches beyond the drawing; absent: it is the page
     double groove = 0.4;               ///< width between polygons
@@ -33,7 +33,7 @@ struct ReliefReport {
     double volume = 0;                               ///< cubic millimetres
     std::vector<std::pair<Colour, double>> heights;  ///< above the base, in the order of the options
     std::vector<std::pair<Colour, double>> ridges;   ///< the same for lines that have their own
-    std::size_t lost = 0;                            ///< polygons that the groove leaves nothing of
+    std::size_t lost = 0;                            ///< polygons that are narrower than the groove
     double narrowest = 0;  ///< width of the narrowest line in millimetres; 0: there are none
 };
 

@@ -19,8 +19,8 @@ struct ReliefShape {
     enum class Kind : std::uint8_t { polygon, area, disc, line };
     Kind kind = Kind::polygon;
     bool is_closed = false;          ///< a line that ends where it begins, with that point again at the end
-    int colour = 0;                  ///< index in the palette; the first of those of the same colour
-    double radius = 0;               ///< of a disc; half the width of a line
+    int colour = 0;                  ///< index of the first equal colour in the palette
+    double radius = 0;               ///< radius of a disc; half the width of a line
     std::size_t begin = 0, end = 0;  ///< range of its points
 };
 
@@ -42,7 +42,7 @@ public:
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
-    /// Leaves out what runs along edges of polygons. Cost: n log n. @throws Stopped
+    /// Removes lines that run along edges of polygons. Cost: n log n. @throws Stopped
     void drop_edges(const Monitor& monitor);
 
     const std::vector<ReliefShape>& shapes() const { return shapes_; }

@@ -56,8 +56,8 @@ private:
     std::span<const ReliefRegion> regions_;
 };
 
-/// Do prisms around a point touch only along the edge above it? Then what is higher than some level is in several
-/// pieces, so that heights rise more than once.
+/// True if prisms around a point touch only along the edge above it: the part above some level is then in several
+/// pieces, so heights rise more than once around the point.
 bool is_pinched(const std::vector<std::int32_t>& heights) {
     std::size_t peaks = 0;
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -126,8 +126,8 @@ std::vector<Sector> sectors_of(const PlaneRegions& plane, const Heights& heights
     return sectors;
 }
 
-/// Raises the smaller valleys between prisms that touch at a point only: joints do not help where these are so
-/// narrow that their sides have the same micrometres. Every step raises some triangles, so that this ends.
+/// Raises the smaller valleys between prisms that touch at a point only: joints do not help if their sides round to
+/// the same micrometres. Every step raises some triangles, so this terminates.
 void fill_valleys(PlaneRegions& plane, std::span<const ReliefRegion> regions, const Monitor& monitor) {
     Pulse pulse(monitor);
     const Heights heights(plane, regions);
@@ -167,7 +167,8 @@ public:
     Walls(const PlaneRegions& plane, const Heights& heights, const Solid::Visit& visit)
         : plane_(plane), heights_(heights), visit_(visit) {}
 
-    /// Over edge i of a triangle, if what lies beyond is lower. All heights around its ends are corners of the wall.
+    /// The wall over edge i of a triangle, if the region beyond is lower. All heights around its ends are corners of
+    /// the wall.
     void add(std::uint32_t triangle, std::size_t i) {
         const PlaneRegions::Triangle& here = plane_.triangles[triangle];
         const std::int32_t top = heights_.of(triangle), foot = heights_.of(here.neighbours[i]);
@@ -210,7 +211,7 @@ std::int32_t all(std::int32_t) {
     return 0;
 }
 
-/// Regions of outlines and joints: of joints, the highest.
+/// Regions of outlines and joints; a joint has the highest region.
 RegionOf region_with_joints(std::span<const ReliefRegion> regions) {
     return [regions](std::span<const Winding> windings) {
         std::int32_t found = PlaneRegions::outside;

@@ -15,7 +15,7 @@
 
 namespace sikku {
 
-/// What lies over a region: a prism from 0 up to its height.
+/// The prism over a region, from 0 up to its height.
 struct ReliefRegion {
     std::int32_t height = 0;  ///< micrometres, above 0
     Colour colour;
@@ -34,7 +34,7 @@ using SolidTriangle = std::array<SolidPoint, 3>;
 /// highest one join them; where that does not help, narrow gaps are filled.
 class Solid {
 public:
-    /// @param plane    outlines divided once, so that they do not cross
+    /// @param plane  outlines already divided, so that they do not cross
     /// @param regions  at least one; those of `plane` are numbers of them
     /// @throws Stopped
     Solid(PlaneRegions plane, std::vector<ReliefRegion> regions, const Monitor& monitor);

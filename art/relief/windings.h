@@ -17,7 +17,7 @@ struct Winding {
     auto operator<=>(const Winding&) const = default;
 };
 
-/// Gives each set of windings a number, so that triangles and edges keep numbers only. 0 is the empty set.
+/// Numbers sets of windings, so that triangles and edges store only numbers. 0 is the empty set.
 class Windings {
 public:
     using Id = std::uint32_t;

@@ -21,7 +21,7 @@ struct Mesh {
     Colour colour;
     std::string_view kind{};  ///< of the material, for its name
     bool two_sided = false;
-    std::vector<glm::vec3> positions{};    ///< none: those of the last mesh that has some
+    std::vector<glm::vec3> positions{};    ///< empty: those of the last mesh that has any
     std::vector<glm::vec3> normals{};      ///< of length 1, one for each position; or none: triangles are flat
     std::vector<std::uint32_t> corners{};  ///< three for each triangle, anticlockwise from outside
     std::vector<Colour> colours{};         ///< one for each position, or none: all have `colour`
@@ -37,7 +37,7 @@ struct MeshPlacement {
     bool is_solid = false;  ///< in millimetres, z up, while glTF has metres, y up
 };
 
-/// Beside NAME.obj its materials are written as NAME.mtl, which is in place first.
+/// Materials are written beside NAME.obj as NAME.mtl, which is in place first.
 /// @throws std::runtime_error if the file cannot be written; Stopped
 void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
                const std::filesystem::path& file, const Monitor& monitor, Destination& destination);

@@ -77,7 +77,7 @@ struct Style {
     std::optional<FieldsBy> fields;         ///< absent: fields between lines are not filled
     TileEdges tile_edges = TileEdges::each;
     std::optional<TileColours> tile_colours;  ///< absent: polygons have the colours of their pens
-    /// Of TileColours::generation: steps before the last, in which the parts were tiles whose colours differ.
+    /// For TileColours::generation: the number of steps back to the tiles that determine colours.
     std::int64_t tile_generation = 1;
     TileDecoration decoration;       ///< lines on polygons
     std::vector<Colour> powders;     ///< colours of fields, transparent for `none`; empty: the first set of powders
