@@ -15,7 +15,7 @@
 namespace sikku {
 namespace {
 
-/// What is wrong with a whole number; null if nothing.
+/// The error in a whole number; null if it is valid.
 const char* whole_problem(std::string_view text) {
     std::uint64_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -112,8 +112,8 @@ Word rewrite(const Grammar& grammar, const Table& table, const Word& word, const
 
 /// The same for any grammar, in the derivation step of that number, counted from 1. Memory: 4 bytes a symbol, 8 for
 /// each argument of its own, 8 for its place if the system is stochastic; and what resolve_contexts() tells.
-/// @param parents  receives for each symbol of the result the index of the symbol of `word` that it was made of: of
-/// the first one, if the predecessor has several
+/// @param parents  receives for each symbol of the result the index of its predecessor in `word`, the first symbol if
+/// there are several
 ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
                    const DerivationOptions& options = {}, std::vector<std::uint32_t>* parents = nullptr);
 

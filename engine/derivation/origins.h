@@ -20,7 +20,7 @@ struct Origin {
 /// A symbol of the derivation that leads to a symbol of the word.
 struct PathStep {
     Symbol symbol = 0;
-    std::uint64_t place = 0;  ///< in the axiom, or in the successor of the production before, from 1
+    std::uint64_t place = 0;  ///< position in the axiom or in the successor of the previous production, from 1
 };
 
 /// Traces symbols of the word, `interpret:` applied, back to the axiom.
@@ -32,12 +32,12 @@ public:
     explicit OriginTracer(const Document& document);
     ~OriginTracer();
 
-    /// The place in the text that made a symbol of the word: in the successor of the last production that applied,
-    /// or in the axiom. @param position  in the word, counted from 1; the origin of one beyond the word is empty
-    /// Cost: O(steps x length of the successors)
+    /// The place in the pattern that a symbol of the word comes from: in the successor of the last production that
+    /// applied, or in the axiom; empty beyond the word. Cost: O(steps x length of the successors). @param position
+    ///  in the word, counted from 1
     Origin origin(std::uint64_t position, const Monitor& monitor = {}) const;
-    /// The symbols that were rewritten, from the axiom to the word, and last the one that `interpret:` rewrote, if
-    /// it did. Symbols that stay for several steps are told once. Empty beyond the word.
+    /// The symbols that were rewritten, from the axiom to the word, and last the one that `interpret:` rewrote, if it
+    /// did. Symbols that stay for several steps appear once. Empty beyond the word.
     std::vector<PathStep> path(std::uint64_t position) const;
 
 private:

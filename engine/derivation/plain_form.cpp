@@ -71,7 +71,7 @@ private:
         return found->second;
     }
 
-    /// Sorts numbers and leaves each once.
+    /// Sorts numbers and removes duplicates.
     void tidy(std::vector<Symbol>& numbers, std::vector<char>& is_reached) {
         work_ += numbers.size();
         is_reached.assign(modules_.size(), 0);
@@ -84,7 +84,7 @@ private:
         if (work_ > most_work) is_too_much_ = true;
     }
 
-    /// What becomes of modules under a table. Productions that are new go to `productions`.
+    /// Applies a table to modules. New productions go to `productions`.
     /// @param written  for each number, the index of its production plus 1; -1: it stays; 0: not known yet
     std::vector<Symbol> rewritten(const Table& table, const std::vector<Symbol>& modules,
                                   std::vector<std::int32_t>& written, std::vector<Production>& productions) {

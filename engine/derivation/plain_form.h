@@ -7,11 +7,10 @@
 
 namespace sikku {
 
-/// A plain system that derives the same words in as many steps: each letter with its values becomes a symbol of its
-/// own, as far as they are reached in steps(). `f(x) --> f(x*s)` takes one symbol for each step, so that such systems
-/// are composed without being derived, as plain ones are. Its symbols print as the modules did.
-/// Nullopt for productions with contexts or chance, for cuts, and for more than 100,000 different modules. A plain
-/// system is returned as it is.
+/// A plain system that derives the same words in as many steps: each letter with its values becomes a symbol, as far
+/// as they are reached in steps(). `f(x) --> f(x*s)` needs one symbol for each step. Such systems can therefore be
+/// composed without being derived, like plain ones. Symbols print as their modules did. Nullopt for productions with
+/// contexts or chance, for cuts, and for more than 100,000 different modules. A plain system is returned as it is.
 /// Cost: O(modules x length of their successors + modules x steps).
 std::optional<Grammar> plain_form(const Grammar& grammar);
 

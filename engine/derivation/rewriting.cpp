@@ -19,7 +19,7 @@ bool looks_into_branches(const Grammar& grammar, const Table& table) {
     });
 }
 
-/// Of each symbol of a new word the index of the symbol it was made of.
+/// For each symbol of a new word, the index of its predecessor.
 using Parents = std::vector<std::uint32_t>;
 
 /// The word without its cut symbols and what follows them in their branches.

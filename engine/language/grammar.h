@@ -268,7 +268,7 @@ private:
     std::vector<std::string> names_;
 };
 
-/// A module as a symbol of its own: with its values as constant parameters, and its command with them.
+/// A module as a plain symbol: its values become constant parameters of its command.
 SymbolInfo with_values(const SymbolInfo& symbol, std::span<const double> values);
 
 /// Compiles and checks what a pattern states. All mistakes go to `diagnostics`; the grammar returned is of use only

@@ -7,7 +7,7 @@
 namespace sikku {
 namespace {
 
-/// Symbols that are mirrored without being listed, or are their own images.
+/// Symbols that are always mirrored, or are their own images.
 constexpr std::string_view turns = "+-\\/|&^$[]{}";
 
 }  // namespace

@@ -173,7 +173,8 @@ private:
         if (mirror_.has_pairs()) add_images(productions, before, groups);
     }
 
-    /// Adds the mirror images of productions from `first` on whose predecessors and contexts have no productions.
+    /// Adds the mirror images of the productions from `first` on, except where a production has the same predecessor
+    /// and contexts.
     void add_images(std::vector<Production>& productions, std::size_t first, Groups& groups) {
         const Groups stated = groups;
         const std::size_t end = productions.size();

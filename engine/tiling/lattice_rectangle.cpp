@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 constexpr int most_multiples = 1000;
-constexpr double rounding = 1e-7;  // of a multiple
+constexpr double rounding = 1e-7;  // rounding error of a multiple
 
 double dot(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.x + a.y * b.y;

@@ -17,8 +17,8 @@ struct LatticeRectangle {
 /// of 1000; across to the right and up. Nullopt if there is none.
 std::optional<LatticeRectangle> upright_rectangle(glm::dvec2 a, glm::dvec2 b);
 
-/// The smallest such rectangle of any direction, among sides of up to 24 vectors; the one that is least turned has
-/// `across` within 45 degrees of the x axis.
+/// The smallest such rectangle of any direction, among sides of up to 24 vectors. It is returned in the orientation
+/// with `across` within 45 degrees of the x axis.
 std::optional<LatticeRectangle> least_rectangle(glm::dvec2 a, glm::dvec2 b);
 
 }  // namespace sikku

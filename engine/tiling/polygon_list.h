@@ -15,9 +15,9 @@ namespace sikku {
 struct PolygonList {
     std::string title{};
     std::vector<glm::dvec2> corners{};
-    std::vector<std::size_t> begin{0};        ///< index of the first corner of each polygon; one more than there are
-    std::vector<std::int32_t> colour{};       ///< of each polygon
-    std::vector<std::string> colour_names{};  ///< of colours from 0 on, as far as they have one
+    std::vector<std::size_t> begin{0};   ///< index of the first corner of each polygon, and of the end of the last
+    std::vector<std::int32_t> colour{};  ///< colour of each polygon
+    std::vector<std::string> colour_names{};  ///< names of colours from 0 on, as far as they have one
     std::vector<std::string> notes{};         ///< what was left out, one line each
 
     std::size_t size() const { return colour.size(); }

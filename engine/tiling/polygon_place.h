@@ -1,4 +1,4 @@
-// engine/tiling/polygon_place.h: where polygons are: their centroids, points within them, and which lies at a point.
+// engine/tiling/polygon_place.h: positions of polygons: centroids, inner points, and the polygon at a point.
 #pragma once
 
 #include "engine/tiling/place_grid.h"

@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// Lists for each point the tiles whose first corner it is. Neighbours have near numbers, so that the lists of one
-/// tile after another lie together in memory, unlike entries of a hash table. Memory: 4 bytes a point, 8 a tile.
+/// Lists for each point the tiles with that first corner. Neighbours have similar numbers, so the lists of successive
+/// tiles are close in memory, unlike entries of a hash table. Memory: 4 bytes a point, 8 a tile.
 class TileAnchors {
 public:
     /// The tile of that class and first corner, or no_number.
@@ -26,7 +26,7 @@ public:
         const auto found = others_.find(key(in_class, corner));
         return found == others_.end() ? no_number : found->second;
     }
-    /// Adds the next tile, unless there is one of that class and first corner; that one, or no_number.
+    /// Adds the next tile, unless there is one of that class and first corner. Returns that one, or no_number.
     std::uint32_t add(std::uint32_t in_class, std::uint32_t corner) {
         const std::uint32_t earlier = find(in_class, corner);
         if (earlier != no_number) return earlier;
@@ -48,7 +48,7 @@ private:
     static constexpr std::size_t longest = 32;
     struct Tile {
         std::uint32_t in_class;
-        std::uint32_t next;  ///< with the same first corner
+        std::uint32_t next;  ///< next tile with the same first corner
     };
     static std::uint64_t key(std::uint32_t in_class, std::uint32_t corner) {
         return std::uint64_t{in_class} << 32U | corner;

@@ -33,7 +33,7 @@ struct Turn {
     glm::dmat3x2 map(glm::dvec2 shift) const { return {factor, {-factor.y, factor.x}, shift}; }
 };
 
-/// Places that a map should bring together, with weights.
+/// Pairs of places that a map should bring together, with weights.
 struct Pair {
     glm::dvec2 from, to;
     double weight;
@@ -55,7 +55,7 @@ struct Means {
     }
 };
 
-/// The mean distance that remains, squared.
+/// The mean squared distance that remains.
 double remainder(const std::vector<Pair>& pairs, const glm::dmat3x2& map) {
     double sum = 0, weight = 0;
     for (const Pair& pair : pairs) {
@@ -131,7 +131,7 @@ public:
     TileDivision division(const Turn& turn, bool is_exact) {
         const Means mean(pairs_);
         const glm::dmat3x2 shifted = turn.map(pairs_.empty() ? glm::dvec2(0.0) : mean.to - turn(mean.from));
-        // Where parts surround the corner of their parent, all are shifted alike.
+        // Parts that surround the corner of their parent are all shifted alike.
         const bool is_shift = !is_exact || remainder(pairs_, shifted) < 1e-12 * area_;
         result_.map = is_shift ? shifted : turn.map(glm::dvec2(0.0));
         double spread = 0;
@@ -155,7 +155,7 @@ private:
         return {turn[0], turn[1], -(turn * result_.map[2])};
     }
 
-    /// Adds up which tiles the points of a part lie in.
+    /// Counts the points of a part in each tile.
     void count(std::uint32_t part, const PolygonFinder& finder, const glm::dmat3x2& back,
                std::map<std::uint32_t, double>& votes) {
         const auto points = points_within(after_.polygons.polygon(part));
@@ -302,7 +302,7 @@ std::vector<TileDivision> tile_divisions(const std::vector<TileGeneration>& gene
     for (std::size_t i = 0; i + 1 < generations.size(); ++i) {
         finders.emplace_back(generations[i], generations[i + 1], monitor);
     }
-    // Generations of few tiles grow as the next one.
+    // Generations of few tiles grow like the next one.
     std::optional<Turn> turn;
     if (factor) turn = Turn{*factor};
     std::vector<TileDivision> divisions(finders.size());

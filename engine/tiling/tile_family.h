@@ -14,30 +14,29 @@
 
 namespace sikku {
 
-/// One division: which tile of a generation, the parent, the tiles of the next one come from, its parts. Places are
-/// in the coordinates of the parts.
+/// A division of one generation, the parents, into the next, the parts. Places are in the coordinates of the parts.
 struct TileDivision {
-    /// From the coordinates of the parents to those of the parts: the region is the same, exactly where one factor
-    /// multiplies all moves, otherwise as well as a similarity can.
+    /// Maps the coordinates of the parents to those of the parts, so that both cover the same region: exactly if one
+    /// factor multiplies all moves, otherwise as closely as a similarity can.
     glm::dmat3x2 map{1.0};
     /// The mean distance between the middles of symbols' tiles and those of their parts, compared with the mean
-    /// distance of these from their common middle: how far the region is from resting. 0 if it is known to rest.
+    /// distance of these from their common middle: how much the region moves. 0 if it is known not to move.
     double deviation = 0;
     bool is_cut = false;  ///< the parts of each parent fill it
-    /// The largest share of their size at which the parts of each parent have room in it, around their common
-    /// middle; 1 if they are cut out of it, at least least_share.
+    /// The largest scale at which the parts of each parent fit into it, around their common middle; 1 if they are cut
+    /// out of it, and at least least_share.
     double share = 1;
     static constexpr double least_share = 0.3;
     double inside = 1;  ///< share of the area of all parts that lies in their own parents
 
     /// For each part:
-    std::vector<std::uint32_t> parent;      ///< index of a tile, or no_number: it lies in none
-    std::vector<glm::dvec2> parent_middle;  ///< the middle of the parent; of none: of the family
-    std::vector<glm::dvec2> family_middle;  ///< of all parts of the same parent
+    std::vector<std::uint32_t> parent;      ///< index of a tile; no_number if it lies in none
+    std::vector<glm::dvec2> parent_middle;  ///< middle of the parent, or of the family if there is none
+    std::vector<glm::dvec2> family_middle;  ///< middle of all parts of the same parent
 };
 
-/// Finds the divisions between generations that follow each other; one fewer than there are. The parts of a symbol
-/// that draws no tile, such as a half of one, belong to the tile in which most of them lies.
+/// Finds the divisions between successive generations. The parts of a symbol that draws no tile, such as half of a
+/// tile, belong to the tile that contains most of their area.
 /// @param factor  the number that multiplies all moves in a step, if there is one
 /// Cost: linear. @throws Stopped
 std::vector<TileDivision> tile_divisions(const std::vector<TileGeneration>& generations,

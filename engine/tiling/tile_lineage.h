@@ -1,5 +1,5 @@
-// engine/tiling/tile_lineage.h: generations of tiles, and which tile of a generation comes from which symbol of the
-// one before.
+// engine/tiling/tile_lineage.h: generations of tiles, and the symbol of the generation before that each tile comes
+// from.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -22,15 +22,15 @@ struct TileGeneration {
                                         ///< in the first generation
 };
 
-/// The tiles of a generation are not made of those of the one before; the message gives the reason.
+/// The tiles of a generation do not come from those of the generation before; the message gives the reason.
 class LineageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Limits of generations, checked before memory and time are spent on the next one.
 struct LineageLimits {
-    double nodes = 200e6;  ///< of each derivation
-    double tiles = 1e6;    ///< of all generations together
+    double nodes = 200e6;  ///< limit for each derivation
+    double tiles = 1e6;    ///< limit for all generations together
 };
 
 /// Derives all generations from `first` to `last`, each from the one before. Memory: the words of two generations, 40

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_told = 24;  // steps of a path in a text
+constexpr std::size_t most_told = 24;  // maximum number of steps of a path in a text
 
 /// Collects the positions in the word of the `}` of all polygons.
 class PositionReader : public PolygonSink, public PlaceSink {
@@ -20,7 +20,7 @@ public:
     void places(std::span<const std::int64_t>) override {}
     void vertices(std::span<const std::int64_t>, std::uint64_t position, bool) override { position_ = position; }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {
-        if (position_ == 0) return;  // the polygon is none between braces
+        if (position_ == 0) return;  // the polygon was not drawn between braces
         positions_.push_back(position_);
         position_ = 0;
     }

@@ -16,14 +16,14 @@ namespace sikku {
 /// Traces polygons between `{` and `}` back to the axiom.
 class TileOrigins {
 public:
-    /// Null where symbols cannot be traced: see OriginTracer. `document` must outlive it.
-    /// Cost: the word is walked once; 8 bytes for each polygon. @throws Stopped
+    /// Null if symbols cannot be traced: see OriginTracer. `document` must outlive it. Cost: the word is walked once;
+    /// 8 bytes for each polygon. @throws Stopped
     static std::unique_ptr<TileOrigins> make(const Document& document, const Monitor& monitor);
 
     /// The symbols that were rewritten on the way from the axiom to a polygon; empty if it is not known.
     /// @param number  of the polygon in drawing order, from 1
     std::vector<PathStep> path(std::uint32_t number) const;
-    /// `A 1, B 3`: the symbols of path(), each with its place in the word that holds it. Long ways are cut.
+    /// `A 1, B 3`: the symbols of path(), each with its place in the word that contains it. Long paths are cut.
     std::string path_text(std::uint32_t number) const;
     /// Line and column in the pattern of the `}` that drew a polygon, and path_text() in parentheses.
     std::string text(std::uint32_t number) const;
@@ -33,10 +33,10 @@ private:
 
     const Document& document_;
     OriginTracer tracer_;
-    std::vector<std::uint64_t> positions_;  ///< of the `}` of each polygon in the word; 0: it has none
+    std::vector<std::uint64_t> positions_;  ///< position in the word of the `}` of each polygon; 0: none
 };
 
-/// Tells of the first violations where the tiles come from, if it is known. Cost: as of TileOrigins::make().
+/// Adds the origins of tiles to the first violations, if they are known. Cost: as TileOrigins::make().
 /// @throws Stopped
 void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor);
 

@@ -93,7 +93,7 @@ private:
             const bool is_level = std::fabs(way.y) < plane_.tolerance();
             const double length = glm::length(way);
             if (is_level ? way.x < 0 : way.y < 0) continue;
-            // Equal lengths in the order of tiles.
+            // Equal lengths are in the order of tiles.
             if (length <= result_.reach) found.emplace_back(std::round(length * 1e6), tile);
         }
         std::sort(found.begin(), found.end());

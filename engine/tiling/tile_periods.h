@@ -15,15 +15,15 @@ struct TilePeriods {
     /// The shortest, and the shortest of another direction, in steps: all are sums of multiples of these two.
     std::array<glm::dvec2, 2> vectors{};
     std::array<Cyclotomic::Number, 2> exact{};  ///< the same in coordinates of the lattice, if the plane is exact
-    std::uint64_t compared = 0;  ///< tiles that were compared with their images under the vectors, at least
+    std::uint64_t compared = 0;  ///< minimum number of tiles compared with their images under the vectors
     double reach = 0;            ///< length in steps up to which translations were tried
     std::uint32_t middle = 0;    ///< the tile farthest from the border
     double radius = 0;           ///< distance from the border to its first corner
 };
 
-/// Tries the translations between the tile farthest from the border and others of its kind, up to a third of its
-/// distance from the border. A translation fails if it maps a neighbour of a tile onto no tile although the image of
-/// that tile is surrounded by others. Exact on an exact plane.
+/// Tries the translations from the tile farthest from the border to others of its kind, up to a third of its distance
+/// from the border. A translation fails if it maps a neighbour of a tile onto no tile although the image of that tile
+/// is surrounded by others. Exact on an exact plane.
 /// @param kinds  of the tiles; tiles of the same kind have to be congruent and parallel besides
 /// Cost: the tiles, times the translations that do not fail at once. @throws Stopped
 TilePeriods find_periods(const TilingPatch& patch, std::span<const std::uint32_t> kinds, const Monitor& monitor);

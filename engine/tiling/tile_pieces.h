@@ -44,8 +44,8 @@ struct TilePieces {
 };
 
 /// Cuts the edges of tiles and finds the sides of each piece. Sorts the directions of an exact plane. Cost: linear
-/// for tiles of similar sizes; on the threads of the caller's arena. @throws BudgetError if the tiles are of so
-/// different sizes that it would take minutes
+/// for tiles of similar sizes; on the threads of the caller's arena. @throws BudgetError if the sizes of the tiles
+/// differ so much that it would take minutes
 TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor);
 
 /// Pairs of overlapping tiles, each once as far as the first 100,000.

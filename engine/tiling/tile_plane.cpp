@@ -82,7 +82,7 @@ void PlaceTable::insert(const Slot& entry) {
     table_[at] = entry;
 }
 
-/// Doubles the table. Both are walked in order, from a free slot on, so that no run of entries is torn apart.
+/// Doubles the table. Both tables are traversed in order from a free slot, so that no run of entries is split.
 void PlaceTable::grow() {
     std::vector<Slot> entries(2 * table_.size());
     entries.swap(table_);

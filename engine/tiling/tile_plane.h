@@ -31,9 +31,9 @@ public:
     std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag);
     /// no_number, if it was not added.
     std::uint32_t find(const std::int32_t* coordinates, glm::dvec2 place) const;
-    /// A hash. Equal whole coordinates have equal tags.
+    /// A hash; equal whole coordinates have equal tags.
     std::uint32_t tag_of(const std::int32_t* coordinates, glm::dvec2 place) const;
-    /// Has memory read where a place with that tag will be looked for.
+    /// Prefetches the memory in which a place with that tag will be looked up.
     void prefetch(std::uint32_t tag) const { __builtin_prefetch(&table_[home(tag)]); }
     std::size_t size() const { return places_.size(); }
     glm::dvec2 at(std::uint32_t number) const { return places_[number]; }

@@ -28,7 +28,7 @@ struct TileViolation {
     std::uint32_t tile = 0;
     std::uint32_t other = 0;  ///< the earlier tile of two; else 0
     glm::dvec2 at{0.0};
-    std::string origins{};  ///< where they were derived, if that is known: see find_origins()
+    std::string origins{};  ///< where they were derived, if known: see find_origins()
 };
 /// The first violations in their order, and the number of all.
 struct TileViolations {

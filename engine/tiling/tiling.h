@@ -26,7 +26,7 @@ struct TileShape {
     double area = 0;             ///< steps squared
     /// On a lattice, coordinates of 4 i times the area in units squared: a number of the field; else empty.
     std::vector<std::int64_t> area_4i;
-    double tolerance = 0;  ///< steps by which sides may be wrong; 0: they were computed
+    double tolerance = 0;  ///< possible error of sides, in steps; 0: they were computed
 };
 
 /// Vertices with tiles all around that have the same angles of the same shapes, up to rotation and reflection.
@@ -50,7 +50,7 @@ struct TilingPatch {
 struct TilingExamination {
     bool is_exact = false;
     double tolerance = 0;  ///< steps within which points are one, if it is not exact
-    std::string inexact;   ///< why it is not, if that is known
+    std::string inexact;   ///< why it is not exact, if known
     std::uint64_t polygons = 0;
     std::uint64_t tiles = 0;
     TileViolations violations;
@@ -99,9 +99,8 @@ struct TilingResult {
 /// @throws BudgetError, WordError, Stopped; std::runtime_error if the drawing lies in space
 TilingResult examine_tiling(const Grammar& grammar, const TilingOptions& options);
 
-/// A tolerance for polygons whose corners were rounded: a five hundredth of the median length of their edges, or a
-/// thousandth of their size if that is less.
-/// Cost: linear. @throws std::runtime_error if no edge has a length
+/// A tolerance for polygons whose corners were rounded: a 500th of the median length of their edges, or a 1000th of
+/// their size if that is less. Cost: linear. @throws std::runtime_error if no edge has a length
 double usual_tolerance(const PolygonList& polygons);
 
 /// Examines polygons of any origin; none is exact. Corners within `tolerance` of each other are one, and a corner

@@ -17,7 +17,7 @@ namespace sikku {
 std::string tiling_text(const std::string& title, std::optional<std::int64_t> n, const TilingExamination& examination,
                         const TileGrowth& growth);
 /// Writes one line of JSON in parts: the facts, then all tiles with their corners in steps and, on a lattice, in
-/// whole coordinates. @param path  for the number of a tile, its way from the axiom; may be empty
+/// whole coordinates. @param path  returns the path of a tile from the axiom by its number; may be empty
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                        const TileGrowth& growth, const std::function<std::string(std::uint32_t)>& path,
                        const std::function<void(std::string_view)>& write);
