@@ -100,7 +100,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
 struct CommonEnds {
     std::int64_t rest = 0;
     std::int64_t period = 1;
-    std::int64_t earliest = 0;  ///< all have been played once
+    std::int64_t earliest = 0;  ///< time by which all have been played once
 
     /// Adds a loop. @throws ScoreError if they would never end together, or too late
     void meet(std::int64_t start, std::int64_t length, std::int64_t bar) {
@@ -116,7 +116,7 @@ struct CommonEnds {
                 "the loops would end together only after more than 1000000 bars; use `loop: fill` to end them "
                 "with the longest part");
         }
-        // Some repetition of the ends so far is an end of this loop, too.
+        // One of the common ends so far is also an end of this loop.
         const std::int64_t modulus = length / common;
         const std::int64_t wanted = ((start - rest) / common % modulus + modulus) % modulus;
         const Integer repeats = Integer(wanted) * inverse(period / common % modulus, modulus) % modulus;
@@ -182,8 +182,8 @@ public:
 
 private:
     void read() {
-        std::int64_t leading = 0;            // length of the last part that is no bass, in its own ticks
-        std::vector<std::int64_t> sections;  // ends of the sections of its form
+        std::int64_t leading = 0;            // length of the last part other than a bass, in its own ticks
+        std::vector<std::int64_t> sections;  // ends of the sections in its form
         for (const Player& player : ensemble_.players) {
             const Layout& layout = player.melody.layout;
             WholePart part;

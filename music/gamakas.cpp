@@ -9,7 +9,7 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t bend_ticks = ticks_per_quarter / 32;
-constexpr std::int64_t most_points = 1'000'000;  // of a note
+constexpr std::int64_t most_points = 1'000'000;  // for one note
 constexpr double widest_bend = 12;               // semitones
 
 /// From 0 to 1, level at both ends. Plain arithmetic, so that every machine gives the same bytes.
@@ -91,7 +91,7 @@ bool Bender::swing(const Note& note, std::int64_t degree, std::vector<ControlPoi
     return true;
 }
 
-/// @param from  whether it begins, instead of ending, with the offset
+/// @param from  true if it begins, instead of ending, with the offset
 /// @return false for unisons, intervals that are too wide, and notes that are too short
 bool Bender::slide(const Note& note, double offset, bool from, std::vector<ControlPoint>& points) const {
     constexpr double longest = 0.25;  // seconds

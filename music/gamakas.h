@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Bends the notes of a melody as its key `gamaka` says.
+/// Bends the notes of a melody according to its key `gamaka`.
 class Bender {
 public:
     /// @param tempo  quarters a minute. `melody` has to outlive it.
@@ -18,7 +18,7 @@ public:
         : melody_(melody), ticks_per_second_(tempo * static_cast<double>(ticks_per_quarter) / 60) {}
 
     /// Adds the bends of a note to `points`, by tick, and marks notes that slide.
-    /// @param before, after  its neighbours in its voice; null if there is none. A note is bent before the one after.
+    /// @param before, after  neighbours in the same voice, or null. Notes are bent in order.
     /// @throws ScoreError for a note that is too long
     void bend(Note* before, Note& note, const Note* after, std::vector<ControlPoint>& points) const;
 

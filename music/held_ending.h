@@ -14,12 +14,11 @@
 
 namespace sikku {
 
-/// Passes notes on, but for the last one of each voice, which waits until the end of the score is known.
-/// Memory: O(voices).
+/// Forwards notes, but holds back the last one of each voice until the end of the score is known. Memory: O(voices).
 class HeldEnding : public NoteSink {
 public:
-    /// Voices of one line end together: their last notes are held if they sound when its last note begins. -1: drums,
-    /// which are not held.
+    /// The line of a voice; -1 for drums, which are not held. Voices of one line end together: their last notes are
+    /// held if they sound when the last note of the line begins.
     using LineOf = std::function<int(int voice)>;
     HeldEnding(NoteSink& sink, LineOf line_of) : sink_(sink), line_of_(std::move(line_of)) {}
 
@@ -35,15 +34,15 @@ public:
     }
     void finish(std::int64_t) override {}
 
-    /// Passes on what was held back. The last notes of lines that ended within four bars of the end last to the end
-    /// of the last bar, or of one more, if otherwise the last of them would last less than half a bar.
-    /// @param end   of the score, in ticks
+    /// Forwards the notes held back. The last notes of lines that ended within four bars of the end are extended to
+    /// the end of the last bar, or of one more bar if the last of them would otherwise last less than half a bar.
+    /// @param end  end of the score, in ticks
     /// @param most  limit of the new end
     /// @return the end of the score
     std::int64_t finish(std::int64_t end, const Meter& meter, std::int64_t most) {
         constexpr std::int64_t latest_bars = 4;
         const std::int64_t bar = meter.bar();
-        std::map<int, std::int64_t> onsets;  // of the last note, by line
+        std::map<int, std::int64_t> onsets;  // onset of the last note, by line
         std::int64_t last_onset = 0;
         for (const auto& [voice, note] : last_) {
             const int line = line_of_(voice);

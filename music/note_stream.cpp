@@ -247,7 +247,7 @@ public:
     }
 
 private:
-    /// Points belong to the window in which their note begins. After a jump those of a note that goes on come, too.
+    /// Points belong to the window in which their note begins. After a jump, points of sounding notes are included.
     void take_controls(const Note& note) {
         const auto voice = static_cast<std::size_t>(note.voice);
         if (voice >= coming_.size()) return;
@@ -271,7 +271,7 @@ private:
     std::int64_t until_;
     bool is_sought_;
     std::vector<char> still_open_;
-    std::vector<std::vector<ControlPoint>> coming_;  // by voice, of the notes that come next
+    std::vector<std::vector<ControlPoint>> coming_;  // by voice, points of the notes to come
     LastControls before_;
 };
 
@@ -340,7 +340,7 @@ private:
     /// Learns the ranges that curves of expression follow. @throws as play_all()
     void measure() {
         constexpr std::int64_t tempo_margin = 4 * ticks_per_quarter;  // it is smoothed over two quarters
-        constexpr double many_notes = 16e6;                           // are too many to play them first
+        constexpr double many_notes = 16e6;                           // more than these are not played in advance
         lead_ = std::max(lead_, tempo_margin);
         grid_ = std::lcm(grid_, ticks_per_quarter);
         measured_.emplace(ensemble_, ExpressionSink::Use::pieces);
@@ -433,7 +433,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
     plain.progression.clear();
     plain.articulation = Articulation::legato;
     plain.swing = 0.5;
-    // Degrees are wanted as they are, however far away.
+    // Degrees are kept as they are, however far away.
     plain.lowest = -std::numeric_limits<double>::infinity();
     plain.highest = std::numeric_limits<double>::infinity();
     const PlayOptions whole = piece_of_part(player, meter, playing);

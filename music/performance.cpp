@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t control_ticks = ticks_per_quarter / 16;  // between points of a ramp
-constexpr std::size_t held_back = 2;                            // notes of a voice, where the next may bend them
+constexpr std::size_t held_back = 2;  // notes notes of a voice that are held back, if the next may bend them
 
 /// -1 to the right, 1 to the left, 0 straight on.
 double turn_into(const Note* before, const Note& note) {
@@ -221,7 +221,7 @@ void ExpressionSink::bend(Line& line, const Note* after) {
     if (use_ != Use::print) points.insert(points.begin(), bends_.begin(), bends_.end());
 }
 
-/// Hands on the first note that is held.
+/// Forwards the first note that is held.
 void ExpressionSink::release(Line& line) {
     auto& [note, points] = line.held.front();
     sort_by_tick(points.begin(), points.end());

@@ -14,25 +14,26 @@
 
 namespace sikku {
 
-/// Gives notes the velocities of the curve as they pass, and hands on the points of pan, controllers and gamakas
-/// before them, and the tempo before all. The parts are played twice: before write_to() for the least and greatest
-/// values of their sources and for the tempo, after it for the notes. The tempo follows the first part.
-/// Memory: O(voices), and as TempoCurve if there is a tempo.
+/// Sets the velocities of notes by the curve and forwards them, preceded by the points of pan, controllers and
+/// gamakas, and all by the tempo. The parts are played twice: before write_to() for the least and greatest values of
+/// their sources and for the tempo, after it for the notes. The tempo follows the first part. Memory: O(voices), and
+/// as TempoCurve if there is a tempo.
 class ExpressionSink : public NoteSink {
 public:
     enum class Use {
         performance,
-        print,  ///< velocities and slides alone
-        pieces  ///< a performance in pieces, each with a sink of its own
+        print,  ///< only velocities and slides
+        pieces  ///< a performance in pieces, each with its own sink
     };
 
     /// `ensemble` has to outlive it.
     ExpressionSink(const Ensemble& ensemble, Use use);
-    /// A sink for a piece of what `measured` has heard, with its ranges: tempos() makes the tempo of the piece.
+    /// A sink for a piece of the score that `measured` has received, with its ranges. tempos() returns the tempo of
+    /// the piece.
     ExpressionSink(const ExpressionSink& measured, NoteSink& sink);
 
-    /// Takes ranges of places from the fold, where it knows them: of parts that are played from beginning to end.
-    /// @param is_far  also if they do not begin at the beginning
+    /// Gets ranges of positions from the fold where possible: for parts that are played from beginning to end. @param
+    /// is_far  also for parts that do not begin at the beginning
     void fold_ranges(const PlayOptions& playing, bool is_far = false);
     /// True if the parts have to be played once before write_to().
     bool needs_ranges() const;
@@ -42,7 +43,7 @@ public:
     /// The notes that follow go to this sink.
     void write_to(NoteSink& sink);
 
-    /// The curve of the tempo, after write_to(); of notes that have passed, of a piece that ends there.
+    /// The curve of the tempo, after write_to(); tempos() is that of the notes so far, of a piece that ends at `end`.
     const std::vector<TempoPoint>& tempo() const { return curves_.tempo; }
     std::vector<TempoPoint> tempos(std::int64_t end) const;
 
@@ -50,13 +51,13 @@ private:
     /// A curve of a player.
     struct Followed {
         ExpressionCurve curve;
-        int number;  ///< of the controller, or one of the following
+        int number;  ///< number of the controller, or one of the constants below
         SourceRange range;
         bool is_known;  ///< the range need not be measured
     };
     static constexpr int velocity = -1;
     static constexpr int tempo_number = -2;
-    /// What a voice remembers.
+    /// The state of a voice.
     struct Line {
         std::size_t player = 0;
         bool is_bent = false;
@@ -66,7 +67,7 @@ private:
             Note note;
             std::vector<ControlPoint> points;
         };
-        std::vector<Held> held;  ///< the last two notes, where the next ones may bend them
+        std::vector<Held> held;  ///< the last two notes, if the next ones may bend them
     };
 
     Line& line_of(int voice);
@@ -86,7 +87,7 @@ private:
     std::vector<std::optional<Line>> lines_;       // by voice
     std::optional<TempoCurve> tempo_;              // until it is known
     std::int64_t end_ = 0;
-    Curves curves_;  // the tempo alone
+    Curves curves_;  // only the tempo
     std::vector<Note> changed_;
     std::vector<ControlPoint> points_;
     std::vector<ControlPoint> bends_;

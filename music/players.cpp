@@ -40,7 +40,7 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
     return text;
 }
 
-/// Ticks of a melody, by composition or else by playing it. @throws BudgetError
+/// Length of a melody in ticks, by composition or otherwise by playing it. @throws BudgetError
 Integer length_of(const Grammar& grammar, const Melody& melody) {
     if (const auto known = census(grammar, melody)) return known->ticks;
     Nobody nobody;
@@ -123,7 +123,7 @@ std::vector<Player> followers_of(const Player& player) {
         follower.melody.layout.canon.clear();
         Melody& melody = follower.melody;
         melody.layout.start += one.bars;
-        // It repeats what the part plays, with the notes that chords and range have moved.
+        // It repeats what the part plays, including notes moved by chords and range.
         melody.is_accompanied = false;
         if (!melody.has_chords()) melody.harmony = Harmony::none;
         melody.answer += one.degrees;
@@ -267,7 +267,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
                        player.document.grammar().steps());
         const Integer notes = played ? Integer(played->notes) : known->notes;
         const Integer ticks = played ? Integer(played->end) : known->ticks;
-        // Parts of several slow down together.
+        // Several parts slow down together.
         const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(
             out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),

@@ -24,8 +24,8 @@ struct Player {
     Document document;
     Melody melody;
     int first_voice = 0;
-    int chords_from = 0;  ///< its voices before those of drone or chords
-    int drums_from = 0;   ///< voices of drums come so many later
+    int chords_from = 0;  ///< number of its voices before those of drone or chords
+    int drums_from = 0;   ///< offset of the voices of drums
     bool has_drums = false;
     bool is_bass = false;               ///< of the player before it: `harmony: bass`
     bool is_follower = false;           ///< in the canon of a player before it
@@ -63,7 +63,7 @@ int voices_of(const Player& player, const PlayOptions& playing);
 /// The scale in words, with its tonic.
 std::string scale_of(const Melody& melody);
 
-/// Why a part has no notes, and what may help; empty if unknown. @param lost  notes without a length or a key
+/// The reason why a part has no notes, and a remedy; empty if unknown. @param lost  notes without a length or a key
 std::string reason_of_silence(const Player& player, std::uint64_t lost);
 
 /// Number of bars that so many ticks begin.

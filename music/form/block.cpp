@@ -58,7 +58,7 @@ Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
     return piece;
 }
 
-/// Lets a section last so long: its last notes are held or cut off.
+/// Sets the length of a section: its last notes are held or cut off.
 void fit(Block& piece, std::int64_t length) {
     for (FormNote& one : piece.notes) {
         const bool is_last = one.note.onset + one.note.duration == piece.length;
@@ -247,7 +247,7 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     const std::int64_t side = last.size() > 1 && last[1]->degree < goal ? -1 : 1;
     const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
     const auto range = is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
-    // What answers in canon lies within the range, moved by the interval.
+    // Answers of a canon lie within the range moved by the interval.
     const std::int64_t answer = melody.answer;
     if (range && goal < range->low() + answer && goal + period <= range->high() + answer) goal += period;
     if (range && goal > range->high() + answer && goal - period >= range->low() + answer) goal -= period;

@@ -42,13 +42,13 @@ void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second.
 /// @param grammar  of the block, whose derivation length is too small if sub-curves are missing
-/// @param ends     ticks at which the sections of another part end, which these do, too; empty: their own
+/// @param ends  ticks at which the sections of another part end, and these as well; empty: their own
 /// @throws ScoreError if the curve has fewer
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
               std::span<const std::int64_t> ends = {});
 
 /// Adds the drone of a melody, bar by bar up to the end, which it moves to the end of a bar.
-/// @param first_voice  of the drone; 0: that after the melody's own
+/// @param first_voice  voice of the drone; 0: the one after the voices of the melody
 void add_drone(Block& block, const Melody& melody, int first_voice);
 
 /// Leads the last notes of the first voice by step to the fifth or the tonic; as many as three.

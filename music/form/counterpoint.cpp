@@ -49,7 +49,7 @@ private:
 
 using Lines = std::map<int, Line>;
 
-/// Finds what is wrong with a note among other voices.
+/// Finds the faults of a note among other voices.
 class Checker {
 public:
     explicit Checker(const Meter& meter) : bar_(meter.bar()), beats_(strong_beats(meter)) {}
@@ -96,7 +96,7 @@ private:
     std::vector<std::int64_t> beats_;
 };
 
-/// The notes of one voice, one after another, each where it clashes least.
+/// Places the notes of one voice, one after another, each where it clashes least.
 class Leader {
 public:
     Leader(const Checker& checker, const Melody& melody, const Lines& lines, CounterpointReport& report)
@@ -109,7 +109,7 @@ public:
 
 private:
     void settle(FormNote& note) {
-        // A fault weighs more than any move, and a note that is repeated more than a degree.
+        // A fault costs more than any move, and a repeated note more than a degree.
         constexpr int fault = 1000;
         constexpr int repetition = 3;
         constexpr int degree = 2;
@@ -166,7 +166,7 @@ CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<Form
     for (const FormNote& one : fixed) lines[one.note.voice].add(one.note);
     std::map<int, std::vector<FormNote*>> voices;
     for (FormNote& one : part) voices[one.note.voice].push_back(&one);
-    // Chords stay as they are, and the melody above them heeds them.
+    // Chords stay as they are, and the melody above them adapts to them.
     for (auto voice = voices.begin(); voice != voices.end();) {
         const auto& notes = voice->second;
         if (std::any_of(notes.begin(), notes.end(), [](const FormNote* one) { return one->has_degree; })) {

@@ -21,9 +21,9 @@ bool is_consonant(double low, double high);
 
 /// Moves notes of `part` by up to three degrees, so that on the strong beats of `meter` (see strong_beats()) no voice
 /// of it is dissonant with a voice of `fixed`, and no fifths, octaves or unisons follow each other where both voices
-/// move. A fourth above a lower voice is consonant. The voices of `part` follow one another: each heeds those before
-/// it, and chords and drones of the part. Notes stay where they are if nothing is wrong with them, and move so that
-/// they do not repeat the note before. Notes without degrees are heeded, and never moved. Cost: O(notes x voices).
+/// move. A fourth above a lower voice is consonant. The voices of `part` follow one another: each adapts to those
+/// before it, and to chords and drones of the part. Notes without faults stay where they are; moves avoid repeating
+/// the note before. Notes without degrees count as neighbours, but never move. Cost: O(notes x voices).
 /// @param fixed  by onset; times as in `part`
 CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
                                const Meter& meter);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int patience_milliseconds = 1000;
 constexpr std::size_t largest_event = 64;
-/// Longer than a thread waits for its turn on a busy machine; what is heard changes as much later.
+/// Longer than a thread waits for its turn on a busy machine; changes are heard that much later.
 constexpr Nanoseconds sent_ahead = second / 10;
 constexpr std::size_t most_pending = 2000;  // events; the largest pool that the kernel grants
 
@@ -43,7 +43,7 @@ public:
     /// False if the sequencer has no more queues.
     bool is_running() const { return is_running_; }
 
-    /// Gives an event its time. Times of the program do not go back; neither do those of events.
+    /// Sets the time of an event. Times of the program never decrease; neither do those of events.
     void schedule(snd_seq_event_t& event, Nanoseconds time) {
         constexpr Nanoseconds precise = second / 5000;
         if (clock_.now() - measured_ > second) measure(precise);
@@ -72,7 +72,7 @@ private:
     int number_ = -1;
     bool is_running_ = false;
     snd_seq_queue_status_t* status_ = nullptr;
-    Nanoseconds later_ = 0;     // its clock less that of the program
+    Nanoseconds later_ = 0;     // its clock minus that of the program
     Nanoseconds measured_ = 0;  // when they were compared
     Nanoseconds last_ = 0;      // time of the last event
 };

@@ -153,7 +153,7 @@ private:
         stop();
     }
 
-    /// Ends all notes after what has been sent.
+    /// Ends all notes, after the messages already sent.
     void stop() {
         version_->voices().silence(now_, messages_);
         if (sends_clock()) messages_.push_back({stop_byte});
@@ -175,7 +175,7 @@ private:
         if (hooks_.report) hooks_.report(text);
     }
 
-    /// Sends what is due with the last tick.
+    /// Sends the messages due with the last tick.
     void flush() {
         if (!messages_.empty()) port_.send(messages_, ahead_ > 0 ? own_.time_of(now_) : Port::at_once);
         messages_.clear();
@@ -438,7 +438,7 @@ private:
         if (next_ && change_ <= tick) change_version(tick);
         if (end_ && is_last_ && note_ == window_.notes.size() && pass_end() <= tick) end_pass(tick);
         if (!is_done_) fill();
-        change_tempo(tick);  // of a window or a pass that begins here
+        change_tempo(tick);  // tempo of a window or a pass that begins here
         if (!is_done_) play_notes(tick);
         flush();
     }
@@ -509,7 +509,7 @@ private:
     Port& port_;
     PerformOptions options_;
     const PerformHooks& hooks_;
-    Nanoseconds ahead_;  // what is sent waits so long in the port
+    Nanoseconds ahead_;  // time that messages wait in the port
     PerformReport report_;
     OwnTime own_;
     FollowedTime followed_;

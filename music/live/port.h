@@ -50,10 +50,10 @@ class PortError : public std::runtime_error {
 class Port {
 public:
     virtual ~Port() = default;
-    /// How long before their time messages may be sent, to be delivered in time whatever this thread does.
+    /// How long before their time messages may be sent, so that delays of this thread do not matter.
     virtual Nanoseconds ahead() const { return 0; }
-    /// Sends messages in this order. @param time  when they are due, of the clock, not before that of messages sent
-    /// earlier; `at_once` for ports without ahead(), and for all messages of a port or for none. @throws PortError
+    /// Sends messages in this order. @param time  when they are due by the clock, not before that of messages sent
+    /// earlier. `at_once` for ports without ahead(); a port receives it always or never. @throws PortError
     virtual void send(std::span<const Message> messages, Nanoseconds time) = 0;
     static constexpr Nanoseconds at_once = 0;
     /// Waits until `time`, or until something arrives or a signal comes. @return what arrived since the last call

@@ -184,7 +184,7 @@ void Voices::control(const ControlPoint& point, std::vector<Message>& messages) 
     controller(note.channel, point.number, value, messages);
 }
 
-/// With MPE: the values of a voice hold for the channel of its next note, and no others.
+/// With MPE: sets the values of a voice, and no others, on the channel of its next note.
 void Voices::set_controllers(int voice, int channel, std::vector<Message>& messages) {
     std::map<int, int>& values = values_[static_cast<std::size_t>(voice)];
     std::map<int, int>& sent = sent_[static_cast<std::size_t>(channel)];

@@ -26,8 +26,8 @@ public:
     void prepare(std::vector<Message>& messages) const;
     /// Begins a note; a note that its voice still has ends.
     void begin(const Note& note, std::int64_t tick, std::vector<Message>& messages);
-    /// Changes a controller, or bends the note that the voice has, as files do. With MPE controllers are those of the
-    /// channel of the note, and of those of the notes after it.
+    /// Changes a controller, or bends the sounding note of the voice, as files do. With MPE, controllers apply to the
+    /// channel of the note, and then to those of the notes after it.
     void control(const ControlPoint& point, std::vector<Message>& messages);
     /// Bends the note that the voice has to a key, as files do.
     void slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages);
@@ -62,7 +62,7 @@ private:
     std::vector<Sounding> sounding_;           // by voice
     std::vector<std::map<int, int>> values_;   // of controllers, by voice, with MPE
     std::array<std::map<int, int>, 16> sent_;  // the same by channel
-    std::vector<int> order_;                   // voices that sound, the oldest first
+    std::vector<int> order_;                   // sounding voices, the oldest first
     struct Key {
         int notes = 0;
         std::int64_t since = -1;

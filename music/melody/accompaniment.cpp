@@ -18,14 +18,14 @@ constexpr double highest_tone = 8;
 constexpr double middle_tone = -3;
 constexpr double least_above_bass = 2.5;
 constexpr double widest_pair = 12;
-// Unrest of voices that move in parallel, and of a semitone that a pair of voices lies off the middle.
+// Penalties for voices that move in parallel, and for each semitone that a pair of voices lies off the middle.
 constexpr double unrest_of_parallels = 100;
 constexpr double unrest_off_middle = 0.25;
 // Of an octave and of a fourth where the scale has a fifth.
 constexpr double unrest_of_octave = 6;
 constexpr double unrest_of_fourth = 12;
 
-/// Ticks of a bar at which a tanpura is plucked: at its groups, if there are three, or else at three beats.
+/// Ticks of a bar at which a tanpura is plucked: at its groups if there are three, otherwise at three beats.
 std::array<std::int64_t, 3> plucks(const Meter& meter) {
     const std::vector<std::int64_t> groups = groups_of(meter);
     const std::int64_t bar = meter.bar();
@@ -71,7 +71,7 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) con
     return notes;
 }
 
-/// As a tanpura is plucked: fifth, tonic, tonic above a low tonic that rings on.
+/// The strokes of a tanpura: fifth, tonic, tonic, above a low tonic that rings on.
 std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
     const std::int64_t length = melody_.meter.bar();
     const auto [first, second, third] = plucks(melody_.meter);
@@ -93,8 +93,9 @@ std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
     return notes;
 }
 
-/// Given chords have been led; the last bar of a piece, which has the first of them, follows the one before. Others
-/// change their position from bar to bar, so that each is known by itself: a fifth on top, then a third.
+/// Voices of a given progression have been led; the last bar of a piece, with its first chord, follows the bar
+/// before. Other chords alternate their position from bar to bar, independently of their neighbours: a fifth on top,
+/// then a third.
 Accompaniment::Voicing Accompaniment::voicing_of(std::int64_t bar, const Chord& chord) const {
     const std::vector<Voicing> voicings = voicings_of(chord);
     const auto least = [&](auto cost) {
@@ -115,7 +116,7 @@ Accompaniment::Voicing Accompaniment::voicing_of(std::int64_t bar, const Chord& 
     return least([&](const Voicing& one) { return unrest(before, one); });
 }
 
-/// All places of the upper tones of a chord within their range.
+/// All positions of the upper tones of a chord within their range.
 std::vector<Accompaniment::Voicing> Accompaniment::voicings_of(const Chord& chord) const {
     const double tonic = melody_.tonic + melody_.transpose;
     const double bass = key_above(chord.cents.front(), bass_register);
@@ -174,7 +175,7 @@ double Accompaniment::unrest(const Voicing& before, const Voicing& voicing) cons
     return sum;
 }
 
-/// Chooses the voicings of least unrest over all chords, from the last back to the first again.
+/// Chooses the voicings with the least penalty over all chords, including the step from the last to the first.
 void Accompaniment::lead_progression() {
     std::vector<std::vector<Voicing>> choices;
     for (const Chord& chord : melody_.progression) choices.push_back(voicings_of(chord));

@@ -34,7 +34,7 @@ private:
     double key_above(double cents, double lowest) const;
 
     const Melody& melody_;
-    std::vector<Voicing> progression_;  // one for each chord of it
+    std::vector<Voicing> progression_;  // one voicing for each chord
 };
 
 }  // namespace sikku::mapping

@@ -63,7 +63,7 @@ public:
         const auto hits = static_cast<std::int64_t>(melody_.rhythm.hits.size());
         return room / (melody_.rhythm.slots * melody_.unit) * hits - hits;
     }
-    /// Phrases have ended. @param steps  where the last one did
+    /// Adds rests after phrases. @param steps  end of the last one
     void breathe(const Integer& phrases, Number steps) {
         phrases_ += (phrases & 1).convert_to<int>();
         if (!melody_.breathes_to_bar) {

@@ -86,7 +86,7 @@ public:
             end_phrases();
             clock_.breathe(stretch.marks, time_);
             is_counted_ = false;
-            level_ = 0;  // the mark after the stretch tells
+            level_ = 0;  // known from the mark after the stretch
             walk_.skip(at_, stretch);
             here_ = point();
             time_ += length.convert_to<std::int64_t>();
@@ -197,7 +197,7 @@ private:
     std::int64_t lower_;
     bool is_piece_;     ///< its tonic is still to come
     bool moves_sound_;  // nothing is drawn: moves are notes
-    int level_;         // of notes that begin with the next step
+    int level_;         // level of notes that begin with the next step
     typename Walk::Position at_;
     glm::dvec2 here_{0.0};
     Brackets<typename Walk::Position> stack_;

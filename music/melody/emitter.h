@@ -97,7 +97,7 @@ public:
     bool is_shaped() const { return shaper_.has_value(); }
 
     int depth = 0;  ///< brackets around the next note
-    int level = 0;  ///< of the next note, as in Note
+    int level = 0;  ///< level of the next note, as in Note
 
 private:
     /// Places what is shaped.
@@ -200,7 +200,7 @@ private:
         double key = std::numeric_limits<double>::quiet_NaN();  // not looked up yet
         bool is_moved = false;
         bool is_silent = false;
-        std::int64_t degree = 0;  // that sounds
+        std::int64_t degree = 0;  // sounding degree
     };
 
     void flush() {
@@ -222,7 +222,7 @@ private:
     bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
 
     Placed look_up(std::int64_t degree, bool falling);
-    /// What sounds for a degree that lies within the range, higher by the answer of a canon.
+    /// The sound of a degree within the range, moved by the interval of a canon.
     Placed answered(Placed placed, bool falling) const;
     /// @param raw  the key of the degree, perhaps beyond the range
     Placed within_range(double raw, std::int64_t degree, bool falling);
@@ -238,11 +238,11 @@ private:
     std::optional<DegreeRange> range_;  // once a note is beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
-    std::int64_t accompanied_ = 0;           // until that tick of the score
+    std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
     std::vector<Line> shaped_;               // of each voice
-    std::vector<std::int64_t> busy_until_;   // of each voice, by the notes that have been placed
-    std::vector<std::int64_t> taken_until_;  // by the notes before they are shaped, if they are
-    std::vector<char> held_;                 // by a branch that has not ended
+    std::vector<std::int64_t> busy_until_;   // of each voice, from the notes already placed
+    std::vector<std::int64_t> taken_until_;  // likewise before shaping, if there is a shaper
+    std::vector<char> held_;                 // voices held by a branch that has not ended
     struct Gliding {
         Shaper::Draft note;
         bool falling = false;

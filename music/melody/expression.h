@@ -26,7 +26,7 @@ enum class ExpressionSource {
 struct SourceRange {
     double low = 0;
     double high = 0;
-    /// Where a value lies, from 0 to 1.
+    /// The position of a value in the range, from 0 to 1.
     double part(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
 };
 

@@ -44,7 +44,7 @@ std::int64_t drone_degree(const Scale& scale);
 /// Semitones between two keys, rounded, within an octave: 0 to 11.
 int interval_class(double a, double b);
 
-/// True if two voices that both move go on in unisons, octaves or fifths.
+/// True if two voices, both moving, continue in unisons, octaves or fifths.
 /// @param low, high            keys before
 /// @param next_low, next_high  keys after
 bool is_parallel(double low, double high, double next_low, double next_high);

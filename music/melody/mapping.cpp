@@ -68,7 +68,7 @@ Marked marked(Grammar grammar, const Melody& melody) {
         sounding.push_back(entry.has_row && entry.row.is_sounding() ? 1 : 0);
     }
     const auto add = [&](std::int64_t one) {
-        // Every order that is marked is a step more.
+        // Each marked order adds a step.
         auto other = result.grammar.with_marks(one + std::min(one - 1, levels), sounding);
         if (!other) {
             throw ScoreError(fmt::format("{} need a system without contexts, parameters and chance",
@@ -134,7 +134,7 @@ public:
         }
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
-        // Where a phrase begins at a bar line, only those before it tell.
+        // The beginning of a phrase at a bar line depends on all phrases before it.
         if (fold_ && options_.from > 0 && !melody_.breathes_to_bar) {
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
@@ -365,7 +365,7 @@ std::optional<NoteBox> note_box(const Grammar& given, const Melody& melody) {
     const auto range = [](const GridStretch::Span& span) {
         return SourceRange{span.low.convert_to<double>(), span.high.convert_to<double>()};
     };
-    // Every vertical run meets a horizontal one, so that these are as wide as the curve.
+    // Every vertical run meets a horizontal one, so the horizontal runs are as wide as the curve.
     const bool are_vertical = melody.vertical == Vertical::voice || melody.vertical == Vertical::glissando;
     return NoteBox{range(whole.box[0]), range(are_vertical ? whole.box[1] : *whole.crossings[0])};
 }

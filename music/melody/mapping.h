@@ -21,7 +21,7 @@ struct PlayOptions {
     std::int64_t to = INT64_MAX;  ///< ticks: the score ends here; notes at either end are cut
     int most_voices = 15;         ///< maximum number of voices at the same time; more are a ScoreError
     double budget = 200e6;        ///< maximum number of derivation nodes visited
-    int chords_from = 0;          ///< first voice of drone or chords; 0: that after the melody's own
+    int chords_from = 0;          ///< first voice of drone or chords; 0: the one after the voices of the melody
     int drums_from = 0;           ///< added to the voices of drums, so that they belong to a part of their own
     static constexpr std::int64_t no_degree = INT64_MIN;
     std::vector<std::int64_t>* degrees = nullptr;      ///< receives the degree of each note, or no_degree
@@ -66,14 +66,14 @@ struct MelodyCensus {
 /// square grid, brackets and contexts, and phrases that begin at bar lines.
 std::optional<MelodyCensus> census(const Grammar& grammar, const Melody& melody);
 
-/// Where the runs of a curve lie that are notes, in turtle steps.
+/// Ranges of the runs of a curve that are notes, in turtle steps.
 struct NoteBox {
     SourceRange x;
     SourceRange y;
 };
 
-/// Computes it by composition, for any derivation length. Nullopt as census(), for curves with steps that are not
-/// drawn, and without notes.
+/// Computes it by composition, for any derivation length. Nullopt where census() has none, for curves with steps that
+/// are not drawn, and without notes.
 std::optional<NoteBox> note_box(const Grammar& grammar, const Melody& melody);
 
 /// The smallest derivation length above that of the grammar, by at most 24, at which the melody has so many phrases.

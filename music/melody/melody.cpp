@@ -527,7 +527,7 @@ private:
                                : fmt::format("unknown instrument '{}'; did you mean '{}'?", text, near));
     }
 
-    /// Takes the first name with a word or a part of a word, and says so; whole words come first.
+    /// Selects the first name that contains the text, preferably as a whole word, and reports it.
     bool choose_by_word(const Key& key, const std::string& wanted, const std::vector<std::string>& names) {
         for (const bool is_word : {true, false}) {
             const auto matches = [&](const std::string& name) {

@@ -52,7 +52,7 @@ enum class Articulation { legato, detached, by_depth };
 /// What the last notes of a phrase lead to by step: nothing; the tonic; the fifth and the tonic in turn.
 enum class Cadence { none, tonic, alternate };
 
-/// How a score ends: as before; the last two bars slow down; and the last notes are held.
+/// Ends of a score: none; the last two bars slow down; in addition, the last notes are held.
 enum class Close { none, ritardando, fermata };
 
 /// Settings of a melody.
@@ -77,7 +77,7 @@ struct Melody {
     double swing = 0.5;     ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
     std::int64_t phrase_order = 0;  ///< phrases are sub-curves of that order; 0: none
-    std::int64_t breath = 0;        ///< ticks of rest after a phrase, or the least of them
+    std::int64_t breath = 0;        ///< ticks of rest after a phrase, or their minimum
     bool breathes_to_bar = false;   ///< whether the rest lasts until a bar line
     Articulation articulation = Articulation::legato;
     double sounding = 0.6;  ///< share of a note that sounds, if detached
@@ -92,7 +92,7 @@ struct Melody {
     double transpose = 0;        ///< semitones, added to every key
     bool is_inverted = false;    ///< up and down change places around the tonic
     std::int64_t shift = 0;      ///< degrees of the scale, added to every degree
-    std::int64_t answer = 0;     ///< degrees added to what sounds, once it is shaped and within the range: of canons
+    std::int64_t answer = 0;     ///< interval of a canon in degrees, added once notes are shaped and within the range
     bool is_accompanied = true;  ///< whether its drone or its chords sound
     Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve

@@ -85,9 +85,9 @@ struct Origin {
     std::int64_t y = unknown;
 };
 
-/// Symbols without meaning at the ends of sub-curves.
+/// Symbols without effect that mark the ends of sub-curves.
 struct Marks {
-    std::optional<Symbol> phrase;      ///< after those that are phrases
+    std::optional<Symbol> phrase;      ///< mark at the end of a phrase
     std::vector<std::uint8_t> levels;  ///< by symbol: the order of the sub-curves that end there; 0: no mark
     std::uint8_t whole = 0;            ///< order of the whole curve; 0 if levels are not marked
     int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }

@@ -98,7 +98,7 @@ public:
             release_held();
             end_phrases();
             is_counted_ = false;
-            levels_ = {};  // the mark after the stretch tells
+            levels_ = {};  // known from the mark after the stretch
             walk_.skip(state_.at, stretch);
             state_.time = clock_.skip(state_.time, both ? Integer(across + up) : across, stretch.marks, ahead_);
             if (melody_.vertical == Vertical::voice) state_.other_time += up.convert_to<std::int64_t>();
@@ -156,8 +156,8 @@ private:
         double pace = 1;         // what a step lasts, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
-    /// How many steps a run is that goes so far: as long as it is wide; with a rhythm off the square grid as long as
-    /// it is, so that each step takes a note of the template, whatever its angle.
+    /// Length of a run in steps: its width; with a rhythm off the square grid its actual length, so that each step
+    /// takes a note of the template, whatever its angle.
     Number steps_of(Number wide, Number high) const {
         if constexpr (std::is_floating_point_v<Number>) {
             if (!melody_.rhythm.empty() && step_length_ > 0) return std::hypot(wide, high) / step_length_;
@@ -196,7 +196,7 @@ private:
         std::uint32_t turn = 0;     ///< after the last
         int marks = 0;              ///< phrases that end before the first
         int level = 0;              ///< order of the largest sub-curve that ends before the first
-        std::uint64_t symbols = 0;  ///< but for marks
+        std::uint64_t symbols = 0;  ///< number of symbols without marks
         bool is_known = false;
         bool is_simple = false;  ///< nothing but steps drawn and turns
     };
@@ -305,7 +305,7 @@ private:
     /// A sub-curve ends: the phrase ends with the run that is under way, or with the last note.
     void mark() { ++(state_.run.is_open ? state_.run.marks : due_); }
 
-    /// A sub-curve of that order ends: the next note begins one as large.
+    /// Ends a sub-curve of that order: the next note begins one of the same order.
     void mark_level(int order) {
         if (state_.run.is_open) {
             state_.run.level = std::max(state_.run.level, order);
@@ -591,7 +591,7 @@ private:
     Walk walk_;
     Clock<Walk> clock_;
     int due_ = 0;                // phrases that end before the next note
-    std::array<int, 2> levels_;  // of the next note of each voice
+    std::array<int, 2> levels_;  // level of the next note of each voice
     bool may_stop_;
     Integer ahead_;  // ticks before tick 0 that are still to be skipped
     std::vector<Kind> kinds_;
@@ -602,7 +602,7 @@ private:
     bool is_counted_ = true;  // nothing was skipped
     Number lowest_ = 0;
     Number highest_ = 0;
-    Number step_length_ = 0;  // of the first step that is drawn
+    Number step_length_ = 0;  // length of the first step drawn
     std::int64_t first_degree_ = unknown;
     std::int64_t lowest_degree_ = unknown;
 };

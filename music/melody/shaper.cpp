@@ -104,7 +104,7 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
     std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
     if (range_ && goal < range_->low() && goal + period <= range_->high()) goal += period;
     if (range_ && goal > range_->high() && goal - period >= range_->low()) goal -= period;
-    // A given chord decides first, so that the goal is approached by step all the same.
+    // A given chord is applied first, so that the goal is still approached by step.
     if (const Chord* chord = given_chord(notes.back().onset)) goal = tone_of(*chord, goal);
     const bool from_above = notes.front().degree >= goal;
     std::int64_t distance = static_cast<std::int64_t>(notes.size()) - 1;

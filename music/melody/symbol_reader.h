@@ -115,7 +115,7 @@ public:
         end_phrases();
         clock_.breathe(stretch.marks, state_.time);
         is_counted_ = false;
-        level_ = 0;  // the mark after the stretch tells
+        level_ = 0;  // known from the mark after the stretch
         state_.time += length.convert_to<double>();
         state_.degree += stretch.rise.convert_to<std::int64_t>();
         return true;
@@ -129,7 +129,7 @@ private:
         std::int64_t sounding = unknown;
         int turned = 0;
         std::uint64_t symbol = 0;
-        int begun = 0;  // level of the note that sounds
+        int begun = 0;  // level of the sounding note
         Emitter::Line line;
         int louder = 0;  // added to velocities
         int level = 0;   // the velocity of notes that state none; 0: as the melody says
