@@ -50,7 +50,7 @@ std::vector<TempoPoint> TempoCurve::points(const SourceRange& range, std::int64_
     }
     smooth(values);
     smooth(values);
-    // What stays the same is left out. The tick of the end has none.
+    // Repeated values are left out. There is none at the end.
     if (values.size() > 1 && end % ticks_per_quarter == 0) values.pop_back();
     for (double& value : values) value = curve_.at(value) / tempo_;
     std::size_t changes = 1;

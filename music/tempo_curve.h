@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// Makes a tempo for each quarter: the mean of the notes that begin in it, or the tempo before, smoothed over two
-/// quarters on both sides. Memory: 12 bytes a quarter, and later 24 more.
+/// Computes a tempo for each quarter: the mean of the notes that begin in it, or the previous tempo, smoothed over
+/// two quarters on both sides. Memory: 12 bytes a quarter, and 24 more for points().
 class TempoCurve {
 public:
     /// Largest number of quarters.
@@ -27,7 +27,7 @@ public:
 private:
     ExpressionCurve curve_;
     double tempo_;
-    std::vector<double> sums_;  // of the notes of each quarter
+    std::vector<double> sums_;  // sum of the values in each quarter
     std::vector<std::uint32_t> counts_;
     double first_ = 0;  // value of the first note
     std::int64_t first_onset_ = INT64_MAX;

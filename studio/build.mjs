@@ -70,7 +70,7 @@ const workers_as_text = {
     },
 };
 
-// `panel-styles` is the rules of the panels. They come with the script, compressed; the rules of the whole page are in
+// `panel-styles` holds the style rules of the panels, compressed with the script; the rules of the whole page are in
 // its head.
 const styles_as_text = {
     name: "styles",

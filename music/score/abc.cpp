@@ -113,7 +113,7 @@ public:
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
                     const bool has_name = k == 0 && !is_other_hand && !notated.name.empty();
                     const std::string_view clef = clef_name(staff.changes.front().clef);
-                    // Keys without a clef would set the octaves back.
+                    // Keys without a clef would reset the octaves.
                     put("V:{} clef={}{}\n{}\n[K:{} clef={}] ", ++number, clef,
                         has_name ? fmt::format(" name=\"{}\"", quoted(notated.name)) : "",
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),

@@ -14,7 +14,7 @@ constexpr double reluctance = 3;
 constexpr std::size_t longest_hairpin = 4;  // bars
 constexpr double least_slope = 2;           // of velocity, from bar to bar
 constexpr double accent = 14;
-constexpr std::int64_t least_rest = ticks_per_quarter / 2;  // that a hairpin does not cross
+constexpr std::int64_t least_rest = ticks_per_quarter / 2;  // shortest rest that a hairpin does not cross
 
 double centre(int level) {
     return step * (level + 1);

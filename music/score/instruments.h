@@ -1,4 +1,4 @@
-// music/score/instruments.h: names of the instruments of General MIDI.
+// music/score/instruments.h: names of General MIDI instruments.
 #pragma once
 
 #include <string_view>
@@ -7,13 +7,13 @@ namespace sikku {
 
 /// The names of one program.
 struct Instrument {
-    std::string_view name;          ///< that of General MIDI
+    std::string_view name;          ///< General MIDI name
     std::string_view printed;       ///< before the first system of a score; several programs may share one
     std::string_view abbreviation;  ///< before the others
-    std::string_view lilypond;      ///< that of LilyPond's MIDI files, which accepts no other
+    std::string_view lilypond;      ///< the only name that LilyPond accepts for MIDI files
 };
 
-/// @param program  counted from 0; others are taken for the nearest
+/// @param program  counted from 0; values out of range are clamped
 const Instrument& instrument_of(int program);
 
 }  // namespace sikku

@@ -7,8 +7,8 @@
 
 namespace sikku {
 
-/// Sets name and abbreviation of parts: those of their instruments, or the names that they were given. Parts of one
-/// name are numbered.
+/// Sets name and abbreviation of parts: those of their instruments, or their own names. Parts with the same name are
+/// numbered.
 void set_labels(std::span<NotatedPart> parts);
 
 }  // namespace sikku

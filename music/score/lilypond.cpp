@@ -311,7 +311,7 @@ private:
                            drums.empty() ? "" : drum_row(drums.front(), 0));
     }
 
-    /// The opening of a context. @param hands  the group of both, which has their name
+    /// The opening of a context. @param hands  the group of both hands, which has their name
     std::string opening_of(const NotatedPart& part, std::size_t staff, bool are_hands) const {
         const bool is_drums = part.part.is_drums;
         const bool has_hands = part.bracket == Bracket::brace && part.staves.size() > 1;
@@ -350,8 +350,8 @@ private:
         if (is_group) put("    >>\n");
     }
 
-    /// The tempo in beats of the meter, as a whole number: LilyPond takes no other, and its MIDI files cut fractions
-    /// off.
+    /// The tempo in beats of the meter, as a whole number: LilyPond accepts no fractions, and truncates them in MIDI
+    /// files.
     std::string tempo_mark() const {
         const BeatUnit beat = beat_unit(head_.meter);
         const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();

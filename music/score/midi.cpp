@@ -409,7 +409,7 @@ private:
         }
         voice.controls = voice.controls.subspan(used);
         std::map<int, int>& sent = sent_[static_cast<std::size_t>(voice.channel)];
-        // What other voices have left there means nothing to this one.
+        // Values left there by other voices do not apply to this one.
         for (const auto& [number, value] : sent) voice.values.try_emplace(number, usual_controller_value(number));
         for (const auto& [number, value] : voice.values) {
             if (const auto last = sent.find(number); last != sent.end() && last->second == value) continue;

@@ -40,8 +40,8 @@ std::vector<int> channel_slots(const ScoreHead& head);
 /// voices, else as they come. A fraction of a key up to half a cent is none. With MPE the first track tells the
 /// configuration, and a program comes before a note where that of its channel differs.
 ///
-/// Pan, controllers and bends of NoteSink::curves() and controls() are messages of the channel of their voice, with
-/// MPE of that of the note that sounds.
+/// Pan, controllers and bends of NoteSink::curves() and controls() are messages on the channel of their voice, with
+/// MPE on that of the sounding note.
 ///
 /// A glide is a series of bends of its note (see glide_points()); it needs `microtonal` with Tuning::bend, or MPE. A
 /// glide that leaves the bend range strikes the key anew that it has reached there.

@@ -17,8 +17,8 @@ class NoteCollector : public NoteSink {
 public:
     static constexpr std::size_t most_points = 4'000'000;
 
-    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`. Of points of curves
-    ///              there may be `most_points`.
+    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`. Curves may have
+    /// `most_points` points.
     explicit NoteCollector(std::size_t most = 100'000) : most_(most) {}
 
     void curves(const Curves& curves) override { curves_ = curves; }

@@ -51,8 +51,8 @@ std::string_view accidental_name(int quarters) {
     return names[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
 }
 
-/// Staves of a part that are a part of their own in the file. Brackets join parts: programs give the staves of one
-/// part a brace, and some have room for four of them at most.
+/// Staves of a part that form a separate part in the file. Brackets join parts, because programs give the staves of
+/// one part a brace, and some allow at most four.
 struct XmlPart {
     const NotatedPart* part = nullptr;
     std::span<const Staff> staves;

@@ -215,7 +215,7 @@ void beam(NotatedVoice& voice, const Meter& meter) {
     for (std::size_t i = 0; i < notes.size(); ++i) voice.symbols[i].beams = notes[i].beams;
 }
 
-/// How much higher a key sounds than it is written, in cents that are to be printed.
+/// The printed cents by which a key sounds higher than written.
 int cents_above(double key, const Pitch& pitch) {
     const double away = key - pitch.key();
     return std::fabs(away) > unheard ? static_cast<int>(std::lround(100 * away)) : 0;
@@ -345,8 +345,8 @@ void Notator::finish(std::int64_t end) {
     bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
 }
 
-/// Takes notes that begin with the same symbol as one of a voice before out of their voices, and in an accompaniment
-/// voices with the rhythm of the first.
+/// Moves notes into chords: those that begin with the same symbol as a note of an earlier voice, and in an
+/// accompaniment voices with the rhythm of the first.
 void Notator::gather_chords(std::size_t part, std::size_t first_voice) {
     std::map<ChordPlace, const Note*> first;
     const auto has_rhythm_of_first = [&](const std::vector<Note>& voice) {

@@ -84,7 +84,7 @@ struct NotatedVoice {
 struct StaffChange {
     std::int64_t onset = 0;
     Clef clef = Clef::treble;
-    int octaves = 0;  ///< notes are written so many octaves lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
+    int octaves = 0;  ///< octaves by which notes are written lower: -1 8vb, 1 8va, 2 15ma, 3 22ma
     bool operator==(const StaffChange&) const = default;
 };
 
@@ -94,9 +94,9 @@ struct DynamicMark {
         level,
         crescendo,
         diminuendo,
-        end  ///< of a hairpin, where a rest comes before the next level
+        end  ///< end of a hairpin before a rest
     };
-    std::int64_t onset = 0;  ///< of a note, or of the rest that ends a hairpin
+    std::int64_t onset = 0;  ///< onset of a note, or of the rest that ends a hairpin
     Kind kind = Kind::level;
     int level = 4;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff
     bool operator==(const DynamicMark&) const = default;
@@ -120,7 +120,7 @@ struct KeyChange {
 
 struct NotatedPart {
     Part part;                    ///< its instrument
-    std::string name;             ///< as it is printed; parts of one name are numbered
+    std::string name;             ///< printed name; parts with the same name are numbered
     std::string abbreviation;     ///< of the name
     std::vector<KeyChange> keys;  ///< ascending, the first at 0
     std::vector<Staff> staves;    ///< at least one
@@ -144,10 +144,9 @@ struct Notation {
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
 /// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
-/// take turns share staves; see turns.h. Strokes of drums are lines of hands and feet; see strokes.h.
-/// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
-/// have their deviation in cents.
-/// Memory: O(notes + bars).
+/// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h. Pitches:
+/// written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches have their
+/// deviation in cents. Memory: O(notes + bars).
 class Notator final : public NoteSink {
 public:
     explicit Notator(const ScoreHead& head);

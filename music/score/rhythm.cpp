@@ -273,7 +273,7 @@ private:
         return is_simple(length) || (length % 3 == 0 && is_simple(length / 3 * 2));
     }
 
-    /// Two beats, where they are a half of a bar or of its half; 0 elsewhere.
+    /// Two beats, if they are half of a bar or of a half bar; otherwise 0.
     std::int64_t pair_at(std::int64_t from) const {
         const bool is_even =
             groups_.size() % 4 == 0 && std::equal(groups_.begin() + 1, groups_.end(), groups_.begin());
@@ -281,7 +281,7 @@ private:
         return is_even && from % pair == 0 && is_printable(pair) ? pair : 0;
     }
 
-    /// Within a group: each begins at a multiple of its length, and dots stand at the beginning of a beat alone.
+    /// Within a group: each begins at a multiple of its length, and only rests at the beginning of a beat have dots.
     std::int64_t longest_within(std::int64_t from, std::int64_t to, std::int64_t group) const {
         const std::int64_t beat =
             is_simple(group) && group <= ticks_per_quarter ? group : std::min(unit_, ticks_per_quarter);
@@ -364,7 +364,7 @@ int beams_of(const BeamedNote& note) {
     return count;
 }
 
-/// Sets beams of notes that share at least the first. @param parts  those of one part share the others, too
+/// Sets beams of notes that share at least the first. @param parts  notes of the same part share all beams
 void beam(std::span<BeamedNote> notes, std::span<const std::int64_t> parts) {
     if (notes.size() < 2) return;
     for (std::size_t i = 0; i < notes.size(); ++i) {
@@ -393,7 +393,7 @@ void beam(std::span<BeamedNote> notes, std::span<const std::int64_t> parts) {
     }
 }
 
-/// Eighths within a group, where notes shorter than 16ths are among the notes; otherwise one part.
+/// Parts are eighths within a group if there are notes shorter than 16ths; otherwise there is one part.
 std::vector<std::int64_t> parts_of(std::span<const BeamedNote> notes, std::int64_t group) {
     const bool has_short = std::any_of(
         notes.begin(), notes.end(), [](const BeamedNote& note) { return note.is_note && note.value.divisor > 16; });
@@ -405,8 +405,8 @@ std::vector<std::int64_t> parts_of(std::span<const BeamedNote> notes, std::int64
     return parts;
 }
 
-/// The stretch of a bar that eighths alone share if it is that of a note: halves of an even number of quarters, or
-/// three quarters. Nothing in meters without quarters.
+/// The span of a bar that eighths alone share, if it equals a note value: half of an even number of quarters, or
+/// three quarters. None in meters without quarters.
 std::int64_t wide_group(std::int64_t within, const Meter& meter, const Bar& bar) {
     if (meter.unit != 4) return -1;
     const std::int64_t begin = bar.is_grouped ? bar.group_begin(within) : 0;

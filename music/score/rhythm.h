@@ -36,20 +36,20 @@ struct TupletSpan {
     std::int64_t step() const { return (to - from) / actual; }
 };
 
-/// Groups of a bar in ticks: those of the meter; in x/8, x/16, …: threes for multiples of three, 3+3+2 for eight, or
-/// else twos, of which the first is a three in 5/8, 7/8, …; beats in others.
+/// Groups of a bar in ticks: those of the meter; in x/8, x/16, …: threes for multiples of three, 3+3+2 for eight,
+/// otherwise twos, the first a three in 5/8, 7/8, …; in other meters, beats.
 std::vector<std::int64_t> groups_of(const Meter& meter);
-/// Ticks of a bar that are strong: its beginning and those of its groups if the meter has groups, else the beginning
+/// Ticks of the strong beats of a bar: the beginnings of its groups if the meter has groups, otherwise its beginning
 /// and, with an even number of beats, the middle.
 std::vector<std::int64_t> strong_beats(const Meter& meter);
-/// True where groups are not all alike, or set by the meter, so that readers have to be told.
+/// True if groups are unequal or set by the meter, so that they have to be printed.
 bool has_groups(const Meter& meter);
 /// A beat as a note value.
 struct BeatUnit {
     NoteValue value;
     double quarters = 1;  ///< its length
 };
-/// The beat that a tempo is told in: a dotted one in 6/8, 9/8, …, the unit in other meters.
+/// The beat of printed tempos: a dotted one in 6/8, 9/8, …, the unit in other meters.
 BeatUnit beat_unit(const Meter& meter);
 
 /// The end of the beat, or the group of x/8, in which a time lies: ticks from the beginning of the score.
@@ -96,8 +96,8 @@ std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, con
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);
 
 /// Splits a rest as written_values() splits notes, but so that every beat is visible: a rest begins at a multiple of
-/// its own length, hides no middle of a bar, and has a dot only at the beginning of a beat or as a whole dotted beat
-/// (Gould 2011, "Behind Bars", "Rests").
+/// its own length, does not hide the middle of a bar, and has a dot only at the beginning of a beat or as a whole
+/// dotted beat (Gould 2011, "Behind Bars", "Rests").
 std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const Meter& meter);
 std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const TupletSpan& tuplet);
 

@@ -37,7 +37,7 @@ struct Note {
     glm::dvec2 to{0.0};
     std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
     std::uint8_t depth = 0;    ///< brackets around it
-    std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, where a curve follows it
+    std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, if a curve follows levels
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
     Glide glide{};             ///< of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
@@ -97,11 +97,11 @@ struct KeySignature {
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
-    bool has_instrument_name = false;  ///< `name` is that of General MIDI, not one of its own
-    std::string scale;                 ///< in words, with its tonic
+    bool has_instrument_name = false;  ///< `name` is the General MIDI name of its instrument
+    std::string scale;                 ///< scale in words, with its tonic
     int program = 0;                   ///< General MIDI, 0 to 127
-    int voices = 1;  ///< at least as many as sound in it; of a part with fewer notes than that some stay silent
-    std::optional<KeySignature> key;        ///< only for major, minor and the modes
+    int voices = 1;                    ///< at least as many as sound; in a part with fewer notes, some stay silent
+    std::optional<KeySignature> key;   ///< only for major, minor and the modes
     std::optional<KeySignature> signature;  ///< in print: of other scales, too
     std::array<Spelling, 12> spelling{};    ///< of each pitch class from C
     bool has_chords = false;                ///< notes of one onset and symbol are a chord in print

@@ -344,7 +344,7 @@ bool are_high(const std::vector<Moment>& moments) {
 }
 
 std::vector<State> states_of(const Part& part, std::optional<Clef> only, const std::vector<Moment>& moments) {
-    // What 8va, 15ma and 22ma cost each note.
+    // Costs of 8va, 15ma and 22ma for each note.
     constexpr std::array<double, 4> octave_cost = {0, 0.3, 1.5, 3};
     std::vector<State> states;
     const std::vector<Candidate> clefs =

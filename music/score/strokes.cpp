@@ -71,7 +71,7 @@ std::int64_t shortest_of(const Grid& grid) {
     return shortest;
 }
 
-/// @return false if the strokes need shorter notes together than each voice alone, or would move
+/// @return false if the strokes together need shorter notes than each voice alone, or would be moved
 bool fits_a_grid(const StrokeLine& line, std::span<const std::vector<Note>> voices, const Meter& meter) {
     const Grid grid = grid_of(line.strokes, meter);
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max();

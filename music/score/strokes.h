@@ -11,8 +11,8 @@ namespace sikku {
 
 /// Strokes by onset, one at a time.
 struct StrokeLine {
-    std::vector<Note> strokes;                ///< of each the key of one drum
-    std::vector<std::vector<double>> others;  ///< for each: keys of the drums that are struck with it
+    std::vector<Note> strokes;                ///< each with the key of one drum
+    std::vector<std::vector<double>> others;  ///< for each stroke, keys of the drums struck with it
 };
 
 struct StrokeLines {
@@ -21,7 +21,7 @@ struct StrokeLines {
 };
 
 /// Arranges the strokes of all voices of a part in two lines, as for a drum set: hands above, feet (the bass drum and
-/// the pedal hi-hat) below. A line that no grid of bars and tuplets can hold stays divided into its voices.
+/// the pedal hi-hat) below. A line that does not fit any grid of bars and tuplets stays divided into its voices.
 ///
 /// A stroke has no length of its own: it is written up to the next one of its line, the end of its beat, or, if it
 /// lasts for whole beats, its end. Cost: O(n log n).

@@ -233,7 +233,7 @@ void join_hands(std::vector<PrintedPart>& printed) {
     }
 }
 
-/// Notes that need a sign in a key.
+/// Notes that need an accidental in a key.
 std::size_t signs_in(const PrintedPart& part, const std::vector<double>& others, const KeySignature& key) {
     const std::array<int, 7> signs = signs_of(key);
     const auto needs_one = [&](double sound) {

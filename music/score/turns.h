@@ -38,10 +38,10 @@ struct PrintedPart {
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
                                      std::int64_t bar_length);
 
-/// Gives parts on the same tonic the same key signature, of those that they have the one that needs fewest signs, so
-/// that the staves of a score agree. A part on another tonic takes that of the first part if it needs no signs in it.
-/// Parts that change their key, and drums, are left alone.
-/// @param others  for each printed part further keys, those of its chords
+/// Gives parts on the same tonic the same key signature, so that the staves of a score agree: of their signatures,
+/// the one with the fewest accidentals. A part on another tonic gets the signature of the first part if it then needs
+/// no accidentals. Parts that change their key, and drums, are left alone.
+/// @param others  further keys of each printed part, those of its chords
 void agree_on_keys(std::vector<PrintedPart>& printed, std::span<const std::vector<double>> others);
 
 }  // namespace sikku

@@ -9,9 +9,9 @@
 
 namespace sikku {
 
-/// Collects notes and hands them on without two at a time on one key of one part, or of parts that share a channel:
-/// of notes that begin together the longest stays, with the loudest velocity; a later one ends the one before, and
-/// goes on as long as that did. Voices come one after the other. Memory: O(notes).
+/// Collects notes and forwards them so that no two sound at a time on one key of a part, or of parts that share a
+/// channel. Of notes that begin together, the longest stays, with the loudest velocity. A later note ends the one
+/// before, and lasts at least as long as that would have. Voices are forwarded one after another. Memory: O(notes).
 class UnisonMerger : public NoteSink {
 public:
     /// @param most  notes above which a ScoreError is thrown
@@ -26,7 +26,7 @@ public:
 private:
     NoteSink& sink_;
     std::size_t most_;
-    std::vector<std::size_t> parts_;  ///< of each voice; one number for those on one channel
+    std::vector<std::size_t> parts_;  ///< part of each voice; one number for all parts on one channel
     std::vector<Note> notes_;
 };
 
