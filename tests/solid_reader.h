@@ -1,4 +1,4 @@
-// tests/solid_reader.h: reads meshes as their specifications say, and examines whether they bound a solid.
+// tests/solid_reader.h: reads meshes according to their specifications, and checks that they bound a solid.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -77,7 +77,7 @@ double worst_overlap(const std::vector<Polygon>& polygons) {
             if (b.low.x > a.high.x || a.low.x > b.high.x) continue;
             const double low = std::max(a.low.y, b.low.y), high = std::min(a.high.y, b.high.y);
             for (int line = 0; line < 40 && low + 1e-6 < high; ++line) {
-                // Not through horizontal sides, which are at round parts of the height.
+                // Avoids horizontal sides, which are at simple fractions of the height.
                 const double y = low + (high - low) * (line + 0.3183) / 40;
                 worst = std::max(worst, common_width(polygons[i], polygons[k], y));
             }
@@ -100,7 +100,7 @@ double share(const Polygon& piece, double side) {
 }  // namespace
 
 TEST(PieceRows, ReachTheDensitiesOfTheLiterature) {
-    // Tiles of the plane, but for the border of a sheet of 100 pieces across.
+    // Tiles fill the plane, except at the border of a sheet 100 pieces wide.
     for (const Polygon& piece :
          {regular(3, 1), regular(4, 1), regular(6, 1), Polygon{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}}) {
         EXPECT_GT(share(piece, 200), 0.97);

@@ -136,7 +136,7 @@ TEST(PlaneRegions, UnionsOfRectanglesHaveTheirExactArea) {
         const PlaneRegions plane = divide_plane(edges, 0, covered, {});
         expect_valid(plane);
         EXPECT_EQ(twice_area_of(plane, 0), 2 * area);
-        // Its outlines enclose the same area, with as few edges as there can be.
+        // Its outlines enclose the same area, with as few edges as possible.
         const auto outlines = outlines_of(plane, same);
         EXPECT_EQ(twice_area_of(divide_plane(outlines, 0, covered, {}), 0), 2 * area);
         std::set<std::pair<std::int32_t, std::int32_t>> starts;

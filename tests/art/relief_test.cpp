@@ -22,7 +22,7 @@ Document document(const std::string& keys, const std::string& axiom) {
                      keys + "axiom: " + axiom + "\n");
 }
 
-/// On a page of 100 x 100 mm, at 10 mm for a step, if `values` do not say otherwise.
+/// On a page of 100 x 100 mm, with steps of 10 mm, unless `values` override these.
 OptionValues with(OptionValues values) {
     for (const OptionValue& usual : OptionValues{{"size", "100x100mm"}, {"step", "10mm"}}) {
         const auto is_same = [&](const OptionValue& value) { return value.name == usual.name; };
@@ -133,7 +133,7 @@ TEST(Relief, CoversWhatPicturesCover) {
 TEST(Relief, TilesHaveTheVolumeOfTheirPrisms) {
     const Document drawn = load("penrose-rhombs", {"", {{"test", "derivation length", "4"}}});
     const OptionValues size = {{"size", "150x150mm"}, {"step", "5mm"}};
-    // Of the pattern, the thin rhombs with angles of 36 degrees have the first colour, the thick ones of 72 the
+    // In the pattern, the thin rhombs with angles of 36 degrees have the first colour, the thick ones of 72 the
     // second.
     OptionValues named = size;
     named.push_back({"name-tiles", "true"});
@@ -260,7 +260,7 @@ TEST(Relief, IsTheSameInEveryRun) {
               std::string::npos);
 }
 
-TEST(Relief, FilesTellTheirPatternIfTheyCan) {
+TEST(Relief, FilesOtherThanStlContainTheirPattern) {
     const ScratchFolder folder;
     const Document drawn = document("", square);
     for (const char* name : {"r.stl", "r.glb", "r.obj"}) {

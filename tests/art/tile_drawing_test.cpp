@@ -304,7 +304,7 @@ std::vector<std::string> fills_of_tiles(const std::string& tiling, OptionValues 
     return fills;
 }
 
-/// Chairs come four by four out of the chairs of the step before; so do their colours.
+/// Each chair of the step before becomes four chairs of one colour.
 TEST(TileDrawing, TilesOfOneAncestorHaveOneColour) {
     for (const auto& [steps, tiles] : {std::pair("1", 4), std::pair("2", 16), std::pair("3", 64)}) {
         const auto fills = fills_of_tiles(

@@ -69,7 +69,7 @@ TEST(TileWorms, HaveALinkForEachVertexOfThreeRhombs) {
 }
 
 /// Long and short links follow each other as in the words of Fibonacci: no two short ones, no three long ones.
-TEST(TileWorms, OfPenroseAreWordsOfFibonacci) {
+TEST(TileWorms, InPenroseTilingsAreFibonacciWords) {
     const std::vector<WormLink> links = find_worms(outlines("penrose-rhombs", 7), {});
     double longest = 0, shortest = 1e9;
     for (const WormLink& link : links) {

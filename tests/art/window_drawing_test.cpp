@@ -262,7 +262,7 @@ TEST(WindowDrawing, HasTheSameColoursEverywhere) {
     EXPECT_EQ(colours.size(), 10u);
 }
 
-/// Lengths that are computed add up to errors, and windows are refused before tiles part.
+/// Errors of computed lengths add up; windows are refused before gaps appear between tiles.
 TEST(WindowDrawing, RefusesPlacesThatAreNotPrecise) {
     std::string why;
     EXPECT_FALSE(WindowDrawing::make(tiling("pinwheel", "40"), plain_print().style,

@@ -21,7 +21,7 @@ std::string word(const std::string& pattern, int n) {
     return to_text(word, word.axiom());
 }
 
-TEST(Mirror, WritesTheProductionsOfTheOther) {
+TEST(Mirror, AddsTheProductionsOfThePartner) {
     const std::string explicit_form =
         "angle factor: 10\naxiom: A[++a]|B-b\n"
         "A --> [f++f|A][f++B]\na --> [f--f|a][f--b]\nB --> [++f++B][--f++++f+b][++f----a]\n"
@@ -56,7 +56,7 @@ TEST(Mirror, LeavesStatedProductionsAlone) {
         "-++a--A");
 }
 
-TEST(Mirror, ChoosesAsTheOther) {
+TEST(Mirror, MakesTheChoicesOfThePartner) {
     const std::string text = "mirror: A a\nseed: 5\naxiom: AaAaAaAa\nA --> A+ : 0.5\nA --> -A : 0.5\n";
     const std::string found = word(text, 1);
     EXPECT_NE(found.find("a-"), std::string::npos) << found;

@@ -17,7 +17,7 @@ public:
     Word word;
 };
 
-/// A symbol, or its mirror image in the way of the bundled patterns: the same for both.
+/// A symbol or its mirror image, in the notation of the bundled patterns.
 std::string unmirrored(std::string symbol) {
     for (char& each : symbol)
         each = each == '-' ? '+' : static_cast<char>(std::tolower(static_cast<unsigned char>(each)));

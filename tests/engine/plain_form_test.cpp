@@ -72,7 +72,7 @@ TEST(PlainForm, IsFoldedAndCounted) {
     ASSERT_TRUE(plain);
     const auto folded = fold(*plain);
     ASSERT_TRUE(folded);
-    // Each step makes 3 times as long a way of a segment.
+    // Each step makes the path of a segment 3 times as long.
     EXPECT_NEAR(folded->end[0].value, std::pow(3.0, 7), 1e-6);
     const auto deep = plain_form(grammar_of(text, {{"-n", "derivation length", "60"}}));
     ASSERT_TRUE(deep);
@@ -85,7 +85,7 @@ TEST(PlainForm, IsFoldedAndCounted) {
     EXPECT_EQ(segments, 2 * boost::multiprecision::pow(Integer(3), 60));
 }
 
-TEST(PlainForm, IsNotThereForChanceContextsAndTooManyModules) {
+TEST(PlainForm, DoesNotExistForChanceContextsAndTooManyModules) {
     EXPECT_FALSE(plain_form(grammar_of("axiom: A(1)\nderivation length: 3\nA(x) --> A(x*random(1,2))\n")));
     EXPECT_FALSE(plain_form(grammar_of("axiom: A(1)A(2)\nderivation length: 3\nA(y) < A(x) --> A(x+y)\n")));
     EXPECT_FALSE(plain_form(grammar_of("axiom: A(1)\nderivation length: 30\nA(x) --> A(2*x)A(2*x+1)\n")));

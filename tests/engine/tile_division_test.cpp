@@ -33,7 +33,7 @@ std::vector<TileDivision> divisions(const std::string& name, std::int64_t last) 
     return tile_divisions(tile_generations(document.grammar(), 0, last, {}, {}), factor, {});
 }
 
-TEST(Rewriting, TellsTheParentOfEachSymbol) {
+TEST(Rewriting, ReportsTheParentOfEachSymbol) {
     // One symbol after the other, in systems without contexts.
     for (const char* name : {"chair", "pinwheel", "bush-272", "capsella"}) {
         const Document document = load(name);
@@ -56,7 +56,7 @@ TEST(Rewriting, TellsTheParentOfEachSymbol) {
     }
 }
 
-TEST(Rewriting, TellsParentsAcrossContextsAndCuts) {
+TEST(Rewriting, ReportsParentsAcrossContextsAndCuts) {
     const Document document =
         parse("cut.lsys", "axiom: BA[C]A%A[AA]\nB < A --> BAA\nA --> A\nC --> CC\nderivation length: 1\n");
     const Grammar& grammar = document.grammar();

@@ -110,7 +110,7 @@ TEST(TilePeriods, AreNotFoundInAperiodicTilings) {
     }
 }
 
-TEST(TilePeriods, HoldOneDirectionOnlyInStrips) {
+TEST(TilePeriods, HaveOneDirectionInStrips) {
     // Squares in rows, of which each other row has another colour, and the middle one a third.
     std::string text = "angle factor: 4\nturn: left\nheading: 0\nderivation length: 0\naxiom: ";
     for (int row = 0; row < 21; ++row) {

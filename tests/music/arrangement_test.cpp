@@ -134,8 +134,8 @@ TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
     EXPECT_EQ(told(list, 3), "600:48/240 840:50/240 1080:52/240 1320:50/480");
 }
 
-/// Two tempos in print: tuplets say exactly what sounds.
-TEST(Arrangement, TemposOfTheirOwnArePrinted) {
+/// Two tempos in print: tuplets notate the rhythm exactly.
+TEST(Arrangement, PartsWithTheirOwnTempoArePrinted) {
     for (const auto& [speed, actual] : {std::pair{"3:2", "3"}, {"5:4", "5"}, {"2:1", ""}, {"1:2", ""}}) {
         const std::string text = track("instrument = \"Violin\"\n") +
                                  track(fmt::format("speed = \"{}\"\ninstrument = \"Cello\"\n", speed));

@@ -132,7 +132,7 @@ TEST(Expression, LevelsAreOrdersOfSubCurves) {
     EXPECT_EQ(velocities, (std::vector<int>{100, 10, 40, 10, 70, 10, 40, 10}));
 }
 
-/// Levels are those of the whole in a piece from the middle, too, with phrases and without, and in all mappings.
+/// Levels in a piece from the middle equal those of the whole, with and without phrases, in all mappings.
 TEST(Expression, LevelsOfPiecesAreThoseOfTheWhole) {
     const std::string curve =
         "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 6\nunit: 1/16\n";
@@ -350,7 +350,7 @@ std::vector<std::vector<Heard>> heard(const MidiFile& file, const std::vector<st
 }
 
 /// With MPE the curves belong to the channels of the notes: at any time the same is heard.
-TEST(Expression, MpeSoundsAsBends) {
+TEST(Expression, MpeSoundsLikePitchBends) {
     const std::string text = R"(title: two
 axiom: X
 derivation length: 3

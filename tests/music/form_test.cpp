@@ -35,7 +35,7 @@ std::int64_t end_of(const Note& note) {
     return note.onset + note.duration;
 }
 
-/// The phrases of a voice, which rests end.
+/// The phrases of a voice, separated by rests.
 std::vector<std::vector<Note>> phrases_of(const std::vector<Note>& notes) {
     std::vector<std::vector<Note>> phrases;
     for (const Note& note : notes) {
@@ -45,7 +45,7 @@ std::vector<std::vector<Note>> phrases_of(const std::vector<Note>& notes) {
     return phrases;
 }
 
-TEST(Breath, UntilTheBarLine) {
+TEST(Breath, LastsUntilTheBarLine) {
     // The sub-curves themselves: what a phrase has without a breath.
     std::vector<std::size_t> sizes;
     for (const auto& phrase : phrases_of(notes_of(hilbert_4 + "vertical: extend\nphrases: 2\nbreath: 2\n").notes)) {

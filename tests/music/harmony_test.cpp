@@ -192,7 +192,7 @@ TEST(Chords, CadencesLeadToTheirTones) {
     EXPECT_GT(steps, 30);
 }
 
-TEST(Drones, GoOnEvenly) {
+TEST(Drones, ContinueEvenly) {
     const std::string text = hilbert + "harmony: drone\nphrases: 3\nbreath: 3/16\n";
     for (const char* more : {"", "form: A B A C A2\n", "retrograde: yes\n", "form: B A\nretrograde: yes\n"}) {
         const NoteList list = notes_of(text + more);
@@ -212,7 +212,7 @@ TEST(Drones, GoOnEvenly) {
         EXPECT_EQ(list.end, static_cast<std::int64_t>(low.size()) * 1920) << more;
         EXPECT_GE(list.end, voices.at(0).back().onset + voices.at(0).back().duration) << more;
     }
-    // Where a bar has three groups, they are plucked.
+    // If a bar has three groups, they are plucked.
     for (const auto& [meter, plucks] : {std::pair<std::string, std::vector<int>>{"3+2+2/8", {0, 3, 5}},
                                         {"4+2+2/4", {0, 8, 12}},
                                         {"3/4", {0, 2, 4}},
@@ -255,7 +255,7 @@ TEST(Canons, ImitateExactly) {
 }
 
 /// A melody with chords gives way to them.
-TEST(Counterpoint, HeedsItsOwnChords) {
+TEST(Counterpoint, AdaptsToItsOwnChords) {
     const std::string text = hilbert + "harmony: progression I-VI-IV-V-I-IV-V-I\nrhythm: x.x.x.xxx..xx.~~\n";
     const auto faults = [](const NoteList& list) {
         const auto voices = by_voice(list);

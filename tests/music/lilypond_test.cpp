@@ -229,7 +229,7 @@ TEST(LilyPond, TheTempoIsAWholeNumber) {
     }
 }
 
-TEST(LilyPond, TheTempoIsToldInBeats) {
+TEST(LilyPond, TheTempoIsInBeats) {
     const auto mark = [](const Meter& meter) {
         TestScore score = line(meter, {480});
         score.head.tempo = 100;

@@ -347,7 +347,7 @@ TEST(MusicXml, StavesOfABracketAreParts) {
     EXPECT_FALSE(document.child("score-partwise").child("part").child("measure").child("attributes").child("staves"));
 }
 
-TEST(MusicXml, ASingleDrumHasALine) {
+TEST(MusicXml, ASingleDrumHasOneLine) {
     TestScore score = line({4, 4}, {480, 480}, 39);
     score.head.parts[0].is_drums = true;
     const auto document = parsed(xml_of(score));

@@ -296,7 +296,7 @@ TEST(Performer, PlaysCurves) {
               (std::vector<Nanoseconds>{second / 2, second, pass + second / 2, pass + second}));
 }
 
-/// A port that delivers messages in time is sent the same, earlier.
+/// A port that delivers messages in time receives the same messages, earlier.
 TEST(Performer, SendsAhead) {
     MidiScore score = quarters(20);
     score.head.ritardando = 2 * 1920;
@@ -321,7 +321,7 @@ TEST(Performer, SendsAhead) {
     }
 }
 
-/// Nothing overtakes what was sent ahead.
+/// Later messages never overtake those sent ahead.
 TEST(Performer, StopsAndPausesAfterWhatWasSentAhead) {
     Performance one(second / 10);
     one.options.times = 0;

@@ -108,7 +108,7 @@ TEST(Unisons, VoicesOfAPartShareItsChannel) {
     EXPECT_GT(notes, 300u);
 }
 
-/// Of more parts than channels, those of an instrument share one.
+/// With more parts than channels, those of an instrument share one.
 TEST(Unisons, PartsOfAnInstrumentShareAChannel) {
     TestScore score = random_voices(2, 40, 1);
     for (std::size_t i = 0; i < 40; ++i) score.head.parts[i].program = static_cast<int>(i % 15);

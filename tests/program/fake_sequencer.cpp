@@ -26,7 +26,7 @@ long long now() {
     return time.tv_sec * second + time.tv_nsec;
 }
 
-/// Prints an event, and what is wrong with its time.
+/// Prints an event and errors in its time.
 void print(const char* kind, int first, int other, const snd_seq_event_t& event) {
     std::fprintf(stderr, "%s %d %d", kind, first, other);
     if (event.queue == SND_SEQ_QUEUE_DIRECT) {

@@ -295,7 +295,7 @@ TEST(Live, WrongCommandLines) {
     }
 }
 
-/// What fake_sequencer.cpp prints.
+/// The output of fake_sequencer.cpp.
 struct SequencerHeard : Heard {
     std::vector<std::int64_t> times;  ///< of note-ons, in microseconds
 };

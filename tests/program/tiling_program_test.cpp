@@ -140,8 +140,8 @@ TEST(TilingCommand, WritesViolationsAsJson) {
         << text.output;
 }
 
-/// Tiles that overlap are told with their ways from the axiom; so are all tiles in JSON.
-TEST(TilingCommand, TellsWhereTilesAreDerived) {
+/// Overlapping tiles are reported with their paths from the axiom, as are all tiles in JSON.
+TEST(TilingCommand, ReportsWhereTilesAreDerived) {
     const ScratchFolder folder;
     const std::string file = folder.write("over.lsys",
                                           "derivation length: 2\nangle factor: 4\nturn: left\nheading: 0\naxiom: A\n"
