@@ -204,7 +204,7 @@ private:
         const double in_use = static_cast<double>(row.unit.size()) * area_;
         std::vector<Arrangement> found;
         for (const double shift : shifts(row.unit, row.unit, row.period)) {
-            constexpr double share = 0.9;  // of the best density
+            constexpr double share = 0.9;  // least share of the best density
             const double most = in_use / (row.period * share * densest_);
             double rise = rise_of(row.unit, row.unit, row.period, shift, most);
             // Rows that are not neighbours may meet, too.

@@ -25,12 +25,12 @@ public:
     /// other. Cost: linear.
     double slide(const Profile& moved, double offset) const;
 
-    double begin() const { return strips_.front().from; }  ///< on the other axis
+    double begin() const { return strips_.front().from; }  ///< beginning on the other axis
     double end() const { return strips_.back().to; }
 
 private:
     struct Strip {
-        double from, to;  ///< of the other axis
+        double from, to;  ///< range on the other axis
         double low_from, low_to, high_from, high_to;
         double low(double at) const { return low_from + (low_to - low_from) * share(at); }
         double high(double at) const { return high_from + (high_to - high_from) * share(at); }

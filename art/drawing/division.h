@@ -26,7 +26,7 @@ struct DivisionStage {
     std::int64_t steps = 0;
     RecordedPath picture;  ///< all that is drawn
     PolygonList tiles;
-    std::vector<Colour> colours;  ///< of the tiles
+    std::vector<Colour> colours;  ///< colours of the tiles
     glm::dmat3x2 place{1.0};      ///< map to the coordinates of the last stage
     double scale = 1;             ///< length of a step in steps of the last stage
     std::optional<Pen> outline;   ///< pen of each tile's outline, if outlines are drawn
@@ -38,7 +38,7 @@ struct DivisionStage {
 
 struct Division {
     std::vector<DivisionStage> stages;  ///< at least 2
-    Style style;                        ///< of all pictures
+    Style style;                        ///< style of all pictures
     DrawnExtent seen;                   ///< extent of all stages together, in the orientation of the page
     double scale = 1;                   ///< share of the page that it fills
 };

@@ -8,7 +8,7 @@ namespace sikku {
 /// Display times of generations of tiles that divide, in seconds.
 struct DivisionTimes {
     double rest = 0.6;      ///< pause at each generation
-    double division = 1.4;  ///< of each division
+    double division = 1.4;  ///< duration of each division
     double hold = 2.0;      ///< minimum pause at the last generation
     double fade = 0.8;      ///< fade from the last generation to the first, before the animation repeats
 };
@@ -30,7 +30,7 @@ struct DivisionTracks {
     Track way;      ///< share of the way from where it rests to where it lies
     Track outline;  ///< width of its outline
     Track colour;   ///< mix of the colour of its parent, 0, and its own, 1
-    Track opacity;  ///< of parts
+    Track opacity;  ///< opacity of parts
     Track before;   ///< opacity of the generation before
     Track arrival;  ///< opacity of lines and discs of this generation, besides outlines
 };

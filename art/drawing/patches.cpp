@@ -380,7 +380,7 @@ bool PatchesOf<Headings>::flatten(Symbol symbol, std::size_t level, Word& word) 
 /// True if brackets and polygons of a word balance and it leaves the pen as it was.
 template <class Headings>
 bool PatchesOf<Headings>::is_complete(const Grammar& grammar, const Word& word) {
-    std::vector<bool> open{false};  // for each bracket, whether the pen was changed in it
+    std::vector<bool> open{false};  // for each open bracket, whether the pen was changed in it
     int polygons = 0;
     for (const Symbol symbol : word) {
         const Action action = grammar.symbols()[symbol].command.action;
@@ -479,7 +479,7 @@ QuadVector PatchesOf<Headings>::random_place(std::uint64_t seed) const {
     struct Choice {
         Symbol symbol;
         State state;
-        double area;  ///< of its box, added to those before it
+        double area;  ///< cumulative area of the boxes up to this one
     };
     State here{{}, headings_.first()};
     const Word* word = &grammar_.axiom();

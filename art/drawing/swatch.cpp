@@ -285,7 +285,7 @@ private:
     /// Everything else that is drawn has to repeat, too.
     void compare_pictures() const {
         constexpr int same = 24;             // levels
-        constexpr double differing = 0.002;  // of all values
+        constexpr double differing = 0.002;  // share of all values
         const std::vector<std::uint8_t> here = picture(glm::dvec2(0.0));
         for (const glm::dvec2 way : swatch_.cell.sides) {
             const std::vector<std::uint8_t> there = picture(way);

@@ -118,7 +118,7 @@ void find_regions(const ConstrainedTriangulation& triangulation, Windings& windi
     const auto& triangles = triangulation.triangles();
     constexpr Windings::Id unknown = ~Windings::Id{0};
     std::vector<Windings::Id> found(triangles.size(), unknown);
-    std::vector<std::int32_t> regions;  // of each number of windings
+    std::vector<std::int32_t> regions;  // region of each number of windings
     std::vector<std::uint32_t> pending = {0};
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const auto& neighbours = triangles[i].neighbours;
@@ -182,7 +182,7 @@ std::vector<LayerEdge> outlines_of(const PlaneRegions& plane, const std::functio
         std::uint32_t from, to;
         std::int32_t region;
     };
-    std::vector<Side> sides;  // of regions, each on the left
+    std::vector<Side> sides;  // sides of regions, which lie on the left
     std::vector<Meeting> meetings(plane.points.size());
     const auto region_of = [&](std::uint32_t triangle) {
         if (triangle == PlaneRegions::none) return PlaneRegions::outside;

@@ -71,7 +71,7 @@ private:
     glm::dvec2 at_{0.0};
     bool is_visible_ = false, is_whole_ = true;
     std::vector<glm::dvec2> line_;  ///< its points; other shapes may arrive in between
-    PlotNodes corners_;             ///< of polygons, so that neighbours have the same
+    PlotNodes corners_;             ///< corners of polygons, shared by neighbours
 };
 
 }  // namespace sikku

@@ -44,7 +44,7 @@ public:
     void visit(const Visit& visit) const;
     std::span<const ReliefRegion> regions() const { return regions_; }
     double volume() const;    ///< cubic millimetres
-    glm::dvec3 size() const;  ///< of its box, in millimetres
+    glm::dvec3 size() const;  ///< size of its box, in millimetres
 
 private:
     PlaneRegions plane_, bottom_;

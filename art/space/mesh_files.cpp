@@ -155,7 +155,7 @@ public:
     }
 
     std::string accessors, views, materials, primitives;
-    std::uint64_t bytes = 0;  ///< of all views
+    std::uint64_t bytes = 0;  ///< size of all views
 
 private:
     static constexpr int single = 5126, unsigned_int = 5125;  // types of numbers

@@ -19,7 +19,7 @@ namespace sikku {
 /// All triangles of one material.
 struct Mesh {
     Colour colour;
-    std::string_view kind{};  ///< of the material, for its name
+    std::string_view kind{};  ///< kind of material, for its name
     bool two_sided = false;
     std::vector<glm::vec3> positions{};    ///< empty: those of the last mesh that has any
     std::vector<glm::vec3> normals{};      ///< of length 1, one for each position; or none: triangles are flat

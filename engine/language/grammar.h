@@ -226,7 +226,7 @@ public:
     /// A plain system with the same settings and schedule, and with these symbols and productions instead. It has no
     /// with_steps().
     struct PlainParts {
-        std::vector<SymbolInfo> symbols;  ///< of arity 0
+        std::vector<SymbolInfo> symbols;  ///< symbols of arity 0
         Word axiom;
         std::vector<std::vector<Production>> tables;
         std::optional<std::vector<Production>> interpretation;

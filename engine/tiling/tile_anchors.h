@@ -54,7 +54,7 @@ private:
         return std::uint64_t{in_class} << 32U | corner;
     }
 
-    std::vector<std::uint32_t> first_;  // of points
+    std::vector<std::uint32_t> first_;  // first tile of each point
     std::vector<Tile> tiles_;
     std::unordered_map<std::uint64_t, std::uint32_t> others_;  ///< beyond the longest list
 };

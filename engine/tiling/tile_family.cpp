@@ -290,7 +290,7 @@ private:
     std::vector<Pair> pairs_;
     double area_ = 0;  // mean area of a part
     TileDivision result_;
-    std::vector<std::vector<std::uint32_t>> parts_of_;  // of each tile before
+    std::vector<std::vector<std::uint32_t>> parts_of_;  // parts of each tile before
     std::vector<PolygonMass> sums_;
 };
 

@@ -523,8 +523,8 @@ private:
     bool is_last_ = false;  // no window of this pass follows
     std::size_t note_ = 0;  // the next note of the window
     std::optional<std::int64_t> end_;
-    std::int64_t length_ = 0;        // of the score in whole bars, in ticks
-    std::vector<TempoPoint> falls_;  // of the tempo at the end of the score
+    std::int64_t length_ = 0;        // length of the score in whole bars, in ticks
+    std::vector<TempoPoint> falls_;  // changes of tempo at the end of the score
     std::size_t fall_ = 0;
     double fall_factor_ = 1;
     std::multimap<std::int64_t, double> tempos_;  // factors of the tempo along the curve

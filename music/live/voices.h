@@ -60,7 +60,7 @@ private:
     std::vector<int> channels_;  // by voice
     int voice_count_ = 0;
     std::vector<Sounding> sounding_;           // by voice
-    std::vector<std::map<int, int>> values_;   // of controllers, by voice, with MPE
+    std::vector<std::map<int, int>> values_;   // controllers by voice, with MPE
     std::array<std::map<int, int>, 16> sent_;  // the same by channel
     std::vector<int> order_;                   // sounding voices, the oldest first
     struct Key {

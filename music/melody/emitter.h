@@ -239,7 +239,7 @@ private:
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
     std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
-    std::vector<Line> shaped_;               // of each voice
+    std::vector<Line> shaped_;               // line of each voice
     std::vector<std::int64_t> busy_until_;   // of each voice, from the notes already placed
     std::vector<std::int64_t> taken_until_;  // likewise before shaping, if there is a shaper
     std::vector<char> held_;                 // voices held by a branch that has not ended

@@ -297,7 +297,7 @@ private:
     Clock<PlaneWalk> clock_;
     std::int64_t end_ = 0;  // of the phrase that has just ended
     int due_ = 0;           // phrases that end with the note
-    int level_;             // of the next note
+    int level_;             // level of the next note
     bool may_stop_;
     std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
     std::vector<std::uint64_t> skipped_;  // by symbol; empty without a table

@@ -121,7 +121,7 @@ struct KeyChange {
 struct NotatedPart {
     Part part;                    ///< its instrument
     std::string name;             ///< printed name; parts with the same name are numbered
-    std::string abbreviation;     ///< of the name
+    std::string abbreviation;     ///< abbreviation of the name
     std::vector<KeyChange> keys;  ///< ascending, the first at 0
     std::vector<Staff> staves;    ///< at least one
     Bracket bracket = Bracket::none;
