@@ -144,9 +144,10 @@ struct Notation {
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
 /// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
-/// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h. Pitches:
-/// written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches have their
-/// deviation in cents. Memory: O(notes + bars).
+/// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h.
+/// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
+/// have their deviation in cents.
+/// Memory: O(notes + bars).
 class Notator final : public NoteSink {
 public:
     explicit Notator(const ScoreHead& head);
