@@ -354,7 +354,7 @@ private:
             play_all(ensemble_, playing_, *measured_);
         } catch (const BudgetError& error) {
             throw BudgetError(
-                fmt::format("what follows the curve needs its least and greatest value in the whole score before it "
+                fmt::format("curves of expression need the least and greatest value in the whole score before it "
                             "begins, but {}; `--bars 64` plays a piece",
                             error.what()));
         }

@@ -1,4 +1,4 @@
-// music/shared_channels.h: whose pan and controllers are those of others, too.
+// music/shared_channels.h: parts that share pan and controllers with others.
 #pragma once
 
 #include "music/ensemble.h"

@@ -26,7 +26,7 @@ public:
     std::int64_t end_ticks(Number steps) const {
         return has_rhythm_ ? slot_ticks(steps - begin_, true) + breaths_ : ticks(steps);
     }
-    /// The most ticks that so many steps and phrases last.
+    /// Maximum duration in ticks of a number of steps and phrases.
     Integer longest(const Integer& steps, const Integer& phrases) const {
         return (steps / hits() + 1) * cycle() + phrases * melody_.breath;
     }

@@ -162,9 +162,11 @@ private:
             visited += symbols > 0 ? static_cast<double>(symbols) : 65536.0;
             if (visited > 2 * options_.budget) {
                 throw BudgetError(fmt::format(
-                    "the piece lies too far inside: more than {:.0f} nodes would be visited to reach its end{}",
+                    "the piece lies too far into the curve: more than {:.0f} nodes would be visited to reach its "
+                    "end{}",
                     options_.budget,
-                    melody_.breathes_to_bar ? ", as phrases that begin at bar lines are read from the beginning" : ""));
+                    melody_.breathes_to_bar ? ", as phrases that begin at bar lines are read from the beginning"
+                                            : ""));
             }
             if (options_.watch) options_.watch(symbols);
         };

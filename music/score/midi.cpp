@@ -627,7 +627,7 @@ std::vector<int> channel_slots(const ScoreHead& head) {
         if (!part.is_drums) programs.insert(part.program);
     }
     if (programs.size() > most_voices) {
-        throw ScoreError(fmt::format("{} instruments in {} parts: MIDI has channels for {} beside the drums'",
+        throw ScoreError(fmt::format("{} instruments in {} parts: MIDI has channels for {} besides drums",
                                      programs.size(), head.parts.size(), most_voices));
     }
     std::size_t spare = most_voices - programs.size();

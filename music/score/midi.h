@@ -19,14 +19,14 @@ struct MidiOptions {
     bool microtonal = false;  ///< whether keys with a fraction may come; each voice then prepares its channel
     Tuning tuning = Tuning::bend;
     int bend_range = 2;  ///< semitones of a full bend, 1 to 24; with MPE it is 48
-    /// Voices of a part share its channel, so that there may be more than 15, and of more than 15 parts some of those
-    /// of an instrument: see channel_slots(). Only without microtones; notes on one key of a channel must not overlap: see
-    /// UnisonMerger.
+    /// Voices of a part share its channel, so there may be more than 15; with more than 15 parts, some of those of an
+    /// instrument share one: see channel_slots(). Only without microtones; notes on one key of a channel must not
+    /// overlap: see UnisonMerger.
     bool share_channels = false;
 };
 
-/// Which parts share a channel where voices do, by part, counted from 0: each has its own or, if there are more than
-/// 15, the last ones share that of the first part of their instrument. Numbers of drums mean nothing.
+/// Channel slot of each part, counted from 0, if voices share channels: each part has its own or, with more than 15
+/// parts, the last ones share that of the first part of their instrument. Slots of drums are unused.
 /// @throws ScoreError for more than 15 instruments
 std::vector<int> channel_slots(const ScoreHead& head);
 

@@ -11,7 +11,7 @@ namespace sikku::midi {
 constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
 constexpr int channels = 16;
 constexpr int drum_channel = 9;  ///< General MIDI, counted from 0
-constexpr int centre = 8192;     ///< of a pitch bend
+constexpr int centre = 8192;     ///< value of no pitch bend
 
 inline char* put_byte(char* out, int byte) {
     *out = static_cast<char>(byte);

@@ -17,7 +17,7 @@ void check_head(const ScoreHead& head) {
     const bool is_power =
         meter.unit >= 1 && meter.unit <= 64 && std::has_single_bit(static_cast<unsigned>(meter.unit));
     if (meter.beats < 1 || meter.beats > 255 || !is_power) {
-        throw ScoreError(fmt::format("a MIDI file cannot tell a meter of {}/{}", meter.beats, meter.unit));
+        throw ScoreError(fmt::format("a MIDI file cannot contain a meter of {}/{}", meter.beats, meter.unit));
     }
     for (const Part& part : head.parts) {
         if (part.program < 0 || part.program > 127) {
@@ -43,7 +43,7 @@ Conductor::Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe) :
 std::string Conductor::make_opening(bool is_mpe) const {
     const double tempo = std::round(60e6 / (head_->tempo * first_factor()));  // microseconds a quarter
     if (!(head_->tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
-        throw ScoreError(fmt::format("a MIDI file cannot tell a tempo of {} quarters a minute", head_->tempo));
+        throw ScoreError(fmt::format("a MIDI file cannot contain a tempo of {} quarters a minute", head_->tempo));
     }
     std::string bytes;
     if (!head_->title.empty()) bytes += meta_now(name_type, head_->title);

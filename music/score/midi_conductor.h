@@ -1,4 +1,4 @@
-// music/score/midi_conductor.h: the first track of a MIDI file, which tells texts, tempo, meter and key.
+// music/score/midi_conductor.h: the first track of a MIDI file, with texts, tempo, meter and key.
 #pragma once
 
 #include "music/score/curves.h"
@@ -24,11 +24,11 @@ public:
     /// @throws ScoreError for a tempo, meter, key or program that no file can hold
     Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe);
 
-    /// What stands at the beginning of the track, all at tick 0.
+    /// The events at the beginning of the track, all at tick 0.
     const std::string& opening() const { return opening_; }
     /// Those after the tempo of the beginning, by tick.
     std::vector<TempoChange> changes(std::int64_t end) const;
-    /// What ends the track; of the same length for every `end`, if `last` is.
+    /// The bytes that end the track. Their number is the same for every `end` if `last` is.
     /// @param last  the delta of the end of the track if the tempo does not change
     std::string closing(std::int64_t end, const std::string& last) const;
 

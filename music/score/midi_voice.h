@@ -16,7 +16,7 @@
 namespace sikku::midi {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
-/// Room that a note may need, in bytes: its own, and a tuning before it.
+/// Bytes that a note may need, including a tuning before it.
 constexpr std::size_t note_room = 14 + 14;
 
 /// The melody of one channel as the bytes of a track.
@@ -34,7 +34,7 @@ struct Voice {
     std::map<int, int> values;               ///< of controllers now, with MPE
     std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
     std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
-    std::uint64_t full_bytes = 0;            ///< of all of them
+    std::uint64_t full_bytes = 0;            ///< size of all of them
     std::unique_ptr<char[]> block = std::make_unique<char[]>(block_bytes);
     char* out = block.get();
 

@@ -317,7 +317,7 @@ TEST(NoteStream, SaysWhyItHasToBeReadFirst) {
         stream_notes({&document, 1}, {});
         FAIL();
     } catch (const BudgetError& error) {
-        EXPECT_NE(std::string(error.what()).find("what follows the curve needs its least and greatest value"),
+        EXPECT_NE(std::string(error.what()).find("curves of expression need the least and greatest value"),
                   std::string::npos)
             << error.what();
     }
