@@ -83,6 +83,7 @@ void check_model(const DrawSettings& settings) {
                   {settings.fills_page, "fill-page", reason},
                   {settings.swatch != SwatchChoice::none, "swatch", reason},
                   {settings.names_tiles, "name-tiles", "only SVG has elements with names, and only PDF layers"},
+                  {settings.kerf > 0, "kerf", "a model is not cut along the edges of its tiles"},
                   {settings.border.has_value(), "border", reason},
                   {settings.title_line.has_value(), "title-line", reason},
                   {settings.repeat.has_value(), "repeat", reason},
@@ -262,6 +263,7 @@ void check_division(const DrawSettings& settings, PrintFormat format) {
          {settings.fills_page, "fill-page", "sets the derivation length, of which 'divide' needs several"},
          {settings.repeat.has_value(), "repeat", moving},
          {settings.names_tiles, "name-tiles", "tiles that divide have different names in each generation"},
+         {settings.kerf > 0, "kerf", "tiles that divide are not cut"},
          {settings.dot_spacing.has_value(), "dot-spacing",
           "does not apply to tiles that divide; 'step' sets their scale"}});
 }

@@ -65,6 +65,7 @@ struct DrawSettings {
     SwatchChoice swatch = SwatchChoice::none;
     std::optional<Swatch> swatch_place{};       ///< the part found, set when the print is planned
     glm::dvec2 swatch_stretch{1.0};             ///< scale across and down that gives the swatch whole pixels
+    double kerf = 0;                            ///< width of a cut along the edges of tiles; 0: they are drawn
     bool names_tiles = false;                   ///< see Print::names_tiles
     std::optional<double> lesson;               ///< seconds for each stroke of a drawing lesson
     std::optional<Page> tile;                   ///< sheet of a tiled print

@@ -206,6 +206,10 @@ private:
         if (settings_.generations && document_.has_override("derivation length")) {
             refuse_option("generations", "", "cannot be combined with a derivation length");
         }
+        const TileEdges edges = print_.style.tile_edges;
+        if (settings_.kerf > 0 && edges != TileEdges::once && edges != TileEdges::border) {
+            refuse_option("kerf", "", "needs 'tile-edges' once or border, which draw each edge once");
+        }
         if (is_model()) refuse_line_work("a model has");
         if (settings_.division) require_plain("tiles that divide are not drawn by hand; set hand to 0");
         if (settings_.division) require_straight("tiles that divide have straight edges; set line to straight");
@@ -409,6 +413,12 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
     if (format_ == PrintFormat::eps && has_translucent_colours(print_.style)) {
         made.warn("an EPS has no opacity: translucent colours are mixed with that of the ground, or with white");
+    }
+    if (settings_.kerf > 0 && print_.style.tile_edges == TileEdges::once) {
+        made.warn(fmt::format(
+            "neighbours share their cuts, so that each tile loses {:g} mm along its inner edges; pieces that keep "
+            "their size have to be laid apart, as on cutting sheets",
+            settings_.kerf / 2));
     }
     if (document_.map()) {
         const std::string remark = undivided_remark(report.cells, *document_.map(), document_.grammar().steps());

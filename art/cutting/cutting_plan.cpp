@@ -1,7 +1,7 @@
 #include "art/cutting/cutting_plan.h"
 
-#include "art/cutting/outline.h"
 #include "art/drawing/ink_shape.h"
+#include "art/print/outline.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

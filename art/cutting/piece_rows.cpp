@@ -1,8 +1,8 @@
 #include "art/cutting/piece_rows.h"
 
-#include "art/cutting/outline.h"
 #include "art/cutting/slide.h"
 #include "art/drawing/ink_shape.h"
+#include "art/print/outline.h"
 
 #include <glm/geometric.hpp>
 

@@ -66,6 +66,7 @@ struct DrawingOptions {
     bool composes = false;     ///< place it by its shape and mass: see PlacementOptions::balance
     std::string title_line{};  ///< text below the drawing on the left; empty: none
     std::string edition{};     ///< text below the drawing on the right, such as 3/50; empty: none
+    double kerf = 0;           ///< millimetres; the border of united edges of tiles moves outwards by half of it
     double budget = 200e6;     ///< maximum number of derivation nodes visited in one pass
 };
 

@@ -1,5 +1,6 @@
 #include "art/drawing/tile_drawing.h"
 
+#include "art/drawing/border_cuts.h"
 #include "art/drawing/tile_colours.h"
 #include "art/drawing/tile_decorator.h"
 #include "art/drawing/tile_worms.h"
@@ -227,11 +228,19 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     std::vector<glm::dvec2> middles;
     TileGatherer gatherer(united, drawn_, options_.tile_period ? &middles : nullptr);
     drawing_->read(print, window, gatherer);
-    const auto kept = layers_                                  ? UnitedLines::Kept::apart
+    const bool cuts = unites && options_.kerf > 0;
+    const auto kept = cuts                                     ? UnitedLines::Kept::cuts
+                      : layers_                                ? UnitedLines::Kept::apart
                       : drawn_.tile_edges == TileEdges::once   ? UnitedLines::Kept::all
                       : drawn_.tile_edges == TileEdges::border ? UnitedLines::Kept::border
                                                                : UnitedLines::Kept::none;
-    const UnitedLines::Result found = united.unite(kept, options_.monitor);
+    UnitedLines::Result found = united.unite(kept, options_.monitor);
+    if (cuts) {
+        if (drawn_.tile_edges == TileEdges::border) {
+            std::erase_if(found.lines, [](const UnitedLines::Line& line) { return line.is_inner; });
+        }
+        found.lines = with_wider_border(found.lines, options_.kerf / 2 / print.placement.step);
+    }
     const std::vector<std::uint32_t> chosen =
         needs_all ? numbers(gatherer, united, found, middles) : std::vector<std::uint32_t>{};
     TilePainter painter(sink, drawn_, first_colour_, colours_, needs_all ? &chosen : nullptr, *drawing_);

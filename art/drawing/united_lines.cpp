@@ -168,8 +168,13 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
             return false;
         const std::uint32_t first = *lines.begin();
         const Pen& pen = pens_[owner(first)];
+        if (kept == Kept::cuts && left.empty() != right.empty()) {
+            const bool runs_on = right.empty();
+            drawn.push_back({first, {point(runs_on ? from : to), point(runs_on ? to : from), pen, false, true}});
+            return false;
+        }
         if (touches && drawn.back().line.pen == pen &&
-            (kept != Kept::apart || drawn.back().line.is_inner == is_inner)) {
+            ((kept != Kept::apart && kept != Kept::cuts) || drawn.back().line.is_inner == is_inner)) {
             drawn.back().first = std::min(drawn.back().first, first);
             drawn.back().line.to = point(to);
         } else {

@@ -21,12 +21,13 @@ class UnitedLines {
 public:
     /// Pieces that remain: all of them, also with those that do not lie between two tiles `apart` from the others,
     /// those that do not lie between two tiles, or none; `sides`: no pieces of lines, but those of the edges of
-    /// tiles.
-    enum class Kept : std::uint8_t { all, apart, border, none, sides };
+    /// tiles. `cuts`: all, with each piece of the border by itself.
+    enum class Kept : std::uint8_t { all, apart, border, none, sides, cuts };
     struct Line {
         glm::dvec2 from, to;
         Pen pen;
-        bool is_inner = false;  ///< between two tiles
+        bool is_inner = false;   ///< between two tiles
+        bool is_border = false;  ///< of Kept::cuts: on the edge of one tile, which lies on its left
     };
     /// A piece of an edge, with the tiles on either side of it; at least one.
     struct Side {

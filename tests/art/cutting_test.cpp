@@ -1,6 +1,5 @@
 // Cutting sheets: densities from the literature, overlaps by a second algorithm, sums, limits.
 #include "art/cutting/cutting_sheets.h"
-#include "art/cutting/outline.h"
 #include "art/cutting/piece_rows.h"
 #include "art/cutting/slide.h"
 #include "art/drawing/ink_shape.h"

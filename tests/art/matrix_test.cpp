@@ -105,6 +105,7 @@ std::vector<Feature> features() {
             {"filled page", grid, {}, {{"fill-page", "true"}}, {}},
             {"names of tiles", squares, {}, {{"name-tiles", "true"}}, {}},
             {"edges of tiles", squares, {{"tile edges", "border"}}, {}, {}},
+            {"kerf", squares, {{"tile edges", "border"}}, {{"kerf", "1mm"}}, {}, {{"tile edges", "border"}}},
             {"decorated tiles", squares, {{"decorate", "kolam"}}, {}, {}},
             {"splines", kolam, {{"line", "spline"}}, {}, {}, {{"line", "straight"}}},
             {"lines by hand", kolam, {{"hand", "0.5"}}, {}, {}, {{"hand", "0"}}},

@@ -1,4 +1,5 @@
 // Colours and edges of tiles: against sums over a grid, facts of the literature, and the SVG that is drawn.
+#include "art/drawing/border_cuts.h"
 #include "art/drawing/tile_colours.h"
 #include "art/drawing/united_lines.h"
 #include "art/prints.h"
@@ -166,6 +167,52 @@ TEST(UnitedLines, NothingIsLeftBetweenOrWithoutTiles) {
 
 /// Two colours for hexagons and triangles, three for Penrose's rhombs (Sibley and Wagon 2000) and most others,
 /// never more than four.
+/// Twice the area to the left of the border.
+double area_within(const std::vector<UnitedLines::Line>& lines) {
+    double area = 0;
+    for (const auto& line : lines) {
+        if (line.is_border) area += line.from.x * line.to.y - line.from.y * line.to.x;
+    }
+    return area / 2;
+}
+
+/// A region with right angles grows by its border times the distance, and by four squares at its corners in all.
+TEST(BorderCuts, RegionsGrowByTheirBorder) {
+    constexpr double distance = 0.01;
+    for (const auto& [tiling, steps] : {std::pair("chair", "4"), {"twin-dragon", "9"}, {"herringbone", "8"}}) {
+        const Gathered drawing = gathered(tiling, steps);
+        const auto lines = drawing.united.unite(Kept::cuts, {}).lines;
+        const auto moved = with_wider_border(lines, distance);
+        const double border = length_of(drawing.united.unite(Kept::border, {}).lines);
+        EXPECT_NEAR(length_of(lines), length_of(drawing.united.unite(Kept::all, {}).lines), 1e-6);
+        EXPECT_NEAR(area_within(moved), area_within(lines) + border * distance + 4 * distance * distance, 1e-6)
+            << tiling;
+        EXPECT_NEAR(length_of(moved), length_of(lines) + 8 * distance, 1e-6) << tiling;
+    }
+}
+
+TEST(BorderCuts, GapsShrinkAndTilesThatTouchAtACornerStayApart) {
+    Gathered drawing;
+    const auto add = [&](double x, double y) {
+        const std::vector<glm::dvec2> square = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+        drawing.polygon(square, {});
+        drawing.begin_stroke(square[3], {});
+        drawing.lines(square);
+    };
+    for (int i = 0; i < 9; ++i) {
+        if (i != 4) add(i % 3, i / 3);
+    }
+    add(3, 3);
+    const auto moved = with_wider_border(drawing.united.unite(Kept::cuts, {}).lines, 0.1);
+    std::map<bool, double> lengths;
+    for (const auto& line : moved) lengths[line.is_border] += glm::distance(line.from, line.to);
+    EXPECT_NEAR(lengths[true], 4 * 3.2 + 4 * 0.8 + 4 * 1.2, 1e-9);
+    EXPECT_NEAR(lengths[false], 8, 1e-9);
+    EXPECT_NEAR(area_within(moved), 3.2 * 3.2 - 0.8 * 0.8 + 1.2 * 1.2, 1e-9);
+    // The gap is a unit wide.
+    EXPECT_THROW(with_wider_border(drawing.united.unite(Kept::cuts, {}).lines, 0.6), std::runtime_error);
+}
+
 TEST(TileColours, NeighboursDifferInFewColours) {
     const std::map<std::string, std::pair<const char*, std::uint32_t>> tilings{{"penrose-rhombs", {"6", 3}},
                                                                                {"penrose-kite-dart", {"5", 4}},

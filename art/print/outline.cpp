@@ -1,4 +1,4 @@
-#include "art/cutting/outline.h"
+#include "art/print/outline.h"
 
 #include "art/print/lettering.h"
 
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -91,8 +92,8 @@ std::vector<glm::dvec2> turned(std::span<const glm::dvec2> corners, double angle
     return result;
 }
 
-std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, double distance) {
-    if (!(distance > 0)) return {corners.begin(), corners.end()};
+std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> corners, double distance) {
+    if (!(distance > 0)) return std::vector<glm::dvec2>(corners.begin(), corners.end());
     std::vector<glm::dvec2> outline;
     std::vector<std::pair<std::size_t, std::size_t>> of_corner;  // first and last point of each
     const std::size_t count = corners.size();
@@ -114,17 +115,20 @@ std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, doub
         }
         of_corner.back().second = outline.size() - 1;
     }
-    bool fits = true;  // each side keeps its direction
+    // Each side keeps its direction.
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t next = (i + 1) % count;
         const glm::dvec2 side = outline[of_corner[next].first] - outline[of_corner[i].second];
-        fits = fits && glm::dot(side, corners[next] - corners[i]) > 0;
-    }
-    if (!fits || crosses_itself(outline)) {
-        throw std::runtime_error(
-            fmt::format("an allowance of {} mm does not fit into the notches of its outline", distance));
+        if (!(glm::dot(side, corners[next] - corners[i]) > 0)) return std::nullopt;
     }
     return outline;
+}
+
+std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, double distance) {
+    auto outline = offset_sides(corners, distance);
+    if (outline && (!(distance > 0) || !crosses_itself(*outline))) return std::move(*outline);
+    throw std::runtime_error(
+        fmt::format("an allowance of {} mm does not fit into the notches of its outline", distance));
 }
 
 void draw_closed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink) {

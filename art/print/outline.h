@@ -1,4 +1,4 @@
-// art/cutting/outline.h: outlines of pieces to cut: allowances, dashes, and places for labels.
+// art/print/outline.h: outlines of pieces to cut: allowances, dashes, and places for labels.
 #pragma once
 
 #include "art/print/page.h"
@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ std::vector<glm::dvec2> turned(std::span<const glm::dvec2> points, double angle)
 /// twice the distance are cut off there. @param corners  anticlockwise
 /// @throws std::runtime_error if the result crosses itself, as in notches narrower than twice the distance
 std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, double distance);
+
+/// The same without the search for crossings, which costs k^2: nullopt if a side would be turned round.
+std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> corners, double distance);
 
 void draw_closed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
 /// Each side begins and ends with a dash.
