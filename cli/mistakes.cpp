@@ -82,8 +82,10 @@ void check_arguments(const CLI::App& app, const std::vector<std::string>& argume
             fmt::format("unknown command '{}'{}", printable(arguments[0], 80),
                         near.empty() ? "; `sikku --help` lists them" : fmt::format("; did you mean '{}'?", near)));
     }
-    const auto option_of = [&](const std::string& name) {
-        return name.size() > 1 && name[0] == '-' ? command->get_option_no_throw(name) : nullptr;
+    const auto option_of = [&](const std::string& name) -> const CLI::Option* {
+        if (name.size() < 2 || name[0] != '-') return nullptr;
+        const CLI::Option* own = command->get_option_no_throw(name);
+        return own ? own : app.get_option_no_throw(name);
     };
     for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
         const CLI::Option* option = option_of(arguments[i]);
@@ -91,7 +93,10 @@ void check_arguments(const CLI::App& app, const std::vector<std::string>& argume
         const std::string next = i + 1 < arguments.size() ? arguments[i + 1] : "--";
         const bool is_option = next == "--" || option_of(next) || option_of(next.substr(0, next.find('=')));
         if (has_optional_value(*option)) {
-            if (!is_option && next.starts_with("-")) throw UsageError(unknown_option(*command, next));
+            if (is_option || !next.starts_with("-") || next == "-") continue;
+            if (next.starts_with("--")) throw UsageError(unknown_option(*command, next));
+            throw UsageError(fmt::format("unknown option '{0}'; a value that begins with '-' is written {1}={0}",
+                                         printable(next, 80), arguments[i]));
         } else if (is_option) {
             throw UsageError(fmt::format("{} needs a value: {}", arguments[i], option->get_type_name()));
         }
