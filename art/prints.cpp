@@ -144,7 +144,7 @@ private:
 
     std::string made_with(const Grammar& grammar) const {
         std::string own;
-        if (settings_.swatch_place) own += " --swatch";
+        if (settings_.swatch_place) own += settings_.swatch == SwatchChoice::turned ? " --swatch=turn" : " --swatch";
         if (!settings_.window_text.empty()) own += " --window " + settings_.window_text;
         if (!settings_.view.empty()) own += " --view " + settings_.view;
         if (!settings_.light.empty()) own += " --light " + settings_.light;

@@ -206,8 +206,9 @@ void cut_pieces(const PieceOptions& options, const PieceSource& source, const Ti
     TemplateOptions templates;
     templates.seam = length_in("templates", options.templates, 0, 100);
     templates.kerf = length_in("kerf", options.kerf, 0, 10);
-    write_templates(cut_list(result, step), templates, writing_of(options, source, monitor), options.output,
-                    file_system());
+    const auto reports = write_templates(cut_list(result, step), templates, writing_of(options, source, monitor),
+                                         options.output, file_system());
+    report(options, reports, quiet);
 }
 
 std::function<std::string(std::int32_t)> colour_as_drawn(const Document& document, TilingResult& result,

@@ -55,7 +55,9 @@ bool is_of_curve(const Note& note) {
 void add_control(const Note& note, std::pair<double, double> part, const ExpressionCurve& curve, int number,
                  std::optional<int>& last, std::vector<ControlPoint>& points) {
     const auto [begin, end] = part;
-    for (std::int64_t at = 0; at < note.duration; at += control_ticks) {
+    // A note passes through at most 128 values.
+    const std::int64_t step = control_ticks * std::max<std::int64_t>(1, note.duration / control_ticks / 4096);
+    for (std::int64_t at = 0; at < note.duration; at += step) {
         const double here = begin + (end - begin) * static_cast<double>(at) / static_cast<double>(note.duration);
         const int value = static_cast<int>(std::floor(std::clamp(curve.at(here), 0.0, 127.0) + 0.5));
         if (last != value) points.push_back({note.onset + at, note.voice, number, static_cast<double>(value)});

@@ -86,8 +86,9 @@ glm::dvec2 arrange(std::vector<Template>& templates, double margin) {
 
 }  // namespace
 
-void write_templates(const std::vector<CutKind>& kinds, const TemplateOptions& options, PieceWriting writing,
-                     const std::filesystem::path& file, Destination& destination) {
+std::vector<DrawReport> write_templates(const std::vector<CutKind>& kinds, const TemplateOptions& options,
+                                        PieceWriting writing, const std::filesystem::path& file,
+                                        Destination& destination) {
     if (kinds.empty()) throw std::runtime_error("nothing to draw: there are no tiles");
     std::vector<Template> templates = make_templates(kinds, options);
     PieceSheet sheet;
@@ -103,7 +104,7 @@ void write_templates(const std::vector<CutKind>& kinds, const TemplateOptions& o
                           label_place(each.label, each.seam, most_height)});
     }
     writing.made = fmt::format("sikku {}, templates", SIKKU_VERSION);
-    write_pieces(shapes, {sheet}, writing, file, destination);
+    return write_pieces(shapes, {sheet}, writing, file, destination);
 }
 
 }  // namespace sikku

@@ -19,7 +19,8 @@ struct TemplateOptions {
 /// cut, the finished size dashed within it, and the names of its kinds with the number of pieces of each.
 /// @throws std::runtime_error for more than 1,000 templates, for one with more than 2,000 corners, for a page wider
 /// or higher than 10 m, and as offset_outline() and write_pieces()
-void write_templates(const std::vector<CutKind>& kinds, const TemplateOptions& options, PieceWriting writing,
-                     const std::filesystem::path& file, Destination& destination);
+std::vector<DrawReport> write_templates(const std::vector<CutKind>& kinds, const TemplateOptions& options,
+                                        PieceWriting writing, const std::filesystem::path& file,
+                                        Destination& destination);
 
 }  // namespace sikku

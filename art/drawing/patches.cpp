@@ -262,7 +262,7 @@ private:
 
     Kind kind(Symbol symbol, std::size_t level);
     Kind kind_of_word(const Word& word, std::size_t level);
-    bool flatten(Symbol symbol, std::size_t level, Word& word) const;
+    bool flatten(Symbol symbol, std::size_t level, Word& word, std::size_t& visits) const;
     static bool is_complete(const Grammar& grammar, const Word& word);
     void record(Symbol symbol, std::size_t level, const Word& word);
     const Piece& piece(Symbol symbol, std::size_t level, const Heading& heading);
@@ -356,23 +356,27 @@ Kind PatchesOf<Headings>::kind(Symbol symbol, std::size_t level) {
         if (found == Kind::recorded) record(symbol, level, {symbol});
     }
     Word whole;
-    if (found == Kind::incomplete && level > 0 && flatten(symbol, level, whole) && is_complete(grammar_, whole)) {
+    std::size_t visits = 16 * largest_template;
+    if (found == Kind::incomplete && level > 0 && flatten(symbol, level, whole, visits) &&
+        is_complete(grammar_, whole)) {
         record(symbol, level, whole);
         found = Kind::recorded;
     }
     return kinds_[at] = found;
 }
 
-/// The word of a symbol after all its tables; false if it is too long.
+/// The word of a symbol after all its tables; false if it is too long or takes more than `visits` symbols of all
+/// levels, which also count those that vanish.
 template <class Headings>
-bool PatchesOf<Headings>::flatten(Symbol symbol, std::size_t level, Word& word) const {
+bool PatchesOf<Headings>::flatten(Symbol symbol, std::size_t level, Word& word, std::size_t& visits) const {
+    if (visits-- == 0) return false;
     while (level > 0 && !successor(symbol, level)) --level;
     if (level == 0) {
         word.push_back(symbol);
         return word.size() <= largest_template;
     }
     for (const Symbol child : *successor(symbol, level)) {
-        if (!flatten(child, level - 1, word)) return false;
+        if (!flatten(child, level - 1, word, visits)) return false;
     }
     return true;
 }

@@ -1,6 +1,9 @@
 #include "art/relief/constrained_triangulation.h"
 
 #include "engine/base/numbers.h"
+#include "engine/derivation/forecast.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +133,11 @@ ConstrainedTriangulation::Point ConstrainedTriangulation::add(Micrometres point)
     pulse_();
     const Place place = locate(point);
     if (place.corner) return triangles_[place.triangle].corners[at(*place.corner)];
+    if (points_.size() >= most_points) {
+        throw BudgetError(fmt::format(
+            "with its crossings the relief has more than {} million points; choose a shorter derivation or a window",
+            most_points / 1'000'000));
+    }
     const Point added = static_cast<Point>(points_.size());
     points_.push_back(point);
     triangle_of_.push_back(place.triangle);

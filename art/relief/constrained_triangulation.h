@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/print/micrometres.h"
+#include "art/relief/relief_options.h"
 #include "art/relief/windings.h"
 #include "engine/base/monitor.h"
 
@@ -25,6 +26,8 @@ public:
     using Point = std::uint32_t;
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     static constexpr std::int32_t largest_coordinate = 1 << 28;
+    /// A point gives two triangles of a face and, at a wall, two of the wall.
+    static constexpr std::size_t most_points = most_relief_triangles / 4;
 
     /// The three corners run anticlockwise; edge i leads from corner i to the next one.
     struct Triangle {
@@ -39,7 +42,7 @@ public:
     ConstrainedTriangulation(Micrometres low, Micrometres high, double tolerance, Windings& windings,
                              const Monitor& monitor);
 
-    /// Adds a point, or finds it. Cost: constant if the last one was near.
+    /// Adds a point, or finds it. Cost: constant if the last one was near. @throws BudgetError beyond most_points
     Point add(Micrometres point);
     /// Adds an edge with the windings of its left minus those of its right. Cost: proportional to the triangles that
     /// it crosses; each crossing adds a point.

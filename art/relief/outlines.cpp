@@ -158,7 +158,9 @@ std::vector<Part> parts_of(std::span<const glm::dvec2> points, double radius, bo
 
 int chords_of(double angle, double radius, double tolerance) {
     constexpr double widest = std::numbers::pi / 4;
-    const double step = 2 * std::acos(std::max(0.0, 1 - tolerance / std::max(radius, tolerance)));
+    // Beyond a radius of 1e12 tolerances the cosine would be 1.
+    const double sagitta = std::max(tolerance / std::max(radius, tolerance), 1e-12);
+    const double step = 2 * std::acos(1 - sagitta);
     return std::max(1, static_cast<int>(std::ceil(angle / std::min(step, widest) - 1e-9)));
 }
 

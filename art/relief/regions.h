@@ -38,8 +38,8 @@ using RegionOf = std::function<std::int32_t(std::span<const Winding>)>;
 
 /// Outlines have to be closed, and may cross, touch and repeat each other. Those that pass a point at less than
 /// `tolerance` micrometres are led through it. Coordinates beyond 268 m are moved there.
-/// Cost: n log n in the edges and their crossings, about 3 µs for each; memory: 350 bytes.
-/// @throws Stopped
+/// Cost: n log n in the edges and their crossings, about 3 µs for each, and more where long edges cross very many
+/// others; memory: 350 bytes. @throws Stopped; BudgetError for more than ConstrainedTriangulation::most_points
 PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, const RegionOf& region_of,
                           const Monitor& monitor);
 

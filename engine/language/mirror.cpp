@@ -23,7 +23,9 @@ Mirror::Mirror(const Pattern& pattern, WordReader& reader, Diagnostics& diagnost
     }
     const auto add = [&](Symbol symbol, Symbol other) {
         const SymbolInfo &from = reader.symbols()[symbol], &to = reader.symbols()[other];
-        if (turns.find(from.letter) != std::string_view::npos) {
+        if (symbol == other) {
+            diagnostics.error(key->value, fmt::format("'{}' is paired with itself", from.letter));
+        } else if (turns.find(from.letter) != std::string_view::npos) {
             diagnostics.error(key->value,
                               fmt::format("'{}' cannot be listed: turns are mirrored anyway", from.letter));
         } else if (!images_.try_emplace(from.letter, Image{to.letter, to.is_name}).second) {

@@ -15,6 +15,7 @@ constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 
 /// Productions of equal predecessor and contexts.
 struct Group {
     std::uint32_t number = 0;
+    bool is_image = false;        ///< its productions are mirror images
     bool is_certain = false;      ///< one of them has neither condition nor weight
     bool has_conditions = false;  ///< that are not constant
     bool has_variables = false;   ///< weights that are not constant
@@ -99,7 +100,7 @@ private:
     /// @param first  index of the first of these texts among those of the table
     void add_productions(std::vector<Production>& productions, const std::vector<ProductionText>& texts,
                          std::size_t first, Groups& groups, bool homomorphism) {
-        const std::size_t before = productions.size();
+        std::size_t before = productions.size();
         auto number = static_cast<std::uint32_t>(first);
         for (const ProductionText& text : texts) {
             const std::uint32_t own_number = number++;
@@ -145,6 +146,14 @@ private:
             }
             Group& group = groups.try_emplace({*left, *predecessor, *right}).first->second;
             if (group.number == 0) group.number = static_cast<std::uint32_t>(groups.size());
+            if (group.is_image) {
+                // Images of common productions give way to what a table states.
+                before -=
+                    std::erase_if(productions, [&](const Production& one) { return one.group == group.number; });
+                const std::uint32_t own = group.number;
+                group = Group();
+                group.number = own;
+            }
             if (group.is_certain && !text.weight) {
                 diagnostics_.error(text.predecessor,
                                    "this production can never apply: one with the same predecessor and contexts "
@@ -187,6 +196,7 @@ private:
             image.successor = mirror_.image(image.successor);
             Group group = stated.at({productions[i].left, productions[i].predecessor, productions[i].right});
             group.number = static_cast<std::uint32_t>(groups.size()) + 1;
+            group.is_image = true;
             image.group =
                 groups.try_emplace({image.left, image.predecessor, image.right}, group).first->second.number;
             productions.push_back(std::move(image));

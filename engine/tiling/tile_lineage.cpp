@@ -116,6 +116,9 @@ std::vector<TileGeneration> tile_generations(const Grammar& grammar, std::int64_
     if (grammar.is_spatial()) {
         throw LineageError("this drawing pitches, rolls, bends or has surfaces; tiles lie in the plane");
     }
+    if (last > limits.steps) {
+        throw BudgetError(fmt::format("generations are derived up to n = {}, not to {}", limits.steps, last));
+    }
     const std::vector<std::uint32_t> tables = common_tables(grammar, first, last);
     Lineage lineage(grammar, limits, monitor);
     std::vector<TileGeneration> generations;

@@ -29,8 +29,9 @@ class LineageError : public std::runtime_error {
 
 /// Limits of generations, checked before memory and time are spent on the next one.
 struct LineageLimits {
-    double nodes = 200e6;  ///< limit for each derivation
-    double tiles = 1e6;    ///< limit for all generations together
+    double nodes = 200e6;         ///< limit for each derivation
+    double tiles = 1e6;           ///< limit for all generations together
+    std::int64_t steps = 10'000;  ///< limit for the derivation length
 };
 
 /// Derives all generations from `first` to `last`, each from the one before. Memory: the words of two generations, 40

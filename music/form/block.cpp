@@ -221,6 +221,9 @@ void add_drone(Block& block, const Melody& melody, int first_voice) {
     const mapping::Accompaniment drone(melody);
     const std::int64_t bar = melody.meter.bar();
     for (std::int64_t begin = 0; begin < block.length; begin += bar) {
+        if (block.notes.size() >= most_block_notes) {
+            throw ScoreError(fmt::format("the drone would have more than {} notes", most_block_notes));
+        }
         for (Note note : drone.bar(begin, nullptr)) {
             note.voice = static_cast<std::int16_t>(note.voice + first_voice);
             block.notes.push_back({note, 0, false});
