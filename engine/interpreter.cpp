@@ -69,13 +69,10 @@ Assignment assign(const Interpreter& interpreter, const Document& document, cons
     std::vector<Setting> settings;
     for (const OptionValue& value : values) {
         require_known(interpreter, document, value.name);
-        const KeyInfo* key = find_language_key(value.name);
         const bool is_option = find_option(interpreter.options(), value.name) != nullptr;
         if (is_option) own.push_back(value);
         // A seed applies to both the pattern and the option.
-        if (!is_option || (key && key->owner == KeyOwner::engine)) {
-            settings.push_back({value.name, value.name, value.text});
-        }
+        if (!is_option || value.name == "seed") settings.push_back({value.name, value.name, value.text});
     }
     // So does the seed that the document was made with.
     if (find_option(interpreter.options(), "seed")) {
