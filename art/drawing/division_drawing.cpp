@@ -60,12 +60,15 @@ DivisionDrawing::DivisionDrawing(std::shared_ptr<const Division> division, const
     : Drawing(options), division_(std::move(division)), style_(division_->style) {
     const DivisionStage& stage = division_->stages[moment.stage];
     if (moment.fade > 0) {
-        add_picture(division_->stages.front(), 1, true);
-        add_picture(stage, 1 - moment.fade, true);
+        // The first stage appears below the last one before that vanishes, so that the ground does not shine through;
+        // its lines, which are drawn over all fills, appear all the time.
+        const double rest = 1 - moment.fade;
+        add_picture(division_->stages.front(), moment.fade, std::min(1.0, 2 * moment.fade), true);
+        add_picture(stage, rest, std::min(1.0, 2 * rest), true);
         return;
     }
     if (moment.share >= 1 || moment.stage == 0) {
-        add_picture(stage, 1, true);
+        add_picture(stage, 1, 1, true);
         return;
     }
     const DivisionStage& before = division_->stages[moment.stage - 1];
@@ -73,8 +76,9 @@ DivisionDrawing::DivisionDrawing(std::shared_ptr<const Division> division, const
     const double rest = value_at(tracks.before, moment.share);
     add_fills(before, rest);
     add_parts(stage, moment.share);
-    add_picture(before, rest, false);
-    if (stage.has_more_lines) add_picture(stage, value_at(tracks.arrival, moment.share), false);
+    add_picture(before, rest, rest, false);
+    const double arrival = value_at(tracks.arrival, moment.share);
+    if (stage.has_more_lines) add_picture(stage, arrival, arrival, false);
 }
 
 /// The index of a colour, which is added if it is missing.
@@ -85,20 +89,18 @@ int DivisionDrawing::index_of(Colour colour) {
     return static_cast<int>(found - style_.palette.begin());
 }
 
-void DivisionDrawing::add_picture(const DivisionStage& stage, double opacity, bool has_fills) {
-    if (!(opacity > 0)) return;
+void DivisionDrawing::add_picture(const DivisionStage& stage, double lines, double fills, bool has_polygons) {
+    if (!(lines > 0) && !(fills > 0)) return;
     const Style& style = division_->style;
     OtherPens pens(
         path_, style.stroke.in_steps ? stage.scale : 1.0,
+        [&](const Pen& pen) { return lines < 1 ? index_of(faded(style.line_colour(pen), lines)) : style.index(pen); },
         [&](const Pen& pen) {
-            return opacity < 1 ? index_of(faded(style.line_colour(pen), opacity)) : style.index(pen);
-        },
-        [&](const Pen& pen) {
-            return opacity < 1 ? index_of(faded(style.fill_colour(pen), opacity)) : style.index(pen);
+            return fills < 1 ? index_of(faded(style.fill_colour(pen), fills)) : style.index(pen);
         });
     MovedPath moved(pens, stage.place);
     WithoutPolygons bare(moved);
-    stage.picture.draw(has_fills ? static_cast<PathSink&>(moved) : bare);
+    stage.picture.draw(has_polygons ? static_cast<PathSink&>(moved) : bare);
 }
 
 /// Mixed with the ground, so that no seams are visible.

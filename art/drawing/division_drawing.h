@@ -28,7 +28,8 @@ public:
     void read(const Print& print, const Window& window, PathSink& sink) const override;
 
 private:
-    void add_picture(const DivisionStage& stage, double opacity, bool has_fills);
+    /// @param lines  opacity of lines  @param fills  that of everything else
+    void add_picture(const DivisionStage& stage, double lines, double fills, bool has_polygons);
     void add_parts(const DivisionStage& stage, double share);
     void add_fills(const DivisionStage& stage, double opacity);
     int index_of(Colour colour);
