@@ -36,6 +36,7 @@ void check_relief(const DrawSettings& settings, PrintFormat format) {
                   {settings.lesson.has_value(), "lesson", "a lesson has several pages; a relief is one solid"},
                   {settings.generations && !settings.frames, "generations",
                    "a relief is one solid; 'frames' makes one of each generation"},
+                  {settings.kerf > 0, "kerf", "a model is not cut along the edges of its tiles"},
                   {!settings.view.empty(), "view", flat},
                   {!settings.light.empty(), "light", flat},
                   {settings.press.bleed > 0, "bleed", "a relief is not trimmed"}});

@@ -472,15 +472,16 @@ const std::array own_rows = {
                .group = kolams,
                .kind = flag},
               [](S& s, Text t) { s.names_tiles = is_true(t); }},
-    Option<S>{{.name = "kerf",
-               .help = "width of the cut of a laser or knife, up to 10mm, for edges of tiles that are drawn once: the "
-                       "border moves outwards by half of it (0mm)",
-               .value = "LENGTH",
-               .group = kolams},
-              [](S& s, Text t) {
-                  s.kerf = length("kerf", t, s.dpi);
-                  if (!(s.kerf >= 0 && s.kerf <= 10)) refuse_option("kerf", t, "expected a length from 0 to 10mm");
-              }},
+    Option<S>{
+        {.name = "kerf",
+         .help = "width of the cut of a laser or knife, up to 10mm, for edges of tiles that are drawn once: the "
+                 "border moves outwards by half of it (0mm)",
+         .value = "LENGTH",
+         .group = kolams},
+        [](S& s, Text t) {
+            s.kerf = length("kerf", t, s.dpi);
+            if (!(s.kerf >= 0 && s.kerf <= 10)) refuse_option("kerf", t, "expected a length from 0 to 10mm");
+        }},
     Option<S>{
         {.name = "lesson",
          .help = "drawing lesson: the dots, then stroke after stroke as a hand draws them, with numbers and "

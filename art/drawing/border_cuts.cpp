@@ -104,7 +104,9 @@ std::vector<UnitedLines::Line> with_wider_border(const std::vector<UnitedLines::
         const std::vector<glm::dvec2> corners = loops.corners(loop);
         if (corners.size() < 3) continue;
         const auto outline = offset_sides(corners, distance);
-        if (!outline) throw std::runtime_error("the cut is wider than a notch of the tiling's border");
+        if (!outline) {
+            throw std::runtime_error("the kerf is wider than a notch of the tiling's border; expected longer steps");
+        }
         for (const std::uint32_t piece : loop) is_moved[piece] = true;
         for (std::size_t k = 0; k < outline->size(); ++k) {
             moved.push_back({(*outline)[k], (*outline)[(k + 1) % outline->size()], lines[i].pen, false, true});

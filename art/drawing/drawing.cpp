@@ -89,7 +89,8 @@ DrawReport Drawing::place(Print& print) {
     PlacementOptions placement = this->placement();
     placement.scale = scale();
     const Page page = print.page;
-    print.page.margin += border_space(page);
+    // Corners that a cut has widened are cut off at the width of the cut.
+    print.page.margin += border_space(page) + options_.kerf;
     print.page.height -= foot_space(page);
     DrawReport report = place_print(print, placed, style().stroke, placement);
     print.page = page;

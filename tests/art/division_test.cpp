@@ -223,12 +223,11 @@ TEST(Division, IsRefusedWithAReason) {
     EXPECT_EQ(refused("rauzy", 8).substr(0, 79),
               "divide: no scale keeps the generations of this pattern in one place: their tile");
     EXPECT_EQ(refused("penrose-rhombs", 0),
-              "divide: a tile divides from one derivation length to the next: expected one above 0");
-    EXPECT_EQ(refused("cell-layer"), "divide: a .gif of a map shows without it how cells divide");
+              "divide: tiles divide between generations; expected a derivation length above 0");
+    EXPECT_EQ(refused("cell-layer"), "divide: a .gif of a map always shows how cells divide");
     EXPECT_EQ(refused("chair", 3, "png"), "divide: only a .gif and an animated SVG show how tiles divide");
     EXPECT_NE(refused("penrose-rhombs", 12)
-                  .find("at most 20000 are drawn together; the largest derivation length that "
-                        "fits is 8"),
+                  .find("more than the limit of 20000; the largest derivation length that fits is 8"),
               std::string::npos);
     EXPECT_EQ(message(pattern("chair", 2), "svg", {{"divide", ""}, {"animate", ""}}),
               "animate: cannot be combined with 'divide', which has its own times");

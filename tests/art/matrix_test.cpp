@@ -40,6 +40,12 @@ const std::string grid =
     "title: Grid\naxiom: A\nA --> A[fA][+f-A][f+f-A]\nf --> ff\nderivation length: 2\nangle increment: 90\n"
     "heading: 0\nturn: left\nstroke: 0.4mm #203060\nground: #ffffff\npalette: #203060 #304060\n"
     "interpret:\nA --> {F+F+F+F}\n";
+/// A tiling by rows of squares, which repeats in both directions.
+const std::string rows =
+    "title: Rows\naxiom: X\nderivation length: 8\nangle increment: 90\nheading: 0\nturn: left\n"
+    "table rows:\nX --> [Y]vX\ntable cells:\nY --> CuY\nschedule: rows*((n+1)/2) cells*(n/2)\n"
+    "stroke: 0.4mm #203060\nground: #ffffff\npalette: #203060 #304060\ninterpret:\nu --> f\nv --> +f-\n"
+    "C --> [{F+F+F+F}]\n";
 /// A fill whose edges no line draws.
 const std::string leaf =
     "title: Leaf\naxiom: {f+f+f+f}F'F\nderivation length: 1\nangle increment: 90\n"
@@ -103,6 +109,8 @@ std::vector<Feature> features() {
             {"surfaces", bent, {{"fill", "#30a050"}}, {}, {}, {{"fill", "#00000000"}}},
             {"colours of tiles", leaf, {{"tile colours", "by shape"}}, {}, {}},
             {"filled page", grid, {}, {{"fill-page", "true"}}, {}},
+            {"swatch", rows, {}, {{"swatch", ""}, {"step", "5mm"}}, {{"step", "5mm"}}},
+            {"tiles that divide", grid, {}, {{"divide", ""}}, {}},
             {"names of tiles", squares, {}, {{"name-tiles", "true"}}, {}},
             {"edges of tiles", squares, {{"tile edges", "border"}}, {}, {}},
             {"kerf", squares, {{"tile edges", "border"}}, {{"kerf", "1mm"}}, {}, {{"tile edges", "border"}}},

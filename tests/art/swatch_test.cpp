@@ -338,7 +338,7 @@ TEST(Swatch, IsRefusedWithAReason) {
     EXPECT_EQ(refusal(load("fudgeflake").with(by_neighbours)), "");
     EXPECT_EQ(refusal(load("honeycomb"), {}, "hpgl"), "swatch: its edges would cut the strokes of a plot");
     EXPECT_EQ(refusal(load("honeycomb"), {{"border", "rope"}}),
-              "border: a swatch is a part of a tiling that goes on; it has nothing around it");
+              "border: a swatch is part of an endless tiling, with nothing around it");
 }
 
 }  // namespace
