@@ -21,8 +21,8 @@ namespace {
 
 /// Words up to this length are read whole and clipped, so that their strokes stay whole.
 constexpr double most_clipped_symbols = 1e5;
-/// Decimal lengths and angles have an error in their 53rd bit; each step adds one such error.
-constexpr double rounding = 0x1p-53;
+/// Places have an error in their 113th bit, decimal lengths and angles in their 53rd; each step adds one such error.
+constexpr double place_rounding = 0x1p-113, rounding = 0x1p-53;
 constexpr double largest_error = 1e-3;  // in steps
 
 /// The plain form of a grammar, which may be the grammar itself; null if there is none.
@@ -38,14 +38,15 @@ std::shared_ptr<const Grammar> plain_of(std::shared_ptr<const Grammar> grammar, 
 std::unique_ptr<Patches> make_patches(const Grammar& plain, bool has_parameters, const Style& style,
                                       std::string& why) {
     auto patches = Patches::make(plain, style, why);
-    if (!patches || !has_parameters || patches->box().empty()) return patches;
+    if (!patches || patches->box().empty()) return patches;
     const glm::dvec2 size = patches->box().high - patches->box().low;
-    const double error = std::max(size.x, size.y) * static_cast<double>(patches->levels()) * rounding;
+    const double error = std::max(size.x, size.y) * static_cast<double>(patches->levels()) *
+                         (has_parameters ? rounding : place_rounding);
     if (error <= largest_error) return patches;
     why = fmt::format(
-        "at n = {} the rounding errors of decimal lengths add up to more than {} steps; a window needs a smaller "
+        "at n = {} the rounding errors of {} add up to more than {} steps; a window needs a smaller "
         "derivation length",
-        plain.steps(), largest_error);
+        plain.steps(), has_parameters ? "decimal lengths" : "places", largest_error);
     return nullptr;
 }
 

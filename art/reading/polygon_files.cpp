@@ -245,7 +245,7 @@ public:
         const auto note = [&](std::size_t count, const char* thing) {
             if (count > 0) result.notes.push_back(fmt::format("{} left out", counted(count, thing)));
         };
-        if (has_fills) note(outlined_.size(), "outline without a fill");
+        if (has_fills) note(outlined_.size(), "unfilled outline");
         note(open_, "open line");
         note(grounds_, "ground");
         note(others_, "text or picture");

@@ -90,7 +90,7 @@ TEST(PolygonFiles, ReadElementsWithTheirTransforms) {
     EXPECT_EQ(list.polygon(1).size(), 3U);
     EXPECT_EQ(list.polygon(3)[0], glm::dvec2(5, -5));
     EXPECT_EQ(list.colour, (std::vector<std::int32_t>{0, 1, 0, 0}));
-    EXPECT_EQ(list.notes, (std::vector<std::string>{"1 outline without a fill left out", "1 open line left out",
+    EXPECT_EQ(list.notes, (std::vector<std::string>{"1 unfilled outline left out", "1 open line left out",
                                                     "1 text or picture left out"}));
     EXPECT_EQ(read_polygons_svg(svg("<g fill=\"none\"><path d=\"M0 0h1v1z\"/></g>")).size(), 1U);
     // A picture in a picture has its own place.

@@ -124,7 +124,7 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
         {{"gallery", "--file", "foo"}, "no file or bundled gallery file named 'foo'; there are figure-"},
         {{"gallery", "--file", "bare.toml"}, "bare.toml:1:"},
         {{"gallery", "--file", "bare.toml"}, "text needs quotes"},
-        {{"gallery", "mine.lsys", "-f", "gif"}, "`sikku draw` makes animations and models"}};
+        {{"gallery", "mine.lsys", "-f", "gif"}, "`sikku draw` makes them"}};
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
     expect_refused({{"show", "sound.wav"}, "sound.wav: this WAV file contains sound and no pattern"}, 1);
     expect_refused({{"show", "notes.jsonl"}, "notes.jsonl: this text is not a pattern: it has no axiom"}, 1);

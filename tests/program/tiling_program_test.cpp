@@ -210,6 +210,52 @@ TEST(TilingCommand, CertifiesItsOwnPicturesAndLists) {
     EXPECT_NE(text.errors.find("1 ground left out\n"), std::string::npos) << text.errors;
 }
 
+/// Pieces of files are those of the pattern that wrote them, at the length of a unit.
+TEST(TilingCommand, CutsPiecesOfFiles) {
+    const ScratchFolder folder;
+    const std::string picture = folder.file("chairs.svg");
+    ASSERT_EQ(run({"draw", "chair", "-n", "2", "--name-tiles", "--step", "5mm", "-o", picture}).status, 0);
+    const std::string list = folder.write("chairs.json", tiling({"chair", "-n", "2"}).dump());
+    const auto pieces = [](const Json& json) {
+        std::map<int, std::pair<int, double>> by_colour;  // number and area of all
+        for (const Json& row : json["kinds"]) {
+            auto& [count, area] = by_colour[row["colour"].get<int>()];
+            count += row["pieces"].get<int>();
+            area = row["area"].get<double>();
+        }
+        std::multiset<int> counts;
+        for (const auto& [colour, piece] : by_colour) {
+            EXPECT_NEAR(piece.second, 3 * 25.0, 0.1) << colour;
+            counts.insert(piece.first);
+        }
+        return counts;
+    };
+    const std::multiset<int> exact = pieces(tiling({"chair", "-n", "2", "--cut-list", "--step", "5mm"}));
+    EXPECT_EQ(exact, (std::multiset<int>{2, 4, 4, 6}));
+    for (const auto& [file, step] : {std::pair(picture, "1mm"), std::pair(list, "5mm")}) {
+        SCOPED_TRACE(file);
+        EXPECT_EQ(pieces(tiling({file, "--cut-list", "--step", step})), exact);
+        const Outcome drawn = run({"tiling", file, "--templates", "3mm", "--step", step, "-o", folder.file("t.svg")});
+        EXPECT_EQ(drawn.status, 0) << drawn.errors;
+        EXPECT_GT(std::filesystem::file_size(folder / "t.svg"), 500U);
+        const Outcome laid = run({"tiling", file, "--cutting-sheet", "60x60mm", "--step", step, "-o",
+                                  folder.file("sheet.svg")});
+        EXPECT_EQ(laid.status, 0) << laid.errors;
+        for (int i = 1; i <= 4; ++i) {  // one for each colour
+            const std::string name = "sheet-" + std::to_string(i) + ".svg";
+            EXPECT_NE(laid.output.find(name), std::string::npos) << laid.output;
+            EXPECT_TRUE(std::filesystem::remove(folder / name)) << name;
+        }
+        EXPECT_TRUE(std::filesystem::remove(folder / "t.svg"));
+        EXPECT_FALSE(std::filesystem::exists(folder / "sheet.svg"));
+        const Outcome small =
+            run({"tiling", file, "--cutting-sheet", "25x25mm", "--step", step, "-o", folder.file("small.svg")});
+        EXPECT_EQ(small.status, 1);
+        EXPECT_NE(small.errors.find(" mm within their margins\n"), std::string::npos) << small.errors;
+    }
+    EXPECT_EQ(folder.names().size(), 2U);
+}
+
 TEST(TilingCommand, RefusesDamagedFilesOfPolygons) {
     const ScratchFolder folder;
     const std::string bad = folder.write("bad.json", "[[[0,0],[1,0],\n[0]]]");
