@@ -297,8 +297,8 @@ TEST(Relief, SaysWhatItCannotDo) {
         EXPECT_NE(refusal(drawn, format, values).find(text), std::string::npos) << refusal(drawn, format, values);
     };
     expect("svg", {{"relief", "2mm"}}, "a relief is STL, OBJ or glTF");
-    expect("svg", {{"groove", "1mm"}}, "needs 'relief', or STL");
-    expect("glb", {{"ridge", "1mm"}}, "needs 'relief', or STL");
+    expect("svg", {{"groove", "1mm"}}, "needs 'relief' or STL");
+    expect("glb", {{"ridge", "1mm"}}, "needs 'relief' or STL");
     expect("stl", {{"relief", "2mm,,3mm"}}, "expected a length");
     expect("stl", {{"relief", "1001mm"}}, "at most 1 m");
     expect("stl", {{"relief", "-1.2mm"}}, "does not fit into a base of 1.2 mm");

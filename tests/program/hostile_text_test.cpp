@@ -100,9 +100,10 @@ TEST_F(HostileTitle, InLilyPondIsOneString) {
             }
         }
         EXPECT_FALSE(in_text) << line;
-        EXPECT_EQ(count(code, "#("), 0u) << line;
+        EXPECT_EQ(count(code, "#("), line.starts_with("#(set-global-staff-size ") ? 1u : 0u) << line;
         EXPECT_EQ(count(code, "system"), line.find("system-system") == std::string::npos ? 0u : 2u) << line;
-        has_title = has_title || code == "  title = ";
+        static const std::regex title(R"(  title = (\\markup \\center-column \{ *\\vspace #0\.2 \})?)");
+        has_title = has_title || std::regex_match(code, title);
     }
     EXPECT_TRUE(has_title);
     EXPECT_EQ(lilypond_string("a\"b\\c#(d)\u2028\u2029\u202Ee\nf"), "\"a\\\"b\\\\c#(d)  ?e f\"");
