@@ -196,8 +196,10 @@ void ExpressionSink::express(Line& line, Note& note, std::vector<ControlPoint>& 
             add_control(note, part, curve, number, line.last[i], points);
             continue;
         }
-        const double value = std::clamp(curve.at((part.first + part.second) / 2), 1.0, 127.0);
-        note.velocity = static_cast<std::uint8_t>(std::lround(value));
+        const double value = curve.at((part.first + part.second) / 2);
+        const int accent = note.emphasis.is_accented ? accent_velocity : 0;
+        note.velocity = static_cast<std::uint8_t>(std::clamp<long>(std::lround(value) + accent, 1, 127));
+        note.emphasis.dynamic = -1;
     }
     if (has_turns_[line.player] != 0) line.before = note;
 }

@@ -180,10 +180,9 @@ private:
         const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
                                   ticks(voice.onset));
         emitter_.level = voice.level;
+        emitter_.emphasis.is_accented = clock_.is_accented(voice.onset);
         emitter_.note(voice.line, voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_), ticks(voice.onset),
-                      clock_.end_ticks(time_),
-                      loud + (is_upper ? 8 : -8) + (clock_.is_accented(voice.onset) ? 16 : 0), voice.from, here_,
-                      voice.symbol);
+                      clock_.end_ticks(time_), loud + (is_upper ? 8 : -8), voice.from, here_, voice.symbol);
         voice.sounding = unknown;
     }
 

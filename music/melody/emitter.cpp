@@ -73,9 +73,10 @@ void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
     const std::int64_t onset = std::max(note.onset, options_.from);
     const int voice = line.voice + (note.is_drum ? options_.drums_from : 0);
     block_.push_back({onset - options_.from, std::min(note.end, options_.to) - onset, placed.key,
-                      static_cast<std::int16_t>(voice), static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
-                      note.from, note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255)),
+                      static_cast<std::int16_t>(voice), sounding_velocity(note.velocity, note.emphasis), note.from,
+                      note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255)),
                       static_cast<std::uint8_t>(note.level)});
+    block_.back().emphasis = note.emphasis;
     if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
     if (block_.size() == notes_in_block) flush();
 }
@@ -119,14 +120,16 @@ void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
                 note.end - note.onset,
                 placed.key,
                 static_cast<std::int16_t>(voice),
-                static_cast<std::uint8_t>(std::clamp(note.velocity, 1, 127)),
+                sounding_velocity(note.velocity, note.emphasis),
                 note.from,
                 note.to,
                 note.symbol,
                 static_cast<std::uint8_t>(std::min(note.depth, 255)),
                 static_cast<std::uint8_t>(note.level),
                 slide != 0,
-                {note.glide, static_cast<float>(slide), note.rise}};
+                {note.glide, static_cast<float>(slide), note.rise},
+                false,
+                note.emphasis};
     cut(result, options_.from, options_.to);
     result.onset -= options_.from;
     block_.push_back(result);

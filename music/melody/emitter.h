@@ -46,7 +46,9 @@ public:
         degree += melody_.shift;
         if (shaper_) {
             take_time(line, onset, end);
-            shaper_->add(line.voice, {degree, onset, end, velocity, depth, level, from, to, symbol});
+            Shaper::Draft draft{degree, onset, end, velocity, depth, level, from, to, symbol};
+            draft.emphasis = emphasis;
+            shaper_->add(line.voice, draft);
             return hand_on();
         }
         place(line, degree, onset, end, velocity, from, to, symbol);
@@ -58,6 +60,7 @@ public:
         draft.voice = line.voice;
         draft.depth = depth;
         draft.level = level;
+        draft.emphasis = emphasis;
         if (!shaper_) return place_fixed(line, draft);
         shaper_->add(line.voice, draft);
         hand_on();
@@ -72,6 +75,7 @@ public:
         draft.voice = line.voice;
         draft.depth = depth;
         draft.level = level;
+        draft.emphasis = emphasis;
         if (!shaper_) return place_gliding(line, draft);
         shaper_->add(line.voice, draft);
         hand_on();
@@ -96,20 +100,23 @@ public:
 
     bool is_shaped() const { return shaper_.has_value(); }
 
-    int depth = 0;  ///< brackets around the next note
-    int level = 0;  ///< level of the next note, as in Note
+    int depth = 0;        ///< brackets around the next note
+    int level = 0;        ///< level of the next note, as in Note
+    Emphasis emphasis{};  ///< of the next note; its velocity comes without the accent
 
 private:
     /// Places what is shaped.
     void hand_on() {
         const int here = depth;
         const int begun = level;
+        const Emphasis stated = emphasis;
         for (const Shaper::Draft& note : shaper_->take()) {
             const auto at = static_cast<std::size_t>(note.voice);
             if (at >= shaped_.size()) shaped_.resize(at + 1);
             shaped_[at].voice = note.voice;
             depth = note.depth;
             level = note.level;
+            emphasis = note.emphasis;
             if (note.is_moved && note.end > options_.from && note.onset < options_.to) ++report.moved;
             if (note.is_fixed()) {
                 place_fixed(shaped_[at], note);
@@ -123,11 +130,17 @@ private:
         }
         depth = here;
         level = begun;
+        emphasis = stated;
         for (const auto& [begin, end, chord] : shaper_->take_chords()) {
             const std::int64_t bar = melody_.meter.bar();
             std::int64_t at = std::max(begin, options_.from / bar * bar);
             for (; at < std::min(end, options_.to); at += bar) accompany(at, chord);
         }
+    }
+
+    static std::uint8_t sounding_velocity(int velocity, const Emphasis& emphasis) {
+        const int accent = emphasis.is_accented ? accent_velocity : 0;
+        return static_cast<std::uint8_t>(std::clamp(velocity + accent, 1, 127));
     }
 
     /// Plays what accompanies a bar.
@@ -170,9 +183,9 @@ private:
         report.highest = std::max(report.highest, placed.key);
         onset = std::max(onset, options_.from);
         block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
-                          static_cast<std::int16_t>(line.voice),
-                          static_cast<std::uint8_t>(std::clamp(velocity, 1, 127)), from, to, symbol,
-                          static_cast<std::uint8_t>(std::min(depth, 255)), static_cast<std::uint8_t>(level)});
+                          static_cast<std::int16_t>(line.voice), sounding_velocity(velocity, emphasis), from, to,
+                          symbol, static_cast<std::uint8_t>(std::min(depth, 255)), static_cast<std::uint8_t>(level)});
+        block_.back().emphasis = emphasis;
         if (options_.degrees) options_.degrees->push_back(placed.degree);
         if (block_.size() == notes_in_block) flush();
     }

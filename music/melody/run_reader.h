@@ -381,10 +381,10 @@ private:
         if (origin_.y == unknown) return;  // before the piece
         if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
         emitter_.level = note.level;
+        emitter_.emphasis.is_accented = clock_.is_accented(note.onset);
         if (note.glide > 0) return emit_gliding(note);
         emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
-                      clock_.end_ticks(note.end), accented(note.velocity, note.onset), note.from, note.to,
-                      note.symbol);
+                      clock_.end_ticks(note.end), note.velocity, note.from, note.to, note.symbol);
     }
 
     void emit_gliding(const Sounding& note) {
@@ -395,15 +395,13 @@ private:
         draft.onset = ticks(note.onset);
         draft.end = clock_.end_ticks(note.end);
         draft.glide = std::max<std::int64_t>(0, draft.end - ticks(note.end - note.glide));
-        draft.velocity = accented(note.velocity, note.onset);
+        draft.velocity = note.velocity;
         draft.from = note.from;
         draft.to = note.to;
         draft.symbol = note.symbol;
         draft.rise = static_cast<float>(note.rise);
         emitter_.gliding_note(state_.line, draft);
     }
-
-    int accented(int velocity, Number onset) const { return velocity + (clock_.is_accented(onset) ? 16 : 0); }
 
     void sound(Number twice, Number steps, int velocity, const Pending& run) {
         if (due_ > 0) {
@@ -472,9 +470,10 @@ private:
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 end_phrases();
                 emitter_.level = std::exchange(levels_[1], 0);
+                emitter_.emphasis.is_accented = clock_.is_accented(state_.other_time);
                 emitter_.note(state_.other, degree, ticks(state_.other_time),
-                              clock_.end_ticks(state_.other_time + steps), accented(velocity, state_.other_time),
-                              point(run.from), point(state_.at), run.symbol);
+                              clock_.end_ticks(state_.other_time + steps), velocity, point(run.from),
+                              point(state_.at), run.symbol);
                 state_.other_time += steps;
                 break;
             }

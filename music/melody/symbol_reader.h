@@ -3,6 +3,7 @@
 
 #include "music/melody/reader.h"
 #include "music/melody/symbol_table.h"
+#include "music/score/dynamics.h"
 
 namespace sikku::mapping {
 
@@ -131,8 +132,9 @@ private:
         std::uint64_t symbol = 0;
         int begun = 0;  // level of the sounding note
         Emitter::Line line;
-        int louder = 0;  // added to velocities
-        int level = 0;   // the velocity of notes that state none; 0: as the melody says
+        int louder = 0;           // added to velocities
+        int level = 0;            // the velocity of notes that state none; 0: as the melody says
+        bool is_dynamic = false;  // the level is stated as a dynamic
         std::int64_t octave = 0;
         double pace = 1;         // what a step lasts, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
@@ -160,6 +162,7 @@ private:
                 break;
             case SoundChange::level:
                 state_.level = static_cast<int>(amount);
+                state_.is_dynamic = row.is_dynamic;
                 break;
             case SoundChange::octave:
                 state_.octave += amount;
@@ -176,7 +179,8 @@ private:
         int velocity = row.velocity > 0   ? row.velocity
                        : state_.level > 0 ? state_.level
                                           : loudness(melody_, state_.turned, steps, stack_.depth(), ticks(onset));
-        velocity += state_.louder + (clock_.is_accented(onset) ? 16 : 0);
+        velocity += state_.louder;
+        emitter_.emphasis = {clock_.is_accented(onset), stated_dynamic(row, velocity)};
         emitter_.depth = static_cast<int>(stack_.depth());
         emitter_.level = std::exchange(level_, 0);
         std::vector<Emitter::Line> others(row.pitches.size() - 1);
@@ -185,13 +189,19 @@ private:
             const double height = row.is_drum() ? (*row.pitches[i].key - 60) / 2 : static_cast<double>(draft.degree);
             draft.onset = ticks(onset);
             draft.end = clock_.end_ticks(state_.time);
-            draft.velocity = std::clamp(velocity, 1, 127);
+            draft.velocity = velocity;
             draft.from = {onset, height};
             draft.to = {state_.time, height};
             draft.symbol = is_counted_ ? position_ : 0;
             emitter_.note(i == 0 ? state_.line : others[i - 1], draft);
         }
         for (const Emitter::Line& line : others) emitter_.release(line);
+    }
+
+    /// The dynamic that the row or the last change states, moved by changes after it.
+    std::int8_t stated_dynamic(const SymbolRow& row, int velocity) const {
+        const bool is_stated = row.velocity > 0 ? row.is_dynamic : state_.level > 0 && state_.is_dynamic;
+        return static_cast<std::int8_t>(is_stated ? dynamic_level(velocity) : -1);
     }
 
     static Shaper::Draft drum(const TablePitch& pitch) {
@@ -274,9 +284,9 @@ private:
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
             if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
             emitter_.level = state_.begun;
+            emitter_.emphasis = {clock_.is_accented(state_.onset)};
             emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), clock_.end_ticks(state_.time),
-                          velocity + (clock_.is_accented(state_.onset) ? 16 : 0), {state_.onset, height},
-                          {state_.time, height}, state_.symbol);
+                          velocity, {state_.onset, height}, {state_.time, height}, state_.symbol);
         }
         state_.sounding = unknown;
         end_phrases();

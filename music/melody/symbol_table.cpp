@@ -205,6 +205,7 @@ private:
             }
             if (level || number) {
                 row.velocity = level ? *level : static_cast<int>(*number);
+                row.is_dynamic = level.has_value();
                 ++at;
             }
         }
@@ -364,12 +365,14 @@ private:
         } else if (first == "loud" || first == "soft") {
             row.change = SoundChange::level;
             row.amount = *level_of(first == "loud" ? "f" : "p");
+            row.is_dynamic = true;
         } else if (first == "up" || first == "down") {
             row.change = SoundChange::degree;
             sign = first == "up" ? 1 : -1;
         } else if (const auto number = whole(first); level || number) {
             row.change = SoundChange::level;
             row.amount = level ? *level : static_cast<double>(*number);
+            row.is_dynamic = level.has_value();
             if (row.amount < softest || row.amount > loudest) {
                 return fmt::format("velocity {}; expected 1 to 127, or ppp to fff", row.amount);
             }
@@ -425,6 +428,7 @@ std::string apply_parameters(const std::vector<double>& parameters, SymbolRow& r
             return fmt::format("its parameter is {}; expected {} to 127", *amount, least);
         }
         row.amount = is_level || row.amount >= 0 ? *amount : -*amount;
+        row.is_dynamic = false;
         return {};
     }
     if (row.kind == Kind::note && row.pitches.empty()) {
@@ -443,6 +447,7 @@ std::string apply_parameters(const std::vector<double>& parameters, SymbolRow& r
             return fmt::format("its velocity is {}; expected 1 to 127", *velocity);
         }
         row.velocity = static_cast<int>(std::lround(*velocity));
+        row.is_dynamic = false;
     }
     return {};
 }

@@ -35,6 +35,7 @@ struct SymbolRow {
     std::vector<TablePitch> pitches;  ///< at most 10; of notes none if the module states its degree
     double steps = 1;                 ///< duration in steps of the unit, above 0
     int velocity = 0;                 ///< 1 to 127; 0: as the key `velocity` says
+    bool is_dynamic = false;          ///< the velocity is stated as `ppp` to `fff`, `loud` or `soft`
     SoundChange change = SoundChange::velocity;
     double amount = 0;  ///< of the change
 

@@ -14,6 +14,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -107,6 +108,7 @@ public:
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
+            const VoiceMarks marks = marks_of(notated);
             for (const Staff& staff : notated.staves) {
                 // Both hands have one name.
                 const bool is_other_hand = notated.bracket == Bracket::brace && &staff != &notated.staves.front();
@@ -118,7 +120,7 @@ public:
                         has_name ? fmt::format(" name=\"{}\"", quoted(notated.name)) : "",
                         part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
                         key_name(notated.keys.front().key), clef);
-                    write_voice(staff, k, notated.keys);
+                    write_voice(staff, k, notated.keys, marks.at(&staff.voices[k]));
                 }
             }
         }
@@ -203,7 +205,44 @@ private:
         return text;
     }
 
-    void write_voice(const Staff& staff, std::size_t index, const std::vector<KeyChange>& keys) {
+    using VoiceMarks = std::map<const NotatedVoice*, std::vector<DynamicMark>>;
+
+    static bool begins_note(const NotatedVoice& voice, std::int64_t onset) {
+        const auto symbol =
+            std::lower_bound(voice.symbols.begin(), voice.symbols.end(), onset,
+                             [](const NotatedSymbol& one, std::int64_t tick) { return one.onset < tick; });
+        return symbol != voice.symbols.end() && symbol->onset == onset && symbol->kind == SymbolKind::note;
+    }
+
+    /// The dynamics of a part by voice: a level stands in the first voice of its staff, or of the other hand, in
+    /// which a note begins; hairpins and what ends them in the first voice of the staff.
+    static VoiceMarks marks_of(const NotatedPart& part) {
+        VoiceMarks marks;
+        for (const Staff& staff : part.staves) {
+            for (const NotatedVoice& voice : staff.voices) marks[&voice];
+        }
+        for (const Staff& staff : part.staves) {
+            const std::span<const Staff> staves =
+                part.bracket == Bracket::brace ? std::span(part.staves) : std::span(&staff, 1);
+            bool is_hairpin = false;
+            for (const DynamicMark& mark : staff.dynamics) {
+                const NotatedVoice* in = &staff.voices.front();
+                const bool is_free = mark.kind == DynamicMark::Kind::level && !is_hairpin;
+                for (const Staff& one : staves) {
+                    for (const NotatedVoice& voice : one.voices) {
+                        const bool is_late = is_free && !begins_note(*in, mark.onset);
+                        if (is_late && begins_note(voice, mark.onset)) in = &voice;
+                    }
+                }
+                marks[in].push_back(mark);
+                is_hairpin = mark.kind == DynamicMark::Kind::crescendo || mark.kind == DynamicMark::Kind::diminuendo;
+            }
+        }
+        return marks;
+    }
+
+    void write_voice(const Staff& staff, std::size_t index, const std::vector<KeyChange>& keys,
+                     const std::vector<DynamicMark>& marks) {
         const NotatedVoice& voice = staff.voices[index];
         const std::int64_t bar = notation_.bar_length;
         std::array<int, 7> signs = signs_of(keys.front().key);
@@ -229,9 +268,9 @@ private:
                 if (octaves != line) put("{}{}", line_of_octaves(octaves, ')'), line_of_octaves(line, '('));
                 octaves = line;
             }
-            for (; is_first && mark < staff.dynamics.size() && staff.dynamics[mark].onset <= symbol.onset; ++mark) {
+            for (; mark < marks.size() && marks[mark].onset <= symbol.onset; ++mark) {
                 if (!hairpin.empty()) put("!{})!", hairpin);
-                const DynamicMark& next = staff.dynamics[mark];
+                const DynamicMark& next = marks[mark];
                 using enum DynamicMark::Kind;
                 hairpin = next.kind == crescendo ? "<" : next.kind == diminuendo ? ">" : "";
                 if (!hairpin.empty()) put("!{}(!", hairpin);

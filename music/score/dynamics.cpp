@@ -20,11 +20,7 @@ double centre(int level) {
     return step * (level + 1);
 }
 
-int level_of(double velocity) {
-    return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
-}
-
-/// The mean velocity of a bar with notes.
+/// The mean velocity of a bar with notes, without accents.
 struct BarLoudness {
     std::int64_t bar = 0;
     std::int64_t onset = 0;  ///< of its first note
@@ -40,8 +36,9 @@ std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t b
             bars.push_back({bar, note.onset, 0, 0});
         }
         const auto duration = static_cast<double>(note.duration);
+        const int velocity = note.velocity - (note.emphasis.is_accented ? accent_velocity : 0);
         bars.back().weight += duration;
-        bars.back().velocity += (note.velocity - bars.back().velocity) * duration / bars.back().weight;
+        bars.back().velocity += (velocity - bars.back().velocity) * duration / bars.back().weight;
     }
     return bars;
 }
@@ -63,25 +60,18 @@ void add_hairpin(DynamicMark mark, std::int64_t to, std::span<const Note> notes,
     if (to - end >= least_rest) marks.push_back({end, DynamicMark::Kind::end, mark.level});
 }
 
-}  // namespace
-
-std::string_view dynamic_name(int level) {
-    static constexpr std::array<std::string_view, levels> names = {"ppp", "pp", "p", "mp", "mf", "f", "ff", "fff"};
-    return names[static_cast<std::size_t>(std::clamp(level, 0, levels - 1))];
-}
-
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length) {
+/// Adds the dynamics of notes that state none. @param current  level that holds before them; -1: none
+void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& current,
+                 std::vector<DynamicMark>& marks) {
     using enum DynamicMark::Kind;
     const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
-    std::vector<DynamicMark> marks;
-    int current = -1;
     std::size_t changed_at = 0;
     for (std::size_t i = 0; i < bars.size(); ++i) {
         const double velocity = bars[i].velocity;
         // A few notes alone do not change the level.
         if (current >= 0 && 2 * bars[i].weight < static_cast<double>(bar_length)) continue;
         if (current >= 0 && std::fabs(velocity - centre(current)) <= step / 2 + reluctance) continue;
-        const int next = level_of(velocity);
+        const int next = dynamic_level(velocity);
         if (next == current) continue;
         if (current >= 0) {
             const double side = next > current ? 1 : -1;
@@ -99,12 +89,50 @@ std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t b
         current = next;
         changed_at = i;
     }
+}
+
+}  // namespace
+
+std::string_view dynamic_name(int level) {
+    static constexpr std::array<std::string_view, levels> names = {"ppp", "pp", "p", "mp", "mf", "f", "ff", "fff"};
+    return names[static_cast<std::size_t>(std::clamp(level, 0, levels - 1))];
+}
+
+int dynamic_level(double velocity) {
+    return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
+}
+
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length) {
+    std::vector<DynamicMark> marks;
+    int current = -1;
+    std::size_t derived = 0;  // first note whose dynamics are still to be derived
+    for (std::size_t i = 0; i < notes.size();) {
+        const std::size_t first = i;
+        int stated = -1;
+        for (; i < notes.size() && notes[i].onset == notes[first].onset; ++i) {
+            stated = std::max<int>(stated, notes[i].emphasis.dynamic);
+        }
+        if (stated < 0) continue;
+        add_derived(notes.subspan(derived, first - derived), bar_length, current, marks);
+        derived = i;
+        if (stated != current) marks.push_back({notes[first].onset, DynamicMark::Kind::level, stated});
+        current = stated;
+    }
+    add_derived(notes.subspan(derived), bar_length, current, marks);
     return marks;
 }
 
 std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_length) {
-    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
     std::vector<bool> accents(notes.size(), false);
+    const bool is_stated = std::any_of(notes.begin(), notes.end(), [](const Note& note) {
+        return note.emphasis.is_accented || note.emphasis.dynamic >= 0;
+    });
+    if (is_stated) {
+        std::transform(notes.begin(), notes.end(), accents.begin(),
+                       [](const Note& note) { return note.emphasis.is_accented; });
+        return accents;
+    }
+    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
     std::size_t bar = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < notes.size(); ++i) {

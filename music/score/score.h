@@ -26,6 +26,15 @@ struct Glide {
     float rise = 0;          ///< turtle steps up the curve, from `to` of the note, that it comes from
 };
 
+/// Added to the velocity of notes that a rhythm accents.
+constexpr int accent_velocity = 16;
+
+/// What the pattern states about the loudness of a note, for print.
+struct Emphasis {
+    bool is_accented = false;  ///< by the rhythm; its velocity includes accent_velocity
+    std::int8_t dynamic = -1;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff; -1: not stated
+};
+
 /// One note of one voice.
 struct Note {
     std::int64_t onset = 0;
@@ -41,6 +50,7 @@ struct Note {
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
     Glide glide{};             ///< of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
+    Emphasis emphasis{};
 
     /// The end of the piece of the curve it comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }

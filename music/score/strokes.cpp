@@ -45,6 +45,8 @@ StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& m
         std::vector<double>& others = line.others.back();
         first.duration = std::max(first.duration, note.duration);
         first.velocity = std::max(first.velocity, note.velocity);
+        first.emphasis.is_accented = first.emphasis.is_accented || note.emphasis.is_accented;
+        first.emphasis.dynamic = std::max(first.emphasis.dynamic, note.emphasis.dynamic);
         const double key = drum_key(note);
         if (drum_key(first) == drum_key(note) || std::find(others.begin(), others.end(), key) != others.end()) {
             ++merged;
