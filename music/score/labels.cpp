@@ -25,22 +25,42 @@ std::string shortened(std::string_view name) {
 
 }  // namespace
 
-void set_labels(std::span<NotatedPart> parts) {
+std::vector<Label> labels_of(std::span<const Part> parts) {
+    std::vector<Label> labels;
     std::map<std::string, int> count;
-    for (NotatedPart& one : parts) {
-        const Part& part = one.part;
+    for (const Part& part : parts) {
         const Instrument& instrument = instrument_of(part.program);
-        one.name = part.has_instrument_name ? instrument.printed : part.name;
-        one.abbreviation = part.has_instrument_name ? std::string(instrument.abbreviation) : shortened(part.name);
-        ++count[one.name];
+        const bool is_own = !part.has_instrument_name;
+        labels.push_back({is_own ? part.name : std::string(instrument.printed),
+                          is_own ? shortened(part.name) : std::string(instrument.abbreviation)});
+        ++count[labels.back().name];
     }
     std::map<std::string, int> number;
-    for (NotatedPart& one : parts) {
-        if (count[one.name] < 2) continue;
-        const std::string suffix = fmt::format(" {}", ++number[one.name]);
-        one.name += suffix;
-        one.abbreviation += suffix;
+    for (Label& label : labels) {
+        if (count[label.name] < 2) continue;
+        const std::string suffix = fmt::format(" {}", ++number[label.name]);
+        label.name += suffix;
+        label.abbreviation += suffix;
     }
+    return labels;
+}
+
+void set_labels(std::span<NotatedPart> parts) {
+    std::vector<Part> plain;
+    for (const NotatedPart& one : parts) plain.push_back(one.part);
+    const std::vector<Label> labels = labels_of(plain);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        parts[i].name = labels[i].name;
+        parts[i].abbreviation = labels[i].abbreviation;
+    }
+}
+
+std::string line_name(std::string_view part, std::size_t index, std::size_t count) {
+    if (count < 2) return std::string(part);
+    const std::size_t blank = part.rfind(' ');
+    const bool is_numbered =
+        blank != part.npos && blank + 1 < part.size() && part.find_first_not_of("0123456789", blank + 1) == part.npos;
+    return fmt::format("{}{}{}", part, part.empty() ? "" : is_numbered ? "." : " ", index + 1);
 }
 
 }  // namespace sikku

@@ -5,6 +5,7 @@
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/instruments.h"
+#include "music/score/labels.h"
 
 #include <fmt/format.h>
 
@@ -219,14 +220,9 @@ private:
     std::pair<std::string, std::string> names_of(const NotatedPart& part, std::size_t staff) const {
         const bool is_solo = notation_.parts.size() == 1;
         constexpr std::size_t most = 45;
-        std::string name = is_solo ? "" : shortened(part.name, most);
-        std::string abbreviation = is_solo ? "" : part.abbreviation;
-        if (part.bracket == Bracket::bracket && part.staves.size() > 1) {
-            const std::string_view blank = is_solo ? "" : " ";
-            name += fmt::format("{}{}", blank, staff + 1);
-            abbreviation += fmt::format("{}{}", blank, staff + 1);
-        }
-        return {name, abbreviation};
+        const std::string name = is_solo ? "" : shortened(part.name, most);
+        const std::size_t count = part.bracket == Bracket::bracket ? part.staves.size() : 1;
+        return {line_name(name, staff, count), line_name(is_solo ? "" : part.abbreviation, staff, count)};
     }
 
     /// Letters that fit on a line of a page.
@@ -276,7 +272,7 @@ private:
                 word.remove_prefix(part);
             }
             if (word.empty()) continue;
-            const bool is_number = word.size() <= 2 && word.find_first_not_of("0123456789") == word.npos;
+            const bool is_number = word.size() <= 4 && word.find_first_not_of("0123456789.") == word.npos;
             if (lines.empty() || (lines.back().size() + 1 + word.size() > most && !is_number)) {
                 lines.emplace_back(word);
             } else {

@@ -3,6 +3,7 @@
 #include "engine/base/memory.h"
 #include "music/score/curves.h"
 #include "music/score/glides.h"
+#include "music/score/labels.h"
 #include "music/score/midi_bytes.h"
 #include "music/score/midi_conductor.h"
 #include "music/score/midi_voice.h"
@@ -52,6 +53,7 @@ public:
           is_mpe_(options.tuning == Tuning::mpe),
           bend_range_(is_mpe_ ? mpe_bend_range : options.bend_range),
           slots_(options.share_channels ? channel_slots(head) : std::vector<int>()),
+          labels_(labels_of(head.parts)),
           conductor_(head, nullptr, is_mpe_) {
         check_options();
         std::size_t voices = 0;
@@ -263,25 +265,34 @@ private:
         voice->channel = is_drums ? drum_channel : slot < drum_channel ? slot : slot + 1;
         ++sounding_;
         pitched_ += is_drums ? 0 : 1;
-        int within = number;
-        for (const Part& part : head_.parts) {
-            const int count = std::max(part.voices, 0);
-            if (within < count) {
-                voice->program = part.program;
-                voice->name = part.name;
-                if (count > 1 && !part.name.empty()) voice->name += fmt::format(" {}", within + 1);
-                break;
-            }
-            within -= count;
-        }
+        voice->program = head_.parts[static_cast<std::size_t>(part_of(number))].program;
         if (options_.microtonal && options_.tuning == Tuning::mts && !is_drums) voice->tuned.assign(128, unset);
         return voice;
+    }
+
+    /// The name of a voice as in print. The voices of its part that sound are numbered; for a voice that is streamed,
+    /// as others may still come, so are all.
+    std::string name_of(const Voice& voice) const {
+        const int part = part_of(voice.number);
+        const std::string& name = labels_[static_cast<std::size_t>(part)].name;
+        if (name.empty()) return {};
+        std::size_t before = 0;
+        std::size_t count = 0;
+        for (const auto& one : voices_) {
+            if (!one || part_of(one->number) != part) continue;
+            before += one->number < voice.number ? 1 : 0;
+            ++count;
+        }
+        if (streamed_ && voice.number == 0)
+            count = static_cast<std::size_t>(head_.parts[static_cast<std::size_t>(part)].voices);
+        return line_name(name, before, count);
     }
 
     /// What stands at the beginning of a voice's track, all at tick 0.
     std::string open(const Voice& voice) const {
         std::string bytes;
-        if (!voice.name.empty()) bytes += meta_now(options_.format == 1 ? name_type : instrument_type, voice.name);
+        const std::string name = name_of(voice);
+        if (!name.empty()) bytes += meta_now(options_.format == 1 ? name_type : instrument_type, name);
         const int channel = voice.channel;
         if (is_mpe_) return bytes;
         if (options_.microtonal && options_.tuning == Tuning::bend && !voice.is_drums) {
@@ -605,7 +616,8 @@ private:
     const MidiOptions options_;
     const bool is_mpe_;
     const int bend_range_;
-    const std::vector<int> slots_;  // of channels, by part, if they are shared
+    const std::vector<int> slots_;     // of channels, by part, if they are shared
+    const std::vector<Label> labels_;  // by part
     Conductor conductor_;
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
     std::vector<Note> collected_;                    // with MPE, until finish()
@@ -658,7 +670,9 @@ std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head, const 
     std::uint64_t fixed = 14 + 8 + 8 * 11 + 3 * text_bytes + head.title.size() + head.pattern.size() +
                           head.made.size() + 7 + 8 + 6 + end_bytes;
     std::uint64_t longest_name = 0;
-    for (const Part& part : head.parts) longest_name = std::max(longest_name, std::uint64_t{part.name.size()});
+    for (const Label& label : labels_of(head.parts)) {
+        longest_name = std::max(longest_name, std::uint64_t{label.name.size()});
+    }
     // Up to ten controllers, the program, and a number after the name.
     fixed += most_voices * (8 + text_bytes + longest_name + 12 + 10 * 4 + 3 + end_bytes);
     const bool is_mpe = options.tuning == Tuning::mpe;

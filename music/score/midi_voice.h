@@ -24,7 +24,6 @@ struct Voice {
     int number = 0;
     int channel = 0;
     bool is_drums = false;
-    std::string name;
     int program = 0;
     std::int64_t now = 0;  ///< the tick of the last event
     int bend = centre;

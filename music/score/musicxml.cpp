@@ -3,6 +3,7 @@
 #include "engine/base/text.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
+#include "music/score/labels.h"
 
 #include <fmt/format.h>
 
@@ -118,9 +119,8 @@ private:
                 continue;
             }
             for (std::size_t i = 0; i < staves.size(); ++i) {
-                const std::string number = fmt::format(" {}", i + 1);
-                parts_.push_back({&part, staves.subspan(i, 1), part.name + number, part.abbreviation + number, i == 0,
-                                  i + 1 == staves.size()});
+                parts_.push_back({&part, staves.subspan(i, 1), line_name(part.name, i, staves.size()),
+                                  line_name(part.abbreviation, i, staves.size()), i == 0, i + 1 == staves.size()});
             }
         }
     }
