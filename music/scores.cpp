@@ -6,10 +6,12 @@
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
+#include "engine/geometry/lattice.h"
 #include "music/arrangement.h"
 #include "music/ensemble.h"
 #include "music/humaniser.h"
 #include "music/melody/melody.h"
+#include "music/melody/melody_fold.h"
 #include "music/note_stream.h"
 #include "music/performance.h"
 #include "music/play_settings.h"
@@ -26,6 +28,7 @@
 #include "music/score/musicxml.h"
 #include "music/score/mxl.h"
 #include "music/score/notation.h"
+#include "music/score/rhythm.h"
 #include "music/score/spelling.h"
 #include "music/score/strudel.h"
 #include "music/score/unisons.h"
@@ -86,7 +89,10 @@ constexpr int sitar = 104;
 
 std::string made_with(const PlaySettings& settings, const std::vector<Player>& players, bool is_arrangement) {
     std::string text;
-    for (const Setting& setting : settings.keys) text += fmt::format(" --{} '{}'", setting.key, setting.value);
+    // The document of a single pattern has the keys itself.
+    for (const Setting& setting : settings.keys) {
+        if (is_arrangement) text += fmt::format(" --{} '{}'", setting.key, setting.value);
+    }
     if (settings.from_bar != 1) text += fmt::format(" --from-bar {}", settings.from_bar);
     if (settings.bars != 0) text += fmt::format(" --bars {}", settings.bars);
     if (settings.seconds != 0) text += fmt::format(" --seconds {}", settings.seconds);
@@ -290,12 +296,31 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
     }
 }
 
-void report_notation(const Notation& notation, Made& made) {
+/// A key that would let notes begin and end where note values do; empty if none is known.
+std::string_view remedy_for_moved(const Ensemble& ensemble) {
+    for (const Player& player : ensemble.players) {
+        const Melody& melody = player.melody;
+        Note step;
+        step.duration = melody.unit;
+        const Grid grid = grid_of(std::span(&step, 1), ensemble.meter);
+        if (grid.nearest(melody.unit) != melody.unit) return "; another `unit` such as 1/8 keeps the rhythm";
+        int first = 0;
+        const bool is_on_square_grid = is_on_grid(make_lattice(player.document.grammar()), first);
+        if (melody.mapping == Mapping::runs && melody.rhythm.empty() && !is_on_square_grid) {
+            return "; the curve leaves the square grid, where `rhythm: x` makes each step last one unit";
+        }
+    }
+    return {};
+}
+
+void report_notation(const Notation& notation, const Ensemble& ensemble, Made& made) {
     if (notation.moved > 0) {
+        const bool is_one = notation.moved == 1;
         made.warn(
-            fmt::format("{} not begin or end at a 64th or in a tuplet of 3 or 5 and are written at the nearest "
-                        "64th; `unit: 1/8` keeps the rhythm",
-                        notation.moved == 1 ? "1 note does" : counted(notation.moved, "note") + " do"));
+            fmt::format("{} not begin or end at a 64th or in a tuplet of 3, 5, 6, 10 or 12 and {} written at the "
+                        "nearest 64th{}",
+                        is_one ? "1 note does" : counted(notation.moved, "note") + " do", is_one ? "is" : "are",
+                        remedy_for_moved(ensemble)));
     }
     if (notation.merged > 0) {
         made.fact(fmt::format("{} in unison with other voices printed once", counted(notation.merged, "note")));
@@ -599,7 +624,7 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
             break;
     }
     report_notes(ensemble_, playing, report, made);
-    if (notation) report_notation(*notation, made);
+    if (notation) report_notation(*notation, ensemble_, made);
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
 

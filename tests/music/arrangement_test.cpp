@@ -3,6 +3,7 @@
 #include "music/arrangement.h"
 
 #include "music/scores.h"
+#include "tests/midi_tools.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -339,6 +340,68 @@ std::string bars_of(const pugi::xml_document& document, int part) {
         text += letter.empty() ? "-" : letter;
     }
     return text;
+}
+
+/// `Flute 1, Flute 2`: the names of tracks of a MIDI file, but for the first.
+std::string tracks_of(const std::string& midi) {
+    std::string names;
+    for (const MidiEvent& event : read_midi(midi).events) {
+        if (event.status != 0xFF || event.type != 3 || event.track == 0) continue;
+        names += (names.empty() ? "" : ", ") + event.data;
+    }
+    return names;
+}
+
+TEST(Arrangement, TracksOfMidiHaveTheNamesOfPrint) {
+    const auto names = [](const std::string& text) {
+        MemoryDestination memory;
+        plan_score(read(text), "mid", {})->make(memory, "score.mid", {});
+        return tracks_of(memory.take("score.mid"));
+    };
+    EXPECT_EQ(names(track("")), "Piano");
+    EXPECT_EQ(names(track("name = \"Lead\"\ncanon = \"1 -12, 2 0\"\n") + track("instrument = \"Cello\"\n")),
+              "Lead 1, Lead 2, Lead 3, Cello");
+    EXPECT_EQ(names(track("", "branches")), "Piano 1, Piano 2");
+    EXPECT_EQ(names(track("", "branches") + track("")), "Piano 1.1, Piano 1.2, Piano 2");
+    EXPECT_EQ(names(track("instrument = \"Sitar\"\nharmony = \"drone\"\n")), "Sitar 1, Sitar 2.1, Sitar 2.2");
+    // Voices that are silent do not count.
+    const std::string beat =
+        "axiom: [hhhhhhhh][krskks]\nmapping: symbols\nunit: 1/8\ndrum k: bass drum\ndrum s: acoustic snare 1/4\n"
+        "drum h: closed hi-hat\nrest r: 1/8\n";
+    const Document document = parse("beat.lsys", beat);
+    EXPECT_EQ(tracks_of(play(document, "mid")), "Drums 1, Drums 2");
+    EXPECT_EQ(tracks_of(play(document, "mid", {{"loop", "2"}})), "Drums 1, Drums 2");
+}
+
+TEST(Arrangement, RecipesHaveEachKeyOnce) {
+    const auto made = [](const std::string& midi) { return read_midi(midi).made; };
+    const std::string values = play(parse("steps.lsys", steps), "mid", {{"unit", "1/4"}, {"transpose", "2"}});
+    EXPECT_TRUE(made(values).ends_with(", -n 0 --set 'unit=1/4' --transpose 2")) << made(values);
+    MemoryDestination memory;
+    plan_score(read(track("")), "mid", {{"unit", "1/4"}})->make(memory, "score.mid", {});
+    const std::string arranged = made(memory.take("score.mid"));
+    EXPECT_TRUE(arranged.ends_with(", --unit '1/4'")) << arranged;
+}
+
+TEST(Arrangement, RemarksAboutMovedNotesNameWhatHelps) {
+    const auto remark = [](const std::string& text, const OptionValues& values) {
+        MemoryDestination memory;
+        std::string warnings;
+        const Document document = parse("m.lsys", text);
+        for (const Remark& one :
+             plan_score(std::span(&document, 1), "ly", values)->make(memory, "m.ly", {}).remarks) {
+            if (one.is_warning) warnings += one.text;
+        }
+        return warnings;
+    };
+    const std::string moved =
+        " not begin or end at a 64th or in a tuplet of 3, 5, 6, 10 or 12 and are written at the nearest 64th";
+    const std::string sloped = "heading: 0\nangle increment: 22.5\naxiom: F+F+F-F\n";
+    const std::string advice = "; the curve leaves the square grid, where `rhythm: x` makes each step last one unit";
+    EXPECT_EQ(remark(sloped, {{"unit", "1/8"}}), "3 notes do" + moved + advice);
+    EXPECT_EQ(remark(sloped, {{"unit", "1/8"}, {"rhythm", "x"}}), "");
+    EXPECT_TRUE(remark(steps, {{"unit", "1/15"}}).ends_with("; another `unit` such as 1/8 keeps the rhythm"));
+    EXPECT_EQ(remark(steps, {{"unit", "1/20"}}), "");
 }
 
 TEST(Arrangement, PartsThatTakeTurnsShareAStaff) {
