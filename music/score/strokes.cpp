@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace sikku {
@@ -85,6 +86,14 @@ bool fits_a_grid(const StrokeLine& line, std::span<const std::vector<Note>> voic
            });
 }
 
+bool has_several_drums(std::span<const std::vector<Note>> voices) {
+    std::set<int> drums;
+    for (const std::vector<Note>& voice : voices) {
+        for (const Note& note : voice) drums.insert(drum_key(note));
+    }
+    return drums.size() > 1;
+}
+
 double mean_height(const StrokeLine& line) {
     double sum = 0;
     for (const Note& stroke : line.strokes) sum += height_of(stroke);
@@ -95,6 +104,7 @@ double mean_height(const StrokeLine& line) {
 
 StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter& meter) {
     StrokeLines result;
+    const bool is_set = has_several_drums(voices);
     for (const bool are_feet : {false, true}) {
         std::vector<std::vector<Note>> parts;
         std::vector<Note> all;
@@ -102,6 +112,9 @@ StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter&
             std::vector<Note>& part = parts.emplace_back();
             std::copy_if(voice.begin(), voice.end(), std::back_inserter(part),
                          [&](const Note& note) { return is_foot(note) == are_feet; });
+            for (Note& note : part) {
+                if (is_set) note.emphasis.dynamic = -1;
+            }
             all.insert(all.end(), part.begin(), part.end());
         }
         if (all.empty()) continue;

@@ -24,7 +24,8 @@ struct StrokeLines {
 /// the pedal hi-hat) below. A line that does not fit any grid of bars and tuplets stays divided into its voices.
 ///
 /// A stroke has no length of its own: it is written up to the next one of its line, the end of its beat, or, if it
-/// lasts for whole beats, its end. Cost: O(n log n).
+/// lasts for whole beats, its end. Dynamics that the pattern states for several drums are the balance between them,
+/// so strokes keep them only where there is a single drum. Cost: O(n log n).
 StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter& meter);
 
 }  // namespace sikku
