@@ -223,7 +223,8 @@ private:
         }
         for (const Staff& staff : part.staves) {
             const std::span<const Staff> staves =
-                part.bracket == Bracket::brace ? std::span(part.staves) : std::span(&staff, 1);
+                part.bracket == Bracket::brace && part.staves.back().dynamics.empty() ? std::span(part.staves)
+                                                                                      : std::span(&staff, 1);
             bool is_hairpin = false;
             for (const DynamicMark& mark : staff.dynamics) {
                 const NotatedVoice* in = &staff.voices.front();
@@ -334,7 +335,7 @@ private:
             return;
         }
         const Pitch& pitch = symbol.pitch;
-        if (symbol.is_accented) put("!>!");
+        if (symbol.is_accented) put("!accent!");
         if (symbol.ends_slide) put("!~)!");
         if (symbol.begins_slide) put("!~(!");
         if (symbol.leaves != 0) put("\"^gliss.\"");

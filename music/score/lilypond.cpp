@@ -333,11 +333,12 @@ private:
         const NotatedPart& part = notation_.parts[index];
         const bool are_hands = part.bracket == Bracket::brace;
         const bool is_group = part.staves.size() > 1;
+        // Dynamics of both hands stand between them.
+        const bool is_shared = are_hands && is_group && part.staves.back().dynamics.empty();
         if (is_group) put("    {} <<\n", are_hands ? opening_of(part, 0, true) : "\\new StaffGroup");
         for (std::size_t i = 0; i < part.staves.size(); ++i) {
-            write_staff(part.staves[i], part, opening_of(part, i, false), index == 0 && i == 0,
-                        !(are_hands && is_group));
-            if (are_hands && is_group && i == 0) {
+            write_staff(part.staves[i], part, opening_of(part, i, false), index == 0 && i == 0, !is_shared);
+            if (is_shared && i == 0) {
                 put("    \\new Dynamics {{\n");
                 write_dynamics(part.staves[i].dynamics);
                 put("    }}\n");

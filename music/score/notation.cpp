@@ -102,6 +102,30 @@ void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
     }
 }
 
+void sort_by_onset(std::vector<Note>& notes) {
+    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
+}
+
+/// Hands that state dynamics have their own where these are fewer.
+void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, NotatedPart& notated) {
+    std::vector<std::vector<DynamicMark>> of_hands;
+    std::size_t count = 0;
+    bool is_stated = false;
+    for (const StaffPlan& planned : plan.staves) {
+        std::vector<Note> notes;
+        for (const StaffVoice& voice : planned.voices) {
+            notes.insert(notes.end(), voice.notes.begin(), voice.notes.end());
+        }
+        sort_by_onset(notes);
+        is_stated = is_stated || std::any_of(notes.begin(), notes.end(),
+                                             [](const Note& note) { return note.emphasis.dynamic >= 0; });
+        of_hands.push_back(dynamics_of(notes, bar_length));
+        count += of_hands.back().size();
+    }
+    if (!is_stated || count >= notated.staves.front().dynamics.size()) return;
+    for (std::size_t i = 0; i < of_hands.size(); ++i) notated.staves[i].dynamics = std::move(of_hands[i]);
+}
+
 /// Moves notes to the grid. Returns how many moved.
 std::uint64_t snap(std::vector<Note>& notes, const Grid& grid) {
     std::uint64_t moved = 0;
@@ -419,8 +443,7 @@ void Notator::notate_drums(std::size_t index) {
         }
         if (drums_of(staff).size() == 1) set_on_one_line(staff);
         hide_rests(staff, notation_.bars, notation_.bar_length);
-        std::stable_sort(together.begin(), together.end(),
-                         [](const Note& a, const Note& b) { return a.onset < b.onset; });
+        sort_by_onset(together);
         staff.dynamics = dynamics_of(together, notation_.bar_length);
     }
 }
@@ -446,11 +469,11 @@ void Notator::notate_part(std::size_t index) {
         hide_rests(staff, notation_.bars, notation_.bar_length);
         set_signs(staff, printed, notation_.bar_length);
         set_cents(staff, part.is_accompaniment, notation_.bar_length);
-        std::stable_sort(together.begin(), together.end(),
-                         [](const Note& a, const Note& b) { return a.onset < b.onset; });
+        sort_by_onset(together);
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
         marked.dynamics = dynamics_of(together, notation_.bar_length);
     }
+    if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, notated);
 }
 
 /// A ritardando begins in the first voice. Where one voice has a fermata, all have: those that do not hold their last

@@ -101,12 +101,24 @@ TEST(Emphasis, NotesWithoutDynamicsKeepThoseBeforeThem) {
     EXPECT_EQ(dynamics_of(table + "axiom: ABAB\nvelocity: by x 96-96\n"), "0 f");
 }
 
-TEST(Emphasis, HandsHaveThemWhereTheirNotesBegin) {
-    const std::string hands = "mapping: symbols\nnote A: C5 1/4 mf\nnote B: C3 1/4 f\nrest r: 1/4\n";
-    EXPECT_EQ(dynamics_of(hands + "axiom: [ArAr][rBrB]\n"), "0 mf, 1 f, 2 mf, 3 f");
-    const std::string abc = printed(hands + "axiom: [ArAr][rBrB]\n", "abc");
-    EXPECT_NE(abc.find("!mf!c2 z2 !mf!c2 z2"), std::string::npos) << abc;
-    EXPECT_NE(abc.find("z2 !f!C,2 z2 !f!C,2"), std::string::npos) << abc;
+TEST(Emphasis, HandsShareDynamicsUnlessTheirOwnAreFewer) {
+    const std::string hands =
+        "mapping: symbols\nnote A: C5 1/4 mf\nnote B: C3 1/4 f\nnote C: C3 1/4 mf\nrest r: 1/4\n";
+    const std::string own = hands + "axiom: [ArAr][rBrB]\n";
+    const std::string abc = printed(own, "abc");
+    EXPECT_NE(abc.find("!mf!c2 z2 c2 z2"), std::string::npos) << abc;
+    EXPECT_NE(abc.find("z2 !f!C,2 z2 C,2"), std::string::npos) << abc;
+    const std::string lilypond = printed(own, "ly");
+    EXPECT_NE(lilypond.find("c''4\\mf r4 c''4 r4"), std::string::npos) << lilypond;
+    EXPECT_NE(lilypond.find("r4 c4\\f r4 c4"), std::string::npos) << lilypond;
+    EXPECT_EQ(dynamics_of(own), "0 mf, 1 f");
+    const std::string shared = hands + "axiom: [rrAA][CCrr]\n";
+    EXPECT_EQ(dynamics_of(shared), "0 mf");
+    EXPECT_EQ(count(printed(shared, "ly"), "\\mf"), 1u);
+    // The first note may be that of the other hand.
+    const std::string late = printed(shared, "abc");
+    EXPECT_EQ(count(late, "!mf!"), 1u);
+    EXPECT_NE(late.find("!mf!C,2 C,2"), std::string::npos) << late;
 }
 
 TEST(Emphasis, DynamicsOfSeveralDrumsAreTheirBalance) {
@@ -124,7 +136,7 @@ TEST(Emphasis, RhythmsAccentTheirNotes) {
     EXPECT_EQ(accents_of(table + "axiom: ABAB\n", {{"rhythm", "Xx"}, {"unit", "1/4"}}), ">.>.");
     const OptionValues values = {{"rhythm", "xxXx"}};
     EXPECT_EQ(count(printed(steps, "ly", values), "->"), 2u);
-    EXPECT_EQ(count(printed(steps, "abc", values), "!>!"), 2u);
+    EXPECT_EQ(count(printed(steps, "abc", values), "!accent!"), 2u);
     // The dynamic is that of the other notes.
     EXPECT_EQ(dynamics_of(steps + "rhythm: adi\n"), "0 mf");
 }
