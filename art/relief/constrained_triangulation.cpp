@@ -342,6 +342,9 @@ void ConstrainedTriangulation::clear_way(const Piece& piece, const std::vector<P
     std::vector<Pair> made;
     while (!queue.empty()) {
         pulse_();
+        if (++turns_ > most_turns) {
+            throw BudgetError("lines of the relief cross too many others; choose a shorter derivation or a window");
+        }
         const auto [from, to] = queue.front();
         queue.pop_front();
         const std::optional<Edge> edge = find(from, to);

@@ -28,6 +28,8 @@ public:
     static constexpr std::int32_t largest_coordinate = 1 << 28;
     /// A point gives two triangles of a face and, at a wall, two of the wall.
     static constexpr std::size_t most_points = most_relief_triangles / 4;
+    /// Edges that may be turned out of the way of others: long ones that cross very many would take hours.
+    static constexpr std::size_t most_turns = 4 * most_points;
 
     /// The three corners run anticlockwise; edge i leads from corner i to the next one.
     struct Triangle {
@@ -45,7 +47,7 @@ public:
     /// Adds a point, or finds it. Cost: constant if the last one was near. @throws BudgetError beyond most_points
     Point add(Micrometres point);
     /// Adds an edge with the windings of its left minus those of its right. Cost: proportional to the triangles that
-    /// it crosses; each crossing adds a point.
+    /// it crosses; each crossing adds a point. @throws BudgetError beyond most_points or most_turns
     void connect(Point from, Point to, Windings::Id winding);
 
     const std::vector<Micrometres>& points() const { return points_; }
@@ -97,6 +99,7 @@ private:
     double tolerance_;
     Windings& windings_;
     Pulse pulse_;
+    std::size_t turns_ = 0;
     std::uint32_t last_ = 0;    ///< triangle of the last point
     std::uint32_t random_ = 1;  ///< so that no walk goes round in circles
 };

@@ -50,6 +50,9 @@ TEST(Mirror, KeepsParametersConditionsAndContexts) {
 TEST(Mirror, LeavesStatedProductionsAlone) {
     EXPECT_EQ(word("mirror: A a\naxiom: Aa\nA --> A+F\na --> aF\n", 2), "A+F+FaFF");
     EXPECT_EQ(word("mirror: A a\naxiom: Aa\na --> a-F\n", 1), "A+Fa-F") << "either of a pair may be stated";
+    const std::string tables = "mirror: A a\naxiom: Aa\nschedule: t\nA --> A+F\ntable t:\n";
+    EXPECT_EQ(word(tables + "X --> F\n", 1), "A+Fa-F");
+    EXPECT_EQ(word(tables + "a --> f\n", 1), "A+Ff") << "a table may state its own instead of a common image";
     // A symbol that is its own image, and tables.
     EXPECT_EQ(
         word("mirror: A a\naxiom: aC\nC --> A\nschedule: one two\ntable one:\nA --> +A\ntable two:\nA --> --A\n", 2),
