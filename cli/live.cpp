@@ -16,6 +16,7 @@
 #include <charconv>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <system_error>
@@ -134,7 +135,9 @@ std::int64_t times_of(const LiveOptions& options) {
 }
 
 std::unique_ptr<live::Port> open_port(const std::string& name, bool has_input) {
-    if (name.find('/') != std::string::npos) return live::open_device(name, has_input);
+    std::error_code error;
+    const bool is_pipe = std::filesystem::is_fifo(name, error);
+    if (is_pipe || name.find('/') != std::string::npos) return live::open_device(name, has_input);
     return live::open_alsa_port(name, has_input);
 }
 
@@ -153,7 +156,7 @@ std::string summary(const live::PerformReport& report) {
 void add_live_options(CLI::App& command, LiveOptions& options) {
     command
         .add_option("--port", options.port,
-                    "play now, to this MIDI port: a name or address from `sikku ports`, or a device such as "
+                    "play now, to this MIDI port: a name or address from `sikku ports`, or a device or pipe such as "
                     "/dev/snd/midiC1D0; changes of the pattern files are heard from the next bar on")
         ->type_name("PORT")
         ->check([](const std::string& text) { return text.empty() ? "expected a name, an address or a device" : ""; })

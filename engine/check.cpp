@@ -77,7 +77,11 @@ private:
         check_keys(pattern, diagnostics);
         const Grammar grammar = compile_grammar(pattern, diagnostics);
         for (const Interpreter* interpreter : interpreters_) interpreter->check_keys(pattern, diagnostics);
-        if (!diagnostics.has_errors()) check_brackets(pattern, grammar, diagnostics);
+        if (diagnostics.has_errors()) return;
+        check_brackets(pattern, grammar, diagnostics);
+        for (const Interpreter* interpreter : interpreters_) {
+            interpreter->check_grammar(pattern, grammar, diagnostics);
+        }
     }
 
     /// Each is compiled in full: many variants of a large pattern would take minutes.

@@ -72,6 +72,9 @@ public:
     virtual KeyOwner owner() const = 0;
     /// Reports errors in the values of those keys.
     virtual void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const = 0;
+    /// Reports keys that would fail with this grammar, whatever is made. Options may still change them.
+    virtual void check_grammar(const Pattern& /*pattern*/, const Grammar& /*grammar*/,
+                               Diagnostics& /*diagnostics*/) const {}
     virtual std::span<const FormatName> formats() const = 0;
     /// The table of options, in the order of help.
     virtual std::span<const OptionInfo* const> options() const = 0;

@@ -144,7 +144,9 @@ private:
                                                "section", "name", "transpose", "tempo ratio"};
         for (const std::string_view name : keys_of(KeyOwner::music)) known.push_back(name);
         if (is_head) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
-        fail(place, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(nearest(folded(key), known))));
+        const std::string name = folded(key);
+        const std::string_view near = name == "bpm" ? "tempo" : name == "key" ? "tonic" : nearest(name, known);
+        fail(place, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(near)));
     }
 
     void read_patterns(const FileValue& value) {
@@ -196,6 +198,13 @@ private:
         return value.text;
     }
 
+    /// @throws FileError for keys of the whole piece
+    static void refuse_whole(const std::string& key, const std::string& place) {
+        if (key != "tempo" && key != "ending") return;
+        fail(place, fmt::format("{} belongs to the whole piece, above the first track{}", key,
+                                key == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
+    }
+
     void read_track(const FileValue& track) {
         if (track.type != FileValue::Type::table) fail(track.place, "track: expected [[track]] tables");
         std::vector<PlacedSetting> settings = shared_;
@@ -206,6 +215,7 @@ private:
         char section = 0;
         for (const auto& [key, value] : track.table) {
             const std::string known = folded(key);
+            refuse_whole(known, value.place);
             if (known == "pattern") {
                 pattern_name = text_of(known, value);
                 name_place = value.place;
@@ -223,12 +233,9 @@ private:
                 if (value.type != FileValue::Type::table)
                     fail(value.place, "set: expected a table of keys and defines");
                 for (const auto& [inner, one] : value.table) {
+                    refuse_whole(folded(inner), one.place);
                     settings.push_back({{inner, inner, text_of(inner, one)}, one.place});
                 }
-            } else if (known == "tempo" || known == "ending") {
-                fail(value.place,
-                     fmt::format("{} belongs to the whole piece, above the first track{}", known,
-                                 known == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
             } else if (known == "n" || known == "seed" || music_key(known)) {
                 settings.push_back({part_setting(known, text_of(known, value)), value.place});
             } else {
@@ -249,7 +256,7 @@ private:
     /// @throws FileError at the place of the setting
     static Document with(const Document& document, const PlacedSetting& one) {
         const auto refuse = [&](const std::string& message) {
-            fail(one.place, fmt::format("{}: {}", one.setting.key, message));
+            fail(one.place, fmt::format("{}: {}", one.setting.origin == "-n" ? "n" : one.setting.key, message));
         };
         try {
             Document changed = document.with({one.setting});
@@ -272,7 +279,10 @@ private:
                                                [&](const FormSection& one) { return one.letter == section - 'A'; });
             if (section != 0 && !is_played) {
                 fail(tracks.list[i].place,
-                     fmt::format("section {} is not in the form: form = \"A B A\" above the first track", section));
+                     result_.form.empty()
+                         ? fmt::format("section {} needs a form above the first track, such as form = \"A B A\"",
+                                       section)
+                         : fmt::format("section {} is not in the form of the piece", section));
             }
         }
         for (const FormSection& one : result_.form) {

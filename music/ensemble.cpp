@@ -69,6 +69,14 @@ void add(PlayReport& all, const PlayReport& one) {
     }
 }
 
+/// @throws ScoreError always: the melody ends before its excerpt
+[[noreturn]] void refuse_excerpt(const Player& player) {
+    const auto known = census(player.document.grammar(), player.melody);
+    throw ScoreError(fmt::format("the excerpt contains no notes: the melody ends {}",
+                                 known ? "at bar " + bars_of(known->ticks, player.melody.meter).str()
+                                       : fmt::format("before bar {}", player.melody.layout.first_bar)));
+}
+
 /// Passes the parts on as they are read.
 EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
     EnsembleReport all;
@@ -214,6 +222,7 @@ private:
                                 "{}; `excerpt: 1-64` reads a part of it",
                                 error.what()));
             }
+            if (one.past && has_excerpt(player) && !layout.form.empty()) refuse_excerpt(player);
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
@@ -416,10 +425,7 @@ int line_of(const Ensemble& ensemble, int voice) {
                                      bars_of(ticks, ensemble.meter).str()));
     }
     const Layout& layout = ensemble.players.front().melody.layout;
-    if (all.past && layout.first_bar > 1) {
-        throw ScoreError(
-            fmt::format("the excerpt contains no notes: the melody ends before bar {}", layout.first_bar));
-    }
+    if (all.past && layout.first_bar > 1) refuse_excerpt(ensemble.players.front());
     if (playing.to <= playing.from)
         throw ScoreError("the requested time is shorter than a tick, a 480th of a quarter");
     throw ScoreError(

@@ -33,7 +33,10 @@ std::vector<Option<S>> make_table() {
           .unit = "s",
           .kind = number,
           .least = 0},
-         [](S& s, Text t) { s.seconds = to_number(t); }},
+         [](S& s, Text t) {
+             s.seconds = to_number(t);
+             if (!(s.seconds > 0)) refuse_option("seconds", t, "expected a number above 0");
+         }},
         {{.name = "transpose",
           .help = "semitones added to every note, -127 to 127 (0)",
           .value = "SEMITONES",

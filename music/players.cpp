@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"
+#include "engine/base/keys.h"
 #include "engine/base/text.h"
 #include "music/score/curves.h"
 #include "music/score/spelling.h"
@@ -62,6 +63,24 @@ bool has_brackets(const Grammar& grammar) {
         if (reached[symbol] && grammar.is_push(symbol)) return true;
     }
     return false;
+}
+
+void check_phrases(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
+    Diagnostics known;  // reported by read_melody() before
+    const Melody melody = read_melody(pattern, {}, known);
+    const std::string problem = known.has_errors() ? std::string() : problem_of(grammar, melody);
+    if (problem.empty()) return;
+    for (const std::string_view name : {"phrases", "form", "cadence"}) {
+        const Key* key = pattern.find(name);
+        const std::string value = key ? lower_case(key->value.view()) : "none";
+        if (value != "none" && value != "curve") return diagnostics.error(key->name_at, problem);
+    }
+    for (const std::string_view name : keys_of(KeyOwner::music)) {
+        const Key* key = pattern.find(name);
+        if (key && key->value.view().find("level") != std::string_view::npos) {
+            return diagnostics.error(key->name_at, problem);
+        }
+    }
 }
 
 Player bass_of(const Player& player) {
@@ -243,7 +262,8 @@ std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped) {
     return text;
 }
 
-std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole) {
+std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole,
+                        const PlayAlone& play_whole) {
     PlayOptions playing = piece;
     playing.budget = std::min(piece.budget, 20e6);
     std::string text;
@@ -251,14 +271,15 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         if (player.is_bass) continue;
         const Melody& melody = player.melody;
         const std::string title = player.document.text("title");
-        const bool is_all = is_whole && !has_excerpt(player);
+        const bool is_arranged = melody.layout.needs_whole();
+        const bool is_all = is_whole && !has_excerpt(player) && !is_arranged;
         const auto known = is_all ? census(player.document.grammar(), melody) : std::nullopt;
         std::optional<PlayReport> played;
         PlayOptions of_part = playing;
         cut_excerpt(player, of_part);
         try {
             Nobody nobody;
-            played = play(player.document.grammar(), melody, nobody, of_part);
+            played = is_arranged ? play_whole(player) : play(player.document.grammar(), melody, nobody, of_part);
         } catch (const BudgetError&) {
             if (!known) throw;
         }

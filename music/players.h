@@ -42,6 +42,9 @@ using FileWitness = std::function<void(const std::string& name, const std::strin
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness);
 
+/// Reports phrases, forms, cadences and levels that cannot be played from the grammar of the pattern.
+void check_phrases(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
+
 /// True if only some bars of the melody are played.
 bool has_excerpt(const Player& player);
 
@@ -78,7 +81,12 @@ std::string range_of(const PlayReport& report, const Melody& melody);
 /// The symbols that a table leaves out, the most frequent first: `5 Y, 2 X`.
 std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped);
 
+/// Plays a part alone.
+using PlayAlone = std::function<PlayReport(const Player& player)>;
+
 /// Describes the music without writing a score: by playing, or, if that would take too long, by the fold.
-std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole);
+/// @param play_whole  plays parts that are read as a whole, in a form or reversed, for example
+std::string description(const std::vector<Player>& players, const PlayOptions& piece, bool is_whole,
+                        const PlayAlone& play_whole);
 
 }  // namespace sikku

@@ -393,22 +393,42 @@ public:
     }
     std::string describe(const Monitor& monitor) {
         const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        const bool is_arranged = arrangement_ || ensemble_.needs_whole();
+        if (is_arranged) make_head(playing, most_voices);  // numbers the voices of the parts
         std::string text = description(ensemble_.players, playing,
-                                       settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0);
-        if (!arrangement_ && !ensemble_.needs_whole()) return text;
-        make_head(playing, most_voices);  // numbers the voices of the parts
+                                       settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0,
+                                       [&](const Player& player) { return play_alone(player, playing); });
+        if (!is_arranged) return text;
         Nobody nobody;
         Made made;
         const bool has_tempo = ensemble_.players.front().melody.expression.tempo.is_on();
         EnsembleReport report = has_tempo ? play_into(nobody, playing) : play_all(ensemble_, playing, nobody);
         if (!has_tempo) report.seconds = seconds_of(report.end, {});
         report_notes(ensemble_, playing, report, made);
-        text += "together\n";
-        for (const Remark& remark : made.remarks) text += remark.text + "\n";
+        // A single part is described already, unless its tempo changes.
+        const bool is_alone = !arrangement_ && ensemble_.players.size() == 1 && !has_tempo;
+        if (!is_alone) text += "together\n";
+        for (auto remark = made.remarks.begin() + (is_alone ? 1 : 0); remark != made.remarks.end(); ++remark) {
+            text += remark->text + "\n";
+        }
         return text;
     }
 
 private:
+    PlayReport play_alone(const Player& player, const PlayOptions& playing) const {
+        Ensemble alone;
+        alone.players = {player};
+        alone.tempo = player.melody.tempo;
+        alone.meter = player.melody.meter;
+        if (ensemble_.players.size() == 1) alone.close = ensemble_.close;
+        Player& part = alone.players.front();
+        part.section = 0;
+        part.first_voice = 0;
+        part.melody.layout.start = 0;
+        Nobody nobody;
+        return play_parts(alone, playing, nobody);
+    }
+
     void add(const Document& document, char section, const std::string& part_name) {
         const auto witness = [this](const std::string& name, const std::string& text) {
             files_.emplace_back(name, text);
@@ -721,6 +741,9 @@ public:
     KeyOwner owner() const override { return KeyOwner::music; }
     void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const override {
         read_melody(pattern, {}, diagnostics);
+    }
+    void check_grammar(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) const override {
+        check_phrases(pattern, grammar, diagnostics);
     }
     std::span<const FormatName> formats() const override { return formats_; }
     std::span<const OptionInfo* const> options() const override { return options_; }

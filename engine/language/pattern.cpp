@@ -466,8 +466,9 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
     }
     for (const Setting& setting : settings) {
         const bool is_value = !setting.origin.ends_with("set");
+        const bool is_shown = is_value && !setting.value.empty();
         const auto source =
-            std::make_shared<const Source>(is_value ? setting.origin + " " + setting.value : setting.origin,
+            std::make_shared<const Source>(is_shown ? setting.origin + " " + setting.value : setting.origin,
                                            setting.key + "=" + setting.value, is_value);
         pattern.overrides.push_back(source);
         const Span whole{source, 0, source->text().size()};
@@ -516,7 +517,8 @@ void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
         static const std::map<std::string_view, std::string_view> others = {
             {"angle", "angle increment"}, {"n", "derivation length"}, {"steps", "derivation length"},
             {"colour", "stroke"},         {"color", "stroke"},        {"line width", "stroke"},
-            {"width", "stroke"},          {"background", "ground"},   {"start", "axiom"}};
+            {"width", "stroke"},          {"background", "ground"},   {"start", "axiom"},
+            {"bpm", "tempo"},             {"key", "tonic"}};
         const auto other = others.find(key.name);
         const std::string_view near = other != others.end() ? other->second : nearest(key.name, known);
         diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(), did_you_mean(near)));

@@ -1,5 +1,6 @@
 #include "music/form/block.h"
 
+#include "engine/base/text.h"
 #include "music/melody/accompaniment.h"
 #include "music/melody/degree_range.h"
 #include "music/score/glides.h"
@@ -123,17 +124,98 @@ void turn_glides(std::vector<FormNote>& notes) {
         notes.end());
 }
 
+bool is_chord(const FormNote& one, const Melody& melody) {
+    const int voice = one.note.voice - melody.own_voices();
+    return melody.has_chords() && voice >= 0 && voice < melody.accompanying_voices();
+}
+
+bool is_same_class(double a, double b) { return std::fabs(std::remainder(a - b, 12)) < 0.01; }
+
+/// The chords of a section begin with it and end before its last rest: what is left of a chord between the section
+/// and the next bar line becomes a part of the next chord if it is shorter than a beat, and no chord begins after the
+/// last note.
+void trim_chords(Block& piece, const Melody& melody) {
+    if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
+    std::int64_t last = 0;
+    std::int64_t next = piece.length;  // onset of the second chord
+    for (const FormNote& one : piece.notes) {
+        if (!is_chord(one, melody)) {
+            last = std::max(last, one.note.onset + one.note.duration);
+        } else if (one.note.onset > 0) {
+            next = std::min(next, one.note.onset);
+        }
+    }
+    std::erase_if(piece.notes, [&](const FormNote& one) { return is_chord(one, melody) && one.note.onset >= last; });
+    if (next >= last || next >= melody.meter.bar() / melody.meter.beats) return;
+    std::erase_if(piece.notes, [&](const FormNote& one) { return is_chord(one, melody) && one.note.onset < next; });
+    for (FormNote& one : piece.notes) {
+        if (!is_chord(one, melody) || one.note.onset != next) continue;
+        one.note.duration += next;
+        one.note.onset = 0;
+    }
+    sort(piece.notes);
+}
+
+/// From the last note of an ending on, the chord is that of its goal.
+void close_chords(Block& block, const Melody& melody, const Note& last, Ending ending) {
+    if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
+    const bool is_open = ending == Ending::open;
+    bool fits = false;
+    std::int64_t end = 0;
+    for (const FormNote& one : block.notes) {
+        const Note& note = one.note;
+        if (!is_chord(one, melody) || note.onset + note.duration <= last.onset) continue;
+        end = std::max(end, note.onset + note.duration);
+        // The root of a chord is its bass.
+        const bool is_goal = note.onset <= last.onset && is_same_class(note.key, last.key);
+        fits = fits || (is_goal && (is_open || note.voice == melody.own_voices()));
+    }
+    if (end == 0 || fits) return;
+    for (FormNote& one : block.notes) {
+        if (is_chord(one, melody)) one.note.duration = std::min(one.note.duration, last.onset - one.note.onset);
+    }
+    std::erase_if(block.notes, [](const FormNote& one) { return one.note.duration <= 0; });
+    const Chord chord = triad_on(melody.scale, is_open ? fifth_degree(melody.scale) : 0);
+    const std::int64_t bar = melody.meter.bar();
+    for (Note note : mapping::Accompaniment(melody).bar(last.onset / bar * bar, &chord)) {
+        note.onset = last.onset;
+        note.duration = end - last.onset;
+        note.voice = static_cast<std::int16_t>(note.voice + melody.own_voices());
+        block.notes.push_back({note, 0, false});
+    }
+    sort(block.notes);
+}
+
+/// The last section of a form ends on the tonic if its cadences alternate.
+Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
+    if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
+    const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
+                                   [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
+    if (last == piece.notes.rend()) return Ending::none;
+    const bool is_tonic = (last->degree - melody.answer) % static_cast<std::int64_t>(melody.scale.size()) == 0;
+    return is_tonic ? Ending::none : Ending::closed;
+}
+
 /// Reports a section that the curve lacks.
 [[noreturn]] void refuse_section(const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
                                  const FormSection& missing, std::size_t sub_curves) {
     int last = 0;
     for (const FormSection& section : form) last = std::max(last, static_cast<int>(section.letter));
     const auto steps = smallest_steps(grammar, melody, last + 1);
-    throw ScoreError(fmt::format(
-        "section {} of the form is missing: the curve has {} sub-curve{} of this order; {}a lower order has more: "
-        "`form: A B order 2`",
-        static_cast<char>('A' + missing.letter), sub_curves, sub_curves == 1 ? "" : "s",
-        steps ? fmt::format("n = {} has enough, and ", *steps) : ""));
+    // Without an order, sections are the largest sub-curves.
+    const std::int64_t largest = std::max<std::int64_t>(1, grammar.steps() - 1);
+    const std::int64_t order = melody.phrase_order > 0 ? melody.phrase_order : largest;
+    const std::int64_t lower = std::min(order - 1, largest);
+    std::string remedy = steps ? fmt::format("n = {} has enough", *steps) : "";
+    if (lower > 0) {
+        remedy += fmt::format("{}a lower order has more: {}", steps ? ", and " : "",
+                              melody.layout.is_order_of_phrases ? fmt::format("`phrases: {}`", lower)
+                                                                : fmt::format("`form: A B order {}`", lower));
+    }
+    throw ScoreError(fmt::format("section {} of the form is missing: the curve has {} of order {}{}{}{}",
+                                 static_cast<char>('A' + missing.letter), counted(sub_curves, "sub-curve"), order,
+                                 melody.layout.is_order_of_phrases ? ", that of 'phrases:'" : "",
+                                 remedy.empty() ? "" : "; ", remedy));
 }
 
 }  // namespace
@@ -197,7 +279,8 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
-        end_on(piece, melody, section.ending);
+        trim_chords(piece, melody);
+        end_on(piece, melody, ending_of(piece, melody, section, &section == &form.back()));
         if (piece.notes.size() > most_block_notes - result.notes.size()) {
             throw ScoreError(fmt::format("the form would have more than {} notes", most_block_notes));
         }
@@ -259,6 +342,8 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
         if (range) last[i]->degree = range->inside(last[i]->degree - answer) + answer;
         last[i]->note.key = key_within(melody, last[i]->degree, side > 0);
     }
+    const Note goal_note = last[0]->note;
+    close_chords(block, melody, goal_note, ending);
 }
 
 void scale_times(Block& block, Ratio by) {

@@ -17,7 +17,10 @@ void Emitter::finish(std::int64_t end) {
     for (std::size_t voice = 0; voice < gliding_.size(); ++voice) settle(static_cast<int>(voice), nullptr, false);
     if (accompaniment_ && melody_.harmony != Harmony::triads) {
         const std::int64_t bar = melody_.meter.bar();
-        for (std::int64_t at = options_.from / bar * bar; at < std::min(end, options_.to); at += bar) {
+        // The line itself may be silent, or shorter than its branches.
+        std::int64_t last = end;
+        for (const std::int64_t busy : busy_until_) last = std::max(last, busy);
+        for (std::int64_t at = options_.from / bar * bar; at < std::min(last, options_.to); at += bar) {
             accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr);
         }
     }

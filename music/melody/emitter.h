@@ -100,6 +100,11 @@ public:
 
     bool is_shaped() const { return shaper_.has_value(); }
 
+    /// Triads follow this voice, not the first.
+    void follow(int voice) {
+        if (shaper_) shaper_->follow(voice);
+    }
+
     int depth = 0;        ///< brackets around the next note
     int level = 0;        ///< level of the next note, as in Note
     Emphasis emphasis{};  ///< of the next note; its velocity comes without the accent

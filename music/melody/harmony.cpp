@@ -111,7 +111,14 @@ std::vector<Chord> read_progression(std::string_view text, const Scale& scale, s
         std::string upper(name);
         for (char& letter : upper) letter = letter == 'i' ? 'I' : letter == 'v' ? 'V' : letter;
         const auto* found = std::find(numerals.begin(), numerals.end(), upper);
-        if (found == numerals.end()) return {};
+        if (found == numerals.end()) {
+            if (!name.empty()) {
+                problem = fmt::format("unknown chord '{}'; expected degrees from I to VII, each perhaps with a 7, such "
+                                      "as I-IV-V7-I, or blues; the scale makes them major or minor",
+                                      printable(name));
+            }
+            return {};
+        }
         if (chords.size() == most_chords) {
             problem = fmt::format("more than {} chords", most_chords);
             return {};

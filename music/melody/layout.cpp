@@ -59,7 +59,7 @@ public:
 
     Layout read() {
         read_key("start", "expected bars of rest, from 0 to 100000", [&](std::string_view text) {
-            return read_number(text, layout_.start) && layout_.start >= 0 && layout_.start <= most_bars;
+            return read_bars(text, layout_.start);
         });
         read_ratio("speed", layout_.tempo,
                    "expected a ratio to the tempo of the score, such as 3:2, of numbers up to 64");
@@ -156,14 +156,23 @@ private:
             });
     }
 
+    /// `2`, `0.5` or `1/2`.
+    static bool read_bars(std::string_view text, double& bars) {
+        if (text.find('/') != std::string_view::npos) {
+            const auto part = ratio(text);
+            if (part) bars = static_cast<double>(part->above) / static_cast<double>(part->below);
+            return part.has_value();
+        }
+        return read_number(text, bars) && bars >= 0 && bars <= most_bars;
+    }
+
     bool read_canon(std::string_view text) {
         if (lower_case(text) == "none") return true;
         for (;;) {
             const std::size_t comma = std::min(text.find(','), text.size());
             std::string_view one = text.substr(0, comma);
             Follower follower;
-            if (!read_number(next_word(one), follower.bars) || !(follower.bars >= 0 && follower.bars <= most_bars))
-                return false;
+            if (!read_bars(next_word(one), follower.bars)) return false;
             if (!one.empty() && !read_interval(one, follower)) return false;
             layout_.canon.push_back(follower);
             if (layout_.canon.size() > most_followers) return false;

@@ -47,6 +47,7 @@ struct Layout {
     bool is_retrograde = false;
     std::vector<FormSection> form;  ///< sub-curves in the order in which they are played; empty: as in the curve
     std::int64_t form_order = 0;    ///< of the sub-curves
+    bool is_order_of_phrases = false;  ///< and the key `phrases` sets it
     Loop loop = Loop::none;
     std::int64_t times = 1;
     std::vector<Follower> canon;

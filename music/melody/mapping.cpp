@@ -47,6 +47,18 @@ std::optional<MelodyFold> fold_of(const Grammar& grammar, const Melody& melody, 
                             is_sequence, phrase);
 }
 
+constexpr const char* phrases_of_voices =
+    "phrases, forms and cadences follow one another, but branches that are voices sound at once; "
+    "`brackets: sequence` plays branches one after another";
+
+std::string unmarkable(bool has_sections) {
+    return fmt::format("{} need a system without contexts, parameters and chance", has_sections ? "phrases" : "levels");
+}
+
+bool has_sections(const Melody& melody) { return melody.phrase_order > 0 || !melody.layout.form.empty(); }
+
+bool has_phrases(const Melody& melody) { return has_sections(melody) || melody.cadence != Cadence::none; }
+
 struct Marked {
     Grammar grammar;
     Marks marks;
@@ -71,8 +83,7 @@ Marked marked(Grammar grammar, const Melody& melody) {
         // Each marked order adds a step.
         auto other = result.grammar.with_marks(one + std::min(one - 1, levels), sounding);
         if (!other) {
-            throw ScoreError(fmt::format("{} need a system without contexts, parameters and chance",
-                                         order > 0 ? "phrases" : "levels"));
+            throw ScoreError(unmarkable(order > 0));
         }
         result.grammar = *std::move(other);
         return *result.grammar.mark();
@@ -105,12 +116,8 @@ public:
             if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
         }
         has_voices_ = has_brackets_ && melody.branches == Branches::voices;
-        const bool has_phrases =
-            melody.phrase_order > 0 || !melody.layout.form.empty() || melody.cadence != Cadence::none;
-        if (has_voices_ && has_phrases) {
-            throw ScoreError(
-                "phrases, forms and cadences follow one another, but branches that are voices sound at once; "
-                "`brackets: sequence` plays branches one after another");
+        if (has_voices_ && has_phrases(melody)) {
+            throw ScoreError(phrases_of_voices);
         }
         shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
         const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;
@@ -127,6 +134,7 @@ public:
     PlayReport play(NoteSink& sink) {
         const Origin origin = find_origin();
         Emitter emitter(melody_, sink, options_);
+        if (has_voices_ && melody_.harmony == Harmony::triads) emitter.follow(first_sounding_voice(origin));
         const auto reader = make_reader(melody_, emitter, origin, options_);
         if (shares_) {
             measure_spans();
@@ -238,6 +246,30 @@ private:
         void finish(std::int64_t) override {}
     };
 
+    /// The first voice of the whole melody that has notes; not 0 if all are in branches.
+    int first_sounding_voice(Origin origin) const {
+        class FirstVoice : public NoteSink {
+        public:
+            void notes(std::span<const Note> notes) override {
+                for (const Note& note : notes) first = std::min(first, static_cast<int>(note.voice));
+            }
+            void finish(std::int64_t) override {}
+            int first = std::numeric_limits<int>::max();
+        };
+        require_affordable(plain_, true, options_.budget);
+        PlayOptions all = options_;
+        all.degrees = all.phrase_ends = nullptr;
+        all.from = all.drums_from = 0;
+        all.to = INT64_MAX;
+        Melody alone = melody_;
+        alone.harmony = Harmony::none;
+        FirstVoice sink;
+        Emitter emitter(alone, sink, all);
+        const auto reader = make_reader(alone, emitter, origin, all);
+        derive(grammar_, *reader, derivation_options());
+        return sink.first == std::numeric_limits<int>::max() ? 0 : sink.first;
+    }
+
     Origin survey() const {
         require_affordable(plain_, true, options_.budget);
         PlayOptions all = options_;
@@ -310,6 +342,20 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
     if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
     const bool has_marks = with_marks.marks.phrase || with_marks.marks.whole > 0;
     return Player(grammar, has_marks ? plain : grammar, melody, with_marks.marks, options).play(sink);
+}
+
+std::string problem_of(const Grammar& grammar, const Melody& melody) {
+    const bool uses_levels = melody.expression.uses(ExpressionSource::level);
+    if ((has_sections(melody) || uses_levels) && !shorten(grammar).with_marks(1)) {
+        return unmarkable(has_sections(melody));
+    }
+    const std::vector<char> reached = grammar.reachable();
+    bool has_brackets = false;
+    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+        has_brackets = has_brackets || (reached[symbol] != 0 && grammar.is_push(symbol));
+    }
+    return has_brackets && melody.branches == Branches::voices && has_phrases(melody) ? phrases_of_voices
+                                                                                     : std::string();
 }
 
 Integer period(const Melody& melody) {

@@ -52,6 +52,9 @@ struct PlayReport {
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.
 PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options);
 
+/// Explains why phrases, forms, cadences or levels of a melody cannot be played from this grammar; empty if they can.
+std::string problem_of(const Grammar& grammar, const Melody& melody);
+
 /// Ticks after which a melody counts bars, beats, chords and slots of its rhythm as at its beginning.
 Integer period(const Melody& melody);
 

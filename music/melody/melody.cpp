@@ -68,7 +68,9 @@ public:
                              {{"fixed", Loudness::fixed},
                               {"by turn", Loudness::by_turn},
                               {"by depth", Loudness::by_depth},
-                              {"by length", Loudness::by_length}});
+                              {"by length", Loudness::by_length}},
+                             ", or by x, y, depth, turn, length or level with velocities such as by y 50-110; "
+                             "`by x 80-80` sets velocity 80");
         read_unit();
         read_symbol_table(pattern_, melody_, diagnostics_);
         read_rhythm();
@@ -85,13 +87,16 @@ public:
 
 private:
     template <class Choice>
-    void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices) {
+    void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices,
+                std::string_view remark = {}) {
         const Key* key = pattern_.find(name);
-        if (key) choose(name, key->value.view(), chosen, choices);
+        if (key) choose(name, key->value.view(), chosen, choices, remark);
     }
 
+    /// @param remark  what is expected besides these words
     template <class Choice>
-    void choose(std::string_view name, std::string_view text, Choice& chosen, const Choices<Choice>& choices) {
+    void choose(std::string_view name, std::string_view text, Choice& chosen, const Choices<Choice>& choices,
+                std::string_view remark = {}) {
         const Key* key = pattern_.find(name);
         std::string wanted = lower_case(text);
         std::replace(wanted.begin(), wanted.end(), '-', ' ');
@@ -104,7 +109,8 @@ private:
             if (word != "center" && word != "true" && word != "false") words.push_back(word);
         }
         diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                           fmt::format("expected {}{}", alternatives(words), did_you_mean(nearest(wanted, words))));
+                           fmt::format("expected {}{}{}", alternatives(words), remark,
+                                       did_you_mean(nearest(wanted, words))));
     }
 
     void warn_of_what_has_no_meaning() {
@@ -209,7 +215,8 @@ private:
         const std::size_t blank = text.find(' ');
         choose<Range>(
             "range", text.substr(0, blank), melody_.range,
-            {{"fold", Range::fold}, {"reflect", Range::reflect}, {"clamp", Range::clamp}, {"refuse", Range::refuse}});
+            {{"fold", Range::fold}, {"reflect", Range::reflect}, {"clamp", Range::clamp}, {"refuse", Range::refuse}},
+            ", perhaps with the lowest and the highest note, such as `fold C2-C7`");
         if (blank == std::string_view::npos) return;
         const std::string_view keys = text.substr(text.find_first_not_of(' ', blank));
         // A dash may belong to an octave: C-1-C7.
@@ -231,7 +238,14 @@ private:
         std::int64_t below = 1;
         const bool good = fraction(*key, above, below) && above > 0 && below > 0;
         const std::int64_t whole_note = 4 * ticks_per_quarter;
-        if (!good || above * whole_note % below != 0 || above * whole_note / below > 16 * whole_note) {
+        if (good && above * whole_note % below != 0) {
+            diagnostics_.error(key->value,
+                               fmt::format("{}/{} is not a whole number of ticks, of which a whole note has {}; "
+                                           "expected a divisor such as 4, 6, 8, 10, 12, 16, 20, 24, 32 or 64",
+                                           above, below, whole_note));
+            return;
+        }
+        if (!good || above * whole_note / below > 16 * whole_note) {
             diagnostics_.error(key->value.empty() ? key->name_at : key->value,
                                "expected a note value such as 1/16, 1/8 or 3/16, up to 16 whole notes");
             return;
@@ -317,8 +331,11 @@ private:
         if (layout.form.empty() || !key) return;
         if (melody_.phrase_order > 0 && layout.form_order > 0 && layout.form_order != melody_.phrase_order) {
             diagnostics_.error(place_of(*key),
-                               "the sub-curves of the form are of another order than those of 'phrases:'");
+                               fmt::format("the orders must agree: 'phrases:' has {} and the form {}; expected "
+                                           "`phrases: {}`, or a form without an order",
+                                           melody_.phrase_order, layout.form_order, layout.form_order));
         }
+        layout.is_order_of_phrases = melody_.phrase_order > 0;
         if (layout.form_order > 0) melody_.phrase_order = layout.form_order;
         if (layout.form_order == 0) layout.form_order = melody_.phrase_order;
     }
@@ -349,7 +366,8 @@ private:
                              {"drone", Harmony::drone},
                              {"triads", Harmony::triads},
                              {"bass", Harmony::bass},
-                             {"progression I-IV-V-I", Harmony::progression}});
+                             {"progression I-IV-V-I", Harmony::progression}},
+                            "; `bass 2` is two orders coarser than the melody");
         }
         if (melody_.keys && melody_.harmony != Harmony::none) {
             diagnostics_.error(place_of(*key), "'harmony:' cannot be combined with 'keyboard:'");
@@ -407,7 +425,8 @@ private:
         choose<Articulation>("articulation", melody_.articulation,
                              {{"legato", Articulation::legato},
                               {"detached", Articulation::detached},
-                              {"by depth", Articulation::by_depth}});
+                              {"by depth", Articulation::by_depth}},
+                             ", or the share of each note that sounds, from 5 to 100 percent, such as 60%");
     }
 
     static const Span& place_of(const Key& key) { return key.value.empty() ? key.name_at : key.value; }

@@ -102,6 +102,10 @@ RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem)
         if (!terms || terms->size() < 2 || terms->size() > 3) return {};
         const int notes = (*terms)[0];
         const int slots = (*terms)[1];
+        if (slots >= 1 && notes > slots) {
+            problem = fmt::format("more notes ({}) than slots ({}); E(3,8) has 3 notes in 8 slots", notes, slots);
+            return {};
+        }
         if (notes < 1 || slots < notes || slots > most_slots) {
             problem = fmt::format("expected 1 to {0} notes in up to {0} slots", most_slots);
             return {};

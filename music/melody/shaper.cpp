@@ -146,7 +146,7 @@ void Shaper::harmonise(Draft note) {
         if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*chord, note.degree);
         return perform(note);
     }
-    if (note.voice != 0) return perform(note);
+    if (note.voice != leader_) return perform(note);
     const std::int64_t bar = melody_.meter.bar();
     if (!bar_.empty() && bar_.front().onset / bar != note.onset / bar) close_bar();
     bar_.push_back(note);

@@ -44,6 +44,8 @@ public:
     };
 
     explicit Shaper(const Melody& melody);
+    /// Triads follow this voice. The first is 0.
+    void follow(int voice) { leader_ = voice; }
     void add(int voice, Draft note);
     void end_phrase(int voice, bool is_odd);
     /// No notes follow. @param is_end  the melody ends here, and with it a phrase
@@ -81,7 +83,8 @@ private:
     std::vector<std::int64_t> strong_beats_;   // ticks of a bar
     std::vector<std::vector<Draft>> pending_;  // by voice
     std::vector<Chord> triads_;
-    std::vector<Draft> bar_;  // of the first voice, until its chord is known
+    int leader_ = 0;
+    std::vector<Draft> bar_;  // of the voice that chords follow, until its chord is known
     std::vector<BarChord> chords_;
     BarChord latest_;                  // chosen
     std::int64_t sounding_until_ = 0;  // the last note of its bar

@@ -335,7 +335,18 @@ private:
             if (!drum.alias.empty()) folded.emplace_back(drum.alias);
         }
         const std::vector<std::string_view> known(folded.begin(), folded.end());
-        const std::string_view near = nearest(lower_case(name), known);
+        // Short names of drummers.
+        static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> usual = {
+            {{"kick", "bass drum"},
+             {"snare", "snare drum"},
+             {"ride", "ride cymbal"},
+             {"crash", "crash cymbal"},
+             {"hat", "hi-hat"},
+             {"tom", "low tom"}}};
+        std::string_view near = nearest(lower_case(name), known);
+        for (const auto& [word, drum] : usual) {
+            if (word == lower_case(name)) near = drum;
+        }
         return near.empty() ? fmt::format("unknown drum '{}'; {}", name, expected)
                             : fmt::format("unknown drum '{}'{}", name, did_you_mean(near));
     }

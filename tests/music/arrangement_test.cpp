@@ -229,11 +229,11 @@ TEST(Arrangement, FormsAreMadeOfSubCurves) {
         }
         return "none";
     };
-    EXPECT_NE(refusal("form = \"ABCDE order 3\"\n").find("has 4 sub-curves of this order; n = 5 has enough, and"),
+    EXPECT_NE(refusal("form = \"ABCDE order 3\"\n").find("has 4 sub-curves of order 3; n = 5 has enough, and"),
               std::string::npos);
     EXPECT_EQ(refusal("n = 5\nform = \"ABCDE order 3\"\n"), "none");
-    EXPECT_NE(refusal("form = \"ABCDE\"\n").find("has 4 sub-curves of this order; a lower order"), std::string::npos);
-    EXPECT_NE(refusal("n = 1\nform = \"AB\"\n").find("has 1 sub-curve of this order; n = 2 has enough"),
+    EXPECT_NE(refusal("form = \"ABCDE\"\n").find("has 4 sub-curves of order 3; a lower order"), std::string::npos);
+    EXPECT_NE(refusal("n = 1\nform = \"AB\"\n").find("has 1 sub-curve of order 1; n = 2 has enough"),
               std::string::npos);
     EXPECT_EQ(refusal("n = 2\nform = \"AB\"\n"), "none");
     EXPECT_NO_THROW(notes_of(track("form = \"AZ order 1\"\n", "hilbert")));
@@ -505,14 +505,19 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused(track("name = \"two\\nlines\"\n"), "name: expected a line of 1 to 100 bytes");
     refused(track("form = \"aaba\"\n"), "form: expected the order of sub-curves");
     refused(track("instrument = \"kazooo\"\n"), "a.toml:3:1: instrument: ");
-    refused(track("n = -1\n"), "a.toml:3:1: derivation length: expected");
+    refused(track("n = -1\n"), "a.toml:3:1: n: expected");
     refused(track("set = { nothing = 1 }\n"), "a.toml:3:");
     refused(track("", "missing"), "a.toml:2:1: no pattern named 'missing'");
     refused(track("", "other.toml"), "a.toml:2:1: other.toml: a track plays a pattern, not another arrangement");
     refused(track("transpos = 2\n"), "a.toml:3:1: unknown key 'transpos'; did you mean 'transpose'?");
     refused("[[track]]\nstart = 1\n", "this track has no pattern");
     refused("form = \"A\"\n" + track(""), "a.toml:1:1: no track has section A");
-    refused(track("section = \"A\"\n"), "section A is not in the form");
+    refused(track("section = \"A\"\n"), "section A needs a form above the first track");
+    refused("form = \"B\"\n" + track("section = \"A\"\n"), "section A is not in the form");
+    refused(track("set = { ending = \"none\" }\n"), "a.toml:3:9: ending belongs to the whole piece");
+    refused(track("set = { Tempo = 30 }\n"), "a.toml:3:9: tempo belongs to the whole piece");
+    refused(track("n = \"three\"\n"), "a.toml:3:1: n: expected a whole number");
+    refused("bpm = 90\n" + track(""), "unknown key 'bpm'; did you mean 'tempo'?");
     refused("track = 3\n", "at least one [[track]]");
     refused("[[pattern]]\nname = \"x\"\n" + track(""), "a [[pattern]] has a name and a text");
     refused("[[pattern]]\nname = \"x\"\ntext = \"axiom: F(\"\n" + track("", "x"), "x:1:");

@@ -1,5 +1,7 @@
 // tests/music/form_test.cpp: phrases that begin at bar lines, endings, and basses of scores.
 #include "music/scores.h"
+
+#include "engine/check.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -174,6 +176,95 @@ TEST(Forms, LastSubCurveRestsAsOthers) {
             }
         }
     }
+}
+
+TEST(Forms, AlternateCadencesCloseOnTheTonic) {
+    for (const char* form : {"AABA", "A", "ABC", "BA", "ABA1"}) {
+        for (const char* more : {"", "harmony: triads\n", "harmony: progression I-IV-V-I\n", "range: reflect C4-C5\n",
+                                 "scale: blues\n", "ending: fermata\n"}) {
+            const NoteList list =
+                notes_of(hilbert_4 + fmt::format("form: {}\nphrases: 2\ncadence: alternate\n{}", form, more));
+            const bool is_open = std::string(form).ends_with('1');
+            const double last = of_voice(list, 0).back().key;
+            EXPECT_EQ(std::fmod(last - 60 + 48, 12), is_open ? 7 : 0) << form << ' ' << more;
+            if (std::string(more).find("harmony") == std::string::npos) continue;
+            // The last chord contains the note, and a tonic is its root.
+            const auto bass = of_voice(list, 1).back();
+            EXPECT_GE(end_of(bass), end_of(of_voice(list, 0).back()));
+            std::set<double> classes;
+            for (const int voice : {1, 2, 3}) classes.insert(std::fmod(of_voice(list, voice).back().key, 12));
+            EXPECT_TRUE(classes.contains(std::fmod(last, 12))) << form << ' ' << more;
+            if (!is_open) {
+                EXPECT_EQ(std::fmod(bass.key, 12), 0) << form << ' ' << more;
+            }
+        }
+    }
+}
+
+TEST(Forms, ChordsBeginWithSectionsAndNotInRests) {
+    for (const char* form : {"AABA", "ABCD", "BD"}) {
+        for (const char* rhythm : {"curve", "x.xx", "xx~"}) {
+            const NoteList list = notes_of(
+                hilbert_4 + fmt::format("form: {} order 2\nharmony: triads\nbreath: 1/4\nrhythm: {}\n", form, rhythm));
+            const std::vector<Note> melody = of_voice(list, 0);
+            const std::vector<Note> bass = of_voice(list, 1);
+            ASSERT_FALSE(bass.empty());
+            const bool has_rests = std::string(rhythm).find('~') != std::string::npos;
+            for (const Note& chord : bass) {
+                const bool is_heard = std::any_of(melody.begin(), melody.end(), [&](const Note& note) {
+                    return note.onset <= chord.onset && end_of(note) > chord.onset;
+                });
+                EXPECT_TRUE(is_heard || has_rests) << form << ' ' << rhythm << " at " << chord.onset;
+                EXPECT_GE(chord.duration, 480) << form << ' ' << rhythm << " at " << chord.onset;
+            }
+            if (has_rests) continue;
+            for (const auto& section : phrases_of(melody)) {
+                const bool begins = std::any_of(bass.begin(), bass.end(), [&](const Note& chord) {
+                    return chord.onset == section.front().onset;
+                });
+                EXPECT_TRUE(begins) << form << ' ' << rhythm << " at " << section.front().onset;
+            }
+        }
+    }
+}
+
+TEST(Forms, MessagesNameOrders) {
+    const auto refusal = [](const std::string& text) -> std::string {
+        try {
+            notes_of(hilbert_4 + text);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    const auto expect = [&](const std::string& text, const char* expected) {
+        EXPECT_NE(refusal(text).find(expected), std::string::npos) << text << ": " << refusal(text);
+    };
+    expect("phrases: 2\nform: AABA order 3\n", "the orders must agree: 'phrases:' has 2 and the form 3");
+    expect("form: Q order 3\n", "`form: A B order 2`");
+    expect("form: Q order 2\n", "`form: A B order 1`");
+    expect("phrases: 9\nform: AB\n", "1 sub-curve of order 9, that of 'phrases:'");
+    expect("phrases: 9\nform: AB\n", "`phrases: 3`");
+    expect("form: AABA\nexcerpt: 100-200\n", "the excerpt contains no notes: the melody ends at bar ");
+}
+
+TEST(Forms, CheckReportsWhatCannotBePlayed) {
+    const Interpreter* const interpreters[] = {&scores()};
+    const auto check = [&](const std::string& text) {
+        std::string found;
+        for (const Diagnostic& one : check_pattern("f.lsys", text, interpreters, {})) found += one.text() + "\n";
+        return found;
+    };
+    const std::string grown = "title: T\nderivation length: 3\naxiom: A(1)\nA(x) --> FA(x+1)\n";
+    EXPECT_EQ(check(grown), "");
+    EXPECT_EQ(check(grown + "cadence: tonic\n"), "");
+    EXPECT_NE(check(grown + "cadence: tonic\nphrases: 2\n").find("f.lsys:6:1: "), std::string::npos);
+    EXPECT_NE(check(grown + "form: AABA\n").find("f.lsys:5:1: "), std::string::npos);
+    EXPECT_NE(check(grown + "velocity: by level\n").find("f.lsys:5:1: "), std::string::npos);
+    EXPECT_EQ(check(hilbert_4 + "phrases: 2\nform: AABA\nvelocity: by level\n"), "");
+    const std::string plant = "title: P\nderivation length: 2\naxiom: F\nF --> F[+F]F\n";
+    EXPECT_NE(check(plant + "cadence: tonic\n").find("f.lsys:5:1: "), std::string::npos);
+    EXPECT_EQ(check(plant + "cadence: tonic\nbrackets: sequence\n"), "");
 }
 
 TEST(Endings, LastNotesAreHeld) {

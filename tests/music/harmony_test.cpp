@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace sikku {
@@ -136,6 +137,25 @@ TEST(Chords, GoOnUnderLongNotes) {
     }
 }
 
+TEST(Chords, FollowTheFirstVoiceThatSounds) {
+    const std::string head = "title: T\nheading: 0\nmapping: symbols\nunit: 1/4\naxiom: ";
+    const std::string line = "F+F+F+F-F--FF+F";
+    for (const char* harmony : {"triads", "progression I-IV", "drone"}) {
+        const auto accompaniment = [&](const std::string& axiom, int first) {
+            std::vector<std::tuple<std::int64_t, std::int64_t, double>> notes;
+            for (const Note& note : notes_of(fmt::format("{}{}\nharmony: {}\n", head, axiom, harmony)).notes) {
+                if (note.voice >= first) notes.emplace_back(note.onset, note.duration, note.key);
+            }
+            return notes;
+        };
+        const auto alone = accompaniment(line, 1);
+        EXPECT_FALSE(alone.empty());
+        // The line itself is a voice, although it is silent.
+        EXPECT_EQ(accompaniment("[" + line + "]", 2), alone) << harmony;
+        EXPECT_EQ(accompaniment("[" + line + "][++FFFF]", 3), alone) << harmony;
+    }
+}
+
 TEST(Chords, StrongBeatsAreThoseOfTheGroups) {
     for (const auto& [meter, beats] : {std::pair<std::string, std::vector<int>>{"3+2+2/8", {0, 3, 5}},
                                        {"7/8", {0, 3, 5}},
@@ -222,6 +242,16 @@ TEST(Drones, ContinueEvenly) {
                                         {"2/4", {0, 1, 2}}}) {
         const auto voices = by_voice(notes_of(text + "meter: " + meter + "\n"));
         for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(voices.at(1)[i].onset, plucks[i] * 240) << meter;
+    }
+}
+
+TEST(Canons, BeginAfterFractionsOfBars) {
+    const NoteList fraction = notes_of(hilbert + "canon: 1/2 7, 3/2 -12\n");
+    const NoteList decimal = notes_of(hilbert + "canon: 0.5 7, 1.5 -12\n");
+    ASSERT_EQ(fraction.notes.size(), decimal.notes.size());
+    for (std::size_t i = 0; i < decimal.notes.size(); ++i) {
+        EXPECT_EQ(fraction.notes[i].onset, decimal.notes[i].onset);
+        EXPECT_EQ(fraction.notes[i].key, decimal.notes[i].key);
     }
 }
 

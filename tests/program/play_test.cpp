@@ -257,7 +257,16 @@ TEST(Play, Mistakes) {
     refused(hilbert, {"--meter", "0/4"}, 2, "expected a meter");
     refused(hilbert, {"--meter", "4"}, 2, "expected a meter");
     refused(hilbert, {"--unit", "0"}, 2, "expected a note value");
-    refused(hilbert, {"--unit", "1/7"}, 2, "expected a note value");
+    refused(hilbert, {"--unit", "1/7"}, 2, "1/7 is not a whole number of ticks");
+    refused(hilbert, {"--velocity", "mf"}, 2, "or by x, y, depth, turn, length or level");
+    refused(hilbert, {"--articulation", "staccato"}, 2, "5 to 100 percent");
+    refused(hilbert, {"--range", "C2-C7"}, 2, "`fold C2-C7`");
+    refused(hilbert, {"--harmony", "chords"}, 2, "`bass 2`");
+    refused(hilbert, {"--harmony", "progression Imaj7-IV"}, 2, "unknown chord 'Imaj7'");
+    refused(hilbert, {"--rhythm", "E(5,3)"}, 2, "more notes (5) than slots (3)");
+    refused(hilbert, {"--rhythm", ""}, 2, "--rhythm: a template begins");
+    refused(hilbert, {"--canon", "1/0 7"}, 2, "expected bars and an interval");
+    refused(hilbert, {"--seconds", "0"}, 2, "expected a number above 0");
     refused(hilbert, {"--tonic", "H9"}, 2, "expected a note such as C4");
     refused(hilbert, {"--tonic", "C12"}, 2, "expected a note such as C4");
     refused(hilbert, {"--tonic", "60"}, 2, "expected C4 for key 60 of MIDI, or 60 Hz");
@@ -279,7 +288,7 @@ TEST(Play, Mistakes) {
     refused(hilbert, {}, 2, "unknown extension", "x.ogg");
     refused("axiom: FFF\n", {}, 2, "no horizontal run");
     refused("axiom: +++\n", {}, 2, "the word has no steps such as F");
-    refused(hilbert, {"--excerpt", "9-9"}, 2, "the melody ends before bar 9");
+    refused(hilbert, {"--excerpt", "9-9"}, 2, "the melody ends at bar 4");
     refused(hilbert, {"--seconds", "1e-9"}, 2, "shorter than a tick");
     refused(hilbert, {"--from-bar", "99999999999999999999"}, 2, "too large");
     refused(hilbert, {"--instrument", ""}, 2, "expected a General MIDI name");
