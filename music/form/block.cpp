@@ -273,6 +273,12 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     }
     // The last sub-curve breathes like the others if more follows it.
     borders.push_back(block.next);
+    // A rest after the last sub-curve is not one.
+    const std::int64_t tail = borders[borders.size() - 2];
+    const bool has_tail = std::any_of(block.notes.begin(), block.notes.end(), [&](const FormNote& one) {
+        return !is_chord(one, melody) && one.note.onset >= tail;
+    });
+    if (!has_tail && borders.size() > 2) borders.pop_back();
     Block result;
     for (const FormSection& section : form) {
         const auto at = static_cast<std::size_t>(section.letter);
@@ -293,7 +299,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     }
     const std::size_t last = borders.size() - 2;
     if (ends.empty() && static_cast<std::size_t>(form.back().letter) == last) {
-        result.length -= borders.back() - block.length;
+        result.length -= std::max<std::int64_t>(0, borders.back() - block.length);
         result.ends.back() = result.length;
     }
     return result;
