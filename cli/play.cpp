@@ -244,9 +244,9 @@ void add_play(CLI::App& app, bool& quiet) {
     options->options.add(*command, scores().options());
     command->footer(
         "Each horizontal run of the curve is a note: its height determines the pitch in the scale, its length the "
-        "duration. With `--mapping symbols` tables of symbols in the pattern state what single symbols sound, such as "
-        "`note A: C4 1/8`, `chord B: C4 E4 G4` and `drum k: bass drum`. A studio link sets values and, if it is the first pattern, options; options on the command "
-        "line replace them.\n\n"
+        "duration. With `--mapping symbols` a table in the pattern states what single symbols sound: "
+        "`note A: C4 1/8`, `chord B: C4 E4 G4`, `drum k: bass drum`. A studio link sets values and, if it is the "
+        "first pattern, options; options on the command line replace them.\n\n"
         "Examples:\n"
         "  sikku play hilbert -o hilbert.mid\n"
         "  sikku play hilbert-in-c --canon \"2 -12, 4 -24\" -o canon.mid\n"

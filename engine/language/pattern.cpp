@@ -514,11 +514,17 @@ void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
             continue;
         }
         // Names of these keys in other programs and in everyday English.
-        static const std::map<std::string_view, std::string_view> others = {
-            {"angle", "angle increment"}, {"n", "derivation length"}, {"steps", "derivation length"},
-            {"colour", "stroke"},         {"color", "stroke"},        {"line width", "stroke"},
-            {"width", "stroke"},          {"background", "ground"},   {"start", "axiom"},
-            {"bpm", "tempo"},             {"key", "tonic"}};
+        static const std::map<std::string_view, std::string_view> others = {{"angle", "angle increment"},
+                                                                            {"n", "derivation length"},
+                                                                            {"steps", "derivation length"},
+                                                                            {"colour", "stroke"},
+                                                                            {"color", "stroke"},
+                                                                            {"line width", "stroke"},
+                                                                            {"width", "stroke"},
+                                                                            {"background", "ground"},
+                                                                            {"start", "axiom"},
+                                                                            {"bpm", "tempo"},
+                                                                            {"key", "tonic"}};
         const auto other = others.find(key.name);
         const std::string_view near = other != others.end() ? other->second : nearest(key.name, known);
         diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(), did_you_mean(near)));

@@ -129,7 +129,9 @@ bool is_chord(const FormNote& one, const Melody& melody) {
     return melody.has_chords() && voice >= 0 && voice < melody.accompanying_voices();
 }
 
-bool is_same_class(double a, double b) { return std::fabs(std::remainder(a - b, 12)) < 0.01; }
+bool is_same_class(double a, double b) {
+    return std::fabs(std::remainder(a - b, 12)) < 0.01;
+}
 
 /// The chords of a section begin with it and end before its last rest: what is left of a chord between the section
 /// and the next bar line becomes a part of the next chord if it is shorter than a beat, and no chord begins after the

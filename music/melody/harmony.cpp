@@ -113,9 +113,10 @@ std::vector<Chord> read_progression(std::string_view text, const Scale& scale, s
         const auto* found = std::find(numerals.begin(), numerals.end(), upper);
         if (found == numerals.end()) {
             if (!name.empty()) {
-                problem = fmt::format("unknown chord '{}'; expected degrees from I to VII, each perhaps with a 7, such "
-                                      "as I-IV-V7-I, or blues; the scale makes them major or minor",
-                                      printable(name));
+                problem = fmt::format(
+                    "unknown chord '{}'; expected chords from I to VII, one a bar, each perhaps with a 7, such as "
+                    "I-IV-V7-I, or blues; the scale makes them major or minor",
+                    printable(text.substr(0, end)));
             }
             return {};
         }

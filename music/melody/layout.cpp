@@ -58,9 +58,8 @@ public:
     LayoutReader(const Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
 
     Layout read() {
-        read_key("start", "expected bars of rest, from 0 to 100000", [&](std::string_view text) {
-            return read_bars(text, layout_.start);
-        });
+        read_key("start", "expected bars of rest, from 0 to 100000",
+                 [&](std::string_view text) { return read_bars(text, layout_.start); });
         read_ratio("speed", layout_.tempo,
                    "expected a ratio to the tempo of the score, such as 3:2, of numbers up to 64");
         read_ratio("augmentation", layout_.augmentation,

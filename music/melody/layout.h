@@ -45,8 +45,8 @@ struct Layout {
     std::int64_t first_bar = 1;  ///< of the melody, counted from 1
     std::int64_t bars = 0;       ///< of the melody; 0: all from the first
     bool is_retrograde = false;
-    std::vector<FormSection> form;  ///< sub-curves in the order in which they are played; empty: as in the curve
-    std::int64_t form_order = 0;    ///< of the sub-curves
+    std::vector<FormSection> form;     ///< sub-curves in the order in which they are played; empty: as in the curve
+    std::int64_t form_order = 0;       ///< of the sub-curves
     bool is_order_of_phrases = false;  ///< and the key `phrases` sets it
     Loop loop = Loop::none;
     std::int64_t times = 1;

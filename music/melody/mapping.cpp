@@ -52,12 +52,17 @@ constexpr const char* phrases_of_voices =
     "`brackets: sequence` plays branches one after another";
 
 std::string unmarkable(bool has_sections) {
-    return fmt::format("{} need a system without contexts, parameters and chance", has_sections ? "phrases" : "levels");
+    return fmt::format("{} need a system without contexts, parameters and chance",
+                       has_sections ? "phrases" : "levels");
 }
 
-bool has_sections(const Melody& melody) { return melody.phrase_order > 0 || !melody.layout.form.empty(); }
+bool has_sections(const Melody& melody) {
+    return melody.phrase_order > 0 || !melody.layout.form.empty();
+}
 
-bool has_phrases(const Melody& melody) { return has_sections(melody) || melody.cadence != Cadence::none; }
+bool has_phrases(const Melody& melody) {
+    return has_sections(melody) || melody.cadence != Cadence::none;
+}
 
 struct Marked {
     Grammar grammar;
@@ -355,7 +360,7 @@ std::string problem_of(const Grammar& grammar, const Melody& melody) {
         has_brackets = has_brackets || (reached[symbol] != 0 && grammar.is_push(symbol));
     }
     return has_brackets && melody.branches == Branches::voices && has_phrases(melody) ? phrases_of_voices
-                                                                                     : std::string();
+                                                                                      : std::string();
 }
 
 Integer period(const Melody& melody) {

@@ -87,8 +87,7 @@ public:
 
 private:
     template <class Choice>
-    void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices,
-                std::string_view remark = {}) {
+    void choose(std::string_view name, Choice& chosen, const Choices<Choice>& choices, std::string_view remark = {}) {
         const Key* key = pattern_.find(name);
         if (key) choose(name, key->value.view(), chosen, choices, remark);
     }
@@ -108,9 +107,9 @@ private:
             }
             if (word != "center" && word != "true" && word != "false") words.push_back(word);
         }
-        diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                           fmt::format("expected {}{}{}", alternatives(words), remark,
-                                       did_you_mean(nearest(wanted, words))));
+        diagnostics_.error(
+            key->value.empty() ? key->name_at : key->value,
+            fmt::format("expected {}{}{}", alternatives(words), remark, did_you_mean(nearest(wanted, words))));
     }
 
     void warn_of_what_has_no_meaning() {

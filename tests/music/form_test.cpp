@@ -213,8 +213,9 @@ TEST(Forms, AlternateCadencesCloseOnTheTonic) {
 TEST(Forms, ChordsBeginWithSectionsAndNotInRests) {
     for (const char* form : {"AABA", "ABCD", "BD"}) {
         for (const char* rhythm : {"curve", "x.xx", "xx~"}) {
-            const NoteList list = notes_of(
-                hilbert_4 + fmt::format("form: {} order 2\nharmony: triads\nbreath: 1/4\nrhythm: {}\n", form, rhythm));
+            const NoteList list =
+                notes_of(hilbert_4 +
+                         fmt::format("form: {} order 2\nharmony: triads\nbreath: 1/4\nrhythm: {}\n", form, rhythm));
             const std::vector<Note> melody = of_voice(list, 0);
             const std::vector<Note> bass = of_voice(list, 1);
             ASSERT_FALSE(bass.empty());
