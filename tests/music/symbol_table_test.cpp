@@ -287,6 +287,8 @@ TEST(SymbolTable, TracksOfArrangements) {
 
 TEST(SymbolTable, ErrorsSayWhatIsExpected) {
     EXPECT_EQ(error_of("drum k: bas drum\naxiom: k\n"), "unknown drum 'bas drum'; did you mean 'bass drum'?");
+    EXPECT_EQ(error_of("drum k: kick\naxiom: k\n"), "unknown drum 'kick'; did you mean 'bass drum'?");
+    EXPECT_EQ(error_of("drum k: ride 1/8\naxiom: k\n"), "unknown drum 'ride'; did you mean 'ride cymbal'?");
     EXPECT_EQ(error_of("drum k: piano 1/8\naxiom: k\n"),
               "unknown drum 'piano'; expected a drum of General MIDI such as bass drum, or its key, 35 to 81");
     EXPECT_EQ(
