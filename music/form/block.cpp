@@ -50,6 +50,7 @@ void sort(std::vector<FormNote>& notes) {
 Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
     Block piece;
     piece.length = end - begin;
+    piece.chords_from = block.chords_from;
     for (FormNote one : block.notes) {
         if (std::max(one.note.onset, begin) >= std::min(one.note.onset + one.note.duration, end)) continue;
         sikku::cut(one.note, begin, end);
@@ -124,8 +125,9 @@ void turn_glides(std::vector<FormNote>& notes) {
         notes.end());
 }
 
-bool is_chord(const FormNote& one, const Melody& melody) {
-    const int voice = one.note.voice - melody.own_voices();
+/// @param block  to which the note belongs
+bool is_chord(const FormNote& one, const Block& block, const Melody& melody) {
+    const int voice = one.note.voice - block.chords_from;
     return melody.has_chords() && voice >= 0 && voice < melody.accompanying_voices();
 }
 
@@ -141,17 +143,19 @@ void trim_chords(Block& piece, const Melody& melody) {
     std::int64_t last = 0;
     std::int64_t next = piece.length;  // onset of the second chord
     for (const FormNote& one : piece.notes) {
-        if (!is_chord(one, melody)) {
+        if (!is_chord(one, piece, melody)) {
             last = std::max(last, one.note.onset + one.note.duration);
         } else if (one.note.onset > 0) {
             next = std::min(next, one.note.onset);
         }
     }
-    std::erase_if(piece.notes, [&](const FormNote& one) { return is_chord(one, melody) && one.note.onset >= last; });
+    std::erase_if(piece.notes,
+                  [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset >= last; });
     if (next >= last || next >= melody.meter.bar() / melody.meter.beats) return;
-    std::erase_if(piece.notes, [&](const FormNote& one) { return is_chord(one, melody) && one.note.onset < next; });
+    std::erase_if(piece.notes,
+                  [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset < next; });
     for (FormNote& one : piece.notes) {
-        if (!is_chord(one, melody) || one.note.onset != next) continue;
+        if (!is_chord(one, piece, melody) || one.note.onset != next) continue;
         one.note.duration += next;
         one.note.onset = 0;
     }
@@ -166,15 +170,16 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     std::int64_t end = 0;
     for (const FormNote& one : block.notes) {
         const Note& note = one.note;
-        if (!is_chord(one, melody) || note.onset + note.duration <= last.onset) continue;
+        if (!is_chord(one, block, melody) || note.onset + note.duration <= last.onset) continue;
         end = std::max(end, note.onset + note.duration);
         // The root of a chord is its bass.
         const bool is_goal = note.onset <= last.onset && is_same_class(note.key, last.key);
-        fits = fits || (is_goal && (is_open || note.voice == melody.own_voices()));
+        fits = fits || (is_goal && (is_open || note.voice == block.chords_from));
     }
     if (end == 0 || fits) return;
     for (FormNote& one : block.notes) {
-        if (is_chord(one, melody)) one.note.duration = std::min(one.note.duration, last.onset - one.note.onset);
+        if (is_chord(one, block, melody))
+            one.note.duration = std::min(one.note.duration, last.onset - one.note.onset);
     }
     std::erase_if(block.notes, [](const FormNote& one) { return one.note.duration <= 0; });
     const Chord chord = triad_on(melody.scale, is_open ? fifth_degree(melody.scale) : 0);
@@ -182,7 +187,7 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     for (Note note : mapping::Accompaniment(melody).bar(last.onset / bar * bar, &chord)) {
         note.onset = last.onset;
         note.duration = end - last.onset;
-        note.voice = static_cast<std::int16_t>(note.voice + melody.own_voices());
+        note.voice = static_cast<std::int16_t>(note.voice + block.chords_from);
         block.notes.push_back({note, 0, false});
     }
     sort(block.notes);
@@ -231,6 +236,7 @@ Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions
     BlockSink sink(block, degrees);
     report = play(grammar, melody, sink, recording);
     sort(block.notes);
+    block.chords_from = options.chords_from > 0 ? options.chords_from : melody.own_voices();
     const bool is_whole = block.length < options.to - options.from;
     // What stands after the last sub-curve breathes as one.
     const std::int64_t bar = melody.breathes_to_bar ? melody.meter.bar() : 1;
@@ -278,10 +284,11 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     // A rest after the last sub-curve is not one.
     const std::int64_t tail = borders[borders.size() - 2];
     const bool has_tail = std::any_of(block.notes.begin(), block.notes.end(), [&](const FormNote& one) {
-        return !is_chord(one, melody) && one.note.onset >= tail;
+        return !is_chord(one, block, melody) && one.note.onset >= tail;
     });
     if (!has_tail && borders.size() > 2) borders.pop_back();
     Block result;
+    result.chords_from = block.chords_from;
     for (const FormSection& section : form) {
         const auto at = static_cast<std::size_t>(section.letter);
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);

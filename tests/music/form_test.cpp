@@ -2,6 +2,7 @@
 #include "music/scores.h"
 
 #include "engine/check.h"
+#include "music/arrangement.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -236,6 +237,32 @@ TEST(Forms, ChordsBeginWithSectionsAndNotInRests) {
             }
         }
     }
+}
+
+TEST(Forms, EndingsOfSectionsKeepBranches) {
+    // Voices of branches come before those of chords, and their notes are those of a plain section.
+    const auto read = [](const char* form) {
+        const std::string text = fmt::format(
+            "form = \"{}\"\n[[track]]\nsection = \"A\"\npattern = \"plant\"\nharmony = \"triads\"\n", form);
+        const Arrangement piece = read_arrangement("a.toml", text, [](const std::string& name) {
+            return NamedPattern{
+                name, "title: P\nheading: 0\nmapping: symbols\nunit: 1/4\naxiom: F+F[+F+FFF]F[-FF-F]+F+F\n"};
+        });
+        return list_notes(piece, {}, {});
+    };
+    const NoteList plain = read("A");
+    const NoteList closed = read("A2");
+    int voices = 0;
+    for (const Note& note : plain.notes) voices = std::max(voices, note.voice + 1);
+    ASSERT_EQ(voices, 6);
+    for (const int voice : {1, 2}) {
+        const std::vector<Note> before = of_voice(plain, voice);
+        const std::vector<Note> after = of_voice(closed, voice);
+        ASSERT_EQ(before.size(), after.size());
+        for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i].key, after[i].key);
+    }
+    EXPECT_EQ(std::fmod(of_voice(closed, 0).back().key, 12), 0);
+    EXPECT_EQ(std::fmod(of_voice(closed, 3).back().key, 12), 0);
 }
 
 TEST(Forms, MessagesNameOrders) {
