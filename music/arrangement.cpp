@@ -5,6 +5,7 @@
 #include "engine/base/text.h"
 #include "engine/language/arrangement_library.h"
 #include "music/melody/melody.h"
+#include "music/players.h"
 
 #include <fmt/format.h>
 
@@ -250,6 +251,9 @@ private:
         diagnostics.throw_if_errors();
         for (const PlacedSetting& one : settings) document = with(document, one);
         require_turtle(document, "it has no melody");
+        Diagnostics unplayable;
+        check_phrases(document.pattern(), document.grammar(), unplayable);
+        if (unplayable.has_errors()) fail(track.place, unplayable.list().front().message);
         result_.tracks.push_back({std::move(document), std::move(pattern_name), section, std::move(name)});
     }
 

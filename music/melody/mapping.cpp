@@ -64,6 +64,13 @@ bool has_phrases(const Melody& melody) {
     return has_sections(melody) || melody.cadence != Cadence::none;
 }
 
+/// Order of the sub-curves that are phrases or sections; 0 if there are none.
+std::int64_t order_of_phrases(const Melody& melody, std::int64_t steps) {
+    // The sections of a form are by default the largest sub-curves.
+    const bool is_default = melody.phrase_order == 0 && !melody.layout.form.empty();
+    return is_default ? std::max<std::int64_t>(1, steps - 1) : melody.phrase_order;
+}
+
 struct Marked {
     Grammar grammar;
     Marks marks;
@@ -75,9 +82,7 @@ Marked marked(Grammar grammar, const Melody& melody) {
     constexpr std::int64_t most_levels = 64;
     const std::int64_t steps = grammar.steps();
     const std::int64_t levels = melody.expression.uses(ExpressionSource::level) ? std::min(steps, most_levels) : 0;
-    std::int64_t order = melody.phrase_order;
-    // The sections of a form are by default the largest sub-curves.
-    if (order == 0 && !melody.layout.form.empty()) order = std::max<std::int64_t>(1, steps - 1);
+    const std::int64_t order = order_of_phrases(melody, steps);
     Marked result{std::move(grammar), {}};
     if (order == 0 && levels == 0) return result;
     std::vector<char> sounding;
@@ -350,10 +355,10 @@ PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, cons
 }
 
 std::string problem_of(const Grammar& grammar, const Melody& melody) {
-    const bool uses_levels = melody.expression.uses(ExpressionSource::level);
-    if ((has_sections(melody) || uses_levels) && !shorten(grammar).with_marks(1)) {
-        return unmarkable(has_sections(melody));
-    }
+    const std::int64_t order = order_of_phrases(melody, grammar.steps());
+    const bool marks_phrases = order > 0 && order <= grammar.steps();
+    const bool marks_levels = melody.expression.uses(ExpressionSource::level) && grammar.steps() > 0;
+    if ((marks_phrases || marks_levels) && !shorten(grammar).with_marks(1)) return unmarkable(order > 0);
     const std::vector<char> reached = grammar.reachable();
     bool has_brackets = false;
     for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {

@@ -516,6 +516,9 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused("form = \"B\"\n" + track("section = \"A\"\n"), "section A is not in the form");
     refused(track("set = { ending = \"none\" }\n"), "a.toml:3:9: ending belongs to the whole piece");
     refused(track("set = { Tempo = 30 }\n"), "a.toml:3:9: tempo belongs to the whole piece");
+    refused(
+        "[[pattern]]\nname = \"x\"\ntext = \"axiom: A(1)\\nA(x) --> FA(x+1)\"\n" + track("n = 3\nphrases = 2\n", "x"),
+        "a.toml:4:1: phrases need a system without contexts");
     refused(track("n = \"three\"\n"), "a.toml:3:1: n: expected a whole number");
     refused("bpm = 90\n" + track(""), "unknown key 'bpm'; did you mean 'tempo'?");
     refused("track = 3\n", "at least one [[track]]");

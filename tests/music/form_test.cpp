@@ -299,6 +299,9 @@ TEST(Forms, CheckReportsWhatCannotBePlayed) {
     EXPECT_NE(check(grown + "cadence: tonic\nphrases: 2\n").find("f.lsys:6:1: "), std::string::npos);
     EXPECT_NE(check(grown + "form: AABA\n").find("f.lsys:5:1: "), std::string::npos);
     EXPECT_NE(check(grown + "velocity: by level\n").find("f.lsys:5:1: "), std::string::npos);
+    // No sub-curve has that order.
+    EXPECT_EQ(check(grown + "phrases: 4\n"), "");
+    EXPECT_NO_THROW(notes_of(grown + "heading: 0\nphrases: 4\n"));
     EXPECT_EQ(check(hilbert_4 + "phrases: 2\nform: AABA\nvelocity: by level\n"), "");
     const std::string plant = "title: P\nderivation length: 2\naxiom: F\nF --> F[+F]F\n";
     EXPECT_NE(check(plant + "cadence: tonic\n").find("f.lsys:5:1: "), std::string::npos);
