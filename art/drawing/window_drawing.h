@@ -23,8 +23,8 @@ class WindowDrawing : public Drawing {
 public:
     /// Nullptr, with the reason in `why`, if the parts cannot be composed: for words that depend on contexts or
     /// chance, for brackets, polygons and colours that span more than 10,000 symbols, for places or decimal
-    /// lengths whose errors add up to a thousandth of a step, for splines, and for ornaments that need the whole drawing. Also,
-    /// with `why` unchanged, without a window and for short words, which are better read whole.
+    /// lengths whose errors add up to a thousandth of a step, for splines, and for ornaments that need the whole
+    /// drawing. Also, with `why` unchanged, without a window and for short words, which are better read whole.
     /// @param grammar  with resolved contexts; in the plane
     static std::unique_ptr<WindowDrawing> make(std::shared_ptr<const Grammar> grammar, const Style& style,
                                                const DrawOptions& options, std::string& why);

@@ -238,8 +238,8 @@ TEST(TilingCommand, CutsPiecesOfFiles) {
         const Outcome drawn = run({"tiling", file, "--templates", "3mm", "--step", step, "-o", folder.file("t.svg")});
         EXPECT_EQ(drawn.status, 0) << drawn.errors;
         EXPECT_GT(std::filesystem::file_size(folder / "t.svg"), 500U);
-        const Outcome laid = run({"tiling", file, "--cutting-sheet", "60x60mm", "--step", step, "-o",
-                                  folder.file("sheet.svg")});
+        const Outcome laid =
+            run({"tiling", file, "--cutting-sheet", "60x60mm", "--step", step, "-o", folder.file("sheet.svg")});
         EXPECT_EQ(laid.status, 0) << laid.errors;
         for (int i = 1; i <= 4; ++i) {  // one for each colour
             const std::string name = "sheet-" + std::to_string(i) + ".svg";
