@@ -106,8 +106,7 @@ void check_format(const GalleryKeys& keys, const std::string& format, const std:
     if (std::find(known.begin(), known.end(), format) != known.end()) return;
     for (const Interpreter* interpreter : keys.interpreters()) {
         if (const FormatName* row = find_format(interpreter->formats(), format)) {
-            fail(place, fmt::format("{} files are not made in galleries; `sikku draw` makes them",
-                                    row->label));
+            fail(place, fmt::format("{} files are not made in galleries; `sikku draw` makes them", row->label));
         }
     }
     const std::string_view near = nearest(format, known);
