@@ -104,8 +104,8 @@ void ExtentSink::add_extremes(const std::array<glm::dvec2, 4>& b, int axis) {
 
 DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation) {
     DrawnExtent extent;
-    for (const Quad x : {window.x0, window.x1}) {
-        for (const Quad y : {window.y0, window.y1}) {
+    for (const Quad& x : {window.x0, window.x1}) {
+        for (const Quad& y : {window.y0, window.y1}) {
             extent.box.add(orientation * glm::dvec3(static_cast<double>(x), static_cast<double>(y), 1.0));
         }
     }

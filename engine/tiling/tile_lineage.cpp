@@ -48,7 +48,7 @@ private:
 class Lineage {
 public:
     Lineage(const Grammar& grammar, const LineageLimits& limits, const Monitor& monitor)
-        : grammar_(grammar), limits_(limits), monitor_(monitor), word_(grammar.axiom_modules()) {
+        : grammar_(grammar), monitor_(monitor), word_(grammar.axiom_modules()) {
         options_.limit_whole_words(limits.nodes);
         options_.watch = [this](std::uint64_t symbols) { monitor_.advance(symbols); };
     }
@@ -82,7 +82,6 @@ public:
 
 private:
     const Grammar& grammar_;
-    const LineageLimits& limits_;
     const Monitor& monitor_;
     DerivationOptions options_;
     ModuleWord word_;

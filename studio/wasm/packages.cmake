@@ -23,5 +23,4 @@ foreach(name glm fmt Boost TBB ZLIB nlohmann_json)
 endforeach()
 list(PREPEND CMAKE_MODULE_PATH ${PROJECT_BINARY_DIR}/packages)
 
-# Sizes have 32 bits; larger values are checked against the available memory.
-add_compile_options(-fwasm-exceptions -Wno-shorten-64-to-32)
+add_compile_options(-fwasm-exceptions)
