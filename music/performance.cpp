@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t control_ticks = ticks_per_quarter / 16;  // between points of a ramp
-constexpr std::size_t held_back = 2;  // notes notes of a voice that are held back, if the next may bend them
+constexpr std::size_t held_back = 2;  // notes of a voice that are held back, if the next may bend them
 
 /// -1 to the right, 1 to the left, 0 straight on.
 double turn_into(const Note* before, const Note& note) {
@@ -44,7 +44,7 @@ std::pair<double, double> values_of(ExpressionSource source, const Note* before,
     return both(0);
 }
 
-/// What accompanies a melody comes from no place of the curve.
+/// False for accompaniments, which have no place on the curve.
 bool is_of_curve(const Note& note) {
     return note.from != note.end_point();
 }
@@ -139,7 +139,7 @@ ExpressionSink::Line& ExpressionSink::line_of(int voice) {
     if (at >= lines_.size()) lines_.resize(at + 1);
     std::optional<Line>& line = lines_[at];
     if (line) return *line;
-    line.emplace();
+    line = Line();
     const std::vector<Player>& players = ensemble_.players;
     const auto next = std::upper_bound(players.begin(), players.end(), voice,
                                        [](int one, const Player& player) { return one < player.first_voice; });

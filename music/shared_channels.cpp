@@ -34,7 +34,7 @@ std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, con
     };
     each_shared([&](const Part& part, int channel, int voice) {
         channels[channel].voices += part.voices;
-        // What accompanies a melody comes from no place of the curve.
+        // Accompaniments have no place on the curve to follow.
         if (!part.is_accompaniment && is_controlled(voice)) channels[channel].is_controlled = true;
     });
     std::vector<std::string> names;

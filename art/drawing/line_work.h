@@ -67,9 +67,6 @@ private:
 };
 
 /// Hands on polygons and discs only.
-class OnlyAreas : public WithoutStrokes<PathFilter> {
-public:
-    using WithoutStrokes::WithoutStrokes;
-};
+using OnlyAreas = WithoutStrokes<PathFilter>;
 
 }  // namespace sikku

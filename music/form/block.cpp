@@ -238,7 +238,7 @@ Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions
     sort(block.notes);
     block.chords_from = options.chords_from > 0 ? options.chords_from : melody.own_voices();
     const bool is_whole = block.length < options.to - options.from;
-    // What stands after the last sub-curve breathes as one.
+    // The notes after the last sub-curve end with a breath, too.
     const std::int64_t bar = melody.breathes_to_bar ? melody.meter.bar() : 1;
     const std::int64_t breath = is_whole && melody.phrase_order > 0 ? melody.breath : 0;
     block.next = (block.length + breath + bar - 1) / bar * bar;

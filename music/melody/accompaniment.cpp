@@ -21,7 +21,7 @@ constexpr double widest_pair = 12;
 // Penalties for voices that move in parallel, and for each semitone that a pair of voices lies off the middle.
 constexpr double unrest_of_parallels = 100;
 constexpr double unrest_off_middle = 0.25;
-// Of an octave and of a fourth where the scale has a fifth.
+// Penalties for an octave and for a fourth above the bass, in place of a fifth.
 constexpr double unrest_of_octave = 6;
 constexpr double unrest_of_fourth = 12;
 

@@ -36,10 +36,10 @@ std::vector<int> channel_slots(const ScoreHead& head);
 /// for each voice that has notes, by number. Tracks are named as in
 /// print (labels.h), so those of one part are numbered. Every track ends where the score does; only of a score longer
 /// than 2^28 - 1 ticks the first one ends there. At one tick the order is: meta, controllers, program, note-offs,
-/// tuning, note-ons. There is no running status; note-offs are real ones. In format 0 the names of voices are
-/// instrument names. Drums share channel 10. Other voices keep channels of their own: by number if the head counts at
-/// most 15 voices, else as they come. A fraction of a key up to half a cent is none. With MPE the first track tells
-/// the configuration, and a program comes before a note where that of its channel differs.
+/// tuning, note-ons. Running status is not used, and note-offs are written as such. In format 0 the names of voices
+/// are instrument names. Drums share channel 10. Other voices keep channels of their own: by number if the head
+/// counts at most 15 voices, else as they come. A fraction of a key up to half a cent is none. With MPE the first
+/// track tells the configuration, and a program comes before a note where that of its channel differs.
 ///
 /// Pan, controllers and bends of NoteSink::curves() and controls() are messages on the channel of their voice, with
 /// MPE on that of the sounding note.

@@ -47,7 +47,7 @@ std::string Conductor::make_opening(bool is_mpe) const {
     }
     std::string bytes;
     if (!head_->title.empty()) bytes += meta_now(name_type, head_->title);
-    // Texts have no names; so the first is the pattern, be it empty.
+    // Texts are unnamed, so the first is always the pattern, even if it is empty.
     bytes += meta_now(text_type, head_->pattern);
     bytes += meta_now(text_type, head_->made);
     bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(tempo), 3));
@@ -64,7 +64,7 @@ std::string Conductor::make_opening(bool is_mpe) const {
     return bytes;
 }
 
-/// Of the tempo with which the score begins.
+/// Factor of the tempo at the beginning of the score.
 double Conductor::first_factor() const {
     const bool has_curve = curves_ && !curves_->tempo.empty() && curves_->tempo.front().tick == 0;
     return has_curve ? curves_->tempo.front().factor : 1;
@@ -81,7 +81,7 @@ std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
     result.reserve(map.size());
     std::int64_t last = 0;
     for (const TempoPoint& point : map) {
-        // No delta tells what is later.
+        // A delta cannot express a later tick.
         const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
         const double tempo = is_late ? head_->tempo : head_->tempo * point.factor;
         // The score begins with it.

@@ -29,7 +29,7 @@ struct Glide {
 /// Added to the velocity of notes that a rhythm accents.
 constexpr int accent_velocity = 16;
 
-/// What the pattern states about the loudness of a note, for print.
+/// Accent and dynamic that the pattern states for a note; they are printed.
 struct Emphasis {
     bool is_accented = false;  ///< by the rhythm; its velocity includes accent_velocity
     std::int8_t dynamic = -1;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff; -1: not stated

@@ -29,16 +29,10 @@ namespace {
 using Points = std::vector<glm::dvec2>;
 
 /// Takes nothing.
-class NoSink : public PathSink {
+class NoSink : public PolygonSink {
 public:
-    void begin_stroke(glm::dvec2, const Pen&) override {}
-    void lines(std::span<const glm::dvec2>) override {}
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override { ++fills; }
     void area(std::span<const glm::dvec2>, const Pen&) override { ++fills; }
-    void disc(glm::dvec2, double, const Pen&) override {}
     int fills = 0;
 };
 

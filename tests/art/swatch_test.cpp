@@ -195,7 +195,7 @@ TEST(Swatch, ColoursOfNeighboursDifferAcrossTheEdges) {
         long width = 0, height = 0;
         const auto tiles =
             tiles_of(draw(load(name).with(by_neighbours), "svg", {{"swatch", ""}, {"step", "6mm"}}), width, height);
-        // Of the tiles at an edge, by its middle: two edges of a small page can have the same ends.
+        // Fills of the tiles at each edge, by its middle: two edges of a small page can have the same ends.
         std::map<std::pair<long, long>, std::set<std::string>> fills;
         // Middles within a few micrometres are one, also across the page.
         std::vector<std::pair<long, long>> known;

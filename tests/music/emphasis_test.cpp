@@ -86,9 +86,9 @@ TEST(Emphasis, StatedDynamicsStandAtTheirNotes) {
 TEST(Emphasis, ChangesStateDynamicsToo) {
     const std::string changes = table + "change L: loud\nchange S: soft\nchange U: louder 20\nchange N: 100\n";
     EXPECT_EQ(dynamics_of(changes + "axiom: DDLDDSDDA\n"), "0 mf, 2 f, 4 p, 6 mf");
-    // What sounds as another level is printed as that.
+    // A level that the changes have moved is printed as it sounds.
     EXPECT_EQ(dynamics_of(changes + "axiom: BUBCA\n"), "0 p, 1 mp, 2 fff, 3 f");
-    // Numbers, also as parameters, are no dynamics.
+    // Velocities given as numbers or parameters do not state dynamics.
     EXPECT_EQ(dynamics_of(changes + "axiom: AAAANDDDDDDDD\n"), "0 mf, 4 f");
     EXPECT_EQ(dynamics_of(changes + "axiom: AAAA(1,96)AAAA\n"), "0 mf");
 }

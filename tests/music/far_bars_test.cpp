@@ -38,7 +38,7 @@ public:
     std::vector<Sounding> notes;
 
 private:
-    /// What a symbol of order k does, begun with a heading.
+    /// The effect of a symbol of order k at a given heading.
     struct Effect {
         Integer steps = 0;  // across
         Integer phrases = 0;
