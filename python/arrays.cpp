@@ -14,7 +14,7 @@ py::array array_of(std::vector<Element> vector, py::array::ShapeContainer shape)
     auto kept = std::make_unique<std::vector<Element>>(std::move(vector));
     auto* const first = reinterpret_cast<Number*>(kept->data());
     const py::capsule owner(kept.get(), [](void* memory) { delete static_cast<std::vector<Element>*>(memory); });
-    kept.release();
+    static_cast<void>(kept.release());
     return py::array_t<Number>(std::move(shape), first, owner);
 }
 

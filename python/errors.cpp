@@ -66,6 +66,7 @@ py::list to_list(const std::vector<Diagnostic>& diagnostics) {
 }
 
 void register_errors() {
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type of translators is given
     py::register_local_exception_translator([](std::exception_ptr thrown) { translate(thrown); });
 }
 

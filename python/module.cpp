@@ -51,7 +51,7 @@ Loaded load_document(const std::string& name, const std::optional<std::string>& 
     });
 }
 
-py::object content_of(std::string bytes, bool is_text) {
+py::object content_of(const std::string& bytes, bool is_text) {
     if (is_text) return to_text(bytes);
     return py::bytes(bytes);
 }

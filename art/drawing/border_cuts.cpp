@@ -21,9 +21,9 @@ constexpr std::uint32_t none = PlotSegment::none;
 class Loops {
 public:
     explicit Loops(const std::vector<UnitedLines::Line>& lines) : lines_(lines), nodes_(tolerance(lines)) {
-        for (std::uint32_t i = 0; i < lines.size(); ++i) {
-            from_.push_back(lines[i].is_border ? nodes_.at(lines[i].from) : none);
-            to_.push_back(lines[i].is_border ? nodes_.at(lines[i].to) : none);
+        for (const UnitedLines::Line& line : lines) {
+            from_.push_back(line.is_border ? nodes_.at(line.from) : none);
+            to_.push_back(line.is_border ? nodes_.at(line.to) : none);
         }
         out_.resize(nodes_.points.size());
         for (std::uint32_t i = 0; i < lines.size(); ++i) {

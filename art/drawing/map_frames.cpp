@@ -105,7 +105,8 @@ void MapFrames::add_frame() {
                             frame.steps, most_kept_edges));
         }
     }
-    frames_[frame.steps] = std::make_shared<const MapFrame>(std::move(frame));
+    const std::int64_t steps = frame.steps;
+    frames_[steps] = std::make_shared<const MapFrame>(std::move(frame));
 }
 
 std::shared_ptr<const MapFrame> MapFrames::after(std::int64_t steps) {

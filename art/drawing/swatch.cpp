@@ -57,7 +57,7 @@ public:
             place();
             if (patch_.periods.radius >= needed_) {
                 compare_pictures();
-                return std::move(swatch_);
+                return swatch_;
             }
             if (patch_.tiles() > most_tiles_of_place) {
                 throw SwatchError(fmt::format("the part that repeats is {:.6g} x {:.6g} steps, which is too large",

@@ -166,9 +166,9 @@ private:
         for (const Tile other : neighbours_.of(tile)) {
             if (colours_[other] == a) reach(other);
         }
-        for (std::size_t i = 0; i < chain_.size(); ++i) {
+        for (std::size_t next = 0; next < chain_.size();) {
             if (chain_.size() > longest_chain) return false;
-            for (const Tile other : neighbours_.of(chain_[i])) {
+            for (const Tile other : neighbours_.of(chain_[next++])) {
                 if (colours_[other] == a || colours_[other] == b) reach(other);
             }
         }

@@ -26,7 +26,7 @@ constexpr double place_rounding = 0x1p-113, rounding = 0x1p-53;
 constexpr double largest_error = 1e-3;  // in steps
 
 /// The plain form of a grammar, which may be the grammar itself; null if there is none.
-std::shared_ptr<const Grammar> plain_of(std::shared_ptr<const Grammar> grammar, std::string& why) {
+std::shared_ptr<const Grammar> plain_of(const std::shared_ptr<const Grammar>& grammar, std::string& why) {
     if (grammar->is_plain()) return grammar;
     if (auto plain = plain_form(*grammar)) return std::make_shared<const Grammar>(*std::move(plain));
     why = "a window needs a pattern without chance and contexts, and with fewer than 100,000 different modules";
@@ -62,7 +62,7 @@ WindowDrawing::WindowDrawing(std::shared_ptr<const Grammar> grammar, std::unique
 
 WindowDrawing::~WindowDrawing() = default;
 
-std::unique_ptr<WindowDrawing> WindowDrawing::make(std::shared_ptr<const Grammar> grammar, const Style& style,
+std::unique_ptr<WindowDrawing> WindowDrawing::make(const std::shared_ptr<const Grammar>& grammar, const Style& style,
                                                    const DrawOptions& options, std::string& why) {
     // A frame is in the coordinates of the whole drawing.
     if (!options.window || options.frame || grammar->is_spatial() || grammar->map()) return nullptr;

@@ -26,7 +26,7 @@ public:
     /// lengths whose errors add up to a thousandth of a step, for splines, and for ornaments that need the whole
     /// drawing. Also, with `why` unchanged, without a window and for short words, which are better read whole.
     /// @param grammar  with resolved contexts; in the plane
-    static std::unique_ptr<WindowDrawing> make(std::shared_ptr<const Grammar> grammar, const Style& style,
+    static std::unique_ptr<WindowDrawing> make(const std::shared_ptr<const Grammar>& grammar, const Style& style,
                                                const DrawOptions& options, std::string& why);
     ~WindowDrawing() override;
 

@@ -235,7 +235,8 @@ std::vector<double> windowed(const HandLine& line, const std::vector<double>& va
     const std::size_t count = line.size();
     // Places go round a closed line: the one before, the line itself, the one after.
     const auto place = [&](std::size_t k) {
-        return line.nodes[k % count].along + line.length * static_cast<double>(k / count);
+        const std::size_t rounds = k / count;
+        return line.nodes[k % count].along + line.length * static_cast<double>(rounds);
     };
     const std::size_t first = line.closed ? count : 0, end = line.closed ? 3 * count : count;
     std::vector<double> sums(count);

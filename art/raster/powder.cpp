@@ -109,8 +109,6 @@ PowderGrain::PowderGrain(const glm::dmat3x2& to_pixels, double grain) {
     row_y_ = fixed(back[1].y);
 }
 
-PowderGrain::~PowderGrain() = default;
-
 /// Height of the grains at a place in 1/65536 texels, from -128 to 127.
 inline int PowderGrain::grain_at(std::int64_t x, std::int64_t y) const {
     const std::uint32_t mask = (1u << bits_) - 1;

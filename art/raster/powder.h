@@ -29,7 +29,6 @@ class PowderGrain {
 public:
     /// @param to_pixels  from the drawing to pixels  @param grain  size of a grain in the unit of the drawing
     PowderGrain(const glm::dmat3x2& to_pixels, double grain);
-    ~PowderGrain();
 
     /// Replaces heights in [first, end) of a row of the page by coverage.
     void settle(std::uint8_t* heights, int row, int first, int end) const;

@@ -13,8 +13,8 @@ namespace sikku {
 /// its left than on its right.
 struct Winding {
     std::uint32_t layer = 0;
-    std::int32_t count = 0;  ///< not 0
-    auto operator<=>(const Winding&) const = default;
+    std::int32_t count = 0;                            ///< not 0
+    auto operator<=>(const Winding&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is compared
 };
 
 /// Numbers sets of windings, so that triangles and edges store only numbers. 0 is the empty set.

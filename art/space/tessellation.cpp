@@ -262,9 +262,9 @@ private:
             scene_.vertices_.emplace_back(map * glm::dvec4(grid.points[from], 1.0));
             const glm::dvec3 normal = cofactors * grid.normals[from];
             const double length = glm::length(normal);
-            const auto row = static_cast<float>(from / (static_cast<std::size_t>(n) + 1));
-            scene_.corners_.push_back(
-                {glm::vec3(length > 0 ? normal / length : normal), colour, row / static_cast<float>(n)});
+            const std::size_t row = from / (static_cast<std::size_t>(n) + 1);
+            scene_.corners_.push_back({glm::vec3(length > 0 ? normal / length : normal), colour,
+                                       static_cast<float>(row) / static_cast<float>(n)});
         }
         if (polygon.count >= 3) return scene_.polygons_.push_back(polygon);
         scene_.vertices_.resize(polygon.first);

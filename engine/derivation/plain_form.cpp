@@ -94,8 +94,8 @@ private:
             if (written.size() <= module) written.resize(modules_.size(), 0);
             if (written[module] == 0) {
                 auto successor = successor_of(table, module);
+                written[module] = successor ? static_cast<std::int32_t>(productions.size() + 1) : -1;
                 if (successor) productions.push_back({{}, {module}, {}, *std::move(successor)});
-                written[module] = successor ? static_cast<std::int32_t>(productions.size()) : -1;
             }
             if (written[module] < 0) {
                 after.push_back(module);

@@ -67,9 +67,9 @@ private:
         for (const std::uint32_t side : border_) reach(pieces_.tile[side]);
         is_inner_.assign(tiles_.tiles(), 1);
         for (const std::uint32_t tile : reached) is_inner_[tile] = 0;
-        for (std::size_t i = 0; i < reached.size(); ++i) {
+        for (std::size_t next = 0; next < reached.size();) {
             pulse_();
-            for (const std::uint32_t other : neighbours_.of(reached[i])) reach(other);
+            for (const std::uint32_t other : neighbours_.of(reached[next++])) reach(other);
         }
         if (!reached.empty()) result_.middle = reached.back();
         const glm::dvec2 at = plane_.at(anchor(result_.middle));

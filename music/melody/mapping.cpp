@@ -429,8 +429,8 @@ std::optional<NoteBox> note_box(const Grammar& given, const Melody& melody) {
 }
 
 std::optional<std::int64_t> smallest_steps(const Grammar& given, const Melody& melody, std::int64_t phrases) {
-    constexpr std::int64_t farthest = 24;
-    for (std::int64_t steps = given.steps() + 1; steps <= given.steps() + farthest; ++steps) {
+    constexpr std::int64_t most_added = 24;
+    for (std::int64_t steps = given.steps() + 1; steps <= given.steps() + most_added; ++steps) {
         const auto longer = given.with_steps(steps);
         if (!longer || !longer->is_plain() || longer->whole_word_steps() > 0) return std::nullopt;
         const Marked with_marks = marked(shorten(*longer), melody);

@@ -193,8 +193,8 @@ private:
                     "to 16 whole notes",
                     words[at]);
             }
-            const auto ticks = static_cast<double>(*above * whole_note / *below);
-            row.steps = ticks / static_cast<double>(melody_.unit);
+            const std::int64_t ticks = *above * whole_note / *below;
+            row.steps = static_cast<double>(ticks) / static_cast<double>(melody_.unit);
             ++at;
         }
         if (has_velocity && at < words.size()) {
