@@ -226,12 +226,13 @@ private:
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
-            if (!layout.form.empty()) {
+            if (layout.form.empty()) {
+                if (layout.is_retrograde) reverse(part.block);
+            } else {
                 part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form,
                                      player.is_bass ? sections : std::vector<std::int64_t>());
             }
             if (!player.is_bass) sections = part.block.ends;
-            if (layout.is_retrograde) reverse(part.block);
             if (has_drone) add_drone(part.block, player.melody, options.chords_from);
             const std::int64_t bar = player.melody.meter.bar();
             const std::int64_t length = player.is_bass ? leading : part.block.length;

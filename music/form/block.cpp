@@ -193,6 +193,16 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     sort(block.notes);
 }
 
+/// Reverses a section, whose breath stays at its end.
+void reverse_section(Block& piece) {
+    const std::int64_t length = std::exchange(piece.length, 0);
+    for (const FormNote& one : piece.notes) {
+        piece.length = std::max(piece.length, one.note.onset + one.note.duration);
+    }
+    reverse(piece);
+    piece.length = length;
+}
+
 /// The last section of a form ends on the tonic if its cadences alternate.
 Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
     if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
@@ -289,13 +299,16 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     if (!has_tail && borders.size() > 2) borders.pop_back();
     Block result;
     result.chords_from = block.chords_from;
-    for (const FormSection& section : form) {
+    std::vector<FormSection> order = form;
+    if (melody.layout.is_retrograde) std::reverse(order.begin(), order.end());
+    for (const FormSection& section : order) {
         const auto at = static_cast<std::size_t>(section.letter);
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
+        if (melody.layout.is_retrograde) reverse_section(piece);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
         trim_chords(piece, melody);
-        end_on(piece, melody, ending_of(piece, melody, section, &section == &form.back()));
+        end_on(piece, melody, ending_of(piece, melody, section, &section == &order.back()));
         if (piece.notes.size() > most_block_notes - result.notes.size()) {
             throw ScoreError(fmt::format("the form would have more than {} notes", most_block_notes));
         }
@@ -307,7 +320,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         result.ends.push_back(result.length);
     }
     const std::size_t last = borders.size() - 2;
-    if (ends.empty() && static_cast<std::size_t>(form.back().letter) == last) {
+    if (ends.empty() && static_cast<std::size_t>(order.back().letter) == last) {
         result.length -= std::max<std::int64_t>(0, borders.back() - block.length);
         result.ends.back() = result.length;
     }

@@ -104,6 +104,36 @@ TEST(Breath, LastsUntilTheBarLine) {
     }
 }
 
+/// In retrograde, forms are played from their ends; breaths and cadences stay behind their phrases.
+TEST(Forms, InRetrogradeCloseAtTheEnd) {
+    const std::string text = hilbert_4 + "vertical: extend\nphrases: 2\nbreath: 1/4 bar\nform: A B C\n";
+    const NoteList plain = notes_of(text);
+    const NoteList back = notes_of(text + "retrograde: yes\n");
+    ASSERT_EQ(back.notes.size(), plain.notes.size());
+    for (std::size_t i = 0; i < plain.notes.size(); ++i) {
+        const Note& before = plain.notes[plain.notes.size() - 1 - i];
+        EXPECT_EQ(back.notes[i].key, before.key) << i;
+        EXPECT_EQ(back.notes[i].duration, before.duration) << i;
+    }
+    EXPECT_EQ(back.notes.front().onset, 0);
+    const auto sizes = [](const NoteList& list) {
+        std::vector<std::size_t> result;
+        for (const auto& phrase : phrases_of(list.notes)) result.push_back(phrase.size());
+        return result;
+    };
+    std::vector<std::size_t> reversed = sizes(plain);
+    ASSERT_EQ(reversed.size(), 3u);
+    std::reverse(reversed.begin(), reversed.end());
+    EXPECT_EQ(sizes(back), reversed);
+    for (const char* form : {"A B C", "B A", "A1 C A2", "A2 C A1", "A A B A"}) {
+        const NoteList closed =
+            notes_of(hilbert_4 + "tonic: C4\nscale: major\nphrases: 2\nbreath: 1/4 bar\ncadence: " +
+                     "alternate\nretrograde: yes\nform: " + form + "\n");
+        const bool is_open = std::string(form) == "A1 C A2";  // A1 is played last
+        EXPECT_EQ(static_cast<int>(closed.notes.back().key) % 12, is_open ? 7 : 0) << form;
+    }
+}
+
 /// A curve without end begins as its sub-curves do, and its first bars may be put in any order.
 TEST(Excerpts, OfCurvesWithoutEnd) {
     for (const char* more : {"", "retrograde: yes\n", "loop: 3\n", "form: B A order 2\n", "harmony: triads\n",
