@@ -8,6 +8,8 @@ import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
+import { ReliefView } from "./relief_view";
+import { optionOf } from "./sheet";
 import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
@@ -47,7 +49,7 @@ const openAtFirst: Record<string, RegExp> = {
     Print: /^Page/,
     Plotter: /^(Page|Plotter)/,
     Picture: /^(Page|Picture)/,
-    Model: /^Page/,
+    Model: /^(Page|Reliefs)/,
     Score: /^Passage/,
 };
 const preview_size = 440; // pixels
@@ -74,7 +76,8 @@ function choicesOf(application: Application): Choice[] {
     }));
     const ordered = groups.flatMap(([group]) => rows.filter((row) => row.group === group));
     return [
-        ...ordered.filter((row) => row.group !== "Model" || facts?.is_spatial),
+        // Reliefs, which STL is for, are made of drawings in the plane.
+        ...ordered.filter((row) => row.format.extension !== "stl" || !facts?.is_spatial),
         ...rows.filter((row) => row.group === "Other"),
         { interpreter: "draw", format: pattern_format, group: "Pattern" },
     ];
@@ -104,6 +107,7 @@ class Export {
         role: "img",
         "aria-label": "The page",
     });
+    private relief: ReliefView | null = null; // once a relief has been shown
     private readonly options = element("div", { class: "export-options" });
     private readonly remarks = element("ul", { class: "remarks", "aria-live": "polite" });
     private readonly command = element("code", { class: "command", tabindex: 0 });
@@ -338,8 +342,12 @@ class Export {
 
     private async showPreview(): Promise<void> {
         const isDrawn = this.choice.interpreter === "draw" && this.choice.format !== pattern_format;
-        this.preview.hidden = !isDrawn;
-        if (!isDrawn) return;
+        const { generation } = this;
+        const isRelief = isDrawn && this.isRelief() && (await this.showRelief());
+        if (generation !== this.generation) return;
+        if (this.relief) this.relief.canvas.hidden = !isRelief;
+        this.preview.hidden = !isDrawn || isRelief;
+        if (this.preview.hidden) return;
         try {
             await drawInto(
                 this.preview,
@@ -351,6 +359,40 @@ class Export {
             );
         } catch {
             // the remarks give the reason
+        }
+    }
+
+    private isRelief(): boolean {
+        if (this.choice.group !== "Model" || this.application.opened?.facts.is_spatial) return false;
+        return this.choice.format.extension === "stl" || optionOf(this.optionsNow(), "relief") !== undefined;
+    }
+
+    // False if the relief cannot be made or the browser cannot show it.
+    private async showRelief(): Promise<boolean> {
+        this.relief ??= ReliefView.make(preview_size);
+        if (!this.relief) return false;
+        if (!this.relief.canvas.parentElement) {
+            this.relief.canvas.hidden = true; // until there is something to show
+            this.preview.before(this.relief.canvas);
+        }
+        const options = [...this.optionsNow()];
+        if (optionOf(options, "relief") === undefined) options.push(["relief", ""]);
+        const { generation } = this;
+        try {
+            const { bytes } = await this.application.engine.request<Made>(
+                {
+                    do: "make",
+                    interpreter: "draw",
+                    format: "glb",
+                    options,
+                    pattern: this.application.store.work.pattern,
+                },
+                { lane: "back", key: "export-relief", seconds: 30 },
+            );
+            if (generation === this.generation) this.relief.show(bytes);
+            return true;
+        } catch {
+            return false; // the remarks give the reason
         }
     }
 

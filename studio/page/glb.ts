@@ -1,5 +1,6 @@
-// Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has positions,
-// normals and a single colour, or a colour for each corner. Everything is checked before it is used.
+// Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has positions
+// and a single colour, or a colour for each corner. Without normals, its triangles are flat. Everything is checked before
+// it is used.
 
 export interface ModelPart {
     positions: Float32Array; // three for each corner
@@ -73,9 +74,10 @@ export function readModel(bytes: Uint8Array): Model {
         if (whole(primitive["mode"], "a mode", 4) !== 4) fail("a part does not consist of triangles");
         const attributes = (primitive["attributes"] ?? {}) as Json;
         const positions = new Float32Array(numbers(attributes["POSITION"], "VEC3", 5126));
-        const normals = new Float32Array(numbers(attributes["NORMAL"], "VEC3", 5126));
+        const given = attributes["NORMAL"];
+        const normals = given === undefined ? null : new Float32Array(numbers(given, "VEC3", 5126));
         const corners = new Uint32Array(numbers(primitive["indices"], "SCALAR", 5125));
-        if (normals.length !== positions.length || corners.length % 3) fail("some corners have no normal");
+        if ((normals && normals.length !== positions.length) || corners.length % 3) fail("some corners have no normal");
         const count = positions.length / 3;
         for (const corner of corners) if (corner >= count) fail("a corner is missing");
         for (let index = 0; index < positions.length; ++index) {
@@ -91,17 +93,35 @@ export function readModel(bytes: Uint8Array): Model {
         if (colours && colours.length !== positions.length) fail("some corners have no colour");
         if (colours && !colours.every((value) => value >= 0 && value <= 1)) fail("invalid colour");
         const material = materials[whole(primitive["material"], "a material")] ?? fail("a material is missing");
-        return {
-            positions,
-            normals,
-            corners,
-            colour: colourOf(material),
-            colours,
-            isTwoSided: material["doubleSided"] === true,
-        };
+        const rest = { colour: colourOf(material), isTwoSided: material["doubleSided"] === true };
+        if (!normals) return { ...flat(positions, corners, colours), ...rest };
+        return { positions, normals, corners, colours, ...rest };
     });
     if (triangles === 0) fail("no triangles");
     return { parts, low, high, triangles, bytes: binary.byteLength };
+}
+
+// Every triangle with corners of its own, whose normals are that of its plane.
+function flat(
+    positions: Float32Array,
+    corners: Uint32Array,
+    colours: Float32Array | null,
+): Pick<ModelPart, "positions" | "normals" | "corners" | "colours"> {
+    const spread = (values: Float32Array) => {
+        const result = new Float32Array(3 * corners.length);
+        corners.forEach((corner, at) => result.set(values.subarray(3 * corner, 3 * corner + 3), 3 * at));
+        return result;
+    };
+    const apart = spread(positions);
+    const normals = new Float32Array(apart.length);
+    for (let at = 0; at < apart.length; at += 9) {
+        const side = (from: number, axis: number) => apart[at + from + axis]! - apart[at + axis]!;
+        const [ax, ay, az, bx, by, bz] = [side(3, 0), side(3, 1), side(3, 2), side(6, 0), side(6, 1), side(6, 2)];
+        const normal = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
+        const length = Math.hypot(...normal) || 1;
+        for (let axis = 0; axis < 9; ++axis) normals[at + axis] = normal[axis % 3]! / length;
+    }
+    return { positions: apart, normals, corners: corners.map((_, at) => at), colours: colours && spread(colours) };
 }
 
 function colourOf(material: Json): ModelPart["colour"] {

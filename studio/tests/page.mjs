@@ -378,6 +378,27 @@ test("export writes the file and tells the command", async ({ page }) => {
     await dialog.waitFor({ state: "detached" });
 });
 
+test("export shows a relief, which can be turned", async ({ page }) => {
+    await page.getByRole("button", { name: "Export" }).click();
+    const dialog = page.getByRole("dialog", { name: "Export" });
+    await dialog.getByText("STL", { exact: true }).click();
+    const relief = dialog.getByRole("img", { name: /^The relief/ });
+    await relief.waitFor();
+    const before = await relief.screenshot();
+    await relief.press("ArrowRight");
+    assert.notDeepEqual(await relief.screenshot(), before);
+    const save = dialog.getByRole("button", { name: /^Save .*\.stl/ });
+    await save.waitFor();
+    const [download] = await Promise.all([page.waitForEvent("download"), save.click()]);
+    const stl = readFileSync(await download.path());
+    assert.equal(stl.length, 84 + 50 * stl.readUInt32LE(80));
+    await dialog.getByText("SVG", { exact: true }).click();
+    await relief.waitFor({ state: "hidden" });
+    await dialog.getByRole("img", { name: "The page" }).waitFor();
+    await page.keyboard.press("Escape");
+    await dialog.waitFor({ state: "detached" });
+});
+
 test("a print that is dropped gives its pattern and values back", async ({ page }) => {
     const before = await textOf(page);
     await page.getByRole("textbox", { name: "n, value" }).fill("3");

@@ -79,6 +79,17 @@ test("colours of corners are read", () => {
     }
 });
 
+test("triangles without normals are flat", () => {
+    const flat = readModel(blend((json) => delete json.meshes[0].primitives[0].attributes.NORMAL)).parts[0];
+    // (2, 0, 0) x (0, 3, -1) = (0, 2, 6)
+    const [, y, z] = flat.normals;
+    assert.ok(Math.abs(y - 2 / Math.hypot(2, 6)) < 1e-6 && Math.abs(z - 6 / Math.hypot(2, 6)) < 1e-6);
+    assert.deepEqual([...flat.normals.slice(3)], [...flat.normals.slice(0, 3), ...flat.normals.slice(0, 3)]);
+    assert.deepEqual([...flat.positions], [0, 0, 0, 2, 0, 0, 0, 3, -1]);
+    assert.deepEqual([...flat.colours], [1, 0, 0, 0, 1, 0, 0, 0, 1]);
+    assert.deepEqual([...flat.corners], [0, 1, 2]);
+});
+
 test("invalid models are refused", () => {
     const faults = {
         "a corner is missing": (_, binary) => {

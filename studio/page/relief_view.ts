@@ -1,0 +1,103 @@
+// A small picture of a relief, which can be turned: the model of a drawing in the plane, as a file that is exported.
+import { element } from "./elements";
+import { between, type Eye } from "./eye";
+import { readModel, type Model } from "./glb";
+import { boundedLight, usualLight } from "./lamp";
+import { addOrbit } from "./orbit";
+import { fittingHalf, Stage, type Staged } from "./space_stage";
+
+const usualEye: Eye = { azimuth: -24, elevation: 46, distance: 4 };
+const usualZoom = 1.25; // the ground may leave the picture
+
+// The files have z up, and a rotation of their node that this picture needs, too: y is up in it.
+function lay(model: Model): Model {
+    const { low, high } = model;
+    for (const { positions, normals } of model.parts) {
+        for (const vectors of [positions, normals]) {
+            for (let at = 0; at < vectors.length; at += 3) {
+                const y = vectors[at + 1]!;
+                vectors[at + 1] = vectors[at + 2]!;
+                vectors[at + 2] = -y;
+            }
+        }
+    }
+    return { ...model, low: [low[0], low[2], -high[1]], high: [high[0], high[2], -low[1]] };
+}
+
+export class ReliefView {
+    private model: Staged | null = null;
+    private eye = usualEye;
+    private light = usualLight;
+    private zoom = usualZoom;
+
+    /// Null if the browser does not support WebGL2.
+    static make(size: number): ReliefView | null {
+        const canvas = element("canvas", {
+            class: "export-preview relief-preview",
+            width: size,
+            height: size,
+            tabindex: 0,
+            role: "img",
+            "aria-label": "The relief; arrow keys turn it, plus and minus zoom, 0 resets the view",
+        });
+        try {
+            const stage = Stage.on(canvas);
+            return stage && new ReliefView(canvas, stage);
+        } catch (error) {
+            console.error(error);
+            return null;
+        }
+    }
+
+    private constructor(
+        readonly canvas: HTMLCanvasElement,
+        private readonly stage: Stage,
+    ) {
+        addOrbit(canvas, {
+            turn: (right, up) => {
+                const { azimuth, elevation, distance } = this.eye;
+                const raised = Math.max(-90, Math.min(90, elevation + up));
+                this.eye = { azimuth: between(azimuth + right), elevation: raised, distance };
+                this.draw();
+            },
+            shift: () => {}, // it stays in the middle
+            zoom: (factor) => {
+                this.zoom = Math.max(0.5, Math.min(12, this.zoom * factor));
+                this.draw();
+            },
+            light: (right, up) => {
+                const { azimuth, elevation } = this.light;
+                this.light = boundedLight({ azimuth: azimuth + right, elevation: elevation + up });
+                this.draw();
+            },
+            reset: () => {
+                [this.eye, this.light, this.zoom] = [usualEye, usualLight, usualZoom];
+                this.draw();
+            },
+            stop: () => {},
+        });
+    }
+
+    /// Shows a model of binary glTF.
+    show(bytes: Uint8Array): void {
+        const model = this.stage.add(lay(readModel(bytes)));
+        if (this.model) this.stage.remove(this.model);
+        this.model = model;
+        this.draw();
+    }
+
+    private draw(): void {
+        const { model, canvas } = this;
+        if (!model) return;
+        this.stage.draw({
+            models: [{ model, presence: 1 }],
+            frame: model,
+            eye: this.eye,
+            half: fittingHalf(model, this.eye, canvas.width, canvas.height),
+            zoom: this.zoom,
+            shift: [0, 0],
+            light: this.light,
+            isDark: document.documentElement.dataset["theme"] === "dark",
+        });
+    }
+}
