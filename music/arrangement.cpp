@@ -103,28 +103,13 @@ public:
             const std::string name = folded(key);
             if (name == "track") {
                 tracks = &value;
-            } else if (name == "pattern") {
-                read_patterns(value);
-            } else if (name == "title" || name == "composer" || name == "source") {
-                (name == "title"      ? result_.title
-                 : name == "composer" ? result_.composer
-                                      : result_.source) = text_of(name, value);
             } else if (name == "form") {
                 form = &value;
-            } else if (music_key(name)) {
-                shared_.push_back({part_setting(name, text_of(name, value)), value.place});
             } else {
-                refuse_key(value.place, key, true);
+                collect([&] { read_head(name, key, value); });
             }
         }
-        if (form) {
-            result_.form = read_form(text_of("form", *form));
-            if (result_.form.empty()) {
-                fail(form->place,
-                     "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) "
-                     "endings");
-            }
-        }
+        if (form) collect([&] { read_form_of_piece(*form); });
         if (!tracks || tracks->type != FileValue::Type::list || tracks->list.empty()) {
             fail(tracks ? tracks->place : file_, "an arrangement has at least one [[track]]");
         }
@@ -133,13 +118,59 @@ public:
                                             most_tracks, tracks->list.size()));
         }
         result_.text = text_;
-        for (const FileValue& track : tracks->list) read_track(track);
+        for (const FileValue& track : tracks->list) {
+            collect([&] { read_track(track); });
+        }
+        throw_if_any();
         check_sections(*tracks, form);
         read_frame();
         return std::move(result_);
     }
 
 private:
+    /// Reads on after a mistake, so that all are reported together.
+    template <typename Read>
+    void collect(Read&& read) {
+        try {
+            read();
+        } catch (const FileError& error) {
+            // Every track repeats those of the head.
+            const std::string_view text = error.what();
+            if (std::find(mistakes_.begin(), mistakes_.end(), text) == mistakes_.end()) mistakes_.emplace_back(text);
+        }
+    }
+
+    void throw_if_any() const {
+        constexpr std::size_t most_shown = 20;
+        if (mistakes_.empty()) return;
+        const std::size_t shown = std::min(mistakes_.size(), most_shown);
+        std::string text = fmt::format(
+            "{}", fmt::join(mistakes_.begin(), mistakes_.begin() + static_cast<std::ptrdiff_t>(shown), "\n"));
+        if (shown < mistakes_.size()) text += fmt::format("\n{} more", counted(mistakes_.size() - shown, "error"));
+        throw FileError(text);
+    }
+
+    void read_head(const std::string& name, const std::string& key, const FileValue& value) {
+        if (name == "pattern") {
+            read_patterns(value);
+        } else if (name == "title" || name == "composer" || name == "source") {
+            (name == "title"      ? result_.title
+             : name == "composer" ? result_.composer
+                                  : result_.source) = text_of(name, value);
+        } else if (music_key(name)) {
+            shared_.push_back({part_setting(name, text_of(name, value)), value.place});
+        } else {
+            refuse_key(value.place, key, true);
+        }
+    }
+
+    void read_form_of_piece(const FileValue& form) {
+        result_.form = read_form(text_of("form", form));
+        if (!result_.form.empty()) return;
+        fail(form.place,
+             "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) endings");
+    }
+
     [[noreturn]] static void refuse_key(const std::string& place, const std::string& key, bool is_head) {
         std::vector<std::string_view> known = {"n",       "seed", "variant",   "set",        "pattern",
                                                "section", "name", "transpose", "tempo ratio"};
@@ -206,55 +237,74 @@ private:
                                 key == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
     }
 
-    void read_track(const FileValue& track) {
-        if (track.type != FileValue::Type::table) fail(track.place, "track: expected [[track]] tables");
-        std::vector<PlacedSetting> settings = shared_;
+    /// What a track states.
+    struct TrackKeys {
+        std::vector<PlacedSetting> settings;
         Overrides overrides;
-        std::string pattern_name;
-        std::string name_place;
+        std::string pattern;
+        std::string pattern_place;
         std::string name;
         char section = 0;
-        for (const auto& [key, value] : track.table) {
-            const std::string known = folded(key);
-            refuse_whole(known, value.place);
-            if (known == "pattern") {
-                pattern_name = text_of(known, value);
-                name_place = value.place;
-            } else if (known == "name") {
-                name = part_name(value);
-            } else if (known == "section") {
-                const auto letters = read_form(text_of(known, value));
-                if (letters.size() != 1 || letters.front().ending != Ending::none) {
-                    fail(value.place, "section: expected a letter from A to Z");
-                }
-                section = static_cast<char>('A' + letters.front().letter);
-            } else if (known == "variant") {
-                overrides.variant = text_of(known, value);
-            } else if (known == "set") {
-                if (value.type != FileValue::Type::table)
-                    fail(value.place, "set: expected a table of keys and defines");
-                for (const auto& [inner, one] : value.table) {
-                    refuse_whole(folded(inner), one.place);
-                    settings.push_back({{inner, inner, text_of(inner, one)}, one.place});
-                }
-            } else if (known == "n" || known == "seed" || music_key(known)) {
-                settings.push_back({part_setting(known, text_of(known, value)), value.place});
-            } else {
-                refuse_key(value.place, key, false);
-            }
+    };
+
+    static char section_of(const std::string& key, const FileValue& value) {
+        const auto letters = read_form(text_of(key, value));
+        if (letters.size() != 1 || letters.front().ending != Ending::none) {
+            fail(value.place, "section: expected a letter from A to Z");
         }
-        if (pattern_name.empty()) fail(track.place, "this track has no pattern");
-        const NamedPattern& found = pattern(pattern_name, name_place);
+        return static_cast<char>('A' + letters.front().letter);
+    }
+
+    static void read_key(const std::string& key, const FileValue& value, TrackKeys& track) {
+        const std::string known = folded(key);
+        refuse_whole(known, value.place);
+        if (known == "pattern") {
+            track.pattern_place = value.place;
+            track.pattern = text_of(known, value);
+        } else if (known == "name") {
+            track.name = part_name(value);
+        } else if (known == "section") {
+            track.section = section_of(known, value);
+        } else if (known == "variant") {
+            track.overrides.variant = text_of(known, value);
+        } else if (known == "set") {
+            if (value.type != FileValue::Type::table) fail(value.place, "set: expected a table of keys and defines");
+            for (const auto& [inner, one] : value.table) {
+                refuse_whole(folded(inner), one.place);
+                track.settings.push_back({{inner, inner, text_of(inner, one)}, one.place});
+            }
+        } else if (known == "n" || known == "seed" || music_key(known)) {
+            track.settings.push_back({part_setting(known, text_of(known, value)), value.place});
+        } else {
+            refuse_key(value.place, key, false);
+        }
+    }
+
+    void read_track(const FileValue& value) {
+        if (value.type != FileValue::Type::table) fail(value.place, "track: expected [[track]] tables");
+        TrackKeys track;
+        const std::size_t before = mistakes_.size();
+        track.settings = shared_;
+        for (const auto& [key, one] : value.table) {
+            collect([&] { read_key(key, one, track); });
+        }
+        if (track.pattern.empty() && mistakes_.size() > before) return;
+        if (track.pattern.empty()) fail(value.place, "this track has no pattern");
+        const NamedPattern& found = pattern(track.pattern, track.pattern_place);
         Diagnostics diagnostics;
-        Document document = Document::compile(found.name, found.text, overrides, diagnostics);
+        Document document = Document::compile(found.name, found.text, track.overrides, diagnostics);
         if (!diagnostics.is_unreadable()) read_melody(document.pattern(), {}, diagnostics);
         diagnostics.throw_if_errors();
-        for (const PlacedSetting& one : settings) document = with(document, one);
+        for (const PlacedSetting& one : track.settings) {
+            collect([&] { document = with(document, one); });
+        }
+        if (mistakes_.size() > before) return;
         require_turtle(document, "it has no melody");
         Diagnostics unplayable;
         check_phrases(document.pattern(), document.grammar(), unplayable);
-        if (unplayable.has_errors()) fail(track.place, unplayable.list().front().message);
-        result_.tracks.push_back({std::move(document), std::move(pattern_name), section, std::move(name)});
+        if (unplayable.has_errors()) fail(value.place, unplayable.list().front().message);
+        result_.tracks.push_back(
+            {std::move(document), std::move(track.pattern), track.section, std::move(track.name)});
     }
 
     /// @throws FileError at the place of the setting
@@ -316,6 +366,7 @@ private:
     std::map<std::string, NamedPattern> known_;
     std::vector<std::string> inner_;
     std::vector<PlacedSetting> shared_;
+    std::vector<std::string> mistakes_;
     Arrangement result_;
 };
 

@@ -511,6 +511,13 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused(track("", "other.toml"), "a.toml:2:1: other.toml: a track plays a pattern, not another arrangement");
     refused(track("transpos = 2\n"), "a.toml:3:1: unknown key 'transpos'; did you mean 'transpose'?");
     refused("[[track]]\nstart = 1\n", "this track has no pattern");
+    // All mistakes are reported, those of the head once.
+    refused("scale = \"majro\"\ncolour = \"red\"\n" + track("transpos = 2\nunit = 0\n") + track("name = \"\"\n") +
+                "[[track]]\npattern = 3.5\nstart = 1\n[[track]]\npattern = []\n",
+            "a.toml:2:1: unknown key 'colour'\n"
+            "a.toml:5:1: unknown key 'transpos'; did you mean 'transpose'?\n"
+            "a.toml:1:1: scale: unknown scale 'majro'; did you mean 'major'?\n"
+            "a.toml:6:1: unit: ");
     refused("form = \"A\"\n" + track(""), "a.toml:1:1: no track has section A");
     refused(track("section = \"A\"\n"), "section A needs a form above the first track");
     refused("form = \"B\"\n" + track("section = \"A\"\n"), "section A is not in the form");
