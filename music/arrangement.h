@@ -49,8 +49,8 @@ using PatternReader = std::function<NamedPattern(const std::string& pattern)>;
 /// Reads an arrangement and compiles its patterns. Those in `[[pattern]]` tables of the file come first; `read` reads
 /// the others.
 /// @param file  its name, for places
-/// @throws FileError for mistakes of the arrangement, a line with its place for each; PatternError for errors in patterns; what `read`
-/// throws
+/// @throws FileError for mistakes of the arrangement, a line with its place for each; PatternError for errors in
+/// patterns; what `read` throws
 Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read);
 
 /// The arrangement in which these documents play together, as on the command line; the first sets tempo and meter.
