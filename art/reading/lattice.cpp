@@ -100,9 +100,12 @@ public:
     }
 
 private:
-    Place cell(glm::dvec2 point) const {
-        return {static_cast<std::int32_t>(std::floor(point.x / size_)),
-                static_cast<std::int32_t>(std::floor(point.y / size_))};
+    Place cell(glm::dvec2 point) const { return {column(point.x), column(point.y)}; }
+    /// A wrong fit may ask for places at infinity, where there are no points.
+    std::int32_t column(double at) const {
+        constexpr double farthest = 1 << 30;
+        const double column = std::floor(at / size_);
+        return static_cast<std::int32_t>(column < farthest ? std::max(column, -farthest) : farthest);
     }
     template <class Visit>
     void visit(glm::dvec2 at, int rings, Visit&& see) const {

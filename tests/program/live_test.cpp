@@ -299,6 +299,7 @@ TEST(Live, WrongCommandLines) {
     }
 }
 
+#ifdef SIKKU_FAKE_SEQUENCER
 /// The output of fake_sequencer.cpp.
 struct SequencerHeard : Heard {
     std::vector<std::int64_t> times;  ///< of note-ons, in microseconds
@@ -329,6 +330,7 @@ SequencerHeard heard_by_sequencer(const std::string& text) {
     }
     return heard;
 }
+#endif
 
 /// With a sequencer that prints what it is sent: see fake_sequencer.cpp.
 TEST(Live, PlaysToTheSequencer) {
