@@ -154,16 +154,25 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
         why = fmt::format("the page has more than {:.0f} square steps", largest_page);
         return std::nullopt;
     }
+    bool may_have_tiles = true, has_tiles = false;
+    const auto refuse = [&](std::string reason) {
+        const bool has_none = !may_have_tiles && !has_tiles;
+        why = has_none ? "this drawing has no tiles, which are polygons between { and }" : std::move(reason);
+        return std::nullopt;
+    };
     for (std::int64_t steps = 1; steps <= longest; steps += steps < tried_one_by_one ? 1 : 1 + steps / 10) {
         options.monitor.check();
         const auto deeper = grammar.with_steps(steps);
         if (!deeper) continue;
         const auto plain = plain_of(std::make_shared<const Grammar>(*deeper), why);
-        if (!plain) return std::nullopt;
+        if (!plain) return refuse(why);
         const auto patches = make_patches(*plain, !grammar.is_plain(), style, why);
-        if (!patches) return std::nullopt;
+        if (!patches) return refuse(why);
         const glm::dvec2 whole = patches->box().high - patches->box().low;
-        if (patches->box().empty() || whole.x * whole.y < area) continue;
+        // Nothing is known of drawings that are too small.
+        may_have_tiles = !patches->box().empty();
+        if (!may_have_tiles || whole.x * whole.y < area) continue;
+        may_have_tiles = false;
         for (std::uint64_t i = 0; i < tries; ++i) {
             const QuadVector centre = patches->random_place(scrambled(grammar.seed()) + i);
             // Whole numbers can be given again as a window.
@@ -175,6 +184,7 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
             const auto is_covered = [&](const Box& box) {
                 CoverSink cover(box);
                 patches->read(low, box, cover, options);
+                has_tiles = has_tiles || cover.area > 0;
                 return cover.area >= area_of(box) * (1 - uncovered);
             };
             // Most places fail at the edge of the page.
@@ -192,8 +202,7 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
                               {low.x, low.y, low.x + static_cast<Quad>(size.x), low.y + static_cast<Quad>(size.y)}};
         }
     }
-    why = "its polygons cover no place of this size up to a derivation length of 500";
-    return std::nullopt;
+    return refuse("its polygons cover no place of this size up to a derivation length of 500");
 }
 
 }  // namespace sikku

@@ -76,7 +76,7 @@ function choicesOf(application: Application): Choice[] {
     }));
     const ordered = groups.flatMap(([group]) => rows.filter((row) => row.group === group));
     return [
-        // Reliefs, which STL is for, are made of drawings in the plane.
+        // STL is for reliefs, which are made only of drawings in the plane.
         ...ordered.filter((row) => row.format.extension !== "stl" || !facts?.is_spatial),
         ...rows.filter((row) => row.group === "Other"),
         { interpreter: "draw", format: pattern_format, group: "Pattern" },
@@ -367,7 +367,7 @@ class Export {
         return this.choice.format.extension === "stl" || optionOf(this.optionsNow(), "relief") !== undefined;
     }
 
-    // False if the relief cannot be made or the browser cannot show it.
+    // False if there is no relief or the browser cannot show it.
     private async showRelief(): Promise<boolean> {
         this.relief ??= ReliefView.make(preview_size);
         if (!this.relief) return false;

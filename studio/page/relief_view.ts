@@ -1,4 +1,4 @@
-// A small picture of a relief, which can be turned: the model of a drawing in the plane, as a file that is exported.
+// Shows a relief before it is exported, as a small model that can be turned.
 import { element } from "./elements";
 import { between, type Eye } from "./eye";
 import { readModel, type Model } from "./glb";
@@ -9,7 +9,7 @@ import { fittingHalf, Stage, type Staged } from "./space_stage";
 const usualEye: Eye = { azimuth: -24, elevation: 46, distance: 4 };
 const usualZoom = 1.25; // the ground may leave the picture
 
-// The files have z up, and a rotation of their node that this picture needs, too: y is up in it.
+// Printers expect z up; in the picture y is up, as the rotation of the file's node says.
 function lay(model: Model): Model {
     const { low, high } = model;
     for (const { positions, normals } of model.parts) {

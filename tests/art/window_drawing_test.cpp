@@ -210,6 +210,11 @@ TEST(WindowDrawing, FillsPages) {
     }
     EXPECT_FALSE(filled("chair", {3e4, 2e4}, why));
     EXPECT_NE(why.find("square steps"), std::string::npos);
+    for (const char* name : {"curves/hilbert", "kolams/snake-kolam"}) {
+        const auto grammar = load(bundled(name)).grammar();
+        EXPECT_FALSE(find_filled_page(grammar, plain_print().style, {30, 20}, 2, {}, why)) << name;
+        EXPECT_EQ(why, "this drawing has no tiles, which are polygons between { and }");
+    }
 }
 
 TEST(WindowDrawing, IsDrawnInColoursAndWithEdgesOnce) {
