@@ -621,7 +621,7 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
     }
     settings.step = step;
     page = {size.x, size.y, 0};
-    if (!is_vector(format)) {
+    if (!is_vector(format) && info(format).kind != FormatKind::model) {
         const PixelSize pixels = pixel_size(page, settings.dpi);
         page = {pixels.width * 25.4 / settings.dpi, pixels.height * 25.4 / settings.dpi, 0};
         settings.swatch_stretch = glm::dvec2(page.width, page.height) / size;

@@ -205,6 +205,12 @@ TEST(Relief, ShapesEndAtTheEdgeOfThePage) {
         read_stl(draw(tiling, "stl", {{"size", "60x60mm"}, {"fill-page", "true"}, {"step", "8mm"}, {"groove", "0"}}));
     expect_closed(filled);
     EXPECT_NEAR(filled.volume(), 60 * 60 * 3.2, 0.5) << "tiles everywhere";
+    // A swatch is not stretched to whole pixels.
+    const ReadMesh swatch =
+        read_stl(draw(load("honeycomb"), "stl", {{"swatch", ""}, {"step", "5mm"}, {"groove", "0"}}));
+    expect_closed(swatch);
+    EXPECT_NEAR(swatch.high().x, 15, 0.002);
+    EXPECT_NEAR(swatch.high().y, 15 * std::sqrt(3.0), 0.002);
 }
 
 TEST(Relief, PrismsThatTouchAtACornerAreJoined) {
