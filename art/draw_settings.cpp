@@ -62,8 +62,9 @@ void set_window(DrawSettings& settings, const std::string& text) {
     settings.window = parse_window(text);
     settings.window_text = text;
     if (!settings.window) {
-        refuse_option("window", text,
-                      "expected X0,Y0,X1,Y1 in turtle steps, numbers of any length, X0 below X1 and Y0 below Y1");
+        refuse_option(
+            "window", text,
+            "expected X0,Y0,X1,Y1 in turtle steps, decimal numbers without exponents, X0 below X1 and Y0 below Y1");
     }
 }
 

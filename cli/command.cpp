@@ -4,6 +4,7 @@
 #include "cli/link_argument.h"
 #include "cli/options.h"
 #include "engine/base/output_file.h"
+#include "engine/base/text.h"
 #include "engine/language/arrangement_library.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
@@ -71,6 +72,12 @@ NamedText read_pattern_text(const std::string& pattern) {
             throw UsageError(
                 fmt::format("{}: this is {}, not a pattern{}", pattern, format->name,
                             format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
+        }
+        if (lower_case(pattern).ends_with(".json")) {
+            throw UsageError(
+                fmt::format("{}: this is JSON, not a pattern; `sikku tiling` reads polygons, and "
+                            "`sikku kolam --read` kolams",
+                            pattern));
         }
     } catch (const NotFound& error) {
         if (bundled_arrangement(pattern))

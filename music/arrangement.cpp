@@ -106,7 +106,7 @@ public:
             } else if (name == "form") {
                 form = &value;
             } else {
-                collect([&] { read_head(name, key, value); });
+                collect([&, &key = key, &value = value] { read_head(name, key, value); });
             }
         }
         if (form) collect([&] { read_form_of_piece(*form); });
@@ -286,7 +286,7 @@ private:
         const std::size_t before = mistakes_.size();
         track.settings = shared_;
         for (const auto& [key, one] : value.table) {
-            collect([&] { read_key(key, one, track); });
+            collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
         if (track.pattern.empty() && mistakes_.size() > before) return;
         if (track.pattern.empty()) fail(value.place, "this track has no pattern");

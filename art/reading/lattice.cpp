@@ -63,6 +63,12 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
     return result;
 }
 
+/// A whole number as an integer. Wrong fits lead to infinity, where there are no points.
+std::int32_t whole(double number) {
+    constexpr double farthest = 1e8;
+    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
+}
+
 /// Finds points by their place, in cells of a given size.
 class PointGrid {
 public:
@@ -100,12 +106,8 @@ public:
     }
 
 private:
-    Place cell(glm::dvec2 point) const { return {column(point.x), column(point.y)}; }
-    /// A wrong fit may ask for places at infinity, where there are no points.
-    std::int32_t column(double at) const {
-        constexpr double farthest = 1 << 30;
-        const double column = std::floor(at / size_);
-        return static_cast<std::int32_t>(column < farthest ? std::max(column, -farthest) : farthest);
+    Place cell(glm::dvec2 point) const {
+        return {whole(std::floor(point.x / size_)), whole(std::floor(point.y / size_))};
     }
     template <class Visit>
     void visit(glm::dvec2 at, int rings, Visit&& see) const {
@@ -332,8 +334,7 @@ struct Axes {
     GridDot place(const Place& patch_place) const {
         const glm::dvec2 steps =
             static_cast<double>(patch_place.first) * first_ + static_cast<double>(patch_place.second) * second_;
-        const auto a = static_cast<std::int32_t>(steps.x);
-        const auto b = static_cast<std::int32_t>(steps.y);
+        const std::int32_t a = whole(steps.x), b = whole(steps.y);
         return lattice == DotLattice::square ? GridDot{2 * a, 2 * b} : GridDot{2 * a + b, 2 * b};
     }
 

@@ -91,6 +91,7 @@ private:
         for (const std::uint32_t side : result_.sides) visit(side, [&](std::size_t cell) { lists.count(cell); });
         lists.start();
         for (const std::uint32_t side : result_.sides) {
+            if (result_.overlap_count >= TileViolations::most_counted) return;
             visit(side, [&](std::size_t cell) {
                 lists.visit_added(cell, [&](std::uint32_t other) {
                     pulse_();

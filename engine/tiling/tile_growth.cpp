@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -254,6 +255,42 @@ private:
         }
         for (double& frequency : result_.frequencies) frequency /= sum;
         result_.is_primitive = is_primitive(rows);
+        result_.period = period_of(rows);
+    }
+
+    /// The steps from the first symbol to each other one along the fewest symbols; empty if one is not reached.
+    static std::vector<std::size_t> steps_from_first(const std::vector<std::map<std::size_t, double>>& rows) {
+        constexpr std::size_t unknown = ~std::size_t{0};
+        std::vector<std::size_t> steps(rows.size(), unknown), reached = {0};
+        steps[0] = 0;
+        for (std::size_t next = 0; next < reached.size(); ++next) {
+            for (const auto& [to, times] : rows[reached[next]]) {
+                if (steps[to] != unknown) continue;
+                steps[to] = steps[reached[next]] + 1;
+                reached.push_back(to);
+            }
+        }
+        if (reached.size() < rows.size()) steps.clear();
+        return steps;
+    }
+
+    /// Of an irreducible matrix, the greatest common divisor of the lengths of its cycles (Denardo 1977); else 0.
+    static std::size_t period_of(const std::vector<std::map<std::size_t, double>>& rows) {
+        if (rows.empty()) return 0;
+        std::vector<std::map<std::size_t, double>> back(rows.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            for (const auto& [to, times] : rows[i]) back[to][i] = times;
+        }
+        const std::vector<std::size_t> steps = steps_from_first(rows);
+        if (steps.empty() || steps_from_first(back).empty()) return 0;
+        std::size_t period = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            for (const auto& [to, times] : rows[i]) {
+                const std::size_t longer = steps[i] + 1;
+                period = std::gcd(period, longer > steps[to] ? longer - steps[to] : steps[to] - longer);
+            }
+        }
+        return period;
     }
 
     /// Squares the matrix, as whether entries are 0, until it has s^2 - 2 s + 2 steps (Wielandt 1950).

@@ -27,6 +27,8 @@ struct TileGrowth {
     std::optional<double> tiles;      ///< factor of the number of tiles in a step, in the limit
     std::vector<double> frequencies;  ///< of the shapes, in the limit
     bool is_primitive = false;        ///< after some steps each tile symbol leads to all tile symbols
+    /// Each tile symbol leads to each after steps that differ by multiples of this; 0: not to each.
+    std::size_t period = 0;
     std::string no_limit;
 
     std::optional<double> length;  ///< factor of lengths in a step, if it multiplies all moves

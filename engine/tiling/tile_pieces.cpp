@@ -56,7 +56,9 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
         lists.add(grid.cell(plane.at(point)), {plane.at(point), point});
     }
 
-    std::atomic<std::uint64_t> compared = 0;
+    // In a tiling a corner lies inside one edge at most.
+    const std::uint64_t most_cuts = 10'000 + 16 * std::uint64_t{points.size()};
+    std::atomic<std::uint64_t> compared = 0, cuts_found = 0;
     // Of the tiles from `first` on, up to `end`.
     const auto find = [&](std::uint32_t first, std::uint32_t end, std::vector<Cut>& found) {
         Pulse pulse(monitor);
@@ -84,15 +86,20 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
             for (std::uint32_t i = tiles.begin[tile]; i < last; ++i) {
                 cut(i, tiles.corner[i], tiles.corner[i + 1 < last ? i + 1 : tiles.begin[tile]]);
             }
-            if (compared + visited > most_compared) break;
+            if (compared + visited > most_compared || cuts_found + found.size() > most_cuts) break;
         }
         compared += visited;
+        cuts_found += found.size();
     };
     constexpr std::uint32_t share = 1 << 14;
     std::vector<std::vector<Cut>> found(tiles.tiles() / share + 1);
     oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(found.size()), [&](std::uint32_t i) {
         find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
     });
+    if (cuts_found > most_cuts) {
+        throw BudgetError(fmt::format(
+            "the corners of tiles lie inside edges more than {} times: too many tiles overlap", most_cuts));
+    }
     if (compared > most_compared) {
         throw BudgetError("too many tiles of very different sizes; use a shorter derivation");
     }

@@ -138,6 +138,7 @@ public:
         if (!is_closed) return fault(TileFault::open, points.back());
         take_corners(points);
         if (!corners_.empty() && has_spike_) return fault(TileFault::crossing, spike_);
+        if (plane_.is_rough() && loses_area()) return fault(TileFault::too_fine, points.front());
         if (corners_.size() < 3) return fault(TileFault::empty, points.front());
         vectors_.clear();
         for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -223,6 +224,17 @@ private:
             }
             if (!is_straight) corners_.push_back(here);
         }
+    }
+
+    /// True if corners that were left out one by one make a difference together.
+    bool loses_area() const {
+        if (corners_.size() == outline_.size() || outline_.size() < 3) return false;
+        double length = 0;
+        for (std::size_t i = 0; i < outline_.size(); ++i) {
+            length += glm::distance(plane_.at(outline_[i]), plane_.at(outline_[(i + 1) % outline_.size()]));
+        }
+        const double kept = corners_.size() < 3 ? 0 : area_of(corners_);
+        return std::fabs(area_of(outline_) - kept) > plane_.tolerance() * length;
     }
 
     double area_of(const Points& corners) const {

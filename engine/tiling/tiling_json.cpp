@@ -46,6 +46,8 @@ std::string fault_name(TileFault fault) {
             return "open";
         case TileFault::empty:
             return "empty";
+        case TileFault::too_fine:
+            return "too fine";
         case TileFault::crossing:
             return "crossing";
         case TileFault::duplicate:
@@ -72,7 +74,7 @@ std::string growth_json(const TileGrowth& growth) {
     const auto reason = [](const std::string& text) { return text.empty() ? "null" : json_string(text); };
     return fmt::format(
         "{{\"unknown\": {}, \"shapes\": {}, \"counts\": {}, \"tiles\": {}, \"frequencies\": {}, \"primitive\": {}, "
-        "\"no_limit\": {}, \"length\": {}, \"closed_form\": {}, \"turn\": {}, \"no_length\": {}}}",
+        "\"period\": {}, \"no_limit\": {}, \"length\": {}, \"closed_form\": {}, \"turn\": {}, \"no_length\": {}}}",
         reason(growth.unknown),
         array(growth.shapes,
               [](const TileShape& shape) {
@@ -85,9 +87,9 @@ std::string growth_json(const TileGrowth& growth) {
                                      each.shape, json(each.is_reflected), json_string(each.letters),
                                      json(each.count));
               }),
-        json(growth.tiles), json(growth.frequencies), json(growth.is_primitive), reason(growth.no_limit),
-        json(growth.length), growth.length ? reason(closed_form(*growth.length)) : "null", number(growth.turn),
-        reason(growth.no_length));
+        json(growth.tiles), json(growth.frequencies), json(growth.is_primitive), growth.period,
+        reason(growth.no_limit), json(growth.length), growth.length ? reason(closed_form(*growth.length)) : "null",
+        number(growth.turn), reason(growth.no_length));
 }
 
 std::string lattice_json(const TilePlane& plane) {

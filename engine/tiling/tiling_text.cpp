@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <string_view>
 
 namespace sikku {
@@ -70,9 +71,12 @@ std::vector<double> least(std::vector<double> list, double slack) {
 }
 
 std::string listed(const std::vector<double>& values, std::string (*format)(double)) {
+    constexpr std::size_t most = 24;
     std::string text;
-    for (const double value : values) text += (text.empty() ? "" : " ") + format(value);
-    return text;
+    for (const double value : std::span(values).first(std::min(values.size(), most))) {
+        text += (text.empty() ? "" : " ") + format(value);
+    }
+    return values.size() > most ? text + " …" : text;
 }
 
 std::string angles_of(const TileShape& shape) {
@@ -117,6 +121,11 @@ std::string violation_text(const TileViolation& violation) {
                                where);
         case TileFault::empty:
             return fmt::format("polygon {} has no area{}", violation.tile, where);
+        case TileFault::too_fine:
+            return fmt::format(
+                "polygon {} has corners too close to a line with their neighbours{}; a smaller "
+                "--tolerance keeps them",
+                violation.tile, where);
         case TileFault::crossing:
             return fmt::format("polygon {} crosses or touches itself{}", violation.tile, where);
         case TileFault::duplicate:
@@ -197,7 +206,13 @@ std::string growth_text(const TileGrowth& growth) {
         }
         text += " in the limit";
     }
-    return text + (growth.is_primitive ? "; primitive" : "; not primitive");
+    if (growth.is_primitive) return text + "; primitive";
+    return text + (growth.period > 0 ? fmt::format("; irreducible, of period {}", growth.period) : "; not primitive");
+}
+
+/// `12 violations`.
+std::string violations_text(std::uint64_t count) {
+    return (count < TileViolations::most_counted ? "" : "at least ") + counted(count, "violation");
 }
 
 std::string verdict(const TilingExamination& t) {
@@ -207,7 +222,7 @@ std::string verdict(const TilingExamination& t) {
                            t.regions == 1 ? "one region" : counted(t.regions, "region"));
     }
     std::vector<std::string> reasons;
-    if (t.violations.count > 0) reasons.push_back(counted(t.violations.count, "violation"));
+    if (t.violations.count > 0) reasons.push_back(violations_text(t.violations.count));
     if (!t.gaps.empty()) reasons.push_back(counted(t.gaps.size(), "gap"));
     if (reasons.empty()) reasons.emplace_back("the numbers of vertices, edges and tiles, or the areas, do not agree");
     return fmt::format("no: {}; {}", counted(t.tiles, "tile"), fmt::join(reasons, ", "));
@@ -247,7 +262,7 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
     for (std::size_t i = 0; i < std::min(t.violations.list.size(), most_listed); ++i) {
         line("violation", violation_text(t.violations.list[i]));
     }
-    if (t.violations.count > most_listed) line("", fmt::format("… {} in all", t.violations.count));
+    if (t.violations.count > most_listed) line("", fmt::format("… {}", violations_text(t.violations.count)));
     for (std::size_t i = 0; i < std::min(t.gaps.size(), most_listed); ++i) {
         line("gap", fmt::format("of area {} around {}", number(-t.gaps[i].area), place(t.gaps[i].centre)));
     }

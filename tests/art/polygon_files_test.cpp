@@ -1,11 +1,17 @@
 // Polygons of other programs: what is read, and where faults are.
 #include "art/reading/polygon_files.h"
 #include "engine/tiling/tiling.h"
+#include "engine/tiling/tiling_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <optional>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -165,6 +171,53 @@ TEST(PolygonFiles, AreTilesWithinTheTolerance) {
     EXPECT_NEAR(usual_tolerance(squares(3, 0)), 0.002, 1e-12);
     // A single tile has a tolerance, too.
     EXPECT_TRUE(examine_polygons(squares(1, 0), usual_tolerance(squares(1, 0)), {}).examination.is_tiling());
+}
+
+/// The tolerance would straighten a circle of many corners.
+TEST(PolygonFiles, ReportOutlinesThatAreTooFine) {
+    const auto circle = [](int corners, double from, double to) {
+        std::string text = "[[";
+        for (int i = 0; i < corners; ++i) {
+            const double angle = from + (to - from) * i / corners;
+            text += fmt::format("{}[{},{}]", i == 0 ? "" : ",", std::cos(angle), std::sin(angle));
+        }
+        return read_polygons_json(text + "]]");
+    };
+    const double round = 2 * std::acos(-1.0);
+    for (const auto& [corners, to] : {std::pair(3000, round), std::pair(3000, round / 2)}) {
+        const PolygonList polygons = circle(corners, 0, to);
+        const TilingExamination fine = examine_polygons(polygons, usual_tolerance(polygons), {}).examination;
+        ASSERT_EQ(fine.violations.count, 1U);
+        EXPECT_EQ(fine.violations.list[0].fault, TileFault::too_fine);
+        const TilingExamination finer = examine_polygons(polygons, 1e-9, {}).examination;
+        EXPECT_TRUE(finer.is_tiling());
+        EXPECT_NEAR(finer.shapes.at(0).area, to / 2, 2e-3);
+        EXPECT_LT(tiling_text("", std::nullopt, finer, {}).size(), 2000U) << "angles are cut off";
+    }
+}
+
+TEST(PolygonFiles, CountOverlapsUpToALimit) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> anywhere(0, 1);
+    std::string text;
+    for (int i = 0; i < 2000; ++i) {
+        text += i == 0 ? "[[" : "],[";
+        for (int k = 0; k < 3; ++k) {
+            const double x = anywhere(random), y = anywhere(random);
+            text += fmt::format("{}[{},{}]", k == 0 ? "" : ",", x, y);
+        }
+    }
+    const TilingExamination heap = examine_polygons(read_polygons_json(text + "]]"), 1e-10, {}).examination;
+    EXPECT_GE(heap.violations.count, TileViolations::most_counted);
+    EXPECT_LT(heap.violations.count, TileViolations::most_counted + 10'000);
+    EXPECT_NE(tiling_text("", std::nullopt, heap, {}).find("no: 2000 tiles; at least 1"), std::string::npos);
+    // Edges that lie on each other.
+    std::string fan;
+    for (int i = 0; i < 2000; ++i) {
+        const double part = i / 2000.0;
+        fan += fmt::format("{}[{},0],[2,0],[1,{}]", i == 0 ? "[[" : "],[", part, 1 + part);
+    }
+    EXPECT_THROW(examine_polygons(read_polygons_json(fan + "]]"), 1e-6, {}), BudgetError);
 }
 
 TEST(PolygonFiles, FindGapsOverlapsAndDuplicates) {

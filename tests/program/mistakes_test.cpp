@@ -20,6 +20,7 @@ protected:
     Mistakes() {
         folder_.write("mine.lsys", "axiom: F+F+F+F\nF --> F+F-F\nderivation length: 2\nangle factor: 4\n");
         folder_.write("sound.wav", std::string("RIFF\0\0\0\0WAVEfmt ", 16));
+        folder_.write("tiles.json", "[]");
         folder_.write("notes.jsonl", "{\"pattern\": \"hilbert\"}\n");
         folder_.write("bare.toml", "size = A4\n");
         folder_.write("loose.lsys", "axiom: F]\n");
@@ -114,6 +115,8 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
         {{"measure", "mine.mid"}, "mine.mid: this is a MIDI file, " + pattern},
         {{"check", "page.html"}, "page.html: this is an HTML page, " + pattern},
         {{"draw", "sound.wav", "-o", "m.svg"}, "sound.wav: this is a WAV file, not a pattern\n"},
+        {{"draw", "tiles.json", "-o", "m.svg"},
+         "tiles.json: this is JSON, not a pattern; `sikku tiling` reads polygons"},
         {{"draw", "mine.lsys", "-o", "x.mid"}, "-o x.mid: this is a score; `sikku play` writes it"},
         {{"draw", "mine.lsys", "-o", "x"}, "-o x: no extension"},
         {{"play", "hilbert", "-o", "x.mp3"}, "-o x.mp3: unknown extension; a score is .mid"},
