@@ -3,6 +3,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/place_grid.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
