@@ -469,7 +469,7 @@ const std::array own_rows = {
               set_division},
     Option<S>{{.name = "name-tiles",
                .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
-                       "direction and colour; PDF with a layer for each shape, hand and colour of tiles",
+                       "direction and colour; PDF and DXF with a layer for each shape, hand and colour of tiles",
                .group = kolams,
                .kind = flag},
               [](S& s, Text t) { s.names_tiles = is_true(t); }},
@@ -834,6 +834,7 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     PlotOptions& plot = setup.plot.emplace();
     plot.split = settings.split;
     plot.hatch = settings.hatch;
+    plot.leaves_tiles = settings.names_tiles && format == PrintFormat::dxf;
     plot.pen_width = settings.pen_width;
     plot.pens = settings.pens == 0 && profile ? profile->pens : settings.pens;
     plot.speeds = settings.speeds;

@@ -28,6 +28,11 @@ void warn_of_unused(const PlotReport& plot, std::span<const PenRule> rules, Made
 
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made) {
     warn_of_unused(plot, rules, made);
+    if (plot.tiles > 0) {
+        made.fact(
+            fmt::format("{} as closed outlines in layers by shape, hand and colour", counted(plot.tiles, "tile")));
+    }
+    if (plot.tiles > 0 && plot.segments == 0) return;
     const auto line = [&](const PlotTally& tally, double seconds) {
         return fmt::format("{:.2f} m drawn, {:.2f} m pen-up travel{}, {}, about {}", tally.drawn / 1000,
                            tally.travelled / 1000, plot.returns ? ", return included" : "",

@@ -444,6 +444,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, print_.page, options.hpgl, made);
     if (report.sheets > 0) report_sheets(report, made);
     if (settings_.swatch_place) report_swatch(*settings_.swatch_place, print_, settings_.swatch_stretch, made);
+    if (settings_.fills_page) made.fact(fmt::format("derivation length {}", document_.grammar().steps()));
     if (report.overflows && report.sheets == 0 && !settings_.swatch_place) {
         made.warn(fmt::format(
             "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",

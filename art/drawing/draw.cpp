@@ -36,6 +36,30 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     }
 }
 
+/// Finds the kinds of visible polygons.
+class KindsSink : public PolygonSink {
+public:
+    explicit KindsSink(const Style& style) : style_(style) {}
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        const Colour colour = style_.fill_colour(pen);
+        if (vertices.size() > 2 && colour.alpha > 0) found.kind_of(vertices, colour);
+    }
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+
+    TileKinds found;
+
+private:
+    const Style& style_;
+};
+
+/// Passes only polygons on.
+class OnlyPolygons : public WithoutStrokes<PathFilter> {
+public:
+    using WithoutStrokes::WithoutStrokes;
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+};
+
 }  // namespace
 
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
@@ -57,12 +81,16 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     plan.arrange();
     report.plot = plan.report();
     if (is_for_plotters(options.format)) {
+        KindsSink tiles(print.style);
+        if (arranged.leaves_tiles) drawing.read(print, tiles);
         const auto writer = options.format == PrintFormat::hpgl    ? write_hpgl(plotted, options.hpgl, output)
                             : options.format == PrintFormat::gcode ? write_gcode(plotted, options.gcode, output)
-                                                                   : write_dxf(plotted, output);
+                                                                   : write_dxf(plotted, output, tiles.found.kinds());
         std::vector<Pen> pens;
         for (const PlotPlan::PlottedPen& plotted_pen : plan.pens()) pens.push_back(plotted_pen.pen);
         writer->number_pens(pens);
+        OnlyPolygons polygons(*writer);
+        if (arranged.leaves_tiles) drawing.read(print, polygons);
         plan.draw(*writer, [&](glm::dvec2 place, const Pen& pen) { writer->dip(place, pen); });
         writer->finish();
         return;

@@ -248,7 +248,8 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     // A pen that does not hatch draws only the outlines of polygons, which are among the lines.
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
     NoPolygons bare(inner);
-    const bool fills = !is_plot || !unites || (options_.plot && options_.plot->hatch);
+    const bool fills =
+        !is_plot || !unites || (options_.plot && (options_.plot->hatch || options_.plot->leaves_tiles));
     drawing_->read(print, window, fills ? static_cast<PathSink&>(inner) : bare);
     if (layers_) {
         std::vector<UnitedLines::Line> lines = found.lines;

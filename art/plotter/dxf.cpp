@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -45,7 +46,8 @@ std::string place(glm::dvec2 at, int first_code = 10) {
 
 class Writer final : public PlotWriter {
 public:
-    Writer(const Print& print, Output& file) : PlotWriter(print), file_(file) {
+    Writer(const Print& print, Output& file, std::vector<TileKind> kinds)
+        : PlotWriter(print), file_(file), kinds_(std::move(kinds)) {
         file_.write("999\nSikku, millimetres\n");
         for (const std::string& piece : recipe_comments(print.pattern, print.made))
             file_.write("999\n" + piece + "\n");
@@ -85,8 +87,18 @@ public:
             file_.write(fmt::format("0\nLINE\n8\n{}\n{}{}", layer_of(pen_), place(points_.front()),
                                     place(points_.back(), 11)));
         } else {
-            write_polyline(closed);
+            write_polyline(layer_of(pen_), closed);
         }
+        points_.clear();
+    }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
+        const Colour colour = print_.style.fill_colour(pen);
+        if (vertices.size() < 3 || colour.alpha == 0) return;
+        begin_entities();
+        put(on_page(vertices.front()));
+        for (const glm::dvec2 vertex : vertices.subspan(1)) to(on_page(vertex));
+        if (points_.size() > 1 && points_.front() == points_.back()) points_.pop_back();
+        write_polyline(kinds_.at(numbers_of_kinds_.kind_of(vertices, colour)).layer(), true);
         points_.clear();
     }
     /// A file for machines without pens has nothing to dip.
@@ -97,7 +109,7 @@ public:
     }
 
 private:
-    /// The table of layers contains the pens that have been numbered by now.
+    /// The table of layers contains all kinds of tiles and the pens that have been numbered by now.
     void begin_entities() {
         if (begun_) return;
         begun_ = true;
@@ -106,13 +118,14 @@ private:
             "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid "
             "line\n72\n65\n"
             "73\n0\n40\n0\n0\nENDTAB\n");
-        file_.write(fmt::format("0\nTABLE\n2\nLAYER\n70\n{}\n", pens.size() + 1) + layer("0", 7));
+        file_.write(fmt::format("0\nTABLE\n2\nLAYER\n70\n{}\n", pens.size() + kinds_.size() + 1) + layer("0", 7));
         for (int pen = 1; pen <= static_cast<int>(pens.size()); ++pen) {
             const auto found =
                 std::find_if(pens.begin(), pens.end(), [&](const auto& entry) { return entry.second == pen; });
             const Colour colour = print_.style.line_colour(Pen{.colour = found->first});
             file_.write(layer(layer_of(pen), standard_colour(colour)));
         }
+        for (const TileKind& kind : kinds_) file_.write(layer(kind.layer(), standard_colour(kind.colour)));
         file_.write("0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
     }
     std::string layer_of(int pen) const {
@@ -138,8 +151,7 @@ private:
         points_.push_back(rounded(millimetres));
     }
 
-    void write_polyline(bool closed) {
-        const std::string name = layer_of(pen_);
+    void write_polyline(const std::string& name, bool closed) {
         file_.write(fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n{}70\n{}\n", name, place({0, 0}), closed ? 1 : 0));
         for (const glm::dvec2 point : points_) file_.write(fmt::format("0\nVERTEX\n8\n{}\n{}", name, place(point)));
         file_.write(fmt::format("0\nSEQEND\n8\n{}\n", name));
@@ -149,12 +161,14 @@ private:
     bool begun_ = false;
     int pen_ = 0;
     std::vector<glm::dvec2> points_;  // of the stroke, in millimetres of the page
+    std::vector<TileKind> kinds_;
+    TileKinds numbers_of_kinds_;
 };
 
 }  // namespace
 
-std::unique_ptr<PlotWriter> write_dxf(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+std::unique_ptr<PlotWriter> write_dxf(const Print& print, Output& file, std::vector<TileKind> kinds) {
+    return std::make_unique<Writer>(print, file, std::move(kinds));
 }
 
 }  // namespace sikku

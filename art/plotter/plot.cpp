@@ -391,6 +391,10 @@ PlotPlan::Gathered& PlotPlan::outlines(const Pen& pen) {
 
 void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     if (vertices.size() < 2 || print_.style.fill_colour(pen).alpha == 0) return;
+    if (options_.leaves_tiles && vertices.size() > 2) {
+        ++report_.tiles;
+        return;
+    }
     Gathered& into = outlines(pen);
     ++report_.fills;
     into.add(Gathered::Kind::start, vertices.first(1));

@@ -34,8 +34,9 @@ struct PlotOptions {
     double split = 0.0;
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
-    int pens = 0;                     ///< maximum number of pens, to which colours are merged; 0: one for each colour
-    glm::dvec2 start{0.0};  ///< position of the pen, in millimetres from the bottom left corner of the page, y up
+    bool leaves_tiles = false;  ///< polygons are counted, but not drawn: the writer of the file receives them itself
+    int pens = 0;               ///< maximum number of pens, to which colours are merged; 0: one for each colour
+    glm::dvec2 start{0.0};      ///< position of the pen, in millimetres from the bottom left corner of the page, y up
     std::optional<glm::dvec2> home = {};  ///< position of the pen after the last stroke, in the same coordinates
     PlotSpeeds speeds = {};               ///< by which arrangements are compared
     std::vector<PenRule> rules = {};      ///< settings of single pens
@@ -79,7 +80,8 @@ struct PlotReport {
     PlotTally after;
     std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
     std::uint64_t duplicates = 0;         ///< drawn lines and curves left out because they lay on another one
-    std::uint64_t fills = 0;              ///< number of polygons, areas and discs
+    std::uint64_t fills = 0;              ///< number of polygons, areas and discs drawn
+    std::uint64_t tiles = 0;              ///< number of polygons left to the writer
     bool returns = false;                 ///< travel includes the return home
     std::size_t colours = 0;              ///< number of colours drawn
     std::vector<PenTally> pens;           ///< in the order in which they draw

@@ -13,11 +13,11 @@
 namespace sikku {
 
 /// Writes all strokes it receives from PlotPlan::draw() in the language of a plotter, in the colours of their pens.
-/// Ignores polygons, discs and widths.
+/// Ignores areas, discs and widths, and polygons unless a format has layers of tiles.
 class PlotWriter : public PathSink {
 public:
     void change_pen(const Pen& pen) final;
-    void polygon(std::span<const glm::dvec2>, const Pen&) final {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void area(std::span<const glm::dvec2>, const Pen&) final {}
     void disc(glm::dvec2, double, const Pen&) final {}
 

@@ -1,8 +1,8 @@
 #include "art/vector/pdf.h"
 
+#include "art/print/tile_kinds.h"
 #include "art/vector/pdf_text.h"
 #include "art/vector/pdf_x.h"
-#include "art/vector/tile_kinds.h"
 #include "art/vector/vector_writer.h"
 #include "engine/base/hash.h"
 
@@ -263,7 +263,7 @@ private:
         std::string references;
         for (std::size_t i = 0; i < kind_groups_.size(); ++i) {
             const int group = kind_groups_[i];
-            write_group(group, kinds_.labels()[i]);
+            write_group(group, kinds_.kinds()[i].label());
             fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
             fmt::format_to(std::back_inserter(references), " {} 0 R", group);
         }

@@ -105,6 +105,40 @@ TEST(Dxf, EdgesOfTilingsHaveTheirLength) {
     EXPECT_EQ(drawing.entities, (std::set<std::string>{"LINE", "POLYLINE", "VERTEX", "SEQEND", "ENDSEC", "EOF"}));
 }
 
+/// 1250 triangles of 1 by 2 steps, either hand, each closed and in the layer of its kind; edges only where requested.
+TEST(Dxf, TilesHaveLayersByKind) {
+    for (const char* edges : {"none", "once", "each"}) {
+        SCOPED_TRACE(edges);
+        const Dxf drawing = read_dxf(dxf_of("tilings/pinwheel", {{"derivation length", "4"},
+                                                                 {"step", "10mm"},
+                                                                 {"size", "600x600mm"},
+                                                                 {"tile-edges", edges},
+                                                                 {"tile-colours", "hand"},
+                                                                 {"name-tiles", "true"}}));
+        std::map<std::string, int> tiles;
+        std::size_t others = 0;
+        for (const Dxf::Line& line : drawing.lines) {
+            if (!line.layer.starts_with("SHAPE-")) {
+                ++others;
+                continue;
+            }
+            ++tiles[line.layer];
+            EXPECT_TRUE(line.is_closed);
+            ASSERT_EQ(line.points.size(), 3U);
+            const glm::dvec2 a = line.points[1] - line.points[0], b = line.points[2] - line.points[0];
+            EXPECT_NEAR(std::fabs(a.x * b.y - a.y * b.x) / 2, 100, 1e-2);
+        }
+        ASSERT_EQ(tiles.size(), 2U);
+        EXPECT_EQ(tiles.begin()->second + tiles.rbegin()->second, 1250);
+        EXPECT_EQ(tiles.begin()->first.substr(0, 8), "SHAPE-1-");
+        EXPECT_EQ(tiles.rbegin()->first.substr(0, 18), "SHAPE-1-REFLECTED-");
+        for (const auto& [layer, count] : tiles) EXPECT_TRUE(drawing.layers.contains(layer)) << layer;
+        EXPECT_EQ(others == 0, std::string(edges) == "none");
+        EXPECT_EQ(drawing.layers.contains("BORDER"), std::string(edges) == "once");
+    }
+    EXPECT_THROW(dxf_of("tilings/chair", {{"name-tiles", "true"}, {"hatch", "2mm"}}), SettingError);
+}
+
 TEST(Dxf, CurvesStayWithinAHundredthOfAMillimetre) {
     const PlacedPattern kolam("kolams/snake-kolam", 3, {105, 148, 10});
     for (const bool is_kolam : {true, false}) {
