@@ -552,7 +552,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
             throw BudgetError(
                 fmt::format("{} notes would exceed the limit of MIDI files, 4 GiB; limit the "
                             "bars or seconds",
-                            known->notes.str()));
+                            readable(known->notes.str())));
         }
     }
 }

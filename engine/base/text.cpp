@@ -165,6 +165,11 @@ std::string counted(std::string_view digits, std::string_view what) {
     return text;
 }
 
+std::string readable(std::string digits) {
+    constexpr std::size_t most = 40;
+    return digits.size() > most ? "about 10^" + std::to_string(digits.size() - 1) : digits;
+}
+
 std::string did_you_mean(std::span<const std::string_view> names) {
     if (names.empty()) return {};
     std::vector<std::string> quoted;

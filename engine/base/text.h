@@ -40,6 +40,8 @@ std::string alternatives(std::span<const std::string_view> words);
 std::string counted(std::uint64_t count, std::string_view what);
 /// The same for a number in decimal digits.
 std::string counted(std::string_view digits, std::string_view what);
+/// A whole number in decimal digits for messages: `about 10^602` instead of more than 40 digits.
+std::string readable(std::string digits);
 
 /// Formats a duration: `320 ms`, `3.2 s`, `1 min 20 s`, `2.5 h`; above about three centuries in years.
 std::string time_text(double seconds);

@@ -1,5 +1,7 @@
 #include "engine/derivation/forecast.h"
 
+#include "engine/base/text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -208,7 +210,7 @@ std::string Forecast::length() const {
     if (!counts) return fmt::format("about 10^{:.0f}", std::floor(log10_length));
     Integer sum = 0;
     for (const Integer& count : *counts) sum += count;
-    return sum.str();
+    return readable(sum.str());
 }
 
 namespace {
