@@ -165,7 +165,7 @@ TEST_F(Mistakes, OfPatterns) {
 }
 
 TEST_F(Mistakes, NumbersOfManyDigitsAreRounded) {
-    expect_refused({{"play", "hilbert", "-n", "1000", "-o", "m.mid"}, "sikku: about 10^602 notes would exceed"}, 1);
+    expect_refused({{"play", "hilbert", "-n", "1000", "-o", "m.mid"}, "sikku: about 10^601 notes would exceed"}, 1);
     expect_refused({{"draw", "hilbert", "-n", "1000", "-o", "m.svg"}, "sikku: a word of about 10^602 symbols"}, 1);
 }
 
