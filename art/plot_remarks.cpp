@@ -53,6 +53,11 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
     }
 }
 
+void warn_of_no_tiles(const PlotReport& plot, const DrawSettings& settings, Made& made) {
+    if (!settings.names_tiles || plot.tiles > 0) return;
+    made.warn("'name-tiles' has no effect: this drawing has no filled polygons with straight edges");
+}
+
 void report_hpgl(const PlotReport& plot, const Page& page, const HpglOptions& options, Made& made) {
     made.fact("HP-GL: " + describe_hpgl(page, options));
     constexpr std::size_t most = 8;

@@ -15,6 +15,9 @@
 
 namespace sikku {
 
+/// Warns if `name-tiles` found no tile.
+void warn_of_no_tiles(const PlotReport& plot, const DrawSettings& settings, Made& made);
+
 /// Adds the lengths and the time before and after arranging, and the merged pens.
 /// @param rules  requested for single pens; those for pens that the plot does not use are reported
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made);

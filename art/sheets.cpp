@@ -255,6 +255,7 @@ private:
         if (layout.plot && shared_.page.hatch && layout.plot->fills == 0 && !has_fields) {
             made.warn("'hatch' has no effect: these drawings have no fills");
         }
+        if (layout.plot) warn_of_no_tiles(*layout.plot, shared_.page, made);
     }
 
     /// add_cell(), whose errors name the drawing.
@@ -393,7 +394,8 @@ std::span<const OptionInfo* const> place_options() {
 }
 
 bool is_sheet_wide(std::string_view option) {
-    constexpr std::array<std::string_view, 6> page = {"size", "landscape", "margin", "animate", "plotter", "dpi"};
+    constexpr std::array<std::string_view, 7> page = {"size",    "landscape", "margin",    "animate",
+                                                      "plotter", "dpi",       "name-tiles"};
     constexpr std::array<std::string_view, 3> groups = {"Plotters", "Press", "Pictures"};
     const OptionInfo* row = find_option(prints().options(), option);
     return std::find(page.begin(), page.end(), option) != page.end() ||

@@ -76,7 +76,7 @@ NamedText read_pattern_text(const std::string& pattern) {
         if (lower_case(pattern).ends_with(".json")) {
             throw UsageError(
                 fmt::format("{}: this is JSON, not a pattern; `sikku tiling` reads polygons, and "
-                            "`sikku kolam --read` kolams",
+                            "`sikku kolam --read` reads kolams",
                             pattern));
         }
     } catch (const NotFound& error) {

@@ -110,13 +110,9 @@ public:
             }
         }
         if (form) collect([&] { read_form_of_piece(*form); });
-        if (!tracks || tracks->type != FileValue::Type::list || tracks->list.empty()) {
-            fail(tracks ? tracks->place : file_, "an arrangement has at least one [[track]]");
-        }
-        if (tracks->list.size() > most_tracks) {
-            fail(tracks->place, fmt::format("too many tracks: an arrangement has at most {}, and this one {}",
-                                            most_tracks, tracks->list.size()));
-        }
+        collect([&] { check_number(tracks); });
+        const bool is_list = tracks && tracks->type == FileValue::Type::list && tracks->list.size() <= most_tracks;
+        if (!is_list) throw_if_any();
         result_.text = text_;
         for (const FileValue& track : tracks->list) {
             collect([&] { read_track(track); });
@@ -128,25 +124,45 @@ public:
     }
 
 private:
-    /// Reads on after a mistake, so that all are reported together.
+    /// Continues after an error, so that all errors are reported together.
     template <typename Read>
     void collect(Read&& read) {
         try {
             read();
         } catch (const FileError& error) {
-            // Every track repeats those of the head.
-            const std::string_view text = error.what();
-            if (std::find(mistakes_.begin(), mistakes_.end(), text) == mistakes_.end()) mistakes_.emplace_back(text);
+            add(error.what());
+        } catch (const PatternError& error) {
+            if (errors_.empty()) throw;
+            add(error.what());
+            throw_if_any();
         }
+    }
+
+    /// @throws FileError
+    void check_number(const FileValue* tracks) const {
+        if (!tracks || tracks->type != FileValue::Type::list || tracks->list.empty()) {
+            fail(tracks ? tracks->place : file_, "an arrangement has at least one [[track]]");
+        }
+        if (tracks->list.size() > most_tracks) {
+            fail(tracks->place, fmt::format("too many tracks: an arrangement has at most {}, and this one {}",
+                                            most_tracks, tracks->list.size()));
+        }
+    }
+
+    /// Settings of the head apply to every track, so their errors recur.
+    void add(std::string_view error) {
+        if (std::find(errors_.begin(), errors_.end(), error) == errors_.end()) errors_.emplace_back(error);
     }
 
     void throw_if_any() const {
         constexpr std::size_t most_shown = 20;
-        if (mistakes_.empty()) return;
-        const std::size_t shown = std::min(mistakes_.size(), most_shown);
-        std::string text = fmt::format(
-            "{}", fmt::join(mistakes_.begin(), mistakes_.begin() + static_cast<std::ptrdiff_t>(shown), "\n"));
-        if (shown < mistakes_.size()) text += fmt::format("\n{} more", counted(mistakes_.size() - shown, "error"));
+        if (errors_.empty()) return;
+        const std::size_t shown = std::min(errors_.size(), most_shown);
+        std::string text =
+            fmt::format("{}", fmt::join(errors_.begin(), errors_.begin() + static_cast<std::ptrdiff_t>(shown), "\n"));
+        if (const std::size_t hidden = errors_.size() - shown; hidden > 0) {
+            text += fmt::format("\n{} more {} not shown", hidden, hidden == 1 ? "error is" : "errors are");
+        }
         throw FileError(text);
     }
 
@@ -243,6 +259,7 @@ private:
         Overrides overrides;
         std::string pattern;
         std::string pattern_place;
+        std::string variant_place;
         std::string name;
         char section = 0;
     };
@@ -266,6 +283,7 @@ private:
         } else if (known == "section") {
             track.section = section_of(known, value);
         } else if (known == "variant") {
+            track.variant_place = value.place;
             track.overrides.variant = text_of(known, value);
         } else if (known == "set") {
             if (value.type != FileValue::Type::table) fail(value.place, "set: expected a table of keys and defines");
@@ -283,22 +301,28 @@ private:
     void read_track(const FileValue& value) {
         if (value.type != FileValue::Type::table) fail(value.place, "track: expected [[track]] tables");
         TrackKeys track;
-        const std::size_t before = mistakes_.size();
+        const std::size_t before = errors_.size();
         track.settings = shared_;
         for (const auto& [key, one] : value.table) {
             collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
-        if (track.pattern.empty() && mistakes_.size() > before) return;
+        if (track.pattern.empty() && errors_.size() > before) return;
         if (track.pattern.empty()) fail(value.place, "this track has no pattern");
         const NamedPattern& found = pattern(track.pattern, track.pattern_place);
         Diagnostics diagnostics;
         Document document = Document::compile(found.name, found.text, track.overrides, diagnostics);
         if (!diagnostics.is_unreadable()) read_melody(document.pattern(), {}, diagnostics);
+        const std::string variant = "variant " + track.overrides.variant;
+        for (const Diagnostic& one : diagnostics.list()) {
+            if (!track.overrides.variant.empty() && one.file == variant) {
+                fail(track.variant_place, fmt::format("{}: {}", variant, one.message));
+            }
+        }
         diagnostics.throw_if_errors();
         for (const PlacedSetting& one : track.settings) {
             collect([&] { document = with(document, one); });
         }
-        if (mistakes_.size() > before) return;
+        if (errors_.size() > before) return;
         require_turtle(document, "it has no melody");
         Diagnostics unplayable;
         check_phrases(document.pattern(), document.grammar(), unplayable);
@@ -366,7 +390,7 @@ private:
     std::map<std::string, NamedPattern> known_;
     std::vector<std::string> inner_;
     std::vector<PlacedSetting> shared_;
-    std::vector<std::string> mistakes_;
+    std::vector<std::string> errors_;
     Arrangement result_;
 };
 

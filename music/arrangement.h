@@ -49,7 +49,7 @@ using PatternReader = std::function<NamedPattern(const std::string& pattern)>;
 /// Reads an arrangement and compiles its patterns. Those in `[[pattern]]` tables of the file come first; `read` reads
 /// the others.
 /// @param file  its name, for places
-/// @throws FileError for mistakes of the arrangement, a line with its place for each; PatternError for errors in
+/// @throws FileError for errors of the arrangement, one line for each, with its place; PatternError for errors in
 /// patterns; what `read` throws
 Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read);
 

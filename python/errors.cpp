@@ -66,7 +66,7 @@ py::list to_list(const std::vector<Diagnostic>& diagnostics) {
 }
 
 void register_errors() {
-    // NOLINTNEXTLINE(performance-unnecessary-value-param): the type of translators is given
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 prescribes the type of translators
     py::register_local_exception_translator([](std::exception_ptr thrown) { translate(thrown); });
 }
 

@@ -36,23 +36,7 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     }
 }
 
-/// Finds the kinds of visible polygons.
-class KindsSink : public PolygonSink {
-public:
-    explicit KindsSink(const Style& style) : style_(style) {}
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        const Colour colour = style_.fill_colour(pen);
-        if (vertices.size() > 2 && colour.alpha > 0) found.kind_of(vertices, colour);
-    }
-    void area(std::span<const glm::dvec2>, const Pen&) override {}
-
-    TileKinds found;
-
-private:
-    const Style& style_;
-};
-
-/// Passes only polygons on.
+/// Forwards only polygons.
 class OnlyPolygons : public WithoutStrokes<PathFilter> {
 public:
     using WithoutStrokes::WithoutStrokes;
@@ -81,11 +65,9 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     plan.arrange();
     report.plot = plan.report();
     if (is_for_plotters(options.format)) {
-        KindsSink tiles(print.style);
-        if (arranged.leaves_tiles) drawing.read(print, tiles);
         const auto writer = options.format == PrintFormat::hpgl    ? write_hpgl(plotted, options.hpgl, output)
                             : options.format == PrintFormat::gcode ? write_gcode(plotted, options.gcode, output)
-                                                                   : write_dxf(plotted, output, tiles.found.kinds());
+                                                                   : write_dxf(plotted, output, plan.tile_kinds());
         std::vector<Pen> pens;
         for (const PlotPlan::PlottedPen& plotted_pen : plan.pens()) pens.push_back(plotted_pen.pen);
         writer->number_pens(pens);

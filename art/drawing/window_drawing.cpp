@@ -169,7 +169,7 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
         const auto patches = make_patches(*plain, !grammar.is_plain(), style, why);
         if (!patches) return refuse(why);
         const glm::dvec2 whole = patches->box().high - patches->box().low;
-        // Nothing is known of drawings that are too small.
+        // A drawing smaller than the page is not searched, so it may have tiles.
         may_have_tiles = !patches->box().empty();
         if (!may_have_tiles || whole.x * whole.y < area) continue;
         may_have_tiles = false;

@@ -98,7 +98,9 @@ public:
         put(on_page(vertices.front()));
         for (const glm::dvec2 vertex : vertices.subspan(1)) to(on_page(vertex));
         if (points_.size() > 1 && points_.front() == points_.back()) points_.pop_back();
-        write_polyline(kinds_.at(numbers_of_kinds_.kind_of(vertices, colour)).layer(), true);
+        const TileKind& kind = kinds_.at(numbers_of_kinds_.kind_of(vertices, colour));
+        // Rounding leaves little of tiny tiles.
+        if (points_.size() > 2) write_polyline(kind.layer(), true);
         points_.clear();
     }
     /// A file for machines without pens has nothing to dip.

@@ -18,7 +18,7 @@ namespace sikku {
 /// which other programs may show as they like. Widths are left out: a laser has its own. The recipe is stored in
 /// comments, which readers ignore. `print` and `file` are kept by reference. After finish() the file is complete, but
 /// not committed.
-/// @param kinds  of all polygons that will come, as TileKinds numbers them
+/// @param kinds  kinds of all polygons that will be written, in the order in which TileKinds numbers them
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and for
 /// what lies off the page
 /// Source: Autodesk, DXF Reference, release 12: group codes; POLYLINE; layer names and colour numbers.

@@ -393,6 +393,7 @@ void PlotPlan::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     if (vertices.size() < 2 || print_.style.fill_colour(pen).alpha == 0) return;
     if (options_.leaves_tiles && vertices.size() > 2) {
         ++report_.tiles;
+        kinds_.kind_of(vertices, print_.style.fill_colour(pen));
         return;
     }
     Gathered& into = outlines(pen);

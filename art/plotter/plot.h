@@ -5,6 +5,7 @@
 #include "art/plotter/pen_rules.h"
 #include "art/plotter/shading.h"
 #include "art/print/print.h"
+#include "art/print/tile_kinds.h"
 #include "engine/base/monitor.h"
 #include "engine/geometry/path.h"
 
@@ -34,9 +35,10 @@ struct PlotOptions {
     double split = 0.0;
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
-    bool leaves_tiles = false;  ///< polygons are counted, but not drawn: the writer of the file receives them itself
-    int pens = 0;               ///< maximum number of pens, to which colours are merged; 0: one for each colour
-    glm::dvec2 start{0.0};      ///< position of the pen, in millimetres from the bottom left corner of the page, y up
+    bool leaves_tiles =
+        false;              ///< polygons are counted but not drawn; draw_plot() passes them to the writer of the file
+    int pens = 0;           ///< maximum number of pens, to which colours are merged; 0: one for each colour
+    glm::dvec2 start{0.0};  ///< position of the pen, in millimetres from the bottom left corner of the page, y up
     std::optional<glm::dvec2> home = {};  ///< position of the pen after the last stroke, in the same coordinates
     PlotSpeeds speeds = {};               ///< by which arrangements are compared
     std::vector<PenRule> rules = {};      ///< settings of single pens
@@ -81,7 +83,7 @@ struct PlotReport {
     std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
     std::uint64_t duplicates = 0;         ///< drawn lines and curves left out because they lay on another one
     std::uint64_t fills = 0;              ///< number of polygons, areas and discs drawn
-    std::uint64_t tiles = 0;              ///< number of polygons left to the writer
+    std::uint64_t tiles = 0;              ///< number of polygons passed to the writer of the file
     bool returns = false;                 ///< travel includes the return home
     std::size_t colours = 0;              ///< number of colours drawn
     std::vector<PenTally> pens;           ///< in the order in which they draw
@@ -157,6 +159,8 @@ public:
     /// `dip`, with the place in millimetres from the bottom left corner of the page. @throws Stopped
     void draw(PathSink& sink, const std::function<void(glm::dvec2 place, const Pen& pen)>& dip = {}) const;
     const PlotReport& report() const { return report_; }
+    /// Kinds of the polygons that are left to the writer.
+    const std::vector<TileKind>& tile_kinds() const { return kinds_.kinds(); }
     /// Pen-up movements in order, from the start to the first stroke and, if there is a home, back to it.
     std::vector<PlotTravel> travels() const;
     /// Converts a position in millimetres from the bottom left corner of the page into pattern units.
@@ -201,6 +205,7 @@ private:
     std::unique_ptr<Gathered> covered_;                  ///< middle lines of strokes drawn in several passes
     std::vector<std::unique_ptr<PlotLayer>> layers_;     ///< pens in their order
     PlotReport report_;
+    TileKinds kinds_;
     Gathered* into_ = nullptr;  ///< destination of the current stroke; null if it is invisible
     bool down_ = false;         ///< its piece with the present pen has begun
     bool is_whole_ = false;     ///< the pen has not changed since the stroke began

@@ -13,7 +13,7 @@
 namespace sikku {
 
 /// Writes all strokes it receives from PlotPlan::draw() in the language of a plotter, in the colours of their pens.
-/// Ignores areas, discs and widths, and polygons unless a format has layers of tiles.
+/// Ignores areas, discs and widths, and polygons unless the format has layers for tiles.
 class PlotWriter : public PathSink {
 public:
     void change_pen(const Pen& pen) final;

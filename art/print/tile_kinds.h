@@ -17,7 +17,7 @@
 namespace sikku {
 
 struct TileKind {
-    std::uint32_t shape = 0;  ///< from 1; 0: all kinds that are not counted
+    std::uint32_t shape = 0;  ///< from 1; 0: all kinds beyond the first TileKinds::most - 1
     bool is_reflected = false;
     Colour colour;
 
@@ -29,15 +29,15 @@ struct TileKind {
     /// `SHAPE-2-REFLECTED-EFE0C0`: at most 31 capitals, digits and hyphens, as DXF of release 12 allows.
     std::string layer() const {
         if (shape == 0) return "OTHER-TILES";
-        return fmt::format("SHAPE-{}{}-{:02X}{:02X}{:02X}", shape, is_reflected ? "-REFLECTED" : "", colour.red,
-                           colour.green, colour.blue);
+        return fmt::format("SHAPE-{}{}-{:02X}{:02X}{:02X}{}", shape, is_reflected ? "-REFLECTED" : "", colour.red,
+                           colour.green, colour.blue, colour.alpha == 255 ? "" : fmt::format("{:02X}", colour.alpha));
     }
 };
 
 /// Numbers the shapes, hands and colours of polygons as they come.
 class TileKinds {
 public:
-    /// Readers list all layers, and slow down: further kinds are one, the last.
+    /// Programs list all layers, and many make them slow: all further kinds share the last number.
     static constexpr std::size_t most = 200;
 
     /// The number of the kind of a polygon, at most one more than those before.

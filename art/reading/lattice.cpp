@@ -63,7 +63,7 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
     return result;
 }
 
-/// A whole number as an integer. Wrong fits lead to infinity, where there are no points.
+/// Converts a whole number to an integer, limited to ±10^8: wrong fits can reach infinity, where there are no points.
 std::int32_t whole(double number) {
     constexpr double farthest = 1e8;
     return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);

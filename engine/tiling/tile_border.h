@@ -19,8 +19,9 @@ struct TileBorder {
     std::vector<std::uint32_t> sides;  ///< of the loops, in order
     std::vector<TileLoop> loops;
     std::vector<TileViolation> overlaps;  ///< the first TileViolations::most
-    std::uint64_t overlap_count = 0;      ///< pairs of tiles whose pieces cross, or of which one contains the
-                                          ///< other, about as far as TileViolations::most_counted
+    /// Pairs of tiles whose pieces cross, or of which one contains the other; counting ends soon after
+    /// TileViolations::most_counted.
+    std::uint64_t overlap_count = 0;
     std::uint64_t regions = 0;
     std::uint64_t gaps = 0;
     /// Sum of the areas of tiles equals that within the loops: exactly, or to about 1e-9 of it.

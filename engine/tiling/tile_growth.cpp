@@ -254,7 +254,6 @@ private:
             }
         }
         for (double& frequency : result_.frequencies) frequency /= sum;
-        result_.is_primitive = is_primitive(rows);
         result_.period = period_of(rows);
     }
 
@@ -291,28 +290,6 @@ private:
             }
         }
         return period;
-    }
-
-    /// Squares the matrix, as whether entries are 0, until it has s^2 - 2 s + 2 steps (Wielandt 1950).
-    static bool is_primitive(const std::vector<std::map<std::size_t, double>>& rows) {
-        const std::size_t size = rows.size();
-        std::vector<std::vector<char>> matrix(size, std::vector<char>(size, 0));
-        for (std::size_t i = 0; i < size; ++i) {
-            for (const auto& [j, times] : rows[i]) matrix[i][j] = 1;
-        }
-        for (std::size_t steps = 1; steps < size * size + 2; steps *= 2) {
-            std::vector<std::vector<char>> square(size, std::vector<char>(size, 0));
-            for (std::size_t i = 0; i < size; ++i) {
-                for (std::size_t j = 0; j < size; ++j) {
-                    if (!matrix[i][j]) continue;
-                    for (std::size_t k = 0; k < size; ++k) square[i][k] |= matrix[j][k];
-                }
-            }
-            matrix.swap(square);
-        }
-        return std::all_of(matrix.begin(), matrix.end(), [](const std::vector<char>& row) {
-            return std::all_of(row.begin(), row.end(), [](char each) { return each != 0; });
-        });
     }
 
     /// The move of a word of symbols of the finished word, branches left out.

@@ -26,8 +26,8 @@ struct TileGrowth {
     /// Without these, and with a reason in `no_limit`, numbers do not grow by a factor.
     std::optional<double> tiles;      ///< factor of the number of tiles in a step, in the limit
     std::vector<double> frequencies;  ///< of the shapes, in the limit
-    bool is_primitive = false;        ///< after some steps each tile symbol leads to all tile symbols
-    /// Each tile symbol leads to each after steps that differ by multiples of this; 0: not to each.
+    /// Greatest common divisor of the lengths of the cycles of tile symbols; 1: primitive (after some steps each
+    /// leads to all); 0: not every tile symbol leads to every other.
     std::size_t period = 0;
     std::string no_limit;
 

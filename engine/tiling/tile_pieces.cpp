@@ -57,7 +57,7 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
         lists.add(grid.cell(plane.at(point)), {plane.at(point), point});
     }
 
-    // In a tiling a corner lies inside one edge at most.
+    // In a tiling, a corner lies inside at most one edge.
     const std::uint64_t most_cuts = 10'000 + 16 * std::uint64_t{points.size()};
     std::atomic<std::uint64_t> compared = 0, cuts_found = 0;
     // Of the tiles from `first` on, up to `end`.
@@ -98,8 +98,8 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
         find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
     });
     if (cuts_found > most_cuts) {
-        throw BudgetError(fmt::format(
-            "the corners of tiles lie inside edges more than {} times: too many tiles overlap", most_cuts));
+        throw BudgetError(
+            fmt::format("corners lie inside edges in more than {} places: too many tiles overlap", most_cuts));
     }
     if (compared > most_compared) {
         throw BudgetError("too many tiles of very different sizes; use a shorter derivation");

@@ -226,7 +226,7 @@ private:
         }
     }
 
-    /// True if corners that were left out one by one make a difference together.
+    /// True if the corners that were left out change the area of the outline by more than the tolerance allows.
     bool loses_area() const {
         if (corners_.size() == outline_.size() || outline_.size() < 3) return false;
         double length = 0;

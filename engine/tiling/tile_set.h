@@ -18,7 +18,7 @@ namespace sikku {
 enum class TileFault : std::uint8_t {
     open,       ///< the outline does not end where it began
     empty,      ///< fewer than three corners, or no area
-    too_fine,   ///< the tolerance would straighten curves of the outline
+    too_fine,   ///< at this tolerance, corners of a curved outline count as points on straight lines
     crossing,   ///< the outline crosses or touches itself
     duplicate,  ///< the same corners as an earlier tile
     overlap,
@@ -34,7 +34,7 @@ struct TileViolation {
 /// The first violations in their order, and the number of all.
 struct TileViolations {
     static constexpr std::size_t most = 100;
-    /// Where the search for overlaps ends.
+    /// Number of overlaps after which the search for more ends.
     static constexpr std::uint64_t most_counted = 100'000;
     std::vector<TileViolation> list;
     std::uint64_t count = 0;  ///< a lower bound from most_counted on

@@ -87,7 +87,7 @@ std::string growth_json(const TileGrowth& growth) {
                                      each.shape, json(each.is_reflected), json_string(each.letters),
                                      json(each.count));
               }),
-        json(growth.tiles), json(growth.frequencies), json(growth.is_primitive), growth.period,
+        json(growth.tiles), json(growth.frequencies), json(growth.period == 1), growth.period,
         reason(growth.no_limit), json(growth.length), growth.length ? reason(closed_form(*growth.length)) : "null",
         number(growth.turn), reason(growth.no_length));
 }

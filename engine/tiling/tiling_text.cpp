@@ -123,8 +123,8 @@ std::string violation_text(const TileViolation& violation) {
             return fmt::format("polygon {} has no area{}", violation.tile, where);
         case TileFault::too_fine:
             return fmt::format(
-                "polygon {} has corners too close to a line with their neighbours{}; a smaller "
-                "--tolerance keeps them",
+                "polygon {} loses too many corners that lie almost on a line with their neighbours{}; use a "
+                "smaller tolerance",
                 violation.tile, where);
         case TileFault::crossing:
             return fmt::format("polygon {} crosses or touches itself{}", violation.tile, where);
@@ -206,8 +206,9 @@ std::string growth_text(const TileGrowth& growth) {
         }
         text += " in the limit";
     }
-    if (growth.is_primitive) return text + "; primitive";
-    return text + (growth.period > 0 ? fmt::format("; irreducible, of period {}", growth.period) : "; not primitive");
+    if (growth.period == 1) return text + "; primitive";
+    return text +
+           (growth.period > 0 ? fmt::format("; irreducible with period {}", growth.period) : "; not primitive");
 }
 
 /// `12 violations`.
@@ -262,7 +263,7 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
     for (std::size_t i = 0; i < std::min(t.violations.list.size(), most_listed); ++i) {
         line("violation", violation_text(t.violations.list[i]));
     }
-    if (t.violations.count > most_listed) line("", fmt::format("… {}", violations_text(t.violations.count)));
+    if (t.violations.count > most_listed) line("", fmt::format("… {} in all", violations_text(t.violations.count)));
     for (std::size_t i = 0; i < std::min(t.gaps.size(), most_listed); ++i) {
         line("gap", fmt::format("of area {} around {}", number(-t.gaps[i].area), place(t.gaps[i].centre)));
     }

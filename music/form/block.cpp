@@ -194,11 +194,13 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
 }
 
 /// Reverses a section, whose breath stays at its end.
-void reverse_section(Block& piece) {
-    const std::int64_t length = std::exchange(piece.length, 0);
+void reverse_section(Block& piece, const Melody& melody) {
+    const std::int64_t length = piece.length;
+    std::int64_t end = 0;  // of the melody
     for (const FormNote& one : piece.notes) {
-        piece.length = std::max(piece.length, one.note.onset + one.note.duration);
+        if (!is_chord(one, piece, melody)) end = std::max(end, one.note.onset + one.note.duration);
     }
+    piece = cut(piece, 0, end);
     reverse(piece);
     piece.length = length;
 }
@@ -305,7 +307,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         const auto at = static_cast<std::size_t>(section.letter);
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
-        if (melody.layout.is_retrograde) reverse_section(piece);
+        if (melody.layout.is_retrograde) reverse_section(piece, melody);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
         trim_chords(piece, melody);
         end_on(piece, melody, ending_of(piece, melody, section, &section == &order.back()));

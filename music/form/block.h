@@ -41,8 +41,8 @@ void link_glides(std::vector<FormNote>& notes);
 /// Reverses time.
 void reverse(Block& block);
 
-/// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, the order and
-/// every sub-curve are reversed; cadences and breaths stay at the ends.
+/// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, each
+/// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections.
 /// @param grammar  of the block, whose derivation length is too small if sub-curves are missing
 /// @param ends  ticks at which the sections of another part end, and these as well; empty: their own
 /// @throws ScoreError if the curve has fewer

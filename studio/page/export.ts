@@ -56,6 +56,7 @@ const preview_size = 440; // pixels
 const pause = 200; // milliseconds after a change before the file is made again
 
 let chosen = "draw svg"; // kept while the page is open
+let relief: ReliefView | null = null; // one for the page: browsers allow few WebGL contexts
 
 function choicesOf(application: Application): Choice[] {
     const facts = application.opened?.facts;
@@ -107,7 +108,6 @@ class Export {
         role: "img",
         "aria-label": "The page",
     });
-    private relief: ReliefView | null = null; // once a relief has been shown
     private readonly options = element("div", { class: "export-options" });
     private readonly remarks = element("ul", { class: "remarks", "aria-live": "polite" });
     private readonly command = element("code", { class: "command", tabindex: 0 });
@@ -345,7 +345,7 @@ class Export {
         const { generation } = this;
         const isRelief = isDrawn && this.isRelief() && (await this.showRelief());
         if (generation !== this.generation) return;
-        if (this.relief) this.relief.canvas.hidden = !isRelief;
+        if (relief) relief.canvas.hidden = !isRelief;
         this.preview.hidden = !isDrawn || isRelief;
         if (this.preview.hidden) return;
         try {
@@ -369,11 +369,11 @@ class Export {
 
     // False if there is no relief or the browser cannot show it.
     private async showRelief(): Promise<boolean> {
-        this.relief ??= ReliefView.make(preview_size);
-        if (!this.relief) return false;
-        if (!this.relief.canvas.parentElement) {
-            this.relief.canvas.hidden = true; // until there is something to show
-            this.preview.before(this.relief.canvas);
+        relief ??= ReliefView.make(preview_size);
+        if (!relief) return false;
+        if (relief.canvas.parentElement !== this.preview.parentElement) {
+            relief.canvas.hidden = true; // until there is something to show
+            this.preview.before(relief.canvas);
         }
         const options = [...this.optionsNow()];
         if (optionOf(options, "relief") === undefined) options.push(["relief", ""]);
@@ -389,10 +389,12 @@ class Export {
                 },
                 { lane: "back", key: "export-relief", seconds: 30 },
             );
-            if (generation === this.generation) this.relief.show(bytes);
+            if (generation === this.generation) relief.show(bytes);
             return true;
-        } catch {
-            return false; // the remarks give the reason
+        } catch (error) {
+            // The remarks give the reason for a request that failed; a later choice drops this one.
+            if (generation === this.generation && !(error instanceof RequestFailed)) console.error(error);
+            return false;
         }
     }
 

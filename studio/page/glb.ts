@@ -1,6 +1,6 @@
-// Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has positions
-// and a single colour, or a colour for each corner. Without normals, its triangles are flat. Everything is checked before
-// it is used.
+// Reads the models that the libraries write: binary glTF 2.0 with one node and one mesh; each primitive has
+// positions, a single colour or a colour for each corner, and normals; without normals its triangles are flat. Everything
+// is checked before it is used.
 
 export interface ModelPart {
     positions: Float32Array; // three for each corner

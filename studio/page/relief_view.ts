@@ -9,7 +9,7 @@ import { fittingHalf, Stage, type Staged } from "./space_stage";
 const usualEye: Eye = { azimuth: -24, elevation: 46, distance: 4 };
 const usualZoom = 1.25; // the ground may leave the picture
 
-// Printers expect z up; in the picture y is up, as the rotation of the file's node says.
+// The file has z up, for printers; the picture has y up, as the rotation of the file's node specifies.
 function lay(model: Model): Model {
     const { low, high } = model;
     for (const { positions, normals } of model.parts) {
@@ -60,7 +60,7 @@ export class ReliefView {
                 this.eye = { azimuth: between(azimuth + right), elevation: raised, distance };
                 this.draw();
             },
-            shift: () => {}, // it stays in the middle
+            shift: () => {}, // the model stays centred
             zoom: (factor) => {
                 this.zoom = Math.max(0.5, Math.min(12, this.zoom * factor));
                 this.draw();

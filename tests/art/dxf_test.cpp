@@ -136,7 +136,13 @@ TEST(Dxf, TilesHaveLayersByKind) {
         EXPECT_EQ(others == 0, std::string(edges) == "none");
         EXPECT_EQ(drawing.layers.contains("BORDER"), std::string(edges) == "once");
     }
-    EXPECT_THROW(dxf_of("tilings/chair", {{"name-tiles", "true"}, {"hatch", "2mm"}}), SettingError);
+    for (const auto& [option, value] : OptionValues{{"hatch", "2mm"}, {"resume", "1mm"}}) {
+        EXPECT_THROW(dxf_of("tilings/chair", {{"name-tiles", "true"}, {option, value}}), SettingError) << option;
+    }
+    const std::string squares = "axiom: {F+F+F+F}f;{F+F+F+F}\nangle increment: 90\npalette: #ff000080 #ff0000\n";
+    const Dxf drawing = read_dxf(draw(parse("squares.lsys", squares), "dxf", {{"name-tiles", "true"}}));
+    EXPECT_TRUE(drawing.layers.contains("SHAPE-1-FF000080"));
+    EXPECT_TRUE(drawing.layers.contains("SHAPE-1-FF0000"));
 }
 
 TEST(Dxf, CurvesStayWithinAHundredthOfAMillimetre) {

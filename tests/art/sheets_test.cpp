@@ -143,6 +143,15 @@ TEST(SeveralDrawings, ArePlottedInTheirPlaces) {
     }
 }
 
+TEST(SeveralDrawings, NameTheirTiles) {
+    const std::string tile = "axiom: {F+F+F+F}\nangle increment: 90\nfill: #ff0000\n";
+    const std::string svg = made({item(tile), item(tile)}, "svg", {{"name-tiles", "true"}});
+    EXPECT_EQ(count(svg, "id=\"t1\" class=\"shape-1 "), 1u) << svg;
+    EXPECT_EQ(count(svg, "id=\"t2\" class=\"shape-1 "), 1u) << svg;
+    const std::string dxf = made({item(tile), item(tile)}, "dxf", {{"name-tiles", "true"}});
+    EXPECT_EQ(count(dxf, "POLYLINE\n8\nSHAPE-1-FF0000\n"), 2u) << dxf;
+}
+
 TEST(SeveralDrawings, LookTheSameInPicturesAndVectors) {
     if (!has_program("pdftoppm") || !has_program("oiiotool")) GTEST_SKIP() << "no pdftoppm or no oiiotool";
     const ScratchFolder folder;

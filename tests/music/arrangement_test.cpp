@@ -518,6 +518,11 @@ TEST(Arrangement, MistakesHavePlaces) {
             "a.toml:5:1: unknown key 'transpos'; did you mean 'transpose'?\n"
             "a.toml:1:1: scale: unknown scale 'majro'; did you mean 'major'?\n"
             "a.toml:6:1: unit: ");
+    refused("scale = \"majro\"\ncolour = \"red\"\n", "a.toml:2:1: unknown key 'colour'\na.toml: an arrangement has");
+    refused("colour = \"red\"\n" + track("variant = \"zz\"\n"),
+            "a.toml:1:1: unknown key 'colour'\na.toml:4:1: variant zz: this pattern has no variants");
+    refused("colour = \"red\"\n[[pattern]]\nname = \"x\"\ntext = \"axiom: F(\"\n" + track("", "x"),
+            "a.toml:1:1: unknown key 'colour'\nx:1:");
     refused("form = \"A\"\n" + track(""), "a.toml:1:1: no track has section A");
     refused(track("section = \"A\"\n"), "section A needs a form above the first track");
     refused("form = \"B\"\n" + track("section = \"A\"\n"), "section A is not in the form");

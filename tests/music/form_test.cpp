@@ -125,6 +125,11 @@ TEST(Forms, InRetrogradeCloseAtTheEnd) {
     ASSERT_EQ(reversed.size(), 3u);
     std::reverse(reversed.begin(), reversed.end());
     EXPECT_EQ(sizes(back), reversed);
+    // Chords do not move the breath.
+    NoteList accompanied = notes_of(text + "harmony: triads\nretrograde: yes\n");
+    accompanied.notes = of_voice(accompanied, 0);
+    EXPECT_EQ(accompanied.notes.front().onset, 0);
+    EXPECT_EQ(sizes(accompanied), reversed);
     for (const char* form : {"A B C", "B A", "A1 C A2", "A2 C A1", "A A B A"}) {
         const NoteList closed =
             notes_of(hilbert_4 + "tonic: C4\nscale: major\nphrases: 2\nbreath: 1/4 bar\ncadence: " +
