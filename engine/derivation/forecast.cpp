@@ -210,7 +210,7 @@ std::string Forecast::length() const {
     if (!counts) return fmt::format("about 10^{:.0f}", std::floor(log10_length));
     Integer sum = 0;
     for (const Integer& count : *counts) sum += count;
-    return readable(sum.str());
+    return sum.str();
 }
 
 namespace {
@@ -328,7 +328,7 @@ void require_affordable(const Grammar& grammar, bool interpreted, double budget)
                            : std::string("; no derivation length fits");
     }
     throw BudgetError(fmt::format("a word of {} symbols (n = {}) is above the budget of {:.0f} nodes{}",
-                                  found.length(), grammar.steps(), budget, advice));
+                                  readable(found.length()), grammar.steps(), budget, advice));
 }
 
 namespace {

@@ -28,7 +28,7 @@ struct Forecast {
     /// Exact number of each symbol in the word, unless the word's length has over 10^4 digits.
     std::optional<std::vector<Integer>> counts;
 
-    /// The word's length: exact up to 40 digits, or "about 10^k".
+    /// The word's length: exact, or "about 10^k".
     std::string length() const;
 };
 
