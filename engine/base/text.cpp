@@ -167,7 +167,8 @@ std::string counted(std::string_view digits, std::string_view what) {
 
 std::string readable(std::string digits) {
     constexpr std::size_t most = 40;
-    return digits.size() > most ? "about 10^" + std::to_string(digits.size() - 1) : digits;
+    if (digits.size() > most) digits = "about 10^" + std::to_string(digits.size() - 1);
+    return digits;
 }
 
 std::string did_you_mean(std::span<const std::string_view> names) {
