@@ -48,9 +48,15 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
     for (std::string& line : file.told) line = place.readable(line, file.file);
     const auto made = folder.status(file.file);
     if (!made) throw std::runtime_error("nothing to write");
-    file.bytes = static_cast<std::uint64_t>(made->st_size);
-    file.content = folder.content_hash(file.file);
-    record.add(file);
+    try {
+        file.bytes = static_cast<std::uint64_t>(made->st_size);
+        file.content = folder.content_hash(file.file);
+        record.add(file);
+    } catch (const std::runtime_error&) {
+        // A file that is not in the record would be refused in the next run.
+        place.remove();
+        throw;
+    }
     return file;
 }
 
