@@ -3,6 +3,7 @@
 #include "engine/base/threads.h"
 #include "tests/program.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -96,6 +97,21 @@ TEST_F(LowLimits, OfFiles) {
         expect_result_or_message(limited(limit, {"play", "hilbert", "-o", "x.mid"}), "x.mid");
     }
     EXPECT_EQ(limited("-f 1", {"draw", "hilbert", "-o", "x.svg"}).status, 1);
+}
+
+/// What a gallery could not finish is finished by the next run.
+TEST_F(LowLimits, OfFilesInGalleries) {
+    if (sanitized) GTEST_SKIP() << "without descriptors the sanitizer takes every object for invalid";
+    const std::vector<std::string> gallery = {"gallery", "hilbert", "dragon-drums", "-f", "mid,svg,png,html",
+                                              "-j",      "1"};
+    for (int files = 4; files <= 16; ++files) {
+        SCOPED_TRACE(files);
+        std::vector<std::string> words = gallery;
+        words.insert(words.end(), {"-o", fmt::format("g{}", files)});
+        EXPECT_LE(limited(fmt::format("-n {}", files), words).status, 1);
+        const Outcome whole = limited("-n 1024", words);
+        EXPECT_EQ(whole.status, 0) << whole.errors;
+    }
 }
 
 TEST(StartableThreads, AreThoseAskedForWhereNothingLimitsThem) {
