@@ -1,5 +1,8 @@
 #include "art/gallery/json.h"
 
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <set>
@@ -58,7 +61,9 @@ nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_
             ++met;
             const auto key = value.get<std::string>();
             if (!keys.back().insert(key).second) {
-                throw JsonError(fmt::format("duplicate key '{}'", key), place + 1);
+                // A key may contain line breaks.
+                const std::string quoted = json_string(printable(key, 80));
+                throw JsonError(fmt::format("duplicate key '{}'", quoted.substr(1, quoted.size() - 2)), place + 1);
             }
             if (keys.back().size() > most_object_keys) {
                 throw JsonError("too many keys: an object has at most 1000", place + 1);
