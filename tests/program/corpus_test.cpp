@@ -2,6 +2,7 @@
 #include "art/image/image_file.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/grid_targets.h"
+#include "tests/fuzz/link_targets.h"
 #include "tests/fuzz/reading_targets.h"
 #include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/surface_targets.h"
@@ -89,6 +90,15 @@ TEST(Corpus, KolamsOfOtherFormatsAreReadOrRefused) {
     for (const auto& file : list) {
         SCOPED_TRACE(file.string());
         mutate(contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_reading(changed)); });
+    }
+}
+
+TEST(Corpus, LinksAreReadOrRefused) {
+    const auto list = files_of("tests/corpus/link");
+    EXPECT_FALSE(list.empty());
+    for (const auto& file : list) {
+        SCOPED_TRACE(file.string());
+        mutate(contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_contents(changed)); });
     }
 }
 
