@@ -104,7 +104,7 @@ TEST_F(LowLimits, OfFilesInGalleries) {
     if (sanitized) GTEST_SKIP() << "without descriptors the sanitizer takes every object for invalid";
     const std::vector<std::string> gallery = {"gallery", "hilbert", "dragon-drums", "-f", "mid,svg,png,html",
                                               "-j",      "1"};
-    for (int files = 4; files <= 16; ++files) {
+    for (int files = 6; files <= 16; ++files) {
         SCOPED_TRACE(files);
         std::vector<std::string> words = gallery;
         words.insert(words.end(), {"-o", fmt::format("g{}", files)});
