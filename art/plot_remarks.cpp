@@ -53,8 +53,8 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
     }
 }
 
-void warn_of_no_tiles(const PlotReport& plot, const DrawSettings& settings, Made& made) {
-    if (!settings.names_tiles || plot.tiles > 0) return;
+void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made) {
+    if (!settings.names_tiles || tiles > 0) return;
     made.warn("'name-tiles' has no effect: this drawing has no filled polygons with straight edges");
 }
 

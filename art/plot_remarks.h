@@ -16,7 +16,8 @@
 namespace sikku {
 
 /// Warns if `name-tiles` found no tile.
-void warn_of_no_tiles(const PlotReport& plot, const DrawSettings& settings, Made& made);
+/// @param tiles  number of filled polygons
+void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made);
 
 /// Adds the lengths and the time before and after arranging, and the merged pens.
 /// @param rules  requested for single pens; those for pens that the plot does not use are reported

@@ -11,7 +11,10 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -78,10 +81,14 @@ std::string text_of(const std::string& key, const FileValue& value) {
     return value.text;
 }
 
+/// Line and column in the file.
+using Order = decltype(FileValue::order);
+
 /// A key with the place where it is set.
 struct PlacedSetting {
     Setting setting;
     std::string place;
+    Order order;
 };
 
 class ArrangementReader {
@@ -106,16 +113,16 @@ public:
             } else if (name == "form") {
                 form = &value;
             } else {
-                collect([&, &key = key, &value = value] { read_head(name, key, value); });
+                collect(value.order, [&, &key = key, &value = value] { read_head(name, key, value); });
             }
         }
-        if (form) collect([&] { read_form_of_piece(*form); });
-        collect([&] { check_number(tracks); });
+        if (form) collect(form->order, [&] { read_form_of_piece(*form); });
+        collect(tracks ? tracks->order : Order{}, [&] { check_number(tracks); });
         const bool is_list = tracks && tracks->type == FileValue::Type::list && tracks->list.size() <= most_tracks;
         if (!is_list) throw_if_any();
         result_.text = text_;
         for (const FileValue& track : tracks->list) {
-            collect([&] { read_track(track); });
+            collect(track.order, [&] { read_track(track); });
         }
         throw_if_any();
         check_sections(*tracks, form);
@@ -126,14 +133,14 @@ public:
 private:
     /// Continues after an error, so that all errors are reported together.
     template <typename Read>
-    void collect(Read&& read) {
+    void collect(Order order, Read&& read) {
         try {
             read();
         } catch (const FileError& error) {
-            add(error.what());
+            add(order, error.what());
         } catch (const PatternError& error) {
             if (errors_.empty()) throw;
-            add(error.what());
+            add(order, error.what());
             throw_if_any();
         }
     }
@@ -150,16 +157,20 @@ private:
     }
 
     /// Settings of the head apply to every track, so their errors recur.
-    void add(std::string_view error) {
-        if (std::find(errors_.begin(), errors_.end(), error) == errors_.end()) errors_.emplace_back(error);
+    void add(Order order, std::string_view error) {
+        const bool is_new =
+            std::none_of(errors_.begin(), errors_.end(), [&](const auto& one) { return one.second == error; });
+        if (is_new) errors_.emplace_back(order, error);
     }
 
-    void throw_if_any() const {
+    void throw_if_any() {
         constexpr std::size_t most_shown = 20;
         if (errors_.empty()) return;
+        std::stable_sort(errors_.begin(), errors_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
         const std::size_t shown = std::min(errors_.size(), most_shown);
-        std::string text =
-            fmt::format("{}", fmt::join(errors_.begin(), errors_.begin() + static_cast<std::ptrdiff_t>(shown), "\n"));
+        std::string text;
+        for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? "\n" : "") + errors_[i].second;
         if (const std::size_t hidden = errors_.size() - shown; hidden > 0) {
             text += fmt::format("\n{} more {} not shown", hidden, hidden == 1 ? "error is" : "errors are");
         }
@@ -174,7 +185,7 @@ private:
              : name == "composer" ? result_.composer
                                   : result_.source) = text_of(name, value);
         } else if (music_key(name)) {
-            shared_.push_back({part_setting(name, text_of(name, value)), value.place});
+            shared_.push_back({part_setting(name, text_of(name, value)), value.place, value.order});
         } else {
             refuse_key(value.place, key, true);
         }
@@ -289,10 +300,10 @@ private:
             if (value.type != FileValue::Type::table) fail(value.place, "set: expected a table of keys and defines");
             for (const auto& [inner, one] : value.table) {
                 refuse_whole(folded(inner), one.place);
-                track.settings.push_back({{inner, inner, text_of(inner, one)}, one.place});
+                track.settings.push_back({{inner, inner, text_of(inner, one)}, one.place, one.order});
             }
         } else if (known == "n" || known == "seed" || music_key(known)) {
-            track.settings.push_back({part_setting(known, text_of(known, value)), value.place});
+            track.settings.push_back({part_setting(known, text_of(known, value)), value.place, value.order});
         } else {
             refuse_key(value.place, key, false);
         }
@@ -304,7 +315,7 @@ private:
         const std::size_t before = errors_.size();
         track.settings = shared_;
         for (const auto& [key, one] : value.table) {
-            collect([&, &key = key, &one = one] { read_key(key, one, track); });
+            collect(one.order, [&, &key = key, &one = one] { read_key(key, one, track); });
         }
         if (track.pattern.empty() && errors_.size() > before) return;
         if (track.pattern.empty()) fail(value.place, "this track has no pattern");
@@ -320,7 +331,7 @@ private:
         }
         diagnostics.throw_if_errors();
         for (const PlacedSetting& one : track.settings) {
-            collect([&] { document = with(document, one); });
+            collect(one.order, [&] { document = with(document, one); });
         }
         if (errors_.size() > before) return;
         require_turtle(document, "it has no melody");
@@ -390,7 +401,7 @@ private:
     std::map<std::string, NamedPattern> known_;
     std::vector<std::string> inner_;
     std::vector<PlacedSetting> shared_;
-    std::vector<std::string> errors_;
+    std::vector<std::pair<Order, std::string>> errors_;
     Arrangement result_;
 };
 

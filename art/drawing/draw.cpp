@@ -110,6 +110,7 @@ void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& op
         const auto writer = write_vectors(options.format, print, output);
         drawing.read_visible(print, whole_page(print.page), *writer);
         writer->finish();
+        report.polygons = writer->polygons();
         return;
     }
     const auto rendering = drawing.rendering(print);

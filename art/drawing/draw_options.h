@@ -137,6 +137,7 @@ struct DrawReport {
     glm::dvec2 left_out{0.0};        ///< margin of the page, in millimetres on each side, that the sheets do not show
     std::optional<PlotReport> plot;  ///< report of a plot
     std::optional<ReliefReport> relief;  ///< report of a relief
+    std::uint64_t polygons = 0;          ///< number of filled polygons that can be named (Print::names_tiles)
     std::uint64_t replaced = 0;          ///< parts too small to be resolved, replaced by their appearance
     std::size_t cells = 0;               ///< number of cells of a map
     bool crosses_itself = false;         ///< the outline of a map crosses itself

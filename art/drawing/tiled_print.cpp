@@ -149,7 +149,8 @@ Print sheet_of(const TileWork& work, const Tile& tile) {
     return sheet;
 }
 
-void write_vector_tile(const TileWork& work, const Tile& tile, Output& output) {
+/// @return the number of polygons
+std::uint64_t write_vector_tile(const TileWork& work, const Tile& tile, Output& output) {
     const glm::dvec2 corner = tile_corner(work.tiling, tile);
     const Print sheet = sheet_of(work, tile);
     const auto writer = write_vectors(work.options.format, sheet, output);
@@ -160,9 +161,11 @@ void write_vector_tile(const TileWork& work, const Tile& tile, Output& output) {
     ClipSink clip(*writer, seen_box(part, shown, work.pen));
     work.drawing.read(part, moved(whole_page(work.print.page), corner), clip);
     const Print marks = mark_print(sheet.page, sheet.dpi, work.print.style.ground);
+    const std::uint64_t polygons = writer->polygons();
     writer->begin_part(marks, whole_page(marks.page));
     draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     writer->finish();
+    return polygons;
 }
 
 void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, const std::filesystem::path& name) {
@@ -188,9 +191,11 @@ void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, 
     write_picture(rendering, sheet, work.options, output, name);
 }
 
-void write_pdf_tiles(const TileWork& work, Output& output) {
+/// @return the number of polygons
+std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
     const auto writer = write_pdf_pages(work.print, output);
     work.drawing.read(work.print, *writer);
+    const std::uint64_t polygons = writer->polygons();
     const Page& sheet = work.tiling.sheet;
     const Page& page = work.print.page;
     Print marks = mark_print(sheet, work.print.dpi, work.print.style.ground);
@@ -210,6 +215,7 @@ void write_pdf_tiles(const TileWork& work, Output& output) {
         draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     }
     writer->finish();
+    return polygons;
 }
 
 /// Places the whole drawing. With a fixed step the page grows to the size of the drawing and its border, whose width
@@ -240,13 +246,13 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
     std::vector<std::unique_ptr<Output>> outputs;
     if (options.format == PrintFormat::pdf) {
         outputs.push_back(destination.open(file));
-        write_pdf_tiles(work, *outputs.back());
+        report.polygons = write_pdf_tiles(work, *outputs.back());
     } else {
         for (const Tile& tile : tiling.tiles) {
             const std::filesystem::path name = tile_file(file, tile);
             outputs.push_back(destination.open(name));
             if (is_vector(options.format)) {
-                write_vector_tile(work, tile, *outputs.back());
+                report.polygons += write_vector_tile(work, tile, *outputs.back());
             } else {
                 write_picture_tile(work, tile, *outputs.back(), name);
             }

@@ -155,6 +155,10 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
         return std::nullopt;
     }
     bool may_have_tiles = true, has_tiles = false;
+    std::int64_t searched = 0;
+    const auto uncovered_to = [](std::int64_t steps) {
+        return fmt::format("its polygons cover no place of this size up to a derivation length of {}", steps);
+    };
     const auto refuse = [&](std::string reason) {
         const bool has_none = !may_have_tiles && !has_tiles;
         why = has_none ? "this drawing has no tiles, which are polygons between { and }" : std::move(reason);
@@ -167,12 +171,14 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
         const auto plain = plain_of(std::make_shared<const Grammar>(*deeper), why);
         if (!plain) return refuse(why);
         const auto patches = make_patches(*plain, !grammar.is_plain(), style, why);
-        if (!patches) return refuse(why);
+        if (!patches)
+            return refuse(searched > 0 ? fmt::format("{}; beyond it, {}", uncovered_to(searched), why) : why);
         const glm::dvec2 whole = patches->box().high - patches->box().low;
         // A drawing smaller than the page is not searched, so it may have tiles.
         may_have_tiles = !patches->box().empty();
         if (!may_have_tiles || whole.x * whole.y < area) continue;
         may_have_tiles = false;
+        searched = steps;
         for (std::uint64_t i = 0; i < tries; ++i) {
             const QuadVector centre = patches->random_place(scrambled(grammar.seed()) + i);
             // Whole numbers can be given again as a window.
@@ -202,7 +208,7 @@ std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& 
                               {low.x, low.y, low.x + static_cast<Quad>(size.x), low.y + static_cast<Quad>(size.y)}};
         }
     }
-    return refuse("its polygons cover no place of this size up to a derivation length of 500");
+    return refuse(uncovered_to(longest));
 }
 
 }  // namespace sikku

@@ -7,6 +7,7 @@
 #include "engine/geometry/path.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -89,6 +90,8 @@ public:
     virtual void begin_part(const Print& part, const Window& window) = 0;
     /// Completes the document. Call once, after the last stroke.
     virtual void finish() = 0;
+    /// Number of filled polygons drawn so far, in formats that can name them (Print::names_tiles).
+    virtual std::uint64_t polygons() const { return 0; }
 };
 
 }  // namespace sikku

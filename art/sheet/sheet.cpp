@@ -787,6 +787,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         } else if (info(options.format).kind == FormatKind::vectors) {
             const auto writer = write_vectors(options.format, sheet.print(), output);
             sheet.write_vectors(*writer);
+            layout.polygons = writer->polygons();
         } else {
             sheet.write_pixels(output, file);
         }

@@ -67,6 +67,7 @@ struct SheetLayout {
     std::vector<Window> windows;  ///< windows of the cells, in their order
     double letters = 0.0;         ///< height of a caption's capitals
     std::optional<PlotReport> plot;
+    std::uint64_t polygons = 0;       ///< number of filled polygons that can be named
     std::vector<DrawReport> reports;  ///< findings of the drawings, in their order; without places and plots
 };
 

@@ -53,10 +53,13 @@ public:
                   [this](std::span<const glm::dvec2> block) { write_curves(block); });
     }
     void end_stroke(bool closed) final { end_piece(closed && whole_); }
+    std::uint64_t polygons() const final { return polygons_; }
 
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) final {
         const Colour colour = part_->style.fill_colour(pen);
-        if (colour.alpha > 0 && vertices.size() >= 3) write_polygon(vertices, colour);
+        if (colour.alpha == 0 || vertices.size() < 3) return;
+        ++polygons_;
+        write_polygon(vertices, colour);
     }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) final {
         const Colour colour = part_->style.fill_colour(pen);
@@ -184,6 +187,7 @@ private:
     bool visible_ = false;
     bool started_ = false;  ///< the pen is down
     bool whole_ = true;     ///< the stroke is one piece so far, and nothing of it is hidden
+    std::uint64_t polygons_ = 0;
 };
 
 }  // namespace sikku

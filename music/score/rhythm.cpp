@@ -76,6 +76,13 @@ private:
     }
 };
 
+/// Those of the sorted times that are at least `begin` and less than `end`.
+std::span<const std::int64_t> between(std::span<const std::int64_t> times, std::int64_t begin, std::int64_t end) {
+    const auto first = std::lower_bound(times.begin(), times.end(), begin);
+    const auto last = std::lower_bound(first, times.end(), end);
+    return times.subspan(static_cast<std::size_t>(first - times.begin()), static_cast<std::size_t>(last - first));
+}
+
 }  // namespace
 
 NoteValue note_value(std::int64_t length) {
@@ -145,9 +152,7 @@ Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
         }
         std::int64_t from = begin;
         for (const std::int64_t group : groups) {
-            const auto first = std::lower_bound(inside.begin(), inside.end(), from);
-            const auto last = std::lower_bound(first, inside.end(), from + group);
-            divide(from, group, std::span(first, last));
+            divide(from, group, between(inside, from, from + group));
             from += group;
         }
     }
@@ -177,9 +182,7 @@ bool Grid::divide_parts(std::int64_t from, std::int64_t length, int parts, std::
     bool is_exact = true;
     for (int i = 0; i < parts; ++i) {
         const std::int64_t begin = from + length / parts * i;
-        const auto first = std::lower_bound(times.begin(), times.end(), begin);
-        const auto last = std::lower_bound(first, times.end(), begin + length / parts);
-        is_exact = divide(begin, length / parts, std::span(first, last)) && is_exact;
+        is_exact = divide(begin, length / parts, between(times, begin, begin + length / parts)) && is_exact;
     }
     return is_exact;
 }

@@ -210,6 +210,16 @@ TEST(WindowDrawing, FillsPages) {
     }
     EXPECT_FALSE(filled("chair", {3e4, 2e4}, why));
     EXPECT_NE(why.find("square steps"), std::string::npos);
+    // Unit squares in the places of chairs leave gaps.
+    std::string squares = contents(bundled("tilings/chair"));
+    for (std::size_t at; (at = squares.find("{FF+F+F-F+F+FF;")) != std::string::npos;) {
+        squares.replace(at, 15, "{F+F+F+F;");
+    }
+    EXPECT_FALSE(
+        find_filled_page(parse("squares.lsys", squares).grammar(), plain_print().style, {30, 20}, 2, {}, why));
+    EXPECT_NE(why.find("cover no place of this size up to a derivation length of 93; beyond it, at n = 103"),
+              std::string::npos)
+        << why;
     for (const char* name : {"curves/hilbert", "kolams/snake-kolam"}) {
         const auto grammar = load(bundled(name)).grammar();
         EXPECT_FALSE(find_filled_page(grammar, plain_print().style, {30, 20}, 2, {}, why)) << name;

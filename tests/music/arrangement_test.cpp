@@ -511,12 +511,12 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused(track("", "other.toml"), "a.toml:2:1: other.toml: a track plays a pattern, not another arrangement");
     refused(track("transpos = 2\n"), "a.toml:3:1: unknown key 'transpos'; did you mean 'transpose'?");
     refused("[[track]]\nstart = 1\n", "this track has no pattern");
-    // All mistakes are reported, those of the head once.
+    // All mistakes are reported by line, those of the head once.
     refused("scale = \"majro\"\ncolour = \"red\"\n" + track("transpos = 2\nunit = 0\n") + track("name = \"\"\n") +
                 "[[track]]\npattern = 3.5\nstart = 1\n[[track]]\npattern = []\n",
+            "a.toml:1:1: scale: unknown scale 'majro'; did you mean 'major'?\n"
             "a.toml:2:1: unknown key 'colour'\n"
             "a.toml:5:1: unknown key 'transpos'; did you mean 'transpose'?\n"
-            "a.toml:1:1: scale: unknown scale 'majro'; did you mean 'major'?\n"
             "a.toml:6:1: unit: ");
     refused("scale = \"majro\"\ncolour = \"red\"\n", "a.toml:2:1: unknown key 'colour'\na.toml: an arrangement has");
     refused("colour = \"red\"\n" + track("variant = \"zz\"\n"),

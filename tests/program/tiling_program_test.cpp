@@ -210,6 +210,26 @@ TEST(TilingCommand, CertifiesItsOwnPicturesAndLists) {
     EXPECT_NE(text.errors.find("1 ground left out\n"), std::string::npos) << text.errors;
 }
 
+TEST(TilingCommand, NamesOfTilesNeedTiles) {
+    const ScratchFolder folder;
+    const std::string warning = "--name-tiles has no effect: this drawing has no filled polygons with straight edges";
+    for (const char* extension : {"svg", "pdf", "dxf"}) {
+        const std::string file = folder.file(std::string("x.") + extension);
+        for (const bool has_tiles : {true, false}) {
+            const char* pattern = has_tiles ? "chair" : "hilbert";
+            std::vector<std::vector<std::string>> commands = {{"draw", pattern, "-n", "2"}, {"sheet", pattern}};
+            if (std::string(extension) != "dxf") commands.push_back({"draw", pattern, "-n", "2", "--tile", "a6"});
+            for (std::vector<std::string>& command : commands) {
+                command.insert(command.end(), {"--name-tiles", "-o", file});
+                const Outcome outcome = run(command);
+                EXPECT_EQ(outcome.status, 0) << outcome.errors;
+                EXPECT_EQ(outcome.errors.find(warning) == std::string::npos, has_tiles)
+                    << pattern << ' ' << extension << ": " << outcome.errors;
+            }
+        }
+    }
+}
+
 /// Pieces of files are those of the pattern that wrote them, at the length of a unit.
 TEST(TilingCommand, CutsPiecesOfFiles) {
     const ScratchFolder folder;
