@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -83,6 +84,7 @@ std::string text_of(const std::string& key, const FileValue& value) {
 
 /// Line and column in the file.
 using Order = decltype(FileValue::order);
+constexpr Order end_of_file{std::numeric_limits<std::uint32_t>::max(), 0};
 
 /// A key with the place where it is set.
 struct PlacedSetting {
@@ -117,7 +119,7 @@ public:
             }
         }
         if (form) collect(form->order, [&] { read_form_of_piece(*form); });
-        collect(tracks ? tracks->order : Order{}, [&] { check_number(tracks); });
+        collect(tracks ? tracks->order : end_of_file, [&] { check_number(tracks); });
         const bool is_list = tracks && tracks->type == FileValue::Type::list && tracks->list.size() <= most_tracks;
         if (!is_list) throw_if_any();
         result_.text = text_;
