@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -73,24 +72,19 @@ std::string text_of(const std::string& key, const FileValue& value) {
     if (value.type == FileValue::Type::list && key == "canon") {
         std::string text;
         for (const FileValue& one : value.list) {
-            if (one.type != FileValue::Type::text) fail(one.place, "canon: expected text such as \"2 -12\"");
+            if (one.type != FileValue::Type::text) fail(one, "canon: expected text such as \"2 -12\"");
             text += (text.empty() ? "" : ", ") + one.text;
         }
         return text;
     }
-    if (value.type != FileValue::Type::text) fail(value.place, fmt::format("{}: expected a text or a number", key));
+    if (value.type != FileValue::Type::text) fail(value, fmt::format("{}: expected a text or a number", key));
     return value.text;
 }
 
-/// Line and column in the file.
-using Order = decltype(FileValue::order);
-constexpr Order end_of_file{std::numeric_limits<std::uint32_t>::max(), 0};
-
-/// A key with the place where it is set.
+/// A key with the value that sets it.
 struct PlacedSetting {
     Setting setting;
-    std::string place;
-    Order order;
+    const FileValue* value;
 };
 
 class ArrangementReader {
@@ -104,7 +98,7 @@ public:
         const FileValue* form = nullptr;
         for (const auto& [key, value] : root.table) {
             if (key != "item") continue;
-            fail(value.place,
+            fail(value,
                  "a gallery file has [[item]], an arrangement has [[track]]; `sikku gallery --file` takes "
                  "a gallery file");
         }
@@ -115,16 +109,16 @@ public:
             } else if (name == "form") {
                 form = &value;
             } else {
-                collect(value.order, [&, &key = key, &value = value] { read_head(name, key, value); });
+                collect([&, &key = key, &value = value] { read_head(name, key, value); });
             }
         }
-        if (form) collect(form->order, [&] { read_form_of_piece(*form); });
-        collect(tracks ? tracks->order : end_of_file, [&] { check_number(tracks); });
+        if (form) collect([&] { read_form_of_piece(*form); });
+        collect([&] { check_number(tracks); });
         const bool is_list = tracks && tracks->type == FileValue::Type::list && tracks->list.size() <= most_tracks;
         if (!is_list) throw_if_any();
         result_.text = text_;
         for (const FileValue& track : tracks->list) {
-            collect(track.order, [&] { read_track(track); });
+            collect([&] { read_track(track); });
         }
         throw_if_any();
         check_sections(*tracks, form);
@@ -135,14 +129,14 @@ public:
 private:
     /// Continues after an error, so that all errors are reported together.
     template <typename Read>
-    void collect(Order order, Read&& read) {
+    void collect(Read&& read) {
         try {
             read();
         } catch (const FileError& error) {
-            add(order, error.what());
+            add(error);
         } catch (const PatternError& error) {
             if (errors_.empty()) throw;
-            add(order, error.what());
+            add(FileError(error.what()));
             throw_if_any();
         }
     }
@@ -150,29 +144,32 @@ private:
     /// @throws FileError
     void check_number(const FileValue* tracks) const {
         if (!tracks || tracks->type != FileValue::Type::list || tracks->list.empty()) {
-            fail(tracks ? tracks->place : file_, "an arrangement has at least one [[track]]");
+            const std::string needed = "an arrangement has at least one [[track]]";
+            if (tracks) fail(*tracks, needed);
+            fail(file_, needed);
         }
         if (tracks->list.size() > most_tracks) {
-            fail(tracks->place, fmt::format("too many tracks: an arrangement has at most {}, and this one {}",
-                                            most_tracks, tracks->list.size()));
+            fail(*tracks, fmt::format("too many tracks: an arrangement has at most {}, and this one {}", most_tracks,
+                                      tracks->list.size()));
         }
     }
 
     /// Settings of the head apply to every track, so their errors recur.
-    void add(Order order, std::string_view error) {
+    void add(const FileError& error) {
+        const std::string_view text = error.what();
         const bool is_new =
-            std::none_of(errors_.begin(), errors_.end(), [&](const auto& one) { return one.second == error; });
-        if (is_new) errors_.emplace_back(order, error);
+            std::none_of(errors_.begin(), errors_.end(), [&](const FileError& one) { return one.what() == text; });
+        if (is_new) errors_.push_back(error);
     }
 
     void throw_if_any() {
         constexpr std::size_t most_shown = 20;
         if (errors_.empty()) return;
         std::stable_sort(errors_.begin(), errors_.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
+                         [](const FileError& a, const FileError& b) { return a.order() < b.order(); });
         const std::size_t shown = std::min(errors_.size(), most_shown);
         std::string text;
-        for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? "\n" : "") + errors_[i].second;
+        for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? "\n" : "") + std::string(errors_[i].what());
         if (const std::size_t hidden = errors_.size() - shown; hidden > 0) {
             text += fmt::format("\n{} more {} not shown", hidden, hidden == 1 ? "error is" : "errors are");
         }
@@ -187,55 +184,54 @@ private:
              : name == "composer" ? result_.composer
                                   : result_.source) = text_of(name, value);
         } else if (music_key(name)) {
-            shared_.push_back({part_setting(name, text_of(name, value)), value.place, value.order});
+            shared_.push_back({part_setting(name, text_of(name, value)), &value});
         } else {
-            refuse_key(value.place, key, true);
+            refuse_key(value, key, true);
         }
     }
 
     void read_form_of_piece(const FileValue& form) {
         result_.form = read_form(text_of("form", form));
         if (!result_.form.empty()) return;
-        fail(form.place,
-             "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) endings");
+        fail(form, "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) endings");
     }
 
-    [[noreturn]] static void refuse_key(const std::string& place, const std::string& key, bool is_head) {
+    [[noreturn]] static void refuse_key(const FileValue& value, const std::string& key, bool is_head) {
         std::vector<std::string_view> known = {"n",       "seed", "variant",   "set",        "pattern",
                                                "section", "name", "transpose", "tempo ratio"};
         for (const std::string_view name : keys_of(KeyOwner::music)) known.push_back(name);
         if (is_head) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
         const std::string name = folded(key);
         const std::string_view near = name == "bpm" ? "tempo" : name == "key" ? "tonic" : nearest(name, known);
-        fail(place, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(near)));
+        fail(value, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(near)));
     }
 
     void read_patterns(const FileValue& value) {
-        if (value.type != FileValue::Type::list) fail(value.place, "pattern: expected [[pattern]] tables");
+        if (value.type != FileValue::Type::list) fail(value, "pattern: expected [[pattern]] tables");
         for (const FileValue& one : value.list) {
             std::string name;
             const FileValue* text = nullptr;
-            if (one.type != FileValue::Type::table) fail(one.place, "pattern: expected [[pattern]] tables");
+            if (one.type != FileValue::Type::table) fail(one, "pattern: expected [[pattern]] tables");
             for (const auto& [key, inner] : one.table) {
                 if (key != "name" && key != "text")
-                    fail(inner.place, fmt::format("unknown key '{}'; expected name and text", printable(key)));
-                if (inner.type != FileValue::Type::text) fail(inner.place, key + ": expected a text");
+                    fail(inner, fmt::format("unknown key '{}'; expected name and text", printable(key)));
+                if (inner.type != FileValue::Type::text) fail(inner, key + ": expected a text");
                 if (key == "name") name = inner.text;
                 if (key == "text") text = &inner;
             }
-            if (name.empty() || !text) fail(one.place, "a [[pattern]] has a name and a text");
+            if (name.empty() || !text) fail(one, "a [[pattern]] has a name and a text");
             if (!known_.try_emplace(name, NamedPattern{name, text->text}).second) {
-                fail(one.place, fmt::format("two patterns are named '{}'", printable(name)));
+                fail(one, fmt::format("two patterns are named '{}'", printable(name)));
             }
             inner_.push_back(name);
         }
     }
 
-    const NamedPattern& pattern(const std::string& name, const std::string& place) {
+    const NamedPattern& pattern(const std::string& name, const FileValue& value) {
         const auto known = known_.find(name);
         if (known != known_.end()) return known->second;
         const auto refuse_arrangement = [&] {
-            fail(place, fmt::format("{}: a track plays a pattern, not another arrangement", printable(name)));
+            fail(value, fmt::format("{}: a track plays a pattern, not another arrangement", printable(name)));
         };
         if (lower_case(name).ends_with(".toml")) refuse_arrangement();
         NamedPattern found;
@@ -243,7 +239,7 @@ private:
             found = read_(name);
         } catch (const std::runtime_error& error) {
             if (bundled_arrangement(name)) refuse_arrangement();
-            fail(place, error.what());
+            fail(value, error.what());
         }
         result_.text += pattern_table(name, found.text);
         return known_.emplace(name, std::move(found)).first->second;
@@ -254,15 +250,15 @@ private:
         const auto is_control = [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F; };
         if (value.type != FileValue::Type::text || value.text.empty() || value.text.size() > most_bytes ||
             std::any_of(value.text.begin(), value.text.end(), is_control)) {
-            fail(value.place, fmt::format("name: expected a line of 1 to {} bytes of text", most_bytes));
+            fail(value, fmt::format("name: expected a line of 1 to {} bytes of text", most_bytes));
         }
         return value.text;
     }
 
     /// @throws FileError for keys of the whole piece
-    static void refuse_whole(const std::string& key, const std::string& place) {
+    static void refuse_whole(const std::string& key, const FileValue& value) {
         if (key != "tempo" && key != "ending") return;
-        fail(place, fmt::format("{} belongs to the whole piece, above the first track{}", key,
+        fail(value, fmt::format("{} belongs to the whole piece, above the first track{}", key,
                                 key == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
     }
 
@@ -271,8 +267,8 @@ private:
         std::vector<PlacedSetting> settings;
         Overrides overrides;
         std::string pattern;
-        std::string pattern_place;
-        std::string variant_place;
+        const FileValue* pattern_value = nullptr;
+        const FileValue* variant_value = nullptr;
         std::string name;
         char section = 0;
     };
@@ -280,66 +276,66 @@ private:
     static char section_of(const std::string& key, const FileValue& value) {
         const auto letters = read_form(text_of(key, value));
         if (letters.size() != 1 || letters.front().ending != Ending::none) {
-            fail(value.place, "section: expected a letter from A to Z");
+            fail(value, "section: expected a letter from A to Z");
         }
         return static_cast<char>('A' + letters.front().letter);
     }
 
     static void read_key(const std::string& key, const FileValue& value, TrackKeys& track) {
         const std::string known = folded(key);
-        refuse_whole(known, value.place);
+        refuse_whole(known, value);
         if (known == "pattern") {
-            track.pattern_place = value.place;
+            track.pattern_value = &value;
             track.pattern = text_of(known, value);
         } else if (known == "name") {
             track.name = part_name(value);
         } else if (known == "section") {
             track.section = section_of(known, value);
         } else if (known == "variant") {
-            track.variant_place = value.place;
+            track.variant_value = &value;
             track.overrides.variant = text_of(known, value);
         } else if (known == "set") {
-            if (value.type != FileValue::Type::table) fail(value.place, "set: expected a table of keys and defines");
+            if (value.type != FileValue::Type::table) fail(value, "set: expected a table of keys and defines");
             for (const auto& [inner, one] : value.table) {
-                refuse_whole(folded(inner), one.place);
-                track.settings.push_back({{inner, inner, text_of(inner, one)}, one.place, one.order});
+                refuse_whole(folded(inner), one);
+                track.settings.push_back({{inner, inner, text_of(inner, one)}, &one});
             }
         } else if (known == "n" || known == "seed" || music_key(known)) {
-            track.settings.push_back({part_setting(known, text_of(known, value)), value.place, value.order});
+            track.settings.push_back({part_setting(known, text_of(known, value)), &value});
         } else {
-            refuse_key(value.place, key, false);
+            refuse_key(value, key, false);
         }
     }
 
     void read_track(const FileValue& value) {
-        if (value.type != FileValue::Type::table) fail(value.place, "track: expected [[track]] tables");
+        if (value.type != FileValue::Type::table) fail(value, "track: expected [[track]] tables");
         TrackKeys track;
         const std::size_t before = errors_.size();
         track.settings = shared_;
         for (const auto& [key, one] : value.table) {
-            collect(one.order, [&, &key = key, &one = one] { read_key(key, one, track); });
+            collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
         if (track.pattern.empty() && errors_.size() > before) return;
-        if (track.pattern.empty()) fail(value.place, "this track has no pattern");
-        const NamedPattern& found = pattern(track.pattern, track.pattern_place);
+        if (track.pattern.empty()) fail(value, "this track has no pattern");
+        const NamedPattern& found = pattern(track.pattern, *track.pattern_value);
         Diagnostics diagnostics;
         Document document = Document::compile(found.name, found.text, track.overrides, diagnostics);
         if (!diagnostics.is_unreadable()) read_melody(document.pattern(), {}, diagnostics);
         const std::string variant = "variant " + track.overrides.variant;
         for (const Diagnostic& one : diagnostics.list()) {
             if (!track.overrides.variant.empty() && one.file == variant) {
-                fail(track.variant_place, fmt::format("{}: {}", variant, one.message));
+                fail(*track.variant_value, fmt::format("{}: {}", variant, one.message));
             }
         }
         diagnostics.throw_if_errors();
         for (const PlacedSetting& one : track.settings) {
-            collect(one.order, [&] { document = with(document, one); });
+            collect([&] { document = with(document, one); });
         }
         if (errors_.size() > before) return;
         require_turtle(document, "it has no melody");
         Diagnostics unplayable;
         check_phrases(document.pattern(), document.grammar(), unplayable);
-        if (unplayable.has_errors()) fail(value.place, unplayable.list().front().message);
+        if (unplayable.has_errors()) fail(value, unplayable.list().front().message);
         result_.tracks.push_back(
             {std::move(document), std::move(track.pattern), track.section, std::move(track.name)});
     }
@@ -347,7 +343,7 @@ private:
     /// @throws FileError at the place of the setting
     static Document with(const Document& document, const PlacedSetting& one) {
         const auto refuse = [&](const std::string& message) {
-            fail(one.place, fmt::format("{}: {}", one.setting.origin == "-n" ? "n" : one.setting.key, message));
+            fail(*one.value, fmt::format("{}: {}", one.setting.origin == "-n" ? "n" : one.setting.key, message));
         };
         try {
             Document changed = document.with({one.setting});
@@ -369,7 +365,7 @@ private:
             const bool is_played = std::any_of(result_.form.begin(), result_.form.end(),
                                                [&](const FormSection& one) { return one.letter == section - 'A'; });
             if (section != 0 && !is_played) {
-                fail(tracks.list[i].place,
+                fail(tracks.list[i],
                      result_.form.empty()
                          ? fmt::format("section {} needs a form above the first track, such as form = \"A B A\"",
                                        section)
@@ -380,8 +376,7 @@ private:
             const bool has_tracks =
                 std::any_of(result_.tracks.begin(), result_.tracks.end(),
                             [&](const Track& track) { return track.section == static_cast<char>('A' + one.letter); });
-            if (!has_tracks)
-                fail(form->place, fmt::format("no track has section {}", static_cast<char>('A' + one.letter)));
+            if (!has_tracks) fail(*form, fmt::format("no track has section {}", static_cast<char>('A' + one.letter)));
         }
     }
 
@@ -403,7 +398,7 @@ private:
     std::map<std::string, NamedPattern> known_;
     std::vector<std::string> inner_;
     std::vector<PlacedSetting> shared_;
-    std::vector<std::pair<Order, std::string>> errors_;
+    std::vector<FileError> errors_;
     Arrangement result_;
 };
 

@@ -173,6 +173,10 @@ void fail(const std::string& place, const std::string& message) {
     throw FileError(place.empty() ? message : place + ": " + message);
 }
 
+void fail(const FileValue& value, const std::string& message) {
+    throw FileError(value.place + ": " + message, value.order);
+}
+
 FileValue read_toml(const std::string& file, const std::string& text) {
     if (text.size() > most_toml_bytes) fail(file, "the file is too large: a file has at most 16 MB");
     TomlScan(file, text).run();

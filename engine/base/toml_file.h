@@ -3,12 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace sikku {
+
+/// Line and column in a file, from 1.
+using LineAndColumn = std::pair<std::uint32_t, std::uint32_t>;
 
 /// A value with its place.
 struct FileValue {
@@ -19,7 +23,7 @@ struct FileValue {
     struct Entry;
     std::vector<Entry> table;  ///< in the order of the file; the place of a value is its key's
     std::string place;         ///< `gallery.toml:3:1`
-    std::pair<std::uint32_t, std::uint32_t> order{0, 0};
+    LineAndColumn order{0, 0};
 };
 struct FileValue::Entry {
     std::string key;
@@ -33,12 +37,23 @@ constexpr std::size_t most_table_keys = 1000;
 
 /// An error in a file of settings, or in what was requested; what() begins with the place if there is one.
 class FileError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
+public:
+    static constexpr LineAndColumn no_line{std::numeric_limits<std::uint32_t>::max(), 0};  ///< after all lines
+
+    explicit FileError(const std::string& text, LineAndColumn order = no_line)
+        : std::runtime_error(text), order_(order) {}
+    /// Place in the file, for errors of one value.
+    LineAndColumn order() const { return order_; }
+
+private:
+    LineAndColumn order_;
 };
 
 /// @param place  may be empty
 /// @throws FileError always
 [[noreturn]] void fail(const std::string& place, const std::string& message);
+/// The same with the place of a value.
+[[noreturn]] void fail(const FileValue& value, const std::string& message);
 
 /// Reads a TOML file. Nesting and values are counted before it is parsed. Time: linear; memory: about 300 bytes
 /// per value.

@@ -518,6 +518,10 @@ TEST(Arrangement, MistakesHavePlaces) {
             "a.toml:2:1: unknown key 'colour'\n"
             "a.toml:5:1: unknown key 'transpos'; did you mean 'transpose'?\n"
             "a.toml:6:1: unit: ");
+    refused(track("transpos = 2\n", "missing"),
+            "a.toml:2:1: no pattern named 'missing'\na.toml:3:1: unknown key 'transpos'");
+    refused("[[track]]\ntranspos = 2\npattern = \"missing\"\n",
+            "a.toml:2:1: unknown key 'transpos'; did you mean 'transpose'?\na.toml:3:1: no pattern named 'missing'");
     refused("scale = \"majro\"\ncolour = \"red\"\n", "a.toml:2:1: unknown key 'colour'\na.toml: an arrangement has");
     refused("colour = \"red\"\n" + track("variant = \"zz\"\n"),
             "a.toml:1:1: unknown key 'colour'\na.toml:4:1: variant zz: this pattern has no variants");
