@@ -255,7 +255,7 @@ private:
         if (layout.plot && shared_.page.hatch && layout.plot->fills == 0 && !has_fields) {
             made.warn("'hatch' has no effect: these drawings have no fills");
         }
-        warn_of_no_tiles(layout.plot ? layout.plot->tiles : layout.polygons, shared_.page, made);
+        warn_of_no_tiles(layout.polygons, shared_.page, made);
     }
 
     /// add_cell(), whose errors name the drawing.

@@ -64,6 +64,7 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     drawing.read(print, plan);
     plan.arrange();
     report.plot = plan.report();
+    report.polygons = report.plot->tiles;
     if (is_for_plotters(options.format)) {
         const auto writer = options.format == PrintFormat::hpgl    ? write_hpgl(plotted, options.hpgl, output)
                             : options.format == PrintFormat::gcode ? write_gcode(plotted, options.gcode, output)

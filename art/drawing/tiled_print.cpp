@@ -161,11 +161,10 @@ std::uint64_t write_vector_tile(const TileWork& work, const Tile& tile, Output& 
     ClipSink clip(*writer, seen_box(part, shown, work.pen));
     work.drawing.read(part, moved(whole_page(work.print.page), corner), clip);
     const Print marks = mark_print(sheet.page, sheet.dpi, work.print.style.ground);
-    const std::uint64_t polygons = writer->polygons();
     writer->begin_part(marks, whole_page(marks.page));
     draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     writer->finish();
-    return polygons;
+    return writer->polygons();
 }
 
 void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, const std::filesystem::path& name) {
@@ -195,7 +194,6 @@ void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, 
 std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
     const auto writer = write_pdf_pages(work.print, output);
     work.drawing.read(work.print, *writer);
-    const std::uint64_t polygons = writer->polygons();
     const Page& sheet = work.tiling.sheet;
     const Page& page = work.print.page;
     Print marks = mark_print(sheet, work.print.dpi, work.print.style.ground);
@@ -215,7 +213,7 @@ std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
         draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     }
     writer->finish();
-    return polygons;
+    return writer->polygons();
 }
 
 /// Places the whole drawing. With a fixed step the page grows to the size of the drawing and its border, whose width

@@ -783,7 +783,9 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         const auto opened = destination.open(file);
         Output& output = *opened;
         if (options.plot || is_for_plotters(options.format)) {
-            layout.plot = sheet.write_plot(output).plot;
+            const DrawReport report = sheet.write_plot(output);
+            layout.plot = report.plot;
+            layout.polygons = report.polygons;
         } else if (info(options.format).kind == FormatKind::vectors) {
             const auto writer = write_vectors(options.format, sheet.print(), output);
             sheet.write_vectors(*writer);
