@@ -75,8 +75,7 @@ std::unique_ptr<WindowDrawing> WindowDrawing::make(const std::shared_ptr<const G
         options.tiles) {
         why =
             "splines with polygons, dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours "
-            "by "
-            "strand, hand-drawn lines and plots need the whole drawing";
+            "by strand, hand-drawn lines, sheets and plots need the whole drawing";
         return nullptr;
     }
     auto patches = make_patches(*plain, !grammar->is_plain(), style, why);
