@@ -441,7 +441,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     if (report.plot && settings_.hatch && report.plot->fills == 0 && report.fields == 0) {
         made.warn("'hatch' has no effect: this drawing has no fills");
     }
-    warn_of_no_tiles(report.polygons, settings_, made);
+    if (!report.is_empty) warn_of_no_tiles(report.polygons, settings_, made);
     if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, print_.page, options.hpgl, made);
     if (report.sheets > 0) report_sheets(report, made);
     if (settings_.swatch_place) report_swatch(*settings_.swatch_place, print_, settings_.swatch_stretch, made);

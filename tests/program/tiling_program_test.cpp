@@ -228,6 +228,11 @@ TEST(TilingCommand, NamesOfTilesNeedTiles) {
             }
         }
     }
+    // An empty window says nothing about the drawing.
+    const Outcome empty = run({"draw", "spectre", "-n", "40", "--window", "1000000,3,1000040,43", "--name-tiles",
+                               "-o", folder.file("x.svg")});
+    EXPECT_NE(empty.errors.find("the window contains no part of the drawing"), std::string::npos) << empty.errors;
+    EXPECT_EQ(empty.errors.find(warning), std::string::npos) << empty.errors;
 }
 
 /// Pieces of files are those of the pattern that wrote them, at the length of a unit.
