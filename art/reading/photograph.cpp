@@ -60,10 +60,10 @@ std::optional<Homography> moved(const Homography& map, DotLattice lattice, GridD
 }
 
 /// Dots of the lattice: spots on it, and places beside them where a weaker spot is.
-std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFit& fit, const SpotFinder& finder,
+std::optional<FoundGrid> grid_of(const std::vector<InkSpot>& spots, const LatticeFit& fit, const SpotFinder& finder,
                                  const Monitor& monitor) {
     using Key = std::pair<std::int32_t, std::int32_t>;
-    std::map<Key, Spot> dots;
+    std::map<Key, InkSpot> dots;
     for (std::size_t i = 0; i < spots.size(); ++i) {
         if (fit.places[i]) dots[{fit.places[i]->x, fit.places[i]->y}] = spots[i];
     }
@@ -111,7 +111,7 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
     // Places beside dots, again and again, for a dot may be weak and yet be there.
     std::set<Key> tried;
     for (int round = 0; round < 8; ++round) {
-        std::map<Key, Spot> more;
+        std::map<Key, InkSpot> more;
         for (const auto& [place, spot] : dots) {
             monitor.check();
             for (const GridDot way : around) {
@@ -122,7 +122,7 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
                 const glm::dvec2 at = lattice_point(fit.lattice, {to.first, to.second});
                 const auto steps = fit.map.derivatives(at);
                 const double spacing = 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
-                const Spot near = finder.near(fit.map(at), found.dot_radius * spacing, 0.12 * spacing);
+                const InkSpot near = finder.near(fit.map(at), found.dot_radius * spacing, 0.12 * spacing);
                 if (near.strength > 0.35 * found.strength) more[to] = near;
             }
         }
@@ -161,7 +161,7 @@ std::optional<FoundGrid> grid_of(const std::vector<Spot>& spots, const LatticeFi
 }
 
 /// The best lattice through the stronger spots.
-std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<Spot>& all,
+std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<InkSpot>& all,
                                    std::optional<DotLattice> lattice, const Monitor& monitor) {
     if (all.size() < 2) return std::nullopt;
     const double high = all[all.size() / 20].strength;
@@ -169,13 +169,13 @@ std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<S
     std::size_t before = 0;
     for (const double part : {0.75, 0.55, 0.4, 0.28}) {
         const auto end = std::partition_point(all.begin(), all.end(),
-                                              [&](const Spot& spot) { return spot.strength >= part * high; });
+                                              [&](const InkSpot& spot) { return spot.strength >= part * high; });
         const auto count = std::min<std::size_t>(static_cast<std::size_t>(end - all.begin()), most_dots);
         if (count == before || count < 2) continue;
         before = count;
-        const std::vector<Spot> spots(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+        const std::vector<InkSpot> spots(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
         std::vector<glm::dvec2> points;
-        for (const Spot& spot : spots) points.push_back(spot.at);
+        for (const InkSpot& spot : spots) points.push_back(spot.at);
         const auto fit = fit_lattice(points, true, lattice, monitor);
         if (!fit || fit->fitted < 2) continue;
         auto found = grid_of(spots, *fit, finder, monitor);
@@ -445,7 +445,7 @@ struct InkSpots {
     GreyPicture ink;
     SpotFinder finder;
     bool is_dark;
-    std::vector<Spot> spots = {};
+    std::vector<InkSpot> spots = {};
 
     InkSpots(Ink found, const Monitor& monitor)
         : ink(std::move(found.values)), finder(ink, monitor), is_dark(true), spots(finder.find(monitor)) {
@@ -481,8 +481,8 @@ std::optional<Reading> read_inside(const InkSpots& ink, const Reading& border, s
         low = glm::min(low, dots.back());
         high = glm::max(high, dots.back());
     }
-    std::vector<Spot> inside;
-    for (const Spot& spot : ink.spots) {
+    std::vector<InkSpot> inside;
+    for (const InkSpot& spot : ink.spots) {
         const bool is_in = spot.at.x > low.x && spot.at.y > low.y && spot.at.x < high.x && spot.at.y < high.y;
         const bool is_of_border = std::any_of(dots.begin(), dots.end(), [&](glm::dvec2 dot) {
             return glm::distance(dot, spot.at) < 0.6 * found.spacing;

@@ -57,8 +57,8 @@ double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
     return middle - around[noise_points] - 1.5 * std::max(0.0, around[noise_points]);
 }
 
-std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
-    std::vector<Spot> all;
+std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
+    std::vector<InkSpot> all;
     for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
         monitor.check();
         const GreyPicture& picture = blurred_[scale];
@@ -86,7 +86,7 @@ std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
             }
         }
     }
-    std::sort(all.begin(), all.end(), [](const Spot& a, const Spot& b) {
+    std::sort(all.begin(), all.end(), [](const InkSpot& a, const InkSpot& b) {
         if (a.strength != b.strength) return a.strength > b.strength;
         return a.at.y != b.at.y ? a.at.y < b.at.y : a.at.x < b.at.x;
     });
@@ -94,8 +94,8 @@ std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
     const std::size_t w = blurred_[0].width;
     const std::size_t h = blurred_[0].height;
     std::vector<char> is_taken(w * h);
-    std::vector<Spot> spots;
-    for (const Spot& spot : all) {
+    std::vector<InkSpot> spots;
+    for (const InkSpot& spot : all) {
         const auto x = static_cast<std::size_t>(std::lround(spot.at.x));
         const auto y = static_cast<std::size_t>(std::lround(spot.at.y));
         if (is_taken[y * w + x] != 0) continue;
@@ -110,8 +110,8 @@ std::vector<Spot> SpotFinder::find(const Monitor& monitor) const {
     return spots;
 }
 
-Spot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
-    Spot best{at, radius, 0.0};
+InkSpot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
+    InkSpot best{at, radius, 0.0};
     if (blurred_.empty() || !(reach >= 0)) return best;
     // A degenerate map of a lattice asks for places without limit.
     reach = std::min(reach, 60.0);

@@ -11,7 +11,7 @@
 namespace sikku {
 
 /// A spot of ink with ground all around it, which a point on a line does not have.
-struct Spot {
+struct InkSpot {
     glm::dvec2 at{0.0};
     double radius = 0.0;    ///< in pixels
     double strength = 0.0;  ///< ink in its middle less the most ink around it
@@ -28,10 +28,10 @@ public:
     /// Exchanges ink and ground, as if the picture had been a negative.
     void negate();
     /// All spots, the strongest first; none within another. At most `most_spots`.
-    std::vector<Spot> find(const Monitor& monitor) const;
+    std::vector<InkSpot> find(const Monitor& monitor) const;
     static constexpr std::size_t most_spots = 20'000;
     /// The strongest spot of about this radius within `reach` of a place; strength 0 if none is found.
-    Spot near(glm::dvec2 at, double radius, double reach) const;
+    InkSpot near(glm::dvec2 at, double radius, double reach) const;
 
 private:
     double strength(std::size_t scale, glm::dvec2 at) const;

@@ -19,10 +19,10 @@ struct Include {
     bool quoted = false;
 };
 
-std::vector<Include> includes_of(const std::string& folder) {
+/// Paths of the C++ files of a folder, relative to the source folder.
+std::vector<std::string> sources_of(const std::string& folder) {
     const std::filesystem::path root = SIKKU_SOURCE_DIR;
-    static const std::regex line_form(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
-    std::vector<Include> found;
+    std::vector<std::string> found;
     if (!std::filesystem::exists(root / folder)) return found;
     using Iterator = std::filesystem::recursive_directory_iterator;
     for (Iterator each(root / folder); each != Iterator(); ++each) {
@@ -31,12 +31,19 @@ std::vector<Include> includes_of(const std::string& folder) {
         const std::string name = entry.path().filename();
         if (name == "node_modules" || name == "include") each.disable_recursion_pending();
         const std::string extension = entry.path().extension();
-        if (extension != ".h" && extension != ".cpp") continue;
-        std::ifstream stream(entry.path());
+        if (extension == ".h" || extension == ".cpp") found.push_back(std::filesystem::relative(entry.path(), root));
+    }
+    return found;
+}
+
+std::vector<Include> includes_of(const std::string& folder) {
+    static const std::regex line_form(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+    std::vector<Include> found;
+    for (const std::string& file : sources_of(folder)) {
+        std::ifstream stream(std::filesystem::path(SIKKU_SOURCE_DIR) / file);
         for (std::string line; std::getline(stream, line);) {
             std::smatch match;
-            if (!std::regex_search(line, match, line_form)) continue;
-            found.push_back({std::filesystem::relative(entry.path(), root).string(), match[2], match[1] == "\""});
+            if (std::regex_search(line, match, line_form)) found.push_back({file, match[2], match[1] == "\""});
         }
     }
     return found;
@@ -180,6 +187,38 @@ TEST(Arrows, OpenImageIoStaysInsideTheModule) {
         }
     }
     EXPECT_EQ(users, (std::set<std::string>{"art/image/image_module.cpp", "art/image/picture_reader.h"}));
+}
+
+/// Two types of one name in a namespace break the one-definition rule as soon as both are used in templates such as
+/// std::vector: the linker keeps the functions of one for both.
+TEST(Arrows, EachTypeOfANamespaceHasOneDefinition) {
+    static const std::regex opened(R"(^(?:inline )?namespace\s*([\w:]*)\s*\{)");
+    static const std::regex type(R"(^(?:template\s*<.*>\s*)?(?:struct|class|union|enum class|enum)\s+(?:\[\[\w+\]\]\s*)?)"
+                                 R"((\w+)(?:\s+final)?\s*(?::[^:;].*)?\{)");
+    std::map<std::string, std::string> places;
+    std::size_t types = 0;
+    for (const char* folder : {"engine", "art", "music", "cli", "python", "studio"}) {
+        for (const std::string& file : sources_of(folder)) {
+            std::vector<std::string> spaces;
+            std::istringstream lines(contents(std::filesystem::path(SIKKU_SOURCE_DIR) / file));
+            for (std::string line; std::getline(lines, line);) {
+                std::smatch match;
+                if (std::regex_search(line, match, opened)) {
+                    spaces.push_back(match[1].length() == 0 ? "(" + file + ")" : match[1].str());
+                } else if (line.starts_with("}  // namespace") && !spaces.empty()) {
+                    spaces.pop_back();
+                } else if (std::regex_search(line, match, type)) {
+                    std::string name;
+                    for (const std::string& space : spaces) name += space + "::";
+                    name += match[1];
+                    const auto [place, is_new] = places.emplace(name, file);
+                    EXPECT_TRUE(is_new) << name << " is defined in " << place->second << " and in " << file;
+                    ++types;
+                }
+            }
+        }
+    }
+    EXPECT_GT(types, 1000u);
 }
 
 TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
