@@ -320,6 +320,31 @@ std::string name_of(const ::testing::TestParamInfo<Tiling>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Patterns, Tilings, ::testing::ValuesIn(tilings), name_of);
 
+/// At its own derivation length, without exception.
+TEST(BundledTilings, FillEveryTile) {
+    const std::filesystem::path folder = std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/tilings";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().stem();
+        SCOPED_TRACE(name);
+        const std::int64_t n = reference::grammar_of(contents(entry.path())).steps();
+        const auto polygons = polygons_of(name, "", static_cast<int>(n));
+        ASSERT_FALSE(polygons.empty());
+        Patch(polygons).expect_tiling();
+    }
+}
+
+TEST(BundledTilings, HaveAsManyTilesAsTheirFigures) {
+    // Rows of 1, 2, 3 … hexagons; rings of 24, 48, 72 … tiles, and a mirror image above each tile but the outermost.
+    for (int n = 1; n <= 10; ++n) {
+        EXPECT_EQ(polygons_of("hexagonal-tiling", "", n).size(), static_cast<std::size_t>(n * (n + 1) / 2));
+    }
+    for (int n = 2; n <= 6; ++n) {
+        const int rings = n - 1;
+        EXPECT_EQ(polygons_of("spiral-tiling", "", n).size(),
+                  static_cast<std::size_t>(24 * (rings * (rings + 1) / 2 + rings * (rings - 1) / 2)));
+    }
+}
+
 /// Tiles by colour after 0, 1, 2 … steps.
 Counts counts_of(const std::string& name, int n) {
     Counts result;
