@@ -17,6 +17,7 @@
 #include "art/sheet/sheet.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
+#include "engine/geometry/lettering.h"
 #include "engine/language/surface.h"
 #include "engine/map/map_measurement.h"
 
@@ -453,10 +454,23 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
     }
 }
 
+/// Labels with characters that are drawn as boxes.
+void warn_of_letters(const Grammar& grammar, Made& made) {
+    for (const LabelText& label : grammar.labels()) {
+        if (std::all_of(label.parts.begin(), label.parts.end(),
+                        [](const LabelText::Part& part) { return has_letters(part.text); })) {
+            continue;
+        }
+        made.warn(fmt::format("the label of '{}' has characters that the lettering lacks: boxes stand for them",
+                              label.letter));
+    }
+}
+
 Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
                      int threads) {
     Made made;
     if (!dropped_border_.empty()) made.warn(dropped_border_);
+    warn_of_letters(document_.grammar(), made);
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;

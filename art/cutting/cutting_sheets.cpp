@@ -1,6 +1,6 @@
 #include "art/cutting/cutting_sheets.h"
 
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "art/drawing/drawing.h"
 #include "art/drawing/united_lines.h"
 #include "art/image/image_file.h"
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 #include "art/vector/pdf.h"
 
 #include <fmt/format.h>

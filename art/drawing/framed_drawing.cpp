@@ -2,7 +2,7 @@
 
 #include "art/drawing/word_drawing.h"
 #include "art/print/border_ink.h"
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/moved_path.h"
 

@@ -1,6 +1,6 @@
 #include "art/drawing/lesson_drawing.h"
 
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/point_tree.h"
 

@@ -66,7 +66,13 @@ private:
     std::unique_ptr<LineBands> bands_;
 };
 
-/// Hands on polygons and discs only.
-using OnlyAreas = WithoutStrokes<PathFilter>;
+/// Hands on polygons, discs and labels only.
+class OnlyAreas : public WithoutStrokes<PathFilter> {
+public:
+    using WithoutStrokes::WithoutStrokes;
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override {
+        sink_.label(text, centre, height, pen);
+    }
+};
 
 }  // namespace sikku

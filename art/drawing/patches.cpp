@@ -303,6 +303,8 @@ bool PatchesOf<Headings>::compose(std::string& why) {
         const Command& is = command(symbol);
         why = "a window needs a drawing in the plane with finite lengths";
         if (!is_in_the_plane(is.action) || !std::isfinite(is.value) || !std::isfinite(is.angle.degrees)) return false;
+        why = "a window needs a drawing without labels";
+        if (is.action == Action::label) return false;
         why = "a window needs brackets without productions";
         const bool is_bracket = grammar_.is_push(symbol) || grammar_.is_pop(symbol);
         for (const Table* table : tables_) {

@@ -277,7 +277,7 @@ DrawingCost cost_of_word(const Grammar& grammar, const DrawOptions& options) {
     cost.lines = cost.nodes / 2;
     if (const auto known = estimate(grammar, true)) {
         cost.nodes = std::min(known->nodes, options.budget);
-        cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes);
+        cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes) + label_lines(grammar, *known);
     }
     if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
     return cost;
@@ -449,7 +449,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
         }
     }
     if (extent_.box.empty())
-        throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
+        throw std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label");
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
     if (!view_) throw std::runtime_error("the drawing is too large to be drawn");

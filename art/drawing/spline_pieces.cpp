@@ -94,4 +94,8 @@ void SplinePieces::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     spline_.disc(centre, radius, pen);
 }
 
+void SplinePieces::label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) {
+    spline_.label(text, centre, height, pen);
+}
+
 }  // namespace sikku

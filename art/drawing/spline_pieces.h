@@ -25,6 +25,7 @@ public:
     void end_line(glm::dvec2 at) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override;
     std::size_t prepare(const Blot&, const Pen&) override { return 0; }
     void blot(std::size_t, glm::dvec2) override {}
 

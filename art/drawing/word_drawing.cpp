@@ -39,7 +39,7 @@ DerivationOptions reading(const DrawOptions& options) {
 double parts_of(const Grammar& grammar) {
     const auto known = estimate(grammar, true);
     if (!known) return 0;
-    double parts = drawn_symbols(grammar, *known);
+    double parts = drawn_symbols(grammar, *known) + label_lines(grammar, *known);
     for (std::size_t i = 0; i < std::min(known->rough_counts.size(), grammar.symbols().size()); ++i) {
         const Command& command = grammar.symbols()[i].command;
         if (command.action != Action::surface) continue;
@@ -83,7 +83,7 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 
 void require_ink(const Box& box) {
     if (!box.empty()) return;
-    throw std::runtime_error("nothing to draw: the word contains no visible line, polygon or disc");
+    throw std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label");
 }
 
 WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
@@ -109,6 +109,9 @@ WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawO
             case Action::polygon_begin:
             case Action::disc:
                 has_areas_ = true;
+                break;
+            case Action::label:
+                has_labels_ = true;
                 break;
             case Action::width_factor:
             case Action::width_set:
@@ -157,7 +160,7 @@ DrawnExtent WordDrawing::measured() {
     }
     // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
     // one stroke, and is folded for whether it closes.
-    const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && all_lines_are_seen();
+    const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && !has_labels_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && !has_edges_ && style_.moves_draw();
     if (folds_extent || is_one_stroke) folded = fold(grammar_);

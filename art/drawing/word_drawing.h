@@ -45,6 +45,7 @@ private:
     bool has_areas_ = false;
     bool has_edges_ = false;
     bool has_widths_ = false;
+    bool has_labels_ = false;
     bool has_colours_ = false;
     std::vector<bool> closed_;  ///< whether each stroke of a spline is closed, in their order
     std::optional<DrawnExtent> extent_;

@@ -74,6 +74,7 @@ public:
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void area(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
+    void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
     /// The lines, in the order of the examination of the same drawing, which knows the continuations of strokes.
     CurvedLines finish(const KolamExamination& examination);

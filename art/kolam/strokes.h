@@ -77,6 +77,7 @@ public:
     }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2 centre, double, const Pen&) override { strokes.discs.push_back(centre); }
+    void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
     Strokes finish() {
         strokes.begins.push_back(strokes.nodes.size());

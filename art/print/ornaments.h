@@ -28,6 +28,9 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override {
+        sink_.label(text, centre, height, old(pen));
+    }
 
 private:
     Pen old(Pen pen) const {
@@ -72,6 +75,10 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
+    /// Labels are not lines: they keep their colours.
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override {
+        sink_.label(text, centre, height, old(pen));
+    }
 
 private:
     /// Starts a visible stroke when the pen becomes visible.

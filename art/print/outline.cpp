@@ -1,6 +1,6 @@
 #include "art/print/outline.h"
 
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

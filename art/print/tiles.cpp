@@ -1,6 +1,6 @@
 #include "art/print/tiles.h"
 
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -4,7 +4,7 @@
 #include "art/drawing/picture.h"
 #include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet_pixels.h"
 #include "art/sheet/sheet_plot.h"

@@ -1,6 +1,9 @@
 #include "art/space/scene.h"
 
 #include "art/space/triangles.h"
+#include "art/style/camera.h"
+#include "engine/geometry/bezier.h"
+#include "engine/geometry/lettering.h"
 #include "engine/language/surface.h"
 
 #include <fmt/format.h>
@@ -14,10 +17,53 @@
 
 namespace sikku {
 
+/// Draws the letters of a label as stems, upright before an eye.
+class LetterStems : public WithoutStrokes<PathSink> {
+public:
+    LetterStems(SpaceSink& sink, const Projection& eye, const glm::dvec3& centre, double height)
+        : sink_(sink),
+          right_(eye.turned_back({1, 0, 0})),
+          up_(eye.turned_back({0, 1, 0})),
+          centre_(centre),
+          tolerance_(height / 200) {}
+
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        at_ = start;
+        pen_ = pen;
+        is_joined_ = false;
+    }
+    void lines(std::span<const glm::dvec2> ends) override {
+        for (const glm::dvec2 end : ends) {
+            sink_.segment(placed(at_), pen_, placed(end), pen_, is_joined_);
+            at_ = end;
+            is_joined_ = true;
+        }
+    }
+    void curves(std::span<const glm::dvec2> controls) override {
+        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+            flatten(at_, controls[i], controls[i + 1], controls[i + 2], tolerance_, [&](glm::dvec2 end) {
+                lines({&end, 1});
+            });
+        }
+    }
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+
+private:
+    glm::dvec3 placed(glm::dvec2 point) const { return centre_ + point.x * right_ + point.y * up_; }
+
+    SpaceSink& sink_;
+    glm::dvec3 right_, up_, centre_;
+    double tolerance_;
+    glm::dvec2 at_{0.0};
+    Pen pen_;
+    bool is_joined_ = false;
+};
+
 class SceneCollector : public SpaceSink {
 public:
     SceneCollector(const Grammar& grammar, const Style& style, double most)
-        : grammar_(grammar), style_(style), most_(most) {}
+        : grammar_(grammar), style_(style), eye_(style.camera, {}), most_(most) {}
 
     void segment(const glm::dvec3& from, const Pen& before, const glm::dvec3& to, const Pen& pen,
                  bool goes_on) override {
@@ -74,6 +120,10 @@ public:
         scene.spheres_.push_back({local(centre), static_cast<float>(radius), SceneWidth(pen), style_.index(pen)});
     }
 
+    void label(std::string_view text, const glm::dvec3& centre, double height, const Pen& pen) override {
+        LetterStems(*this, eye_, centre, height).label(text, glm::dvec2(0.0), height, pen);
+    }
+
     Scene scene;
 
 private:
@@ -105,6 +155,7 @@ private:
 
     const Grammar& grammar_;
     const Style& style_;
+    Projection eye_;
     double most_;
     double counted_ = 0;
     bool has_bounds_ = false;

@@ -424,4 +424,19 @@ double drawn_symbols(const Grammar& grammar, const Forecast& forecast) {
     return drawn;
 }
 
+double label_lines(const Grammar& grammar, const Forecast& forecast) {
+    constexpr double lines_of_letter = 10, letters_of_number = 3;
+    double lines = 0;
+    for (std::size_t i = 0; i < std::min(forecast.rough_counts.size(), grammar.symbols().size()); ++i) {
+        const Command& command = grammar.symbols()[i].command;
+        if (command.action != Action::label) continue;
+        double letters = 0;
+        for (const LabelText::Part& part : grammar.labels()[command.label].parts) {
+            letters += static_cast<double>(part.text.size()) + (part.parameter > 0 ? letters_of_number : 0);
+        }
+        lines += forecast.rough_counts[i] * letters * lines_of_letter;
+    }
+    return lines;
+}
+
 }  // namespace sikku

@@ -45,6 +45,9 @@ std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 /// Estimates the number of symbols of a forecast word that draw lines, discs or surfaces.
 double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
 
+/// Estimates the number of lines and curves of the letters of labels.
+double label_lines(const Grammar& grammar, const Forecast& forecast);
+
 /// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.
 double expected_symbols(const Grammar& grammar, bool interpreted);
 

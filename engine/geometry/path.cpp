@@ -1,6 +1,7 @@
 #include "engine/geometry/path.h"
 
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/lettering.h"
 
 #include <algorithm>
 #include <limits>
@@ -25,6 +26,10 @@ void PathSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
     }
     if (vertices.back() == vertices.front()) vertices.pop_back();
     if (vertices.size() >= 3) polygon(vertices, pen);
+}
+
+void PathSink::label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) {
+    write_text(text, centre - glm::dvec2(text_width(text, height), height) / 2.0, height, pen, *this);
 }
 
 }  // namespace sikku

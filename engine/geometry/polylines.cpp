@@ -73,6 +73,7 @@ public:
     void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
+    void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
     Keeper<glm::dvec2> kept;
 };
@@ -88,6 +89,7 @@ public:
     void polygon(std::span<const glm::dvec3>, const Pen&) override {}
     void surface(const Surface&, const glm::dmat4x3&, const Pen&) override {}
     void sphere(const glm::dvec3&, double, const Pen&) override {}
+    void label(std::string_view, const glm::dvec3&, double, const Pen&) override {}
 
     Keeper<glm::dvec3> kept;
 };

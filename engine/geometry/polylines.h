@@ -29,7 +29,7 @@ struct TraceOptions {
     std::function<void(std::uint64_t symbols)> watch = {};  ///< as DerivationOptions::watch
 };
 
-/// Traces the lines that the turtle draws in the plane; polygons and discs are left out.
+/// Traces the lines that the turtle draws in the plane; polygons, discs and labels are left out.
 /// Cost: about 15 ns and 16 bytes per point. @throws BudgetError, also for more points than half of the memory holds;
 /// WordError; what `watch` throws
 Polylines<glm::dvec2> trace(const Grammar& grammar, const TraceOptions& options);

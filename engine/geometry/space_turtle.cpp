@@ -1,6 +1,7 @@
 #include "engine/geometry/space_turtle.h"
 
 #include "engine/geometry/lattice.h"
+#include "engine/geometry/lettering.h"
 #include "engine/geometry/turtle_state.h"
 #include "engine/language/surface.h"
 
@@ -58,7 +59,13 @@ void widen(SpaceBounds& bounds, const glm::dvec3& point) {
 class WalkingSpaceTurtle final : public SpaceTurtle {
 public:
     WalkingSpaceTurtle(const Grammar& grammar, SpaceSink* sink, double sway)
-        : sink_(sink), sway_(sway), tropism_(grammar.tropism()), surfaces_(grammar.surfaces()), edges_(grammar) {
+        : sink_(sink),
+          sway_(sway),
+          tropism_(grammar.tropism()),
+          surfaces_(grammar.surfaces()),
+          labels_(grammar.labels()),
+          letter_height_(grammar.letter_height()),
+          edges_(grammar) {
         for (const SymbolInfo& symbol : grammar.symbols()) {
             const Command& command = symbol.command;
             Instruction instruction{.action = command.action,
@@ -67,8 +74,9 @@ public:
                                     .is_vertex = command.is_vertex,
                                     .arity = symbol.arity,
                                     .turn = {},
-                                    .surface = command.surface,
-                                    .size = size_of(symbol.arguments)};
+                                    .surface = command.action == Action::label ? command.label : command.surface,
+                                    .size = size_of(symbol.arguments),
+                                    .arguments = symbol.arguments};
             if (!std::isfinite(command.angle.degrees)) instruction.value = command.angle.degrees;
             if (turns(command.action) && !command.takes_argument) {
                 instruction.turn = rotation(command.action, command.angle.degrees);
@@ -88,6 +96,9 @@ public:
             if (command.action == Action::surface) {
                 place_surface(*surfaces_[command.surface],
                               command.takes_argument ? size_of({next, command.arity}) : command.size);
+            } else if (command.action == Action::label) {
+                write_label(labels_[command.surface],
+                            command.arity > 0 ? std::span(next, command.arity) : std::span(command.arguments));
             } else if (command.action != Action::pass) {
                 obey(command, command.takes_argument ? command.value * *next : command.value);
             }
@@ -134,8 +145,9 @@ private:
         bool is_vertex;
         std::uint32_t arity;
         glm::dquat turn;
-        std::uint32_t surface;
-        glm::dvec3 size;  ///< of a surface
+        std::uint32_t surface;          ///< or label
+        glm::dvec3 size;                ///< of a surface
+        std::vector<double> arguments;  ///< constant ones
     };
 
     /// The factors of `~X(s)` and `~X(sx,sy,sz)`.
@@ -283,6 +295,17 @@ private:
         edges_.step(state_.place, state_.node, position_);
     }
 
+    void write_label(const LabelText& label, std::span<const double> arguments) {
+        for (std::uint32_t i = 0; i < label.parameters(); ++i) {
+            if (!std::isfinite(arguments[i])) throw_at(position_, "its parameter is not finite");
+        }
+        const std::string text = label.text(arguments);
+        const glm::dvec3 half(text_width(text, letter_height_) / 2, letter_height_ / 2, 0);
+        note_ink(state_.place.at - half);
+        widen(*survey_.ink, state_.place.at + half);
+        if (sink_) sink_->label(text, state_.place.at, letter_height_, state_.pen);
+    }
+
     void end_edge() {
         const std::vector<Place> cycle = edges_.close(state_.node, position_);
         ++survey_.polygons;
@@ -324,6 +347,8 @@ private:
     double sway_;
     std::optional<Tropism> tropism_;
     std::vector<std::shared_ptr<const Surface>> surfaces_;
+    std::vector<LabelText> labels_;
+    double letter_height_;
     std::vector<Instruction> commands_;
     State state_;
     BracketStack<State> stack_;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace sikku {
 
@@ -35,6 +36,8 @@ public:
     virtual void surface(const Surface& surface, const glm::dmat4x3& map, const Pen& pen) = 0;
     /// `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void sphere(const glm::dvec3& centre, double radius, const Pen& pen) = 0;
+    /// A text whose middle is at `centre`, whose capital letters are `height` steps high.
+    virtual void label(std::string_view text, const glm::dvec3& centre, double height, const Pen& pen) = 0;
 };
 
 /// An axis-parallel box in space, in turtle steps.
@@ -51,7 +54,7 @@ struct SpaceSurvey {
     double length = 0.0;             ///< drawn, in steps
     std::uint64_t polygons = 0;      ///< closed by `}` or an inserted edge
     SpaceBounds box;                 ///< of all positions, the start included
-    std::optional<SpaceBounds> ink;  ///< of the segments drawn
+    std::optional<SpaceBounds> ink;  ///< of the segments drawn, and of labels as they are seen from the front
     glm::dvec3 end{0.0};
     bool closed = false;     ///< ended where it began
     std::int64_t depth = 0;  ///< deepest nesting of brackets

@@ -42,6 +42,10 @@ void SplineSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     sink_.disc(centre, radius, pen);
 }
 
+void SplineSink::label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) {
+    sink_.label(text, centre, height, pen);
+}
+
 /// A curve's piece is handed on as soon as no later point can change it.
 void SplineSink::add(glm::dvec2 point) {
     recent_[count_ % recent_.size()] = {point, pen_};

@@ -14,7 +14,8 @@ namespace sikku {
 /// Takes the points of each stroke as the control points of a uniform cubic B-spline and hands the curve on as cubic
 /// Béziers; nothing is flattened. A stroke that ends where it began is a closed curve, smooth at its start, too. An
 /// open one runs from its first point to its last (clamped knots); of fewer than 4 segments, it triples its end
-/// points instead. Polygons and discs pass unchanged; outlines become areas that follow the curves (SplineOutlines).
+/// points instead. Polygons, discs and labels pass unchanged; outlines become areas that follow the curves
+/// (SplineOutlines).
 ///
 /// Whether a stroke is closed must be known when it begins; a first pass with a StrokeCensus tells.
 /// Memory: O(1) beside SplineOutlines. Source: Prusinkiewicz & Hanan 1989, section 2.2 (figures 2.10 and 2.11); de
@@ -32,6 +33,7 @@ public:
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override;
 
     void begin_outline(glm::dvec2 at) override { outlines_.begin(at); }
     void outline_vertex(glm::dvec2 at) override { outlines_.vertex(at); }
@@ -70,6 +72,7 @@ class StrokeCensus : public PolygonSink {
 public:
     void end_stroke(bool is_closed) override { closed.push_back(is_closed); }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
     std::vector<bool> closed;
 };

@@ -1,6 +1,7 @@
 #include "engine/geometry/turtle.h"
 
 #include "engine/geometry/lattice.h"
+#include "engine/geometry/lettering.h"
 #include "engine/geometry/turtle_state.h"
 
 #include <fmt/format.h>
@@ -9,12 +10,16 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace sikku {
 namespace {
 
 constexpr std::size_t points_in_block = 1024;
+constexpr std::size_t labels_in_block = 1024;
+constexpr std::size_t most_waiting_labels = std::size_t{1} << 24;
 
 /// Positions in Z[zeta], headings modulo k.
 template <int Rank>
@@ -132,9 +137,14 @@ public:
           places_(sinks.places),
           outlines_(sinks.outlines),
           moves_draw_(moves_draw),
-          edges_(grammar) {
+          edges_(grammar),
+          letter_height_(grammar.letter_height()) {
         edges_.start(state_.place);
         for (const SymbolInfo& symbol : grammar.symbols()) {
+            if (symbol.command.action == Action::label) {
+                labels_.try_emplace(static_cast<Symbol>(commands_.size()), grammar.labels()[symbol.command.label],
+                                    symbol.arguments);
+            }
             commands_.push_back({symbol.command.action, symbol.command.value,
                                  std::isfinite(symbol.command.value) && std::isfinite(symbol.command.angle.degrees),
                                  symbol.command.takes_argument, symbol.command.is_vertex, symbol.arity});
@@ -144,12 +154,14 @@ public:
 
     void symbols(const Run& run) override {
         const std::uint64_t first = position_;
+        arguments_ = {};
         if (run.arguments.empty()) {
             for (const Symbol symbol : run.symbols) obey<false>(symbol, commands_[symbol]);
         } else {
             const double* next = run.arguments.data();
             for (const Symbol symbol : run.symbols) {
                 const Instruction& command = commands_[symbol];
+                arguments_ = {next, command.arity};
                 if (command.takes_argument) {
                     Instruction own = command;
                     own.value *= *next;
@@ -200,6 +212,13 @@ private:
         std::uint32_t arity;
     };
 
+    /// A label until the pen is lifted.
+    struct Waiting {
+        std::string text;
+        glm::dvec2 at;
+        Pen pen;
+    };
+
     /// With `Own`, a module that states the command's value.
     template <bool Own>
     void obey(Symbol symbol, const Instruction& command) {
@@ -220,6 +239,9 @@ private:
                 } else {
                     walker_.turn(state_.place, symbol);
                 }
+                break;
+            case Action::label:
+                write_label(symbol);
                 break;
             default:
                 rare(command);
@@ -347,6 +369,31 @@ private:
         }
     }
 
+    void write_label(Symbol symbol) {
+        const auto& [label, own] = labels_.at(symbol);
+        const std::span<const double> arguments = arguments_.empty() ? std::span(own) : arguments_;
+        for (std::uint32_t i = 0; i < label.parameters(); ++i) {
+            if (!std::isfinite(arguments[i])) throw_at(position_, "its parameter is not finite");
+        }
+        Waiting waiting{label.text(arguments), walker_.point(state_.place), state_.pen};
+        if constexpr (Surveying) {
+            const glm::dvec2 half(text_width(waiting.text, letter_height_) / 2, letter_height_ / 2);
+            note_ink(waiting.at - half);
+            widen(*survey_.ink, waiting.at + half);
+        } else if (sink_) {
+            waiting_.push_back(std::move(waiting));
+            if (!down_) return write_labels();
+            if (!moves_draw_ && waiting_.size() >= labels_in_block) lift();
+            if (waiting_.size() > most_waiting_labels)
+                throw_at(position_, "more than 16,777,216 labels along one line");
+        }
+    }
+
+    void write_labels() {
+        for (const Waiting& label : waiting_) sink_->label(label.text, label.at, letter_height_, label.pen);
+        waiting_.clear();
+    }
+
     void end_polygon() {
         const std::vector<glm::dvec2> vertices = polygons_.end(position_);
         ++survey_.polygons;
@@ -420,6 +467,7 @@ private:
         flush();
         sink_->end_stroke(start_.same_place(state_.place));
         down_ = false;
+        write_labels();
     }
 
     void flush() {
@@ -464,6 +512,10 @@ private:
     std::vector<std::int64_t> coordinates_;  // of points_
     std::vector<std::int64_t> vertices_;     // coordinates of the vertices of open polygons, if places are told
     std::vector<std::size_t> vertices_begin_;
+    std::span<const double> arguments_;  // of the module, if it states them
+    std::unordered_map<Symbol, std::pair<LabelText, std::vector<double>>> labels_;  // with constant parameters
+    std::vector<Waiting> waiting_;
+    double letter_height_;
     Survey survey_;
 };
 

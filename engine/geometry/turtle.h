@@ -24,7 +24,7 @@ struct Survey {
     double length = 0.0;         ///< drawn, in steps
     std::uint64_t polygons = 0;  ///< closed by `}` or an inserted edge
     Bounds box;                  ///< of all positions, the start included
-    std::optional<Bounds> ink;   ///< of the segments drawn
+    std::optional<Bounds> ink;   ///< of the segments drawn and the labels
     glm::dvec2 end{0.0};
     double heading = 0.0;    ///< degrees in [0, 360)
     bool closed = false;     ///< ended where it began
@@ -45,10 +45,9 @@ public:
                           bool /*is_closed*/) {}
 };
 
-/// A turtle in the plane. Symbols of the third dimension are passed over.
-/// Unbalanced brackets or braces in the word, steps that are not finite, and nesting over 2^20 are a WordError that
-/// names the symbol's position.
-/// Source: Prusinkiewicz & Hanan 1989, sections 2.1 and 3.1.
+/// A turtle in the plane. Symbols of the third dimension are passed over. Labels are told when the pen is lifted:
+/// they do not break lines. Unbalanced brackets or braces in the word, steps that are not finite, and nesting over
+/// 2^20 are a WordError that names the symbol's position. Source: Prusinkiewicz & Hanan 1989, sections 2.1 and 3.1.
 class Turtle : public SymbolSink {
 public:
     /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a

@@ -113,6 +113,12 @@ std::span<const SymbolHelp> turtle_symbols() {
 }
 
 Command command_of(const SymbolInfo& symbol, const CommandSettings& settings) {
+    if (const auto label = std::find(settings.labels.begin(), settings.labels.end(), symbol.letter);
+        label != settings.labels.end()) {
+        Command command{.action = Action::label, .value = 0.0, .angle = {}};
+        command.label = static_cast<std::uint32_t>(label - settings.labels.begin());
+        return command;
+    }
     if (symbol.is_name && symbol.letter.front() == '~') {
         const auto found = std::find(settings.surfaces.begin(), settings.surfaces.end(), symbol.letter.substr(1));
         Command command{.action = Action::surface, .value = 1.0, .angle = {}, .takes_argument = symbol.arity > 0};

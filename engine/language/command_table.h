@@ -21,6 +21,7 @@ struct CommandSettings {
     std::string edge_begin;        ///< symbols of `edges:`, or empty
     std::string edge_end;
     std::vector<std::string> surfaces;  ///< names, in the order of Grammar::surfaces()
+    std::vector<std::string> labels;    ///< symbols that write, in the order of Grammar::labels()
 };
 
 /// Help for commands of the turtle.

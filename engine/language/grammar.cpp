@@ -249,6 +249,15 @@ Grammar Grammar::with_parts(PlainParts parts) const {
     return other;
 }
 
+bool Grammar::has_labels() const {
+    if (labels_->empty()) return false;
+    const std::vector<char> reached = reachable();
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (reached[i] && symbols_[i].command.action == Action::label) return true;
+    }
+    return false;
+}
+
 std::int64_t Grammar::whole_word_steps() const {
     if (cut_) return steps_ - steps_done();
     std::int64_t last = 0;

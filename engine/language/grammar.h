@@ -4,6 +4,7 @@
 #include "engine/language/angle.h"
 #include "engine/language/edge.h"
 #include "engine/language/expression.h"
+#include "engine/language/label.h"
 #include "engine/language/pattern.h"
 
 #include <cstdint>
@@ -54,6 +55,7 @@ enum class Action : std::uint8_t {
     disc,     ///< radius `value`; 0 is a dot
     mark,     ///< nothing, but ends a part: see Grammar::with_marks()
     surface,  ///< the surface of that number, `value` times its size
+    label,    ///< the text of that number, with the module's parameters
 };
 struct Command {
     Action action = Action::pass;
@@ -64,6 +66,7 @@ struct Command {
     /// Of a step, whether its end is a vertex of the open polygon; of polygon_begin, whether it begins with one.
     bool is_vertex = true;
     std::uint32_t surface = 0;  ///< index into Grammar::surfaces()
+    std::uint32_t label = 0;    ///< index into Grammar::labels()
     std::uint32_t edge = 0;     ///< of a step, index into Grammar::edges() plus 1; 0: its value is its exact length
 };
 
@@ -185,6 +188,11 @@ public:
     const std::vector<std::shared_ptr<const Surface>>& surfaces() const { return surfaces_; }
     /// The steps whose lengths are those of words.
     const std::vector<EdgeLength>& edges() const { return *edges_; }
+    /// The texts that symbols write, and the height of their capital letters in steps.
+    const std::vector<LabelText>& labels() const { return *labels_; }
+    double letter_height() const { return letter_height_; }
+    /// Can the axiom lead to a symbol that writes a label, `interpret:` included?
+    bool has_labels() const;
     /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
     bool is_spatial() const { return is_spatial_; }
     double scale_percent() const { return scale_percent_; }
@@ -262,6 +270,8 @@ private:
     std::optional<Tropism> tropism_;
     std::vector<std::shared_ptr<const Surface>> surfaces_;
     std::shared_ptr<const std::vector<EdgeLength>> edges_ = std::make_shared<const std::vector<EdgeLength>>();
+    std::shared_ptr<const std::vector<LabelText>> labels_ = std::make_shared<const std::vector<LabelText>>();
+    double letter_height_ = usual_letter_height;
     bool is_spatial_ = false;
     double scale_percent_ = 100.0;
     std::vector<char> ignored_;

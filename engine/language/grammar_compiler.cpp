@@ -1,6 +1,7 @@
 // engine/language/grammar_compiler.cpp: compiles a pattern into a grammar.
 #include "engine/language/command_table.h"
 #include "engine/language/edge_reader.h"
+#include "engine/language/label_reader.h"
 #include "engine/language/map_system.h"
 #include "engine/language/production_compiler.h"
 #include "engine/language/schedule.h"
@@ -47,7 +48,8 @@ public:
         const ContextList context = read_contexts();
         read_tropism();
         grammar_.surfaces_ = read_surfaces(pattern_, diagnostics_);
-        read_commands(angles, context);
+        const LabelReader labels(pattern_, reader_, diagnostics_);
+        read_commands(angles, context, labels);
         grammar_.symbols_ = std::move(reader_.symbols());
         grammar_.letters_ = std::move(reader_.letters());
         grammar_.cut_ = reader_.cut();
@@ -57,6 +59,7 @@ public:
         const std::map<Symbol, Span> looked_at = std::move(productions.looked_at);
         make_tables(std::move(productions));
         grammar_.is_spatial_ = grammar_.tropism_ || reaches_into_space();
+        labels.check(grammar_);
         warn_of_types(looked_at);
         return std::move(grammar_);
     }
@@ -237,7 +240,7 @@ private:
         return list;
     }
 
-    void read_commands(CommandSettings settings, const ContextList& context) {
+    void read_commands(CommandSettings settings, const ContextList& context, const LabelReader& labels) {
         std::set<std::string>& forward = settings.forward = {"F"};
         std::set<std::string>& move = settings.move = {"f"};
         const auto replace = [&](std::string_view name, std::set<std::string>& letters) {
@@ -264,6 +267,9 @@ private:
         const EdgeReader edges(pattern_, reader_, diagnostics_);
         edges.add_to(settings);
         for (const auto& surface : grammar_.surfaces_) settings.surfaces.push_back(surface->name);
+        labels.add_to(settings);
+        grammar_.labels_ = std::make_shared<const std::vector<LabelText>>(labels.labels());
+        grammar_.letter_height_ = labels.height();
         grammar_.ignored_.assign(reader_.symbols().size(), 0);
         for (std::size_t i = 0; i < reader_.symbols().size(); ++i) {
             SymbolInfo& symbol = reader_.symbols()[i];

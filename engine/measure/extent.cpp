@@ -128,6 +128,15 @@ void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, 
     }
 }
 
+/// Labels are ink, too, but have no exact extent: a walk finds it, if it is affordable; else the ink is not known.
+void note_labels(const Grammar& grammar, const DerivationOptions& options, bool is_affordable, Measurement& result) {
+    result.geometry->ink.reset();
+    if (!is_affordable) return;
+    const auto turtle = Turtle::surveying(grammar);
+    derive(grammar, *turtle, options);
+    result.geometry->ink = as_fold(turtle->survey()).ink;
+}
+
 /// Of systems that cannot be forecast: both words are walked through.
 Measurement walked(const Grammar& grammar, DerivationOptions options) {
     Measurement result;
@@ -172,6 +181,7 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     tell_steps(grammar, *interpreted.counts, result);
     if (!grammar.is_spatial()) result.geometry = fold(grammar);
     if (!result.geometry && interpreted.nodes <= budget) walk(grammar, options, false, result);
+    if (result.geometry && grammar.has_labels()) note_labels(grammar, options, interpreted.nodes <= budget, result);
     return result;
 }
 

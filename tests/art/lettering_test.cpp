@@ -1,4 +1,4 @@
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 
 #include "art/print/page.h"
 #include "engine/language/pattern.h"

@@ -1,6 +1,6 @@
 #include "art/sheet/sheet.h"
 
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
 #include "tests/print_tools.h"

@@ -1,5 +1,6 @@
 #include "engine/geometry/space_turtle.h"
 
+#include "engine/geometry/lettering.h"
 #include "engine/geometry/turtle.h"
 #include "engine/language/surface.h"
 #include "tests/reference.h"
@@ -48,6 +49,9 @@ public:
     void sphere(const glm::dvec3& centre, double radius, const Pen&) override {
         spheres.emplace_back(centre, radius);
     }
+    void label(std::string_view text, const glm::dvec3& centre, double height, const Pen&) override {
+        labels.push_back({std::string(text), centre, height});
+    }
 
     std::vector<Stem> stems;
     std::vector<std::vector<glm::dvec3>> polygons;
@@ -55,6 +59,12 @@ public:
     std::vector<std::vector<int>> corner_colours;
     std::vector<std::pair<std::string, glm::dmat4x3>> surfaces;
     std::vector<std::pair<glm::dvec3, double>> spheres;
+    struct Text {
+        std::string text;
+        glm::dvec3 centre;
+        double height;
+    };
+    std::vector<Text> labels;
     SpaceSurvey survey;
 };
 
@@ -94,6 +104,22 @@ TEST(SpaceTurtle, EachSymbolTurnsAsItsNameSays) {
     expect_near(end_of("F&F&F&F"), {0, 0, 0}, "a square on edge");
     EXPECT_TRUE(drawn("axiom: F&F&F&F&\n").survey.closed);
     EXPECT_FALSE(drawn("axiom: F&F&F&\n").survey.closed);
+}
+
+TEST(SpaceTurtle, WritesLabelsWhereItIs) {
+    const Recorder found =
+        drawn("axiom: &F/N(2.5)F[^N(7)]A(1)\nA(x) --> N(x)\nderivation length: 1\nlabel N: v {1}\nlettering: 0.5\n");
+    ASSERT_EQ(found.labels.size(), 3u);
+    EXPECT_EQ(found.labels[0].text, "v 2.5");
+    expect_near(found.labels[0].centre, {0, 0, -1}, "after one step");
+    EXPECT_EQ(found.labels[1].text, "v 7");
+    EXPECT_EQ(found.labels[2].text, "v 1");
+    expect_near(found.labels[2].centre, {0, 0, -2}, "back on the axis");
+    EXPECT_EQ(found.labels[2].height, 0.5);
+    ASSERT_TRUE(found.survey.ink);
+    EXPECT_NEAR(found.survey.ink->high.y, 0.25, 1e-12);
+    EXPECT_NEAR(found.survey.ink->high.x, text_width("v 2.5", 0.5) / 2, 1e-12);
+    EXPECT_EQ(found.survey.drawn, 2u);
 }
 
 TEST(SpaceTurtle, DollarLevelsItsLeft) {

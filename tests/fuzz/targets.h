@@ -129,6 +129,9 @@ public:
     void sphere(const glm::dvec3& centre, double radius, const Pen&) override {
         require(is_finite(centre) && std::isfinite(radius) && radius >= 0, "a sphere is not finite");
     }
+    void label(std::string_view, const glm::dvec3& centre, double height, const Pen&) override {
+        require(is_finite(centre) && height > 0, "a label is not finite");
+    }
 
 private:
     static bool is_finite(const glm::dvec3& p) {

@@ -194,7 +194,8 @@ TEST_F(Growth, ModelsAreMade) {
     expect_refused(draw({"snake-kolam"}, "s.glb"), 2, "models have straight lines, not splines");
     expect_refused(draw({"bush.lsys", "--view", "top"}, "v.glb"), 2, "a model has no page");
     expect_refused(draw({"bush.lsys"}, "missing/v.glb"), 1, "missing");
-    expect_refused(draw({"fibonacci-words"}, "w.obj"), 1, "nothing to draw");
+    folder_.write("none.lsys", "axiom: X\nX --> XX\nderivation length: 3\n");
+    expect_refused(draw({"none.lsys"}, "w.obj"), 1, "nothing to draw");
 }
 
 TEST_F(Growth, BadGenerationsAreRefused) {
@@ -208,8 +209,9 @@ TEST_F(Growth, BadGenerationsAreRefused) {
                    "100 million");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.png"), 2, "applies only to a .gif");
     expect_refused(draw({"dragon", "--frame-time", "1"}, "d.obj"), 2, "a model has no page");
-    expect_refused(draw({"fibonacci-words", "--generations", "1:3"}, "d.gif"), 1, "none of these generations draws");
-    EXPECT_EQ(folder_.names(), std::vector<std::string>{"bush.lsys"});
+    folder_.write("none.lsys", "axiom: X\nX --> XX\nderivation length: 3\n");
+    expect_refused(draw({"none.lsys", "--generations", "1:3"}, "d.gif"), 1, "none of these generations draws");
+    EXPECT_EQ(folder_.names(), (std::vector<std::string>{"bush.lsys", "none.lsys"}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// art/print/lettering.h: writes text in a font of single strokes, which all formats and plotters can draw.
+// engine/geometry/lettering.h: writes text in a font of single strokes, which all formats and plotters can draw.
 #pragma once
 
 #include "engine/geometry/path.h"

@@ -1,4 +1,4 @@
-#include "art/print/lettering.h"
+#include "engine/geometry/lettering.h"
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
