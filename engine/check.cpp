@@ -116,7 +116,9 @@ private:
 
 void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
     const double steps = static_cast<double>(grammar.steps()) + 1;
-    if (grammar.is_spatial() || static_cast<double>(grammar.symbols().size()) * steps > most_compositions) return;
+    // A map has no word, and its brackets are checked with its productions.
+    if (grammar.map() || grammar.is_spatial()) return;
+    if (static_cast<double>(1 + grammar.symbols().size()) * steps > most_compositions) return;
     try {
         fold(grammar);
     } catch (const WordError& error) {

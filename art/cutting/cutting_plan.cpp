@@ -52,7 +52,7 @@ private:
         const CutKind& piece = plan_.kinds[kind];
         if (plan_.sheets.empty() || plan_.sheets.back().colour != piece.colour) free_.clear();
         const std::vector<glm::dvec2> cut = outline_of(piece);
-        const PieceRows rows(with_gap(cut), options_.grain, monitor_);
+        const PieceRows rows(with_gap(cut), options_.grain, whole_, monitor_);
         std::uint64_t left = piece.pieces;
         const auto fill = [&](const Box& area) {
             LaidPieces laid =

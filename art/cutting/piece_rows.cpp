@@ -26,6 +26,9 @@ std::size_t most_alignments(std::size_t corners) {
 }
 constexpr std::size_t most_units = 12;  ///< rows of each kind whose displacements are searched
 constexpr std::size_t most_kept = 12;   ///< arrangements of each direction
+/// Copies, or rows, whose extents one copy meets. Needles meet as many as they are longer than wide: their rows lie
+/// apart instead.
+constexpr double most_met = 1'000;
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double near = 1e-9;  ///< relative difference of equal numbers
 
@@ -70,6 +73,13 @@ std::vector<double> few(std::vector<double> values, double size, std::size_t mos
     std::vector<double> chosen;
     for (std::size_t i = 0; i < most; ++i) chosen.push_back(different[i * different.size() / most]);
     return chosen;
+}
+
+/// True if a box of that size has room in an area.
+bool fits(const Box& box, const Box& area) {
+    const glm::dvec2 room = area.high - area.low, size = box.high - box.low;
+    const double slack = near * glm::length(room);
+    return size.x <= room.x + 2 * slack && size.y <= room.y + 2 * slack;
 }
 
 }  // namespace
@@ -155,6 +165,7 @@ private:
         const Copy first{};
         for (const double shift : shifts({first}, {{true, {}}}, alone)) {
             const double rise = rise_of({first}, {{true, {}}}, alone, shift, unlimited);
+            if (!std::isfinite(rise)) continue;
             rows.push_back({{first, {true, {shift, rise}}}, alone, rise});
         }
         return most_promising(std::move(rows));
@@ -173,7 +184,8 @@ private:
         }
         return few(std::move(values), size_, most_alignments(corners_[0].size()));
     }
-    /// How far an upper row must be lifted above a lower one. @param most  results above it may be too small
+    /// How far an upper row must be lifted above a lower one; infinity if that takes too long to find.
+    /// @param most  results above it may be too small
     double rise_of(const std::vector<Copy>& lower, const std::vector<Copy>& upper, double period, double shift,
                    double most) {
         double rise = -std::numeric_limits<double>::infinity();
@@ -184,6 +196,7 @@ private:
                 const double offset = above.at.x + shift - below.at.x;
                 const double first = std::ceil((fixed.begin() - moved.end() - offset) / period);
                 const double last = std::floor((fixed.end() - moved.begin() - offset) / period);
+                if (!(last - first <= most_met)) return std::numeric_limits<double>::infinity();
                 for (double k = first; k <= last; ++k) {
                     pulse_();
                     const double needed = fixed.slide(moved, offset + k * period);
@@ -208,13 +221,19 @@ private:
             const double most = in_use / (row.period * share * densest_);
             double rise = rise_of(row.unit, row.unit, row.period, shift, most);
             // Rows that are not neighbours may meet, too.
-            for (int k = 2; rise <= most && k * rise < box.high.y - box.low.y; ++k) {
+            const double height = box.high.y - box.low.y;
+            if (!(height <= most_met * rise)) continue;
+            for (double k = 2; rise <= most && k * rise < height; ++k) {
                 rise = std::max(rise, rise_of(row.unit, row.unit, row.period, k * shift, k * most) / k);
             }
             if (!(rise > near * size_ && rise <= most)) continue;
             const double density = in_use / (row.period * rise);
             densest_ = std::max(densest_, density);
             found.push_back({direction_, row.unit, row.period, {shift, rise}, density});
+        }
+        if (found.empty() && row.unit.size() == 1 && found_.empty()) {
+            const double height = box.high.y - box.low.y;
+            found.push_back({direction_, row.unit, row.period, {0, height}, in_use / (row.period * height)});
         }
         // Straight columns come first if they are as good.
         std::stable_sort(found.begin(), found.end(), [](const Arrangement& a, const Arrangement& b) {
@@ -237,12 +256,15 @@ private:
     std::vector<Arrangement> found_;
 };
 
-PieceRows::PieceRows(std::span<const glm::dvec2> outline, bool keeps_direction, const Monitor& monitor) {
+PieceRows::PieceRows(std::span<const glm::dvec2> outline, bool keeps_direction, const Box& area,
+                     const Monitor& monitor) {
     for (const double turn : keeps_direction ? std::vector<double>{0} : turns_of(outline)) {
         const std::vector<glm::dvec2> corners = turned(outline, turn);
         const Direction direction{turn, sikku::box_of(corners)};
-        Finder finder(corners, directions_.size(), monitor);
-        for (Arrangement& each : finder.find()) arrangements_.push_back(std::move(each));
+        if (fits(direction.box, area)) {
+            Finder finder(corners, directions_.size(), monitor);
+            for (Arrangement& each : finder.find()) arrangements_.push_back(std::move(each));
+        }
         directions_.push_back(direction);
         glm::dvec2 size = direction.box.high - direction.box.low;
         if (size.y > size.x) std::swap(size.x, size.y);
@@ -309,6 +331,7 @@ LaidPieces PieceRows::fill(const Box& area, std::size_t most) const {
     Choice best;
     const double wanted = static_cast<double>(most);
     for (const Arrangement& arrangement : arrangements_) {
+        if (!fits(directions_[arrangement.direction].box, area)) continue;
         for (std::size_t phase = 0; phase < arrangement.unit.size(); ++phase) {
             Choice choice{&arrangement, phase, 0, area.high.y};
             for_each_row(arrangement, area, phase, [&](glm::dvec2 origin, std::span<const Range> ranges) {

@@ -68,7 +68,7 @@ struct Steps {
         }
         for (const auto& [table, steps] : runs) {
             count += steps;
-            work += static_cast<double>(steps) * static_cast<double>(symbols.size() + tables[table].terms.size());
+            work += static_cast<double>(steps) * static_cast<double>(1 + symbols.size() + tables[table].terms.size());
         }
         if (work > most_work) {
             throw BudgetError(
@@ -238,13 +238,23 @@ std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the numbers of symbols follow from the productions alone. A map has no symbols: its edges follow from
+/// where its walls meet.
+bool is_countable(const Grammar& grammar) {
+    return grammar.is_plain() && !grammar.map() && grammar.whole_word_steps() == 0;
+}
+
+}  // namespace
+
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
-    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
+    if (!is_countable(grammar)) return std::nullopt;
     return rough_forecast(grammar, Steps(grammar, interpreted));
 }
 
 std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
-    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
+    if (!is_countable(grammar)) return std::nullopt;
     const Steps steps(grammar, interpreted);
     Forecast result = rough_forecast(grammar, steps);
     if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
@@ -313,7 +323,7 @@ std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double
 }
 
 void require_affordable(const Grammar& grammar, bool interpreted, double budget) {
-    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return;
+    if (!is_countable(grammar)) return;
     const Steps steps(grammar, interpreted);
     Forecast found = rough_forecast(grammar, steps);
     if (found.nodes <= budget) return;

@@ -32,8 +32,8 @@ struct Forecast {
     std::string length() const;
 };
 
-/// Nullopt if productions look at neighbours (see resolve_contexts), if words are cut, or if parameters or chance are
-/// in play: then nothing short of deriving tells.
+/// Nullopt for a map, and for a word if productions look at neighbours (see resolve_contexts), if it is cut, or if
+/// parameters or chance are in play: only deriving determines these.
 /// @param interpreted  of the word after `interpret:`
 /// Cost: O(steps x size of the tables), times the size of the numbers; BudgetError if even the first is too much
 /// (5 x 10^7).

@@ -241,7 +241,48 @@ MapDerivation::MapDerivation(const Grammar& grammar, const MapLimits& limits, Mo
     edges_made_ = static_cast<double>(map_.edges().size());
 }
 
+/// Refuses a derivation that must exceed the budget before most of the budget is spent: the parts of edges are
+/// counted without the walls between them, which can only add to them.
+void MapDerivation::require_least_edges() {
+    constexpr double cheap_edges = 3e6;   // that take a fraction of a second
+    constexpr std::int64_t far = 10'000;  // steps that are looked ahead
+    const auto now = static_cast<double>(map_.edges().size());
+    if (limits_.edges - edges_made_ <= cheap_edges || !std::isfinite(limits_.edges) || now < 2 * looked_ahead_at_)
+        return;
+    looked_ahead_at_ = now;
+    const MapSystem& system = *grammar_.map();
+    std::vector<double> counts(system.labels.size(), 0), next(counts.size());
+    for (const MapEdge& edge : map_.edges()) ++counts[edge.label];
+    double made = edges_made_;
+    std::size_t run = run_;
+    std::int64_t step_of_run = step_of_run_;
+    for (std::int64_t ahead = 0; ahead < far && run < grammar_.schedule().size(); ++ahead) {
+        const ScheduleRun& current = grammar_.schedule()[run];
+        std::fill(next.begin(), next.end(), 0.0);
+        double edges = 0;
+        for (Label label = 0; label < counts.size(); ++label) {
+            if (counts[label] == 0) continue;
+            for (const MapPart& part : system.production(current.table, label).parts)
+                next[part.label] += counts[label];
+            edges += counts[label] * static_cast<double>(system.production(current.table, label).parts.size());
+        }
+        counts.swap(next);
+        made += edges;
+        if (made > limits_.edges) {
+            throw BudgetError(fmt::format(
+                "the map of step {} (of n = {}) has at least {:.0f} edges, {:.0f} with those of the steps before it, "
+                "and the budget is {:.0f}; choose a derivation length below {}",
+                step_ + ahead + 1, grammar_.steps(), edges, made, limits_.edges, step_ + ahead + 1));
+        }
+        if (++step_of_run == current.steps) {
+            ++run;
+            step_of_run = 0;
+        }
+    }
+}
+
 void MapDerivation::require_affordable(std::uint32_t table) {
+    require_least_edges();
     const MapForecast forecast = forecast_step(map_, *grammar_.map(), table);
     const double edges = forecast.edges + forecast.walls;
     edges_made_ += edges;

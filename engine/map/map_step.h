@@ -61,6 +61,7 @@ public:
 
 private:
     void require_affordable(std::uint32_t table);
+    void require_least_edges();
 
     const Grammar& grammar_;
     MapLimits limits_;
@@ -68,6 +69,7 @@ private:
     Map map_;
     MapOrigins origins_;
     double edges_made_ = 0;
+    double looked_ahead_at_ = 0;  ///< edges of the map whose growth was last looked at
     std::int64_t step_ = 0;
     std::size_t run_ = 0;  // of the schedule
     std::int64_t step_of_run_ = 0;

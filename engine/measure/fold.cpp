@@ -654,7 +654,7 @@ Quantity Quantity::of(double value) {
 }
 
 std::optional<Fold> fold(const Grammar& grammar) {
-    if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return std::nullopt;
+    if (!grammar.is_plain() || grammar.map() || grammar.whole_word_steps() > 0) return std::nullopt;
     const Lattice lattice = make_lattice(grammar);
     const double bits = std::max(0.0, estimate(grammar, true)->log10_length) * 3.33 + 48 + extra_bits(grammar);
     if (grammar.axiom().size() > longest_axiom) return std::nullopt;

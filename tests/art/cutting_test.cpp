@@ -92,7 +92,8 @@ std::vector<Polygon> laid(const Polygon& piece, const LaidPieces& pieces) {
 }
 
 double share(const Polygon& piece, double side) {
-    const LaidPieces pieces = PieceRows(piece, false, {}).fill({{0, 0}, {side, side}}, 1'000'000);
+    const Box area{{0, 0}, {side, side}};
+    const LaidPieces pieces = PieceRows(piece, false, area, {}).fill(area, 1'000'000);
     return static_cast<double>(pieces.copies.size()) * polygon_area(piece) / (side * side);
 }
 
@@ -121,7 +122,7 @@ TEST(PieceRows, PiecesNeitherOverlapNorLeaveTheirArea) {
             for (const double allowance : {0.0, 1.0}) {
                 const Polygon piece = offset_outline(kind.corners, allowance);
                 for (const bool grain : {false, true}) {
-                    const LaidPieces pieces = PieceRows(piece, grain, {}).fill(area, 60);
+                    const LaidPieces pieces = PieceRows(piece, grain, area, {}).fill(area, 60);
                     ASSERT_FALSE(pieces.copies.empty()) << tiling;
                     const std::vector<Polygon> polygons = laid(piece, pieces);
                     EXPECT_LT(worst_overlap(polygons), 1e-5) << tiling << ' ' << kind.name << ' ' << allowance;
@@ -138,6 +139,40 @@ TEST(PieceRows, PiecesNeitherOverlapNorLeaveTheirArea) {
                     for (const PieceCopy& copy : pieces.copies) {
                         EXPECT_TRUE(!grain || std::fabs(std::sin(copy.turn)) < 1e-12);
                     }
+                }
+            }
+        }
+    }
+}
+
+/// Stops work that polls its monitor more often than some times, each of which stands for 4,096 steps.
+struct Patience {
+    int polls = 0;
+    Monitor monitor() {
+        return Monitor([](void* patience) { return ++static_cast<Patience*>(patience)->polls > 500; }, nullptr, this);
+    }
+};
+
+TEST(PieceRows, NeedlesTakeAsLittleAsOtherPieces) {
+    const Box area{{0, 0}, {400, 280}};
+    for (const double length : {390.0, 9e8}) {
+        for (const double ratio : {1e3, 1e6, 1e9}) {
+            const double width = length / ratio;
+            for (const Polygon& needle :
+                 {Polygon{{0, 0}, {width, 0}, {width / 3, length}},
+                  Polygon{{0, 0}, {length, 0}, {length, width}, {0, width}},
+                  Polygon{{0, 0}, {length / 2, length / 2}, {length / 2, length / 2 + width}}}) {
+                Patience patience;
+                const LaidPieces pieces = PieceRows(needle, false, area, patience.monitor()).fill(area, 20);
+                EXPECT_EQ(pieces.copies.size(), length < 1000 ? 20 : 0) << length << ' ' << ratio;
+                const std::vector<Polygon> polygons = laid(needle, pieces);
+                for (const Polygon& polygon : polygons) {
+                    const Box box = box_of(polygon);
+                    EXPECT_TRUE(box.low.x > area.low.x - 1e-6 && box.low.y > area.low.y - 1e-6);
+                    EXPECT_TRUE(box.high.x < area.high.x + 1e-6 && box.high.y < area.high.y + 1e-6);
+                }
+                if (ratio <= 1e3) {
+                    EXPECT_LT(worst_overlap(polygons), 1e-5) << length << ' ' << ratio;
                 }
             }
         }

@@ -1,6 +1,9 @@
 // tests/engine/map_test.cpp: maps: their productions, their derivation, their numbering.
+#include "engine/check.h"
 #include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
 #include "engine/map/map_step.h"
+#include "engine/measure/fold.h"
 #include "tests/maps.h"
 #include "tests/sha256.h"
 
@@ -305,6 +308,31 @@ TEST(MapStep, LimitsAreCheckedBeforeAStep) {
     EXPECT_THROW(derive_map(document.grammar(), {1e18, 1e6}), BudgetError);
     EXPECT_THROW(derive_map(maps::document(maps::layer, 1'000'001).grammar()), BudgetError);
     EXPECT_THROW(derive_map(document.grammar(), {}, Monitor([](void*) { return true; })), Stopped);
+}
+
+TEST(MapStep, DerivationsThatMustExceedALargeBudgetAreRefusedEarly) {
+    const Document document = maps::document(maps::layer, 60);
+    std::uint64_t edges = 0;
+    const Monitor monitor(
+        nullptr, [](void* sum, std::uint64_t made) { *static_cast<std::uint64_t*>(sum) += made; }, &edges);
+    EXPECT_THROW(derive_map(document.grammar(), {200e6, 1e12}, monitor), BudgetError);
+    EXPECT_LT(edges, 1'000'000u);
+    // What fits is derived: the bound is one of edges that there will be.
+    edges = 0;
+    const Document shorter = maps::document(maps::layer, 16);
+    EXPECT_NO_THROW(derive_map(shorter.grammar(), {}, monitor));
+    EXPECT_NO_THROW(derive_map(shorter.grammar(), {std::max(8e6, 4.0 * static_cast<double>(edges)), 1e12}));
+}
+
+TEST(MapForecast, HasNoWordHoweverLongTheDerivation) {
+    const std::int64_t n = std::numeric_limits<std::int64_t>::max() - 1;
+    const Document document = maps::document(maps::layer, n);
+    EXPECT_FALSE(estimate(document.grammar(), true));
+    EXPECT_FALSE(forecast(document.grammar(), false));
+    EXPECT_FALSE(fold(document.grammar()));
+    EXPECT_NO_THROW(require_affordable(document.grammar(), true, 10));
+    const std::string text = maps::layer + fmt::format("\nderivation length: {}\n", n);
+    for (const Diagnostic& found : check_pattern("map", text, {}, {})) ADD_FAILURE() << found.text();
 }
 
 // --- the language
