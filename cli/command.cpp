@@ -182,8 +182,10 @@ void Progress::show() {
     if (expected_ > 0 && std::isfinite(expected_)) {
         const double share = std::min(1.0, symbols_ / expected_);
         const auto filled = static_cast<std::size_t>(share * 30);
-        tell("\r[{}{}] {:3.0f} %  {:.0f} M symbols a second\033[K", std::string(filled, '#'),
-             std::string(30 - filled, ' '), share * 100, rate / 1e6);
+        const double left = share > 0 ? (time - started_) * (1 / share - 1) : 0;
+        tell("\r[{}{}] {:3.0f} %{}{}\033[K", std::string(filled, '#'), std::string(30 - filled, ' '), share * 100,
+             share > 0 ? fmt::format(", about {:.0f} s left", left) : "",
+             rate >= 1e6 ? fmt::format(", {:.0f} M symbols a second", rate / 1e6) : "");
     } else {
         tell("\r{:.1f} M symbols, {:.0f} M a second\033[K", symbols_ / 1e6, rate / 1e6);
     }

@@ -4,7 +4,6 @@
 #include "art/drawing/division_style.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/gif_file.h"
-#include "art/image/image_file.h"
 #include "art/vector/svg.h"
 #include "engine/geometry/moved_path.h"
 
@@ -60,7 +59,10 @@ public:
           clock_(static_cast<int>(division_->stages.size()), times) {}
 
     DrawReport write_gif(Output& output, const std::filesystem::path& file) {
-        GifFile gif(given_, options_, output, file);
+        const std::size_t stages = division_->stages.size();
+        const std::size_t moving = (stages - 1) * static_cast<std::size_t>(frames_between(clock_.times().division)) +
+                                   static_cast<std::size_t>(frames_between(clock_.times().fade));
+        GifFile gif(given_, options_, stages + moving, output, file);
         for (std::size_t i = 0; i < division_->stages.size(); ++i) {
             const bool is_last = i + 1 == division_->stages.size();
             if (i > 0)
@@ -116,11 +118,15 @@ public:
     }
 
 private:
+    /// Number of pictures within a motion, without the first and the last.
+    static int frames_between(double seconds) {
+        return std::max(0, static_cast<int>(std::lround(seconds / frame_seconds)) - 1);
+    }
     template <class MomentAt>
     void add_frames(GifFile& gif, double seconds, MomentAt&& moment_at) {
-        const int count = static_cast<int>(std::lround(seconds / frame_seconds));
-        for (int frame = 1; frame < count; ++frame) {
-            add_frame(gif, moment_at(static_cast<double>(frame) / count), frame_seconds);
+        const int count = frames_between(seconds);
+        for (int frame = 1; frame <= count; ++frame) {
+            add_frame(gif, moment_at(static_cast<double>(frame) / (count + 1)), frame_seconds);
         }
     }
     void add_frame(GifFile& gif, const DivisionMoment& moment, double seconds) {
@@ -146,13 +152,13 @@ DrawReport draw_division(const Grammar& grammar, const Print& print, const DrawO
     const DrawOptions options = with_locked_watch(given_options);
     if (print.style.line == Line::spline) throw DivisionError("tiles that divide have straight edges, not splines");
     if (print.style.hand > 0) throw DivisionError("tiles that divide are not drawn by hand");
-    if (division.is_gif) prepare_images(options.threads);
     auto stages =
         std::make_shared<const Division>(make_division(grammar, print.style, options, division.first, division.last,
                                                        division.is_gif ? most_tiles_of_gif : most_tiles_of_svg));
     const auto output = destination.open(file);
     const Print placed = division.is_gif ? print : as_picture(print);
-    DivisionFile animation(std::move(stages), placed, options, division.times);
+    const DrawOptions drawing = division.is_gif ? for_frames(options) : options;
+    DivisionFile animation(std::move(stages), placed, drawing, division.times);
     DrawReport report = division.is_gif ? animation.write_gif(*output, file) : animation.write_svg(*output);
     output->commit();
     return report;

@@ -3,33 +3,13 @@
 #include "art/print/recipe_comments.h"
 
 #include <cstdint>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
 namespace {
-
-/// Adds the recipe as a comment before the trailer of a GIF file. Source: GIF 89a, section 24.
-void add_recipe(const std::filesystem::path& file, const Print& print) {
-    const std::vector<std::string> pieces = recipe_comments(print.pattern, print.made);
-    if (pieces.empty()) return;
-    std::string comment = "\x21\xFE";
-    for (const std::string& piece : pieces) {
-        comment += static_cast<char>(piece.size() + 1);
-        comment += piece + "\n";
-    }
-    comment += '\0';
-    comment += ';';
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekg(-1, std::ios::end);
-    if (stream.get() != ';') throw std::runtime_error("the animation has no trailer");
-    stream.seekp(-1, std::ios::end);
-    stream.write(comment.data(), static_cast<std::streamsize>(comment.size()));
-    stream.close();
-    if (!stream) throw std::runtime_error("the recipe cannot be added");
-}
 
 template <class Action>
 void named(const std::filesystem::path& file, Action&& action) {
@@ -42,10 +22,18 @@ void named(const std::filesystem::path& file, Action&& action) {
 
 }  // namespace
 
-GifFile::GifFile(const Print& print, const DrawOptions& options, Output& output, const std::filesystem::path& file)
-    : print_(print), options_(options), output_(output), file_(file) {
+DrawOptions for_frames(DrawOptions options) {
+    options.begin = nullptr;
+    if (options.watch) options.watch = [watch = std::move(options.watch)](std::uint64_t) { watch(0); };
+    return options;
+}
+
+GifFile::GifFile(const Print& print, const DrawOptions& options, std::size_t frames, Output& output,
+                 const std::filesystem::path& file)
+    : print_(print), options_(options), file_(file) {
+    options.monitor.expect(static_cast<double>(frames));
     const PixelSize size = pixel_size(print.page, print.dpi);
-    named(file_, [&] { animation_ = open_animation(output_.temporary(), size.width, size.height); });
+    named(file_, [&] { animation_.emplace(output, size.width, size.height); });
 }
 
 void GifFile::frame(const Drawing& drawing, const Print& placed, double seconds) {
@@ -65,14 +53,15 @@ void GifFile::frame(const Drawing& drawing, const Print& placed, double seconds)
             }
         }
     });
-    named(file_, [&] { animation_->frame(pixels, seconds); });
+    animation_->frame(pixels, seconds);
+    options_.monitor.advance(1);
 }
 
 void GifFile::close() {
-    named(file_, [&] {
-        animation_->close();
-        add_recipe(output_.temporary(), print_);
-    });
+    std::vector<std::string> recipe = recipe_comments(print_.pattern, print_.made);
+    for (std::string& piece : recipe) piece += '\n';
+    animation_->comment(recipe);
+    animation_->close();
 }
 
 }  // namespace sikku

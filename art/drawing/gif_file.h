@@ -2,19 +2,24 @@
 #pragma once
 
 #include "art/drawing/drawing.h"
-#include "art/image/image_file.h"
+#include "art/image/gif_writer.h"
 #include "engine/base/output.h"
 
 #include <filesystem>
-#include <memory>
+#include <optional>
 
 namespace sikku {
+
+/// The options for drawings of frames: reading them is not reported, only that the work goes on.
+DrawOptions for_frames(DrawOptions options);
 
 /// Failures to write are std::runtime_error and name the file.
 class GifFile {
 public:
     /// All are kept by reference. Page, resolution and texts are those of `print`.
-    GifFile(const Print& print, const DrawOptions& options, Output& output, const std::filesystem::path& file);
+    /// @param frames  their number, for the monitor of the options, to which each is reported
+    GifFile(const Print& print, const DrawOptions& options, std::size_t frames, Output& output,
+            const std::filesystem::path& file);
     /// Adds a placed drawing, on white if its ground is not opaque, with its display time.
     void frame(const Drawing& drawing, const Print& placed, double seconds);
     /// Completes the file, with the recipe of the print.
@@ -23,9 +28,8 @@ public:
 private:
     const Print& print_;
     const DrawOptions& options_;
-    Output& output_;
     const std::filesystem::path& file_;
-    std::unique_ptr<AnimationWriter> animation_;
+    std::optional<GifWriter> animation_;
 };
 
 }  // namespace sikku

@@ -87,12 +87,23 @@ DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions
     return result;
 }
 
-void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& options, const GrowthOptions& growth,
+/// Number of pictures between a generation and the one before it, if something grows.
+int moving_frames(const DrawOptions& options, const GrowthOptions& growth, std::int64_t n) {
+    if (n == growth.first || !options.map_frames || !options.map_frames->after(n)->has_growth()) return 0;
+    return std::max(0, static_cast<int>(motion_share * growth.seconds / motion_seconds) - 1);
+}
+
+void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& shown, const GrowthOptions& growth,
               const std::filesystem::path& file, Destination& destination, DrawReport& report) {
     // All generations are read as words, so the largest is checked before the first is drawn.
-    if (!grammar.map()) require_affordable(generation_of(grammar, growth.last), true, options.budget);
+    if (!grammar.map()) require_affordable(generation_of(grammar, growth.last), true, shown.budget);
+    const DrawOptions options = for_frames(shown);
+    std::size_t frames = 0;
+    for (std::int64_t n = growth.first; n <= growth.last; ++n) {
+        frames += 1 + static_cast<std::size_t>(moving_frames(options, growth, n));
+    }
     const auto output = destination.open(file);
-    GifFile gif(given, options, *output, file);
+    GifFile gif(given, options, frames, *output, file);
     const auto add = [&](std::int64_t n, const DrawOptions& drawn, double seconds) {
         Print print = given;
         const auto drawing = make_drawing(generation_of(grammar, n), print.style, drawn);
@@ -103,15 +114,13 @@ void draw_gif(const Grammar& grammar, const Print& given, const DrawOptions& opt
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         DrawOptions drawn = framed(grammar, given.style, options, growth, n);
         double seconds = growth.seconds;
-        if (n > growth.first && options.map_frames && options.map_frames->after(n)->has_growth()) {
-            const int moving = static_cast<int>(motion_share * growth.seconds / motion_seconds);
-            for (int i = 1; i < moving; ++i) {
-                const double share = static_cast<double>(i) / moving;
-                drawn.map_share = share * share * (3 - 2 * share);
-                add(n, drawn, motion_seconds);
-            }
-            seconds -= motion_seconds * std::max(0, moving - 1);
+        const int moving = moving_frames(options, growth, n);
+        for (int i = 1; i <= moving; ++i) {
+            const double share = static_cast<double>(i) / (moving + 1);
+            drawn.map_share = share * share * (3 - 2 * share);
+            add(n, drawn, motion_seconds);
         }
+        seconds -= motion_seconds * moving;
         drawn.map_share = 1;
         add(n, drawn, n == growth.last ? std::max(seconds, growth.hold) : seconds);
     }
@@ -139,7 +148,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     Print print = given;
     DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
-    if (!is_vector(options.format)) prepare_images(options.threads);
+    if (!is_vector(options.format) && !growth.is_animation) prepare_images(options.threads);
     if (grammar.map()) {
         options.map_frames = std::make_shared<MapFrames>(generation_of(grammar, growth.last), options.budget,
                                                          options.monitor, KeptFrames::all);

@@ -3,7 +3,6 @@
 #include "art/drawing/gif_file.h"
 #include "art/drawing/lesson_drawing.h"
 #include "art/drawing/press_inks.h"
-#include "art/image/image_file.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
 
@@ -76,7 +75,8 @@ void draw_parts(LessonDrawing& lesson, const Print& print, std::size_t first, st
 void draw_frames(LessonDrawing& lesson, const Print& print, std::size_t first, std::size_t count,
                  const DrawOptions& drawing, const LessonOptions& options, Output& output,
                  const std::filesystem::path& file) {
-    GifFile gif(print, drawing, output, file);
+    const std::size_t stretches = count - 2;
+    GifFile gif(print, drawing, count - first + stretches * (frames_of_stretch - 1), output, file);
     for (std::size_t step = first; step < count; ++step) {
         const bool is_stretch = step > 0 && step + 1 < count;
         for (int frame = 1; is_stretch && frame < frames_of_stretch; ++frame) {
@@ -95,7 +95,6 @@ void draw_frames(LessonDrawing& lesson, const Print& print, std::size_t first, s
 DrawReport draw_lesson(const Grammar& grammar, Print print, const DrawOptions& given, const LessonOptions& options,
                        const std::filesystem::path& file, Destination& destination) {
     const DrawOptions drawing = with_locked_watch(given);
-    if (!is_vector(drawing.format)) prepare_images(drawing.threads);
     load_inks(print.press, drawing.format);
     const auto lesson = make_lesson(grammar, print.style, drawing);
     lesson->number_pages();

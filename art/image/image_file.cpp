@@ -82,10 +82,6 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
     return image_module().open(path, spec);
 }
 
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height) {
-    return image_module().open_animation(path, width, height);
-}
-
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
     return image_module().open_inks(file);
 }

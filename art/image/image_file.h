@@ -52,25 +52,10 @@ public:
     virtual void close() = 0;
 };
 
-/// One picture after the other, as animated GIF: each in up to 256 colours of its own, over and over again.
-class AnimationWriter {
-public:
-    virtual ~AnimationWriter() = default;
-    /// Adds all rows of a picture, 3 channels, with its display time: rounded to hundredths of a second, at least
-    /// one.
-    virtual void frame(std::span<const std::uint8_t> pixels, double seconds) = 0;
-    /// Completes the file. Without it the file is of no use.
-    virtual void close() = 0;
-};
-
 /// Loads the module and checks that it can start its threads, for pictures using this many (0: one for each core).
 /// Call before long work: under a low `ulimit -u` or `-v` the libraries of the module would abort the program.
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
 void prepare_images(int threads);
-
-/// Loads the module, too.
-/// @throws std::runtime_error also for sides over 65,535 pixels, and over 100 million of them
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height);
 
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
 /// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks

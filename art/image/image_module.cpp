@@ -351,88 +351,8 @@ void FileWriter::close() {
     file_.finish();
 }
 
-/// Writes through the library, which does not report a full disk: the file's last byte shows whether all was written.
-class GifWriter final : public AnimationWriter {
-public:
-    GifWriter(const std::filesystem::path& path, int width, int height)
-        : path_(path), spec_(width, height, 3, OIIO::TypeDesc::UINT8) {
-        // The library counts bytes in 31 bits.
-        if (std::max(width, height) > 65'535 || std::int64_t{width} * height > 100'000'000) {
-            throw std::runtime_error("a GIF has at most 65,535 pixels per side and 100 million in all");
-        }
-        OIIO::attribute("debug", 0);
-        output_ = OIIO::ImageOutput::create("gif");
-        if (!output_) throw std::runtime_error(OIIO::geterror());
-        spec_.attribute("gif:LoopCount", 0);
-    }
-    void frame(std::span<const std::uint8_t> pixels, double seconds) override {
-        delays_.push_back(static_cast<int>(std::lround(std::clamp(seconds, 0.01, 655.0) * 100)));
-        const auto mode = is_begun_ ? OIIO::ImageOutput::AppendSubimage : OIIO::ImageOutput::Create;
-        is_begun_ = true;
-        if (!output_->open(path_.string(), spec_, mode) ||
-            !output_->write_image(OIIO::TypeDesc::UINT8, pixels.data())) {
-            const std::string message = output_->geterror();
-            throw std::runtime_error(message.empty() ? "the animation could not be written" : message);
-        }
-    }
-    void close() override {
-        if (!output_->close()) throw std::runtime_error(output_->geterror());
-        output_.reset();
-        std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
-        file.seekg(-1, std::ios::end);
-        if (file.get() != ';') throw std::runtime_error("the animation could not be written as a whole");
-        write_delays(file);
-        if (!file.flush()) throw std::runtime_error("the animation could not be written completely");
-    }
-
-private:
-    /// The library knows one time for all frames: each frame's own is written into its graphic control extension.
-    /// Source: GIF89a specification, 1990, sections 18 to 23.
-    void write_delays(std::fstream& file) const {
-        const auto byte = [&](std::int64_t at) {
-            file.seekg(at);
-            return file.get();
-        };
-        /// Bytes of a colour table, by the packed fields of its block.
-        const auto table = [](int packed) {
-            return (packed & 0x80) != 0 ? std::int64_t{3} << ((packed & 7) + 1) : 0;
-        };
-        std::int64_t at = 13 + table(byte(10));
-        for (std::size_t next = 0; next < delays_.size();) {
-            const int kind = byte(at);
-            if (kind == 0x21) {
-                if (byte(at + 1) == 0xF9) {
-                    const int delay = delays_[next++];
-                    const std::array<char, 2> hundredths = {static_cast<char>(delay & 0xFF),
-                                                            static_cast<char>(delay >> 8)};
-                    file.seekp(at + 4);
-                    file.write(hundredths.data(), hundredths.size());
-                }
-                at += 2;
-            } else if (kind == 0x2C) {
-                at += 11 + table(byte(at + 9));
-            } else {
-                throw std::runtime_error("the animation could not be written completely");
-            }
-            for (int length = byte(at); length > 0; length = byte(at)) at += 1 + length;
-            ++at;
-        }
-    }
-
-    std::vector<int> delays_;  // of the frames, in hundredths of a second
-    std::filesystem::path path_;
-    OIIO::ImageSpec spec_;
-    std::unique_ptr<OIIO::ImageOutput> output_;
-    bool is_begun_ = false;
-};
-
 /// The library cannot be initialised, or its threads be set, by two threads at once.
 std::mutex opening;
-
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& path, int width, int height) {
-    const std::scoped_lock lock(opening);
-    return std::make_unique<GifWriter>(path, width, height);
-}
 
 std::unique_ptr<ImageWriter> open(const std::filesystem::path& path, const ImageSpec& spec) {
     const std::scoped_lock lock(opening);
@@ -475,7 +395,7 @@ std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
 }
 
 constexpr ImageModule functions{
-    image_module_version(SIKKU_VERSION), open, open_animation, check_cmyk_profile, read, open_inks};
+    image_module_version(SIKKU_VERSION), open, check_cmyk_profile, read, open_inks};
 
 }  // namespace
 }  // namespace sikku

@@ -11,7 +11,6 @@ namespace sikku {
 struct ImageModule {
     std::uint64_t version;
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
-    std::unique_ptr<AnimationWriter> (*open_animation)(const std::filesystem::path& path, int width, int height);
     void (*check_cmyk_profile)(const std::filesystem::path& file);
     DecodedPicture (*read)(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
                            const Monitor& monitor);

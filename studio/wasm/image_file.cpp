@@ -142,11 +142,6 @@ std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const
     return std::make_unique<PngWriter>(path, spec);
 }
 
-std::unique_ptr<AnimationWriter> open_animation(const std::filesystem::path& /*path*/, int /*width*/,
-                                                int /*height*/) {
-    refuse();
-}
-
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& /*file*/) {
     refuse();
 }
