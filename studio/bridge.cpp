@@ -202,6 +202,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);
     if (what == "notes") return answer_notes(request, monitor, bytes);
+    if (what == "affordable") return answer_affordable(request, monitor);
     if (what == "origins") return answer_origins(request, monitor);
     if (what == "import") return answer_import(request, file);
     if (what == "show") return answer_show(request, file);

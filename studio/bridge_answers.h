@@ -47,6 +47,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics);
 // One function for each kind of request.
 Json answer_open(const Json& request, const Monitor& monitor);
 Json answer_pixels(const Json& request, const Monitor& monitor, std::string& bytes);
+Json answer_affordable(const Json& request, const Monitor& monitor);
 Json answer_origins(const Json& request, const Monitor& monitor);
 Json answer_import(const Json& request, const std::string& file);
 Json answer_scale(const Json& request, const std::string& file);

@@ -265,10 +265,47 @@ Json answer_open(const Json& request, const Monitor& monitor) {
                    {"warnings", warnings_of(document)},
                    {"is_melody", sets_keys_of(scores(), document)},
                    {"is_spatial", document.grammar().is_spatial()},
+                   {"is_map", document.map() != nullptr},
                    {"is_random", document.grammar().is_stochastic()},
                    {"has_view", has_view(document)}};
     add_measures(document, monitor, answer);
     return answer;
+}
+
+namespace {
+
+/// True if the word of a derivation length has at most `most` nodes, counted by deriving if need be.
+bool is_short(const Document& document, std::int64_t steps, double most, const Monitor& monitor) {
+    try {
+        const Document shorter = document.with({{"n", "derivation length", fmt::format("{}", steps)}});
+        measure(shorter.grammar(), most, [&](std::uint64_t symbols) { monitor.advance(symbols); });
+        return true;
+    } catch (const BudgetError&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+Json answer_affordable(const Json& request, const Monitor& monitor) {
+    constexpr double most = 3e7;  // nodes that are drawn within a few seconds
+    const Document document = document_of(request);
+    const Grammar& grammar = document.grammar();
+    const auto now = static_cast<std::int64_t>(grammar.steps());
+    std::int64_t fits = -1;
+    const auto expected = document.map() ? std::nullopt : estimate(grammar, true);
+    if (expected) {
+        fits = largest_affordable(grammar, true, most);
+    } else if (!document.map()) {
+        try {
+            while (fits < now && is_short(document, fits + 1, most, monitor)) ++fits;
+        } catch (const Stopped&) {  // those that were derived in time are known to fit
+        } catch (const std::runtime_error&) {
+        }
+    }
+    // The length itself takes too long although its word is short.
+    if (fits >= now) fits = now - 1;
+    return {{"n", fits < 0 ? "" : fmt::format("{}", fits)}};
 }
 
 namespace {
@@ -452,7 +489,8 @@ Json answer_command(const Json& request) {
     const std::string format = text_of(request, "format");
     if (!find_format(interpreter.formats(), format)) refuse_option("format", format, "unknown format");
     const std::string name = text_of(pattern, "name");
-    std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted_file(name);
+    const std::string source = text_of(request, "source", name);
+    std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted_file(source);
     const std::string variant = text_of(pattern, "variant", "");
     if (!variant.empty()) command += " --variant " + quoted(variant);
     for (const auto& [key, value] : pairs_of(pattern, "settings")) {

@@ -1,19 +1,27 @@
 #!/usr/bin/env bash
-# Builds and tests the studio. NATIVE_BUILD contains bin/sikku and bin/sikku-bridge.
-# Usage: studio/check.sh NATIVE_BUILD [--quick]
+# Builds and tests the studio, which writes the bytes of each NATIVE_BUILD: these contain bin/sikku and bin/sikku-bridge.
+# Usage: studio/check.sh NATIVE_BUILD… [--quick]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-native=$(readlink -f "$1")
+natives=()
+quick=
+for argument in "$@"; do
+    if [ "$argument" = --quick ]; then quick=--quick; else natives+=("$(readlink -f "$argument")"); fi
+done
 studio/build.sh
 node --test studio/tests/*.test.mjs
-node studio/tests/parity.mjs "$native" ${2:+"$2"}
+for native in "${natives[@]}"; do
+    echo "parity with $native"
+    node studio/tests/parity.mjs "$native" $quick
+done
 page=build/studio/sikku-studio.html
 if command -v chromium > /dev/null; then
     node studio/tests/page.mjs $page
     node studio/tests/views.mjs $page
+    node studio/tests/another.mjs $page
     node studio/tests/play_and_bench.mjs $page
     # Every timbre is rendered and measured.
-    [ "${2:-}" = --quick ] || node studio/tests/sound_in_browser.mjs
+    [ -n "$quick" ] || node studio/tests/sound_in_browser.mjs
 else
     echo "skipped: the page in Chromium (not installed)"
 fi

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -84,9 +85,15 @@ inline ReadMesh read_stl(const std::string& bytes) {
             if (is_new) mesh.points.emplace_back(point);
             triangle[k] = known->second;
         }
-        const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        EXPECT_GT(glm::length(across), 0);
-        EXPECT_NEAR(glm::distance(glm::dvec3(vector(0)), glm::normalize(across)), 0, 1e-5);
+        // The normal is that of the corners as the file has them, to the last bit of a float.
+        const glm::vec<3, long double> a(corners[0]), b(corners[1]), c(corners[2]);
+        const auto across = glm::cross(b - a, c - a);
+        const long double length = std::sqrt(glm::dot(across, across));
+        EXPECT_GT(length, 0);
+        constexpr double half_digit = 0x1p-25;  // of numbers from 0.5 to 1
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(vector(0)[k], static_cast<double>(across[k] / length), 1.001 * half_digit) << i;
+        }
         EXPECT_EQ(number_at<std::uint16_t>(bytes, head + record * i + 48), 0);
     }
     return mesh;

@@ -40,8 +40,12 @@ public:
     void add(const SolidTriangle& triangle) {
         const std::array<glm::vec3, 3> corners = {millimetres(triangle[0]), millimetres(triangle[1]),
                                                   millimetres(triangle[2])};
-        const glm::dvec3 across = glm::cross(glm::dvec3(corners[1]) - glm::dvec3(corners[0]),
-                                             glm::dvec3(corners[2]) - glm::dvec3(corners[0]));
+        // The normal is that of the corners as they are written.
+        const auto written = [&](std::size_t corner) {
+            const glm::vec3& at = corners[corner];
+            return glm::dvec3(widened(at.x), widened(at.y), widened(at.z));
+        };
+        const glm::dvec3 across = glm::cross(written(1) - written(0), written(2) - written(0));
         const double length = glm::length(across);
         put(glm::vec3(length > 0 ? across / length : glm::dvec3(0.0)));
         for (const glm::vec3& corner : corners) put(corner);

@@ -5,6 +5,7 @@ import type { Work } from "./context";
 import { byId, element } from "./elements";
 import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
 import type { History } from "./store";
+import { isAnother } from "./versions";
 
 const patience = 400; // milliseconds until the status bar shows that the libraries are working
 const fact_seconds = 12; // how long a message stays in the status bar
@@ -28,8 +29,20 @@ export class Application implements Studio {
         readonly store: History,
     ) {
         store.subscribe((work, before) => {
-            if (work.pattern !== before.pattern) void this.open();
+            if (work.pattern === before.pattern) return;
+            if (isAnother(work.pattern, before.pattern)) this.forget();
+            void this.open();
         });
+    }
+
+    /// True while the text has errors: the facts are those of an earlier text.
+    hasErrors = false;
+
+    // What was said about the pattern before does not hold for another one.
+    private forget(): void {
+        this.say("");
+        byId("facts").textContent = "";
+        byId("values").classList.add("stale");
     }
 
     onOpened(listener: OpenedListener): () => void {
@@ -55,11 +68,13 @@ export class Application implements Studio {
             const { json } = await this.engine.request<Opened>({ do: "open", pattern: work.pattern }, { key: "open" });
             if (work.pattern === this.store.work.pattern) clearTimeout(this.waiting);
             this.opened = { facts: json, work };
+            this.hasErrors = false;
             for (const listener of this.failed) listener(null, json.warnings);
             for (const listener of this.listeners) listener(json, work);
         } catch (error) {
             if (!(error instanceof RequestFailed)) return; // superseded by a later text
             clearTimeout(this.waiting);
+            this.hasErrors = true;
             for (const listener of this.failed) listener(error.failure, error.failure.diagnostics ?? []);
         }
     }

@@ -1,10 +1,20 @@
 // Interfaces shared by the parts of the page: the libraries, the work, and the panels that show it.
-import type { Failure, Help, Opened, Options, PatternEntry, PatternRequest, Request } from "./protocol";
+import type { Diagnostic, Failure, Help, Opened, Options, PatternEntry, PatternRequest, Request } from "./protocol";
 
 export interface Answer<T> { json: T; bytes: Uint8Array }
 
+/// An error of the libraries; `message` is a sentence without the notation of terminals.
 export class RequestFailed extends Error {
-    constructor(readonly failure: Failure["error"]) { super(failure.message); }
+    constructor(readonly failure: Failure["error"]) { super(sentenceOf(failure)); }
+}
+
+// Errors of patterns have places: "Line 6: a map has no turtle" instead of "curve.lsys:6:1: …" with the line below.
+function sentenceOf({ message, diagnostics = [] }: Failure["error"]): string {
+    const errors = diagnostics.filter((each) => !each.warning);
+    const first = errors.find((each) => each.line > 0) ?? errors[0];
+    if (!first) return message;
+    const where = first.line > 0 ? `Line ${first.line}: ` : first.setting ? `${first.setting}: ` : "";
+    return where + first.message + (errors.length > 1 ? ` (and ${errors.length - 1} more)` : "");
 }
 
 export interface RequestOptions {
@@ -53,7 +63,11 @@ export interface Studio {
     readonly patterns: PatternEntry[];
     /// The facts of the last valid text and the work they belong to; null before the first.
     readonly opened: { facts: Opened; work: Work } | null;
+    /// True if the present text has errors.
+    readonly hasErrors: boolean;
     onOpened(listener: (facts: Opened, work: Work) => void): () => void;
+    /// Called after each check of the text, with its error or null and all diagnostics.
+    onChecked(listener: (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void): void;
     /// Shows a message in the status bar, which screen readers announce.
     say(text: string, kind?: "fact" | "warning" | "error"): void;
     /// Highlights a place in the editor, such as the production being played; null removes the highlight.

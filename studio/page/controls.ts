@@ -28,6 +28,7 @@ function spread(base: number): { least: number; most: number; step: number } {
 export class Controls {
     private rows = new Map<string, Row>();
     private shape = ""; // identifies the set of rows
+    private angleLabel = "angle"; // a define may have that name
     private readonly variant = element("select", { id: "variant" });
     private readonly variantField = element(
         "div",
@@ -58,8 +59,10 @@ export class Controls {
         });
         this.actions = element("div", { class: "toolbar value-actions" }, write, reset);
         byId("values").append(this.variantField, this.list, this.seed.element, this.colours.element, this.actions);
+        byId("values").classList.add("unknown"); // until the libraries have started
         application.onOpened((facts) => this.show(facts));
         application.onChecked((error, diagnostics) => {
+            byId("values").classList.remove("unknown");
             byId("values").classList.toggle("stale", error !== null);
             const wrong = diagnostics.filter((each) => !each.warning).map((each) => each.setting ?? "");
             for (const [name, row] of this.rows)
@@ -87,7 +90,14 @@ export class Controls {
         this.variant.value = pattern.variant;
         const angle = facts.keys.some((key) => key.name === "angle factor") ? "angle factor" : "angle increment";
         const more = further_keys.filter((name) => facts.keys.some((key) => key.name === name));
-        const names = ["derivation length", ...facts.defines.map((each) => each.name), angle, ...more, "stroke"];
+        this.angleLabel = facts.defines.some((each) => each.name === "angle") ? angle : "angle";
+        const names = [
+            "derivation length",
+            ...facts.defines.map((each) => each.name),
+            ...(facts.is_map ? [] : [angle]), // a map has no turtle
+            ...more,
+            "stroke",
+        ];
         if (names.join("\n") !== this.shape) this.build(names);
         this.showCost(facts);
         for (const row of this.rows.values()) row.update(facts);
@@ -105,7 +115,9 @@ export class Controls {
                 if (name === "stroke") return [name, this.strokeRow()];
                 return [
                     name,
-                    name === "angle increment" ? this.numberRow(name, "angle", "90") : this.numberRow(name, name, null),
+                    name === "angle increment"
+                        ? this.numberRow(name, this.angleLabel, "90")
+                        : this.numberRow(name, name, null),
                 ];
             }),
         );
@@ -169,7 +181,7 @@ export class Controls {
 
     private factorRow(): Row {
         const name = "angle factor";
-        const slider = makeSlider("angle", {
+        const slider = makeSlider(this.angleLabel, {
             ...this.acts(name, String),
             type: (value) => this.change(name, value.replace(/^360\s*\/\s*/, "")),
         });
@@ -203,7 +215,7 @@ export class Controls {
                 const fact = facts.defines.find((each) => each.name === name)?.value;
                 const { now, base, isChanged } = this.value(name, absent ?? fact ?? "0");
                 const start = readNumber(base) ?? 0;
-                const range = label === "angle" ? { least: 0, most: 180, step: 0.1 } : spread(start);
+                const range = name === "angle increment" ? { least: 0, most: 180, step: 0.1 } : spread(start);
                 const number = readNumber(now) ?? readNumber(fact ?? "") ?? start;
                 step = range.step;
                 slider.set({
@@ -263,9 +275,8 @@ export class Controls {
         if (cost.symbols) parts.push(counted(cost.symbols, "symbol"));
         if (cost.segments && cost.segments !== "0") parts.push(counted(cost.segments, "segment"));
         if (extent) parts.push(`${span(extent[0], extent[2])} × ${span(extent[1], extent[3])} steps`);
-        this.cost.replaceChildren(
-            element("span", {}, parts.join(" · ") || "The cost is unknown until the word is derived."),
-        );
+        const unknown = facts.is_map ? "A map has no word to count." : "The cost is unknown until the word is derived.";
+        this.cost.replaceChildren(element("span", {}, parts.join(" · ") || unknown));
         this.cost.classList.toggle("deep", !cost.is_derivable);
         if (cost.is_derivable) return;
         this.cost.append(

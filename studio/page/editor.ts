@@ -23,6 +23,7 @@ import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
 import type { Diagnostic, Failure } from "./protocol";
+import { isAnother } from "./versions";
 
 const message_pause = 350; // milliseconds after the last key
 
@@ -175,7 +176,10 @@ export class Editor {
             EditorView.updateListener.of((update) => {
                 if (!update.docChanged || update.transactions.some((each) => each.annotation(from_outside))) return;
                 const { pattern } = store.work;
-                store.change({ pattern: { ...pattern, text: update.state.doc.toString() } }, "text");
+                const edited = { ...pattern, text: update.state.doc.toString() };
+                // Values belong to the pattern that they were set for.
+                if (isAnother(edited, pattern)) Object.assign(edited, { variant: "", settings: [] });
+                store.change({ pattern: edited }, "text");
             }),
         ];
     }

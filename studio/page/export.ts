@@ -1,13 +1,16 @@
 // Exports the work in every format, or shows the command that makes the same file.
 import type { Application } from "./application";
 import { copyText } from "./clipboard";
+import { commandSource } from "./command_source";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, element } from "./elements";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
+import { isAbort } from "./pictures";
 import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
+import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
 import { optionOf } from "./sheet";
 import { drawInto } from "./thumbnails";
@@ -93,7 +96,8 @@ function nameOf({ label, extension }: FormatHelp): string {
 }
 
 class Export {
-    private readonly choices: Choice[];
+    private choices: Choice[];
+    private formats = element("div");
     private choice: Choice;
     private timer = 0;
     private generation = 0; // of the choice and its options: answers for an earlier one are dropped
@@ -110,18 +114,28 @@ class Export {
     });
     private readonly options = element("div", { class: "export-options" });
     private readonly remarks = element("ul", { class: "remarks", "aria-live": "polite" });
+    private readonly refusal: Refusal;
     private readonly command = element("code", { class: "command", tabindex: 0 });
+    private readonly needed = element(
+        "div",
+        { class: "command-needs", hidden: true },
+        "The command reads the file of the pattern. ",
+        button("Save the pattern", () => this.savePattern(), { kind: "quiet" }),
+    );
     private readonly save = button("Save", () => this.saveFiles(), { kind: "primary" });
 
     constructor(private readonly application: Application) {
+        this.refusal = new Refusal(application, element("li", { class: "note warning" }));
         this.choices = choicesOf(application);
         this.choice = this.choices.find((each) => this.nameOf(each) === chosen) ?? this.choices[0]!;
         this.isWindow = windowOnScreen(application) !== null;
         const unsubscribe = application.store.subscribe(() => this.refreshSoon());
+        const unlisten = application.onOpened(() => this.showFormats());
         this.dialog = openDialog("Export", {
             wide: true,
             closed: () => {
                 unsubscribe();
+                unlisten();
                 ++this.generation;
                 clearTimeout(this.timer);
             },
@@ -129,7 +143,7 @@ class Export {
         this.dialog.body.classList.add("export");
         const copy = button("Copy", () => void this.copyCommand(), { kind: "quiet" });
         this.dialog.body.append(
-            this.formats(),
+            this.formats,
             this.options,
             element("div", { class: "export-page" }, this.preview, this.windowSwitch(), this.remarks),
         );
@@ -141,10 +155,27 @@ class Export {
                 this.command,
                 copy,
             ),
+            this.needed,
             this.save,
         );
+        this.showFormats();
         this.choose(this.choice);
         this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
+    }
+
+    // The formats depend on the pattern: those of the one before cannot be chosen while a text is being read.
+    private showFormats(): void {
+        const { opened, store } = this.application;
+        this.choices = choicesOf(this.application);
+        const name = this.nameOf(this.choice);
+        const choice = this.choices.find((each) => this.nameOf(each) === name);
+        const isOther = choice === undefined;
+        this.choice = choice ?? this.choices[0]!;
+        const made = this.makeFormats();
+        made.inert = opened?.work.pattern !== store.work.pattern;
+        this.formats.replaceWith(made);
+        this.formats = made;
+        if (isOther) this.choose(this.choice);
     }
 
     private async copyCommand(): Promise<void> {
@@ -157,7 +188,7 @@ class Export {
         return `${choice.interpreter} ${choice.format.extension}`;
     }
 
-    private formats(): HTMLElement {
+    private makeFormats(): HTMLDivElement {
         const fields = [...new Set(this.choices.map((each) => each.group))].map((group) => {
             const labels = this.choices
                 .filter((each) => each.group === group)
@@ -223,6 +254,8 @@ class Export {
         clearTimeout(this.timer);
         ++this.generation;
         this.save.disabled = true;
+        this.preview.classList.add("stale");
+        relief?.canvas.classList.add("stale");
         this.timer = window.setTimeout(() => this.refresh(), pause);
     }
 
@@ -282,9 +315,8 @@ class Export {
         } catch (error) {
             if (generation !== this.generation || !(error instanceof RequestFailed)) return;
             this.save.textContent = "Save";
-            const { option, message } = error.failure;
-            const text = option && !message.startsWith(option) ? `${option}: ${message}` : message;
-            this.showRemarks([{ is_warning: true, text }]);
+            this.remarks.replaceChildren(this.refusal.note);
+            this.refusal.show(error, request.pattern);
         }
     }
 
@@ -299,6 +331,7 @@ class Export {
     private offerPattern(): void {
         const { pattern } = this.application.store.work;
         this.command.parentElement!.hidden = true;
+        this.needed.hidden = true;
         this.showRemarks(
             pattern.settings.length > 0
                 ? [
@@ -320,16 +353,25 @@ class Export {
     }): Promise<void> {
         const { generation } = this;
         try {
-            const { json } = await this.application.engine.request<Command>(
-                { do: "command", ...request },
+            const { engine, patterns } = this.application;
+            const source = await commandSource(engine, patterns, request.pattern);
+            const { json } = await engine.request<Command>(
+                { do: "command", ...request, source },
                 { key: "export-command" },
             );
             if (generation !== this.generation) return;
             this.command.textContent = json.command;
             this.command.parentElement!.hidden = false;
+            this.needed.hidden = source !== request.pattern.name;
         } catch {
-            if (generation === this.generation) this.command.parentElement!.hidden = true;
+            if (generation === this.generation) this.command.parentElement!.hidden = this.needed.hidden = true;
         }
+    }
+
+    private savePattern(): void {
+        const { name, text } = this.application.store.work.pattern;
+        this.application.save(name, new TextEncoder().encode(text), "text/plain");
+        this.application.say(`Saved ${name}.`);
     }
 
     private showRemarks(remarks: Made["remarks"]): void {
@@ -340,7 +382,10 @@ class Export {
         );
     }
 
+    // Dimmed while it shows an earlier work or other options; empty if these cannot be drawn.
     private async showPreview(): Promise<void> {
+        this.preview.classList.add("stale");
+        relief?.canvas.classList.add("stale");
         const isDrawn = this.choice.interpreter === "draw" && this.choice.format !== pattern_format;
         const { generation } = this;
         const isRelief = isDrawn && this.isRelief() && (await this.showRelief());
@@ -357,9 +402,11 @@ class Export {
                 this.optionsNow(),
                 "export-preview",
             );
-        } catch {
-            // the remarks give the reason
+        } catch (error) {
+            if (generation !== this.generation || isAbort(error)) return;
+            this.preview.width = this.preview.height = preview_size; // the remarks give the reason
         }
+        if (generation === this.generation) this.preview.classList.remove("stale");
     }
 
     private isRelief(): boolean {
@@ -389,7 +436,10 @@ class Export {
                 },
                 { lane: "back", key: "export-relief", seconds: 30 },
             );
-            if (generation === this.generation) relief.show(bytes);
+            if (generation === this.generation) {
+                relief.show(bytes);
+                relief.canvas.classList.remove("stale");
+            }
             return true;
         } catch (error) {
             // The remarks give the reason for a request that failed; a later choice drops this one.

@@ -5,8 +5,9 @@ import { decimalsOf } from "./camera";
 import { button, element } from "./elements";
 import { addGestures } from "./map_gestures";
 import { makePlaceBar, stepsText } from "./map_place";
-import { MapView } from "./map_view";
+import { drawing, MapView } from "./map_view";
 import type { Opened } from "./protocol";
+import { Refusal } from "./refusal";
 import { sheetOf } from "./sheet";
 
 const describeAfter = 500; // milliseconds
@@ -31,7 +32,8 @@ export const makeMapPanel: MakePanel = (studio) => {
         "aria-label": "Picture",
         "aria-describedby": "map-hint",
     });
-    const problem = element("p", { class: "note map-problem", role: "status", hidden: true });
+    const problem = element("div", { class: "note map-problem", role: "status", hidden: true });
+    const refusal = new Refusal(studio, problem);
     let pointer: { left: number; top: number } | null = null;
 
     const view = new MapView(studio, canvas, () => update());
@@ -56,9 +58,11 @@ export const makeMapPanel: MakePanel = (studio) => {
         place.update(pointer);
     });
     const describer = describeSoon(studio, view, canvas);
-    let text = "";
+    let shown: string | MapView["failure"] = "";
     function update(): void {
         panel.dataset["mode"] = view.mode;
+        panel.classList.toggle("stale", view.isStale);
+        panel.setAttribute("aria-busy", String(view.waiting === drawing));
         place.update(pointer);
         toDrawing.disabled = !view.hasPlane;
         toPage.setAttribute("aria-pressed", String(view.mode === "page" && !view.isMagnified));
@@ -67,13 +71,18 @@ export const makeMapPanel: MakePanel = (studio) => {
             : view.isEmpty
               ? "No line in this view; press F to fit the drawing."
               : "";
-        const now = view.problem || empty;
-        if (now !== text) {
-            text = now;
-            problem.textContent = text;
-            problem.classList.toggle("quiet", view.problem === "");
-            problem.hidden = text === "";
+        const now = view.failure ?? (view.waiting || view.problem || empty);
+        if (now !== shown) {
+            shown = now;
+            refusal.clear();
+            if (typeof now === "string") {
+                problem.textContent = now;
+                problem.hidden = now === "";
+            } else {
+                refusal.show(now.error, now.pattern);
+            }
         }
+        problem.classList.toggle("quiet", view.failure === null && (view.waiting !== "" || view.problem === ""));
         describer();
     }
 
@@ -81,6 +90,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     new MutationObserver(() => view.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
     studio.store.subscribe((work) => view.setWork(work));
     studio.onOpened((facts, work) => view.setFacts(facts, work));
+    studio.onChecked(() => view.draw()); // with an error the picture stays that of the text before
     return { name: "map", label: "Picture", element: panel, show: () => view.show(), hide: () => view.hide() };
 };
 

@@ -7,7 +7,7 @@ import type { Laid } from "./sheet";
 export interface Overview {
     readonly kind: "page" | "plane";
     readonly name: string; // of what it shows
-    readonly pattern: string; // name of the pattern
+    readonly pattern: { name: string; text: string };
     readonly bitmap: Bitmap;
     readonly ratio: number;
     readonly camera: Camera | null; // of a page: the camera that shows the plane as the page does

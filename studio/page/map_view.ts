@@ -1,5 +1,5 @@
 // The map: what it shows, and when pictures are asked for. The drawing never disappears: what was there last stays,
-// moved and scaled, until better pictures have come.
+// moved and scaled, until better pictures have come; if it is not that of the work, it is dimmed.
 import { cameraOf, decimalsOf, fitting, limited, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { exactOf, exactText, readExact } from "./decimal";
@@ -12,17 +12,20 @@ import type { Opened } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
 import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
+import { isAnother } from "./versions";
 
 const restAfter = 140; // milliseconds without motion until pictures at exactly this scale are requested
 const keepAfter = 300; // … until the position is stored in the work
 const enteringTime = 240; // milliseconds of the transition from the page to the plane
 const widest = 4096; // pixels of a page's picture
+export const drawing = "Drawing…";
+const patience = 300; // milliseconds without a new picture until the map says that it is drawing
 const noLoupe: Loupe = { zoom: 1, right: 0, down: 0 };
 
 export class MapView {
     size: Size = { width: 0, height: 0 };
     mode: "page" | "plane" = "page";
-    problem = ""; // why the last picture is missing, or what is wrong with it
+    problem = ""; // what is wrong with the last picture
 
     private readonly motion = new Motion();
     private readonly painter: Painter;
@@ -37,6 +40,11 @@ export class MapView {
     private pageName = "";
     private planeName = "";
     private overview: Overview | null = null;
+    private isForeign = false; // the overview shows another pattern
+    private failed: { error: unknown; pattern: Work["pattern"] } | null = null; // why the picture is missing
+    private since = performance.now(); // time of the last picture, or of the first change after it
+    private waitTimer = 0;
+    private wasCurrent = false; // before the change
     private loupe = noLoupe; // over pages that have no plane
     private changed = -1e9; // time of the last change of the work
     private moved = -1e9; // time of the last motion
@@ -103,15 +111,61 @@ export class MapView {
         const before = this.work;
         this.work = work;
         const isOther = work.pattern !== before.pattern || work.draw !== before.draw;
+        this.wasCurrent = this.isCurrent;
         if (isOther || this.pageName === "") {
             this.pageName = this.subjects.nameOf("page", work.pattern, pageOptions(work.draw));
             this.planeName = this.subjects.nameOf("plane", work.pattern, planeOptions(work.draw));
         }
-        if (isOther) this.changed = performance.now();
-        if (work.pattern.name !== before.pattern.name) this.loupe = noLoupe;
+        if (isOther) this.change();
+        if (isAnother(work.pattern, before.pattern)) {
+            this.loupe = noLoupe;
+            this.problem = "";
+        }
         this.takePlace();
         this.refresh();
         this.draw();
+        if (isOther) this.onChange(); // not only in the next frame
+    }
+
+    // The picture is that of an earlier work from now on.
+    private change(): void {
+        this.changed = performance.now();
+        if (this.wasCurrent || this.failed || this.studio.hasErrors) this.since = this.changed;
+        this.failed = null;
+        this.isForeign = this.overview !== null && isAnother(this.overview.pattern, this.work.pattern);
+        this.waitOn();
+    }
+
+    private waitOn(): void {
+        clearTimeout(this.waitTimer);
+        this.waitTimer = window.setTimeout(() => this.draw(), patience + 10);
+    }
+
+    private get isCurrent(): boolean {
+        const { overview } = this;
+        return overview !== null && overview.name === (overview.kind === "plane" ? this.planeName : this.pageName);
+    }
+
+    /// Why there is no picture of the work; null if there is one, or none yet. Errors of the text are shown there.
+    get failure(): { error: unknown; pattern: Work["pattern"] } | null {
+        const { failed } = this;
+        const isOfText = failed?.error instanceof RequestFailed && failed.error.failure.kind === "pattern";
+        return isOfText && this.known === null ? null : failed;
+    }
+
+    /// What the map is waiting for, in words; empty if its picture is that of the work, or is to come soon.
+    get waiting(): string {
+        if (this.isCurrent || this.failure) return "";
+        if (this.studio.hasErrors) {
+            return this.isForeign ? "The text has errors: this is the picture of the pattern before." : "";
+        }
+        if (this.failed) return "";
+        return performance.now() - this.since > patience ? drawing : "";
+    }
+
+    /// True if the picture is that of another work, and the one of the work does not come soon.
+    get isStale(): boolean {
+        return !this.isCurrent && (this.isForeign || this.failed !== null || this.waiting !== "");
     }
 
     setFacts(facts: Opened, work: Work): void {
@@ -357,7 +411,7 @@ export class MapView {
 
     // Makes an overview of a work from the bitmap that is still to come.
     private overviewOf(work: Work, rest: Omit<Overview, "pattern" | "bitmap" | "ground">): (bitmap: Bitmap) => Overview {
-        return (bitmap) => ({ ...rest, pattern: work.pattern.name, bitmap, ground: this.groundOf(work) });
+        return (bitmap) => ({ ...rest, pattern: work.pattern, bitmap, ground: this.groundOf(work) });
     }
 
     private askPage(ratio: number): void {
@@ -417,18 +471,25 @@ export class MapView {
         if (overview.kind !== this.mode && this.overview) return overview.bitmap.close();
         this.overview?.bitmap.close();
         this.overview = overview;
+        this.isForeign = isAnother(overview.pattern, this.work.pattern);
+        this.since = performance.now();
+        if (this.isCurrent) this.failed = null;
+        else this.waitOn();
         this.problem = overview.kind === "page" ? warnings.join("\n") : "";
         this.draw();
         this.rest();
     }
 
     private fail(error: unknown): void {
-        const isOfText = error instanceof RequestFailed && error.failure.kind === "pattern"; // the editor shows it
-        this.problem = isOfText ? "" : error instanceof Error ? error.message : String(error);
+        const { failed } = this;
+        if (failed && failed.error === error && failed.pattern === this.work.pattern) return;
+        this.failed = { error, pattern: this.work.pattern };
+        this.problem = "";
         // The last picture stays, unless it is of another pattern.
-        if (!isOfText && this.overview && this.overview.pattern !== this.work.pattern.name) {
+        if (this.failure && this.overview && this.isForeign) {
             this.overview.bitmap.close();
             this.overview = null;
+            this.isForeign = false;
         }
         this.draw();
         this.onChange();
@@ -476,7 +537,7 @@ export class MapView {
         const { overview, painter } = this;
         painter.clear();
         if (!overview) {
-            if (this.problem !== "") painter.blank(this.laid);
+            if (this.failure) painter.blank(this.laid);
             return;
         }
         this.tell(overview);

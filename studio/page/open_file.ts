@@ -33,7 +33,8 @@ async function openFile(studio: Studio, file: File, all: File[]): Promise<void> 
         else if (/\.(lsys|txt)$/i.test(file.name)) openText(studio, file.name, bytes);
         else await openPrint(studio, file.name, bytes);
     } catch (error) {
-        studio.say(`${file.name}: ${error instanceof RequestFailed ? error.failure.message : String(error)}`, "error");
+        const message = error instanceof RequestFailed ? error.message : String(error);
+        studio.say(message.startsWith(`${file.name}:`) ? message : `${file.name}: ${message}`, "error");
     }
 }
 

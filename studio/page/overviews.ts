@@ -10,6 +10,7 @@ export class Overviews {
     quality = 1; // of pictures while a slider moves
     private asked = ""; // name of the picture being made
     private refused = ""; // name of the picture that cannot be drawn
+    private reason: unknown; // its error
     private count = 0; // number of requests
     private shown = 0; // number of the last picture received
     private readonly busy = [0, 0]; // requests in progress
@@ -27,7 +28,8 @@ export class Overviews {
     /// @param what  name of the picture, which is not requested again while it is being made or if it cannot be made
     /// @param fullRatio  its ratio at full quality
     async ask(what: string, request: Request, fullRatio: number, made: (bitmap: Bitmap) => Overview): Promise<void> {
-        if (what === this.asked || what === this.refused) return;
+        if (what === this.asked) return;
+        if (what === this.refused) return this.fail(this.reason);
         this.asked = what;
         const number = ++this.count;
         const start = performance.now();
@@ -43,10 +45,12 @@ export class Overviews {
                 answer.json.remarks.flatMap(({ is_warning, text }) => (is_warning ? [text] : [])),
             );
         } catch (error) {
-            if (this.asked === what) this.asked = "";
+            const isLast = this.asked === what;
+            if (isLast) this.asked = "";
             if (isAbort(error)) return;
             this.refused = what;
-            this.fail(error);
+            this.reason = error;
+            if (isLast) this.fail(error);
         }
     }
 

@@ -11,6 +11,7 @@ export class Panels {
         private readonly studio: Studio,
         makers: MakePanel[],
     ) {
+        byId("panels").replaceChildren();
         for (const make of makers) {
             try {
                 this.add(make(studio));

@@ -51,7 +51,12 @@ export function withSettings(pattern: PatternRequest): string {
     return text;
 }
 
+/// The title in a text; empty if it has none.
+export function titleIn(text: string): string {
+    return valueInText({ name: "", text }, "title") ?? "";
+}
+
 /// The title of a pattern, or its name if it has none.
 export function titleOf(pattern: { name: string; text: string }): string {
-    return valueInText({ name: pattern.name, text: pattern.text }, "title") || pattern.name.replace(/\.lsys$/, "");
+    return titleIn(pattern.text) || pattern.name.replace(/\.lsys$/, "");
 }

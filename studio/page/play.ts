@@ -11,15 +11,18 @@ import { RollView } from "./play/roll_view";
 import { TransportBar } from "./play/transport_bar";
 import { VoiceList } from "./play/voice_list";
 import type { Made, Notes, Opened, Options } from "./protocol";
+import { Refusal } from "./refusal";
 import type { Melody } from "./sound/melody";
 import { barsOf, firstFrom, keyName, placeText, readMelody } from "./sound/melody";
 import { NoteOrigins } from "./sound/origins";
+import { isAnother } from "./versions";
 
 const icons = {
     closer: "M7 3v8M3 7h8M14 14l-3.5-3.5",
     wider: "M3 7h8M14 14l-3.5-3.5",
     save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
+const patience = 300; // milliseconds until the panel says that it is making a melody
 const half_frame = 0.008; // seconds
 const most_pointed = 200_000; // notes searched for the one under the pointer
 /// Elements in which the space key has another meaning.
@@ -40,14 +43,17 @@ class PlayPanel implements Panel {
     private isShown = false;
     private isStale = true; // the melody belongs to an older work
     private loaded = ""; // what it was made from
-    private heardName = ""; // name of the pattern whose melody is shown
-    private playsMoves = ""; // name of the pattern whose moves are played as if they were drawn
+    private heard: Work["pattern"] | null = null; // the pattern whose melody is shown
+    private playsMoves: Work["pattern"] | null = null; // its moves are played as if they were drawn
+    private waitTimer = 0;
     private mutedState = ""; // as shown by the views
     private frame = 0;
     private litNote = -1;
 
     private readonly hover = element("p", { class: "play-hover", "aria-hidden": "true" });
     private readonly problem = element("div", { class: "note error play-problem", role: "alert", hidden: true });
+    private readonly refusal: Refusal;
+    private readonly waiting = element("p", { class: "note play-waiting", role: "status", hidden: true });
     private readonly curveCanvas = element("canvas", { class: "play-curve-canvas", role: "img" });
     private readonly rollCanvas = element("canvas", { class: "play-roll-canvas", role: "img" });
     private readonly facts = element("p", { class: "play-facts" });
@@ -55,6 +61,7 @@ class PlayPanel implements Panel {
 
     constructor(private readonly studio: Studio) {
         this.player = new Player(studio);
+        this.refusal = new Refusal(studio, this.problem);
         this.origins = new NoteOrigins(studio.engine);
         this.voices = new VoiceList(this.player);
         this.curve = new CurveView(this.curveCanvas, () => this.redraw());
@@ -104,13 +111,15 @@ class PlayPanel implements Panel {
             element("div", { class: "play-roll" }, this.rollCanvas, zoom),
             this.bar.position,
         );
-        this.element.append(this.bar.element, this.problem, element("div", { class: "play-body" }, views, side));
+        this.element.append(this.bar.element, this.problem, this.waiting, element("div", { class: "play-body" }, views, side));
     }
 
     private listen(): void {
         const { studio, curveCanvas } = this;
         studio.onOpened((facts, work) => this.change(facts, work));
+        studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
+            if (isAnother(work.pattern, before.pattern)) this.forget();
             if (work.play === before.play) return;
             this.applyTempo();
             if (studio.opened) this.change(studio.opened.facts, { ...studio.opened.work, play: work.play });
@@ -162,7 +171,7 @@ class PlayPanel implements Panel {
             this.isStale = false;
             return;
         }
-        this.element.setAttribute("aria-busy", "true");
+        this.wait();
         try {
             const { json, bytes } = await this.studio.engine.request<Notes>(
                 { do: "notes", options, pattern },
@@ -170,44 +179,87 @@ class PlayPanel implements Panel {
             );
             this.loaded = what;
             this.isStale = false;
-            this.problem.hidden = true;
+            this.refusal.clear();
+            this.endWait();
             this.showMelody(readMelody(json, bytes), facts, work);
         } catch (error) {
             if (!(error instanceof RequestFailed)) return; // superseded by a later request
             this.loaded = what;
             this.isStale = false;
-            this.showProblem(error.message, facts, work);
-        } finally {
-            this.element.removeAttribute("aria-busy");
+            this.endWait();
+            this.showProblem(error, facts, work);
         }
+    }
+
+    // Another pattern: what is shown does not belong to it. Music that is heard goes on until the next is there.
+    private forget(): void {
+        this.isStale = true;
+        this.refusal.clear();
+        this.wait();
+        if (!this.player.transport.playing) this.clear();
+    }
+
+    // Shows no melody.
+    private clear(): void {
+        this.loaded = "";
+        this.heard = null;
+        this.player.setMelody(null);
+        this.curve.show(null);
+        this.roll.show(null);
+        this.bar.clear();
+        this.describe("No melody yet.", "the pattern");
+    }
+
+    // Says after a moment that a melody is being made, and dims the one that is there.
+    private wait(): void {
+        clearTimeout(this.waitTimer);
+        this.element.setAttribute("aria-busy", "true");
+        this.waitTimer = window.setTimeout(() => {
+            this.waiting.hidden = false;
+            this.element.classList.add("stale");
+            this.sayWaiting();
+        }, patience);
+    }
+
+    private sayWaiting(): void {
+        this.waiting.textContent = this.studio.hasErrors ? "The text has errors." : "Making the melody…";
+    }
+
+    private endWait(): void {
+        clearTimeout(this.waitTimer);
+        this.waiting.hidden = true;
+        this.element.classList.remove("stale");
+        this.element.removeAttribute("aria-busy");
     }
 
     /// The pattern whose melody is played.
     private played(work: Work): Work["pattern"] {
-        return (this.playsMoves === work.pattern.name && withMovesDrawn(work.pattern)) || work.pattern;
+        const { playsMoves } = this;
+        return (playsMoves && !isAnother(playsMoves, work.pattern) && withMovesDrawn(work.pattern)) || work.pattern;
     }
 
-    private showProblem(message: string, facts: Opened, work: Work): void {
-        const remedies = remediesFor(message, work.pattern, work.play).map(({ label, options, pattern }) =>
+    private showProblem(error: RequestFailed, facts: Opened, work: Work): void {
+        // Music that is heard goes on while its pattern is edited, dimmed.
+        if (!this.player.transport.playing || !this.heard || isAnother(this.heard, work.pattern)) this.clear();
+        else this.element.classList.add("stale");
+        const remedies = remediesFor(error.message, work.pattern, work.play).map(({ label, options, pattern }) =>
             button(label, () => {
                 if (options) {
                     this.studio.store.change({ play: options });
                 } else if (pattern) {
-                    this.playsMoves = work.pattern.name;
+                    this.playsMoves = work.pattern;
                     void this.load(facts, work);
                 }
             }),
         );
-        this.problem.replaceChildren(
-            element("p", {}, sentence(message)),
-            element("div", { class: "toolbar" }, ...remedies),
-        );
-        this.problem.hidden = false;
+        this.refusal.show(error, work.pattern);
+        if (remedies.length > 0) this.problem.append(element("div", { class: "toolbar" }, ...remedies));
     }
 
     private showMelody(melody: Melody, facts: Opened, work: Work): void {
-        if (work.pattern.name !== this.heardName && !this.player.transport.playing) this.player.transport.seek(0);
-        this.heardName = work.pattern.name;
+        const isOther = !this.heard || isAnother(this.heard, work.pattern);
+        if (isOther && !this.player.transport.playing) this.player.transport.seek(0);
+        this.heard = work.pattern;
         this.origins.reset(melody, this.played(work));
         this.player.setMelody(melody);
         this.curve.show(melody);
@@ -312,7 +364,13 @@ class PlayPanel implements Panel {
 
     private draw(): void {
         const { melody, transport } = this.player;
-        if (!melody) return;
+        if (!melody) {
+            if (this.isShown) {
+                this.curve.draw(0);
+                this.roll.draw(0);
+            }
+            return;
+        }
         const tick = this.player.place();
         if (transport.playing) this.light(melody, tick);
         let isUnfinished = false;
@@ -349,7 +407,9 @@ class PlayPanel implements Panel {
     show(): void {
         this.isShown = true;
         const { opened, store } = this.studio;
-        if (this.isStale && opened) void this.load(opened.facts, { ...opened.work, play: store.work.play });
+        // While a new text has errors, there is nothing to play.
+        const isOurs = opened && !isAnother(opened.work.pattern, store.work.pattern);
+        if (this.isStale && isOurs) void this.load(opened.facts, { ...opened.work, play: store.work.play });
         this.curve.reset();
         this.roll.reset();
     }
@@ -358,8 +418,5 @@ class PlayPanel implements Panel {
         this.isShown = false;
     }
 }
-
-const sentence = (text: string): string =>
-    `${text.slice(0, 1).toUpperCase()}${text.slice(1)}${/[.!?`]$/.test(text) ? "" : "."}`;
 
 export const makePlayPanel: MakePanel = (studio) => new PlayPanel(studio);

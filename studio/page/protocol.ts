@@ -25,6 +25,8 @@ export type Request =
     | { do: "measure"; pattern: PatternRequest }
     | { do: "kolam"; pattern: PatternRequest }
     | { do: "check"; pattern: PatternRequest }
+    /// The largest derivation length that is drawn quickly, at most one less than the pattern's: see Affordable.
+    | { do: "affordable"; seconds: number; pattern: PatternRequest }
     | { do: "notes"; options?: Options; pattern: PatternRequest }
     /// Where the modules of the word come from; see Origin. `symbols` are positions in the word, counted from 1, decimal texts.
     | { do: "origins"; symbols: string[]; pattern: PatternRequest }
@@ -41,8 +43,10 @@ export type Request =
     /// Write a work as a link, and read one. `Shared` is the contents of a link.
     | { do: "link"; shared: Shared }
     | { do: "read_link"; link: string }
-    /// The command line that makes the same output.
-    | { do: "command"; interpreter: "draw" | "play"; format: string; options?: Options; pattern: PatternRequest };
+    /// The command line that makes the same output. `source` names the pattern in it: a file, a bundled pattern, or a
+    /// link; without it, the pattern's name.
+    | { do: "command"; interpreter: "draw" | "play"; format: string; options?: Options; pattern: PatternRequest;
+        source?: string };
 
 export interface Shared {
     pattern: PatternRequest;
@@ -100,6 +104,7 @@ export interface Opened {
     warnings: Diagnostic[]; // and errors of the word, such as brackets that do not balance
     is_melody: boolean; // sets keys of melodies
     is_spatial: boolean; // draws in space: no windows; models instead
+    is_map: boolean; // a map system: it has no word and no turtle
     is_random: boolean; // depends on the seed
     has_view: boolean; // a window of any depth costs only the visible part
     cost: {
@@ -170,3 +175,4 @@ export interface Grid {
 export interface Link { link: string } // the fragment, without `#`
 export interface ReadLink { shared: Shared }
 export interface Command { command: string }
+export interface Affordable { n: string } // empty: none, or unknown

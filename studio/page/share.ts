@@ -50,7 +50,7 @@ export function openShare(application: Application): void {
             address.value = link;
             showCode(code, facts, isServed() ? link : `#${json.link}`);
         } catch (error) {
-            facts.textContent = error instanceof RequestFailed ? error.failure.message : String(error);
+            facts.textContent = error instanceof RequestFailed ? error.message : String(error);
         }
     };
     box.addEventListener("change", () => void make());

@@ -10,9 +10,12 @@ import { Pace } from "./pace";
 import { isAbort } from "./pictures";
 import type { Opened } from "./protocol";
 import { styleOf } from "./sheet";
+import { Refusal } from "./refusal";
 import { fittingHalf, Stage, type Staged } from "./space_stage";
+import { isAnother } from "./versions";
 
 const mostSegments = 150_000; // larger models would take hundreds of megabytes
+const patience = 300; // milliseconds until the panel says that it is making a model
 const growing = 700; // milliseconds for each derivation length
 const turning = 380; // milliseconds of the transition between two models
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
@@ -63,7 +66,8 @@ const flatReason = "This pattern is flat: prints show it from above, so they nee
 
 class SpaceView {
     private readonly growth: Growth;
-    private readonly note = element("p", { class: "note space-note", role: "status", hidden: true });
+    private readonly note = element("div", { class: "note space-note", role: "status", hidden: true });
+    private readonly refusal: Refusal;
     private readonly slider = element("input", { type: "range", id: "space-n", min: 0, max: 1, step: 1 });
     private readonly count = element("output", { class: "number space-n", for: "space-n" });
     private readonly facts = element("p", { class: "space-facts number" });
@@ -100,6 +104,7 @@ class SpaceView {
     private readonly pace = new Pace();
     private restTimer = 0;
     private asked = 0;
+    private waitTimer = 0;
 
     static make(studio: Studio, panel: HTMLElement): SpaceView | null {
         const canvas = element("canvas", {
@@ -120,11 +125,12 @@ class SpaceView {
 
     private constructor(
         private readonly studio: Studio,
-        panel: HTMLElement,
+        private readonly panel: HTMLElement,
         private readonly canvas: HTMLCanvasElement,
         private readonly stage: Stage,
     ) {
         this.growth = new Growth(studio.engine, stage);
+        this.refusal = new Refusal(studio, this.note);
         this.work = studio.store.work;
         this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
         this.turn = button("Turn around", () => this.spin(!this.isTurning), { icon: icons.turn });
@@ -218,7 +224,9 @@ class SpaceView {
         new ResizeObserver(() => this.draw()).observe(canvas);
         new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
         studio.onOpened((facts, work) => this.open(facts, work));
+        studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
+            if (isAnother(work.pattern, before.pattern)) this.forget();
             if (this.opened && work.draw !== before.draw && work.pattern === before.pattern)
                 this.open(this.opened, work);
         });
@@ -226,7 +234,9 @@ class SpaceView {
 
     show(): void {
         this.isShown = true;
-        if (this.studio.opened) this.open(this.studio.opened.facts, this.studio.opened.work);
+        const { opened, store } = this.studio;
+        // While a new text has errors, there is nothing to show.
+        if (opened && !isAnother(opened.work.pattern, store.work.pattern)) this.open(opened.facts, opened.work);
     }
 
     hide(): void {
@@ -238,15 +248,47 @@ class SpaceView {
     }
 
     private problem(text: string): void {
+        this.refusal.clear();
         this.note.textContent = text;
         this.note.hidden = text === "";
+    }
+
+    // Another pattern: nothing that is shown belongs to it.
+    private forget(): void {
+        ++this.asked;
+        this.model = this.before = this.whole = null;
+        this.subject = "";
+        this.facts.textContent = "";
+        this.canvas.setAttribute("aria-label", "Model");
+        this.wait();
+        this.draw();
+    }
+
+    // Says after a moment that a model is being made, and dims what is there.
+    private wait(): void {
+        clearTimeout(this.waitTimer);
+        this.refusal.clear();
+        this.waitTimer = window.setTimeout(() => {
+            this.panel.classList.add("stale");
+            this.sayWaiting();
+        }, patience);
+    }
+
+    private sayWaiting(): void {
+        if (!this.panel.classList.contains("stale")) return;
+        this.problem(this.studio.hasErrors ? "The text has errors." : "Making the model…");
+    }
+
+    private endWait(): void {
+        clearTimeout(this.waitTimer);
+        this.panel.classList.remove("stale");
     }
 
     // The text or the values have changed: the last model stays until the next one is ready.
     private open(facts: Opened, work: Work): void {
         if (!this.isShown) return;
         const { name } = Growth.subject(work);
-        const isOther = work.pattern.name !== this.work.pattern.name || this.opened === null;
+        const isOther = this.opened === null || isAnother(work.pattern, this.work.pattern);
         const n = Number(facts.n);
         const isSame = name === this.subject && n === this.most;
         this.work = work;
@@ -259,7 +301,10 @@ class SpaceView {
             this.whole = null;
             this.reset();
         }
-        if (isSame && this.model) return this.draw();
+        if (isSame && this.model) {
+            this.endWait();
+            return this.draw();
+        }
         this.grow(false);
         this.most = n;
         this.slider.max = String(n);
@@ -270,7 +315,8 @@ class SpaceView {
         return this.opened !== null && !!styleOf("line", this.opened, this.work.draw)?.startsWith("spline");
     }
 
-    private get refusal(): string {
+    /// Why the drawing can have no model; empty if nothing is known against it.
+    private get obstacle(): string {
         const facts = this.opened;
         if (!facts) return "";
         if (this.isSpline) {
@@ -301,23 +347,32 @@ class SpaceView {
     private async load(n: number): Promise<void> {
         const { work } = this;
         const asked = ++this.asked;
-        const refusal = this.refusal;
-        if (refusal && (n === this.most || this.isSpline)) {
-            this.model = null;
-            this.facts.textContent = "";
-            this.problem(refusal);
-            this.draw();
+        const { obstacle } = this;
+        if (obstacle && (n === this.most || this.isSpline)) {
+            this.drop();
+            this.problem(obstacle);
             return;
         }
+        this.wait();
         try {
             const model = await this.growth.make(work, n, { key: "space" });
             if (asked !== this.asked) return;
+            this.endWait();
             this.take(model, n);
             this.problem(model === "empty" && n === this.most ? "This pattern draws nothing." : "");
         } catch (error) {
             if (isAbort(error) || asked !== this.asked) return;
-            this.problem(error instanceof Error ? error.message : String(error));
+            this.drop();
+            this.refusal.show(error, work.pattern);
         }
+    }
+
+    // Shows no model, because the drawing has none.
+    private drop(): void {
+        this.endWait();
+        this.model = this.before = this.whole = null;
+        this.facts.textContent = "";
+        this.draw();
     }
 
     private take(model: Grown, n: number): void {
@@ -448,7 +503,7 @@ class SpaceView {
         this.lamp.show(this.light);
         const current = this.model;
         const frame = this.whole ?? (current !== "empty" ? current : null);
-        if (!frame) return;
+        if (!frame) return this.stage.clear();
         // The controls cover the bottom of the picture.
         const covered = Math.min(height / 3, 78 * ratio);
         if (this.half === 0)

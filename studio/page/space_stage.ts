@@ -160,6 +160,14 @@ export class Stage {
         for (const buffer of model.buffers) this.gl.deleteBuffer(buffer);
     }
 
+    /// Shows nothing.
+    clear(): void {
+        const { gl } = this;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    }
+
     draw(scene: Scene): void {
         const { gl } = this;
         const { width, height } = gl.canvas;

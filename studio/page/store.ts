@@ -1,5 +1,6 @@
 // The user's work and its history, stored in the browser so that a reload loses nothing.
 import type { Store, Work } from "./context";
+import { isAnother, renamed } from "./versions";
 
 const most_steps = 100;
 const merge_milliseconds = 1000;
@@ -59,6 +60,7 @@ export class History implements Store {
     change(change: Partial<Work>, merge = ""): void {
         const before = this.work;
         const work = { ...before, ...change };
+        if (work.pattern !== before.pattern) work.pattern = renamed(work.pattern, before.pattern);
         if (isSame(work, before)) return;
         if (!change.pattern && !change.draw && !change.play) {
             // changes of the view are not steps of the history
@@ -198,7 +200,7 @@ function withPictures({ steps, at }: Saved, most: number): Saved {
 // Between versions of a pattern one looks at the same place; another pattern has its own, and so has a step that moved
 // the view and did nothing else.
 function isAnotherView(one: Work, other: Work): boolean {
-    return one.pattern.name !== other.pattern.name || isSame({ ...one, place: other.place, panel: other.panel }, other);
+    return isAnother(one.pattern, other.pattern) || isSame({ ...one, place: other.place, panel: other.panel }, other);
 }
 
 // Compares long texts directly, without JSON.
@@ -237,7 +239,9 @@ function read(): Saved | null {
 
 // Describes the difference between two states in a few words.
 function describe(before: Work, after: Work): string {
-    if (before.pattern.name !== after.pattern.name) return after.pattern.name.replace(/\.lsys$/, "");
+    if (before.pattern.name !== after.pattern.name && isAnother(before.pattern, after.pattern)) {
+        return after.pattern.name.replace(/\.lsys$/, "");
+    }
     if (before.pattern.text !== after.pattern.text) return "Text";
     if (before.pattern.variant !== after.pattern.variant) return `Variant ${after.pattern.variant || "none"}`;
     const old = new Map(before.pattern.settings);

@@ -16,6 +16,7 @@ import {
     type Parameter,
     type Variant,
 } from "./variants";
+import { isAnother } from "./versions";
 
 type Mode = "mutations" | "values" | "seeds";
 
@@ -105,6 +106,8 @@ class Variations {
         this.sheet.addEventListener("keydown", (event) => this.move(event));
         studio.onOpened((facts, work) => this.opened(facts, work));
         studio.store.subscribe((work, before) => {
+            // The variants of another pattern cannot be chosen any more.
+            if (isAnother(work.pattern, before.pattern) && work.pattern !== this.adopted) this.setStale(true);
             if (work.draw !== before.draw) this.setDraw(work.draw);
         });
     }
@@ -132,16 +135,26 @@ class Variations {
     private opened(facts: Opened, work: Work): void {
         if (!this.isShown) return;
         if (work.pattern === this.adopted) {
+            this.setStale(false);
             this.fromHere.hidden = false;
             return;
         }
-        if (work.pattern === this.base?.work.pattern) return this.markTaken();
+        if (work.pattern === this.base?.work.pattern) {
+            this.setStale(false);
+            return this.markTaken();
+        }
         clearTimeout(this.timer);
         this.timer = window.setTimeout(() => this.setBase(facts, work), 250);
     }
 
+    private setStale(isStale: boolean): void {
+        this.sheet.inert = isStale;
+        this.sheet.classList.toggle("stale", isStale);
+    }
+
     private setBase(facts: Opened, work: Work): void {
-        const isOther = work.pattern.name !== this.base?.work.pattern.name;
+        const isOther = !this.base || isAnother(work.pattern, this.base.work.pattern);
+        this.setStale(false);
         this.base = { facts, work };
         this.adopted = null;
         this.fromHere.hidden = true;

@@ -127,12 +127,13 @@ const saved = () => JSON.parse(stored.get("sikku-studio"));
 const settled = () => new Promise((done) => setTimeout(done, 450));
 
 test("undo keeps the place that is looked at", () => {
-    const store = new History(work("1"));
+    const version = (number) => `axiom: F\nangle factor: 4\nF --> F+F${"-F".repeat(number)}\n`;
+    const store = new History(work(version(1)));
     const here = { x: "5", y: "6", scale: 2 };
-    store.change({ pattern: work("2").pattern });
+    store.change({ pattern: work(version(2)).pattern });
     store.change({ place: here });
     store.undo();
-    assert.equal(store.work.pattern.text, "1");
+    assert.equal(store.work.pattern.text, version(1));
     assert.deepEqual(store.work.place, here);
     store.change({ place: { ...here, x: "7" } });
     store.redo();

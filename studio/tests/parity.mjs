@@ -5,6 +5,7 @@ import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
+import { load } from "./load.mjs";
 import { loadBridge, root } from "./load_bridge.mjs";
 
 const build = resolve(process.argv[2] ?? join(root, "build/dev"));
@@ -72,7 +73,7 @@ const agree = (request, a, b) => a === b || (measures(request) && rounded(a) ===
 async function compare(request, bytes = Buffer.alloc(0)) {
     const kind = `${request.do} ${request.format ?? ""}`.trim();
     counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    const json = JSON.stringify(request);
+    const json = JSON.stringify({ seconds: 1200, ...request }); // neither stops because the machine is busy
     const expected = await native.ask(json, bytes);
     const got = web(json, bytes);
     if (!agree(request, expected.json, got.json)) fail(request, difference(expected.json, got.json));
@@ -90,7 +91,7 @@ async function compare(request, bytes = Buffer.alloc(0)) {
 }
 
 // Vector formats, models, scores. Picture files differ because their writers differ; `pixels` compares the pictures.
-const drawn = ["svg", "pdf", "eps", "hpgl", "gcode", "obj", "glb", "stl"];
+const drawn = ["svg", "pdf", "eps", "hpgl", "gcode", "dxf", "obj", "glb", "stl"];
 const played = ["mid", "musicxml", "mxl", "ly", "abc", "csd", "sco", "strudel", "notes.svg", "html"];
 
 async function compare_pattern(pattern, rich) {
@@ -221,21 +222,59 @@ for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) ==
     same({ do: "make", interpreter: "play", format: "mid", options: play, pattern }, () => written("play", "mid"));
 }
 
-// The commands shown by the page write the same files as the page.
+// The commands shown by the page write the same files as the page: of bundled patterns and changed ones in a folder
+// that is empty, of long texts where the pattern was saved.
+const { commandSource } = await load("command_source");
+const engine = { request: async (request) => ({ json: JSON.parse(web(JSON.stringify(request)).json) }) };
+const changes = [
+    (text) => text,
+    (text) => `${text}\n// It's changed: "$HOME" \\ \`date\` ✓\n`,
+    (text) => text + Array.from({ length: 4000 }, (_, i) => `// ${Math.imul(i, 2654435761) >>> 0}\n`).join(""),
+];
 for (const [name, interpreter, format, options, settings] of [
     ["snake-kolam", "draw", "svg", [["dots", ""], ["border", "kaavi"], ["size", "A3"]], [["derivation length", "3"]]],
     ["plant-d", "draw", "svg", [["stroke", "0.3mm navy"], ["landscape", "true"]], [["seed", "11"]]],
     ["honda-trees", "draw", "pdf", [["rotate", "30"], ["ground", "#fed"]], []],
     ["hilbert", "play", "mid", [["scale", "dorian"], ["tempo", "96"]], [["derivation length", "5"]]],
 ]) {
-    const { text } = patterns.find((pattern) => pattern.name === name);
-    const pattern = { name: `${name}.lsys`, text, settings };
-    writeFileSync(join(folder, pattern.name), text);
-    const { command } = JSON.parse(web(JSON.stringify({ do: "command", interpreter, format, options, pattern })).json);
-    same({ do: "make", interpreter, format, options, pattern }, () => {
-        execFileSync("sh", ["-c", command.replace(/^sikku/, `"${join(build, "bin/sikku")}" -q`)], { cwd: folder, stdio: "ignore" });
-        return readFileSync(join(folder, `${name}.${format}`));
-    });
+    const { text: unchanged } = patterns.find((pattern) => pattern.name === name);
+    for (const [at, change] of changes.entries()) {
+        const pattern = { name: `${name}.lsys`, text: change(unchanged), settings };
+        const source = await commandSource(engine, patterns, pattern);
+        const isSaved = source === pattern.name;
+        if (isSaved !== (at === 2) || (source === name) !== (at === 0)) fail({ do: "command", pattern }, `the source is ${source.slice(0, 60)}`);
+        const empty = mkdtempSync(join(folder, "command-"));
+        if (isSaved) writeFileSync(join(empty, pattern.name), pattern.text);
+        const asked = { do: "command", interpreter, format, options, pattern, source };
+        const { command } = JSON.parse(web(JSON.stringify(asked)).json);
+        same({ do: "make", interpreter, format, options, pattern }, () => {
+            execFileSync("sh", ["-c", command.replace(/^sikku/, `"${join(build, "bin/sikku")}" -q`)], { cwd: empty, stdio: "ignore" });
+            return readFileSync(join(empty, `${name}.${format}`));
+        });
+    }
+}
+
+// Models and reliefs of the program, and the size of pictures, whose writers differ.
+for (const [name, more, options] of [
+    ["snake-kolam", ["-n", "2"], []],
+    ["penrose-rhombs", ["-n", "3", "--relief", "2mm,3mm"], [["relief", "2mm,3mm"]]],
+    ["bush-3d", ["-n", "4"], []],
+]) {
+    const { text, is_spatial } = patterns.find((pattern) => pattern.name === name);
+    const pattern = { name: `${name}.lsys`, text, settings: [["derivation length", more[1]]] };
+    for (const format of is_spatial ? ["glb"] : ["stl", "glb"]) {
+        same({ do: "make", interpreter: "draw", format, options, pattern }, () => {
+            const file = join(folder, `${name}.${format}`);
+            sikku("-q", "draw", name, ...more, "-o", file);
+            return readFileSync(file);
+        });
+    }
+    const file = join(folder, `${name}.png`);
+    const flat = more.filter((each) => !/relief|mm/.test(each));
+    sikku("-q", "draw", name, ...flat, "--dpi", "72", "-o", file);
+    const request = { do: "make", interpreter: "draw", format: "png", options: [["dpi", "72"]], pattern };
+    const [ours, theirs] = [asked(request).length, readFileSync(file).length];
+    if (ours > theirs * 1.02) fail(request, `the picture has ${ours} bytes, and the program's ${theirs}`);
 }
 rmSync(folder, { recursive: true });
 native.end();

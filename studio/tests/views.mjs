@@ -1,62 +1,16 @@
 // Tests of the map, of space and of variations in the built page, in headless Chromium, and with --measure their times:
 //     node tests/views.mjs [PAGE] [--measure]
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
-import { chromium } from "playwright-core";
-import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
+import { addressOf, close, launch, openWork, run } from "./browser.mjs";
 
-const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const { values, positionals } = parseArgs({
     allowPositionals: true,
     options: { measure: { type: "boolean", default: false } },
 });
-const address = pathToFileURL(resolve(positionals[0] ?? join(root, "build/studio/sikku-studio.html"))).href;
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: [
-        "--no-sandbox",
-        "--disable-gpu",
-        "--disable-quic",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-    ],
-});
-
-const pattern = (path) => readFileSync(join(root, "patterns", `${path}.lsys`), "utf8");
-
-// Opens a page with a pattern.
-async function open(path, { settings = [], place = null, panel = "map", reducedMotion = "reduce" } = {}) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion });
-    const page = await context.newPage();
-    page.setDefaultTimeout(60_000);
-    page.problems = [];
-    page.on("pageerror", (error) => page.problems.push(error.message));
-    const work = {
-        pattern: { name: `${path.split("/")[1]}.lsys`, text: pattern(path), variant: "", settings },
-        draw: [],
-        play: [],
-        place,
-        panel,
-    };
-    await page.addInitScript(
-        (saved) => {
-            if (!localStorage.getItem("sikku-studio")) localStorage.setItem("sikku-studio", saved);
-        },
-        JSON.stringify({ steps: [{ work, label: "Start", time: 1 }], at: 0 }),
-    );
-    await page.goto(address);
-    await page.getByRole("tab", { name: "Gallery" }).waitFor();
-    if (panel === "map") await page.waitForSelector(".map-canvas[data-shows]");
-    return page;
-}
-
-async function close(page) {
-    assert.deepEqual(page.problems, []);
-    await page.context().close();
-}
+const address = addressOf(positionals[0]);
+const browser = await launch();
+const open = (name, options) => openWork(browser, address, name, options);
 
 const map = (page) => page.locator(".map-canvas");
 const described = (page, text) =>
@@ -283,16 +237,7 @@ async function measure() {
     }
 }
 
-let failures = 0;
-for (const [name, run] of Object.entries(tests)) {
-    try {
-        await run();
-        console.log(`ok    ${name}`);
-    } catch (error) {
-        ++failures;
-        console.log(`FAIL  ${name}: ${String(error.stack ?? error).slice(0, 900)}`);
-    }
-}
+const failures = await run(tests);
 if (values.measure) await measure();
 await browser.close();
 process.exitCode = failures === 0 ? 0 : 1;

@@ -4,10 +4,10 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -50,10 +50,8 @@ public:
         text("Title", spec.title);
         text("Description", spec.description);
         text("Software", spec.software);
-        deflateInit2(&stream_, spec.compression, Z_DEFLATED, 15, 8, Z_FILTERED);
-        previous_.resize(stride_);
+        deflateInit2(&stream_, spec.compression, Z_DEFLATED, 15, 8, Z_DEFAULT_STRATEGY);
         filtered_.resize(stride_ + 1);
-        best_.resize(stride_ + 1);
     }
     ~PngWriter() override { deflateEnd(&stream_); }
     PngWriter(const PngWriter&) = delete;
@@ -61,10 +59,10 @@ public:
 
     void rows(int /*first_row*/, int rows, std::span<const std::uint8_t> pixels) override {
         for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+            // Without filters, as OpenImageIO writes: drawings repeat pixels, and filters make them a quarter larger.
             const auto line = pixels.subspan(row * stride_, stride_);
-            filter(line);
-            pack(best_, Z_NO_FLUSH);
-            previous_.assign(line.begin(), line.end());
+            std::copy(line.begin(), line.end(), filtered_.begin() + 1);
+            pack(filtered_, Z_NO_FLUSH);
         }
     }
 
@@ -96,24 +94,6 @@ private:
         if (!value.empty()) chunk("iTXt", keyword + std::string(5, '\0') + value);
     }
 
-    /// Chooses the filter whose differences have the smallest sum: none, left or up. Drawings have large even areas.
-    void filter(std::span<const std::uint8_t> line) {
-        std::uint64_t least = ~std::uint64_t{0};
-        for (std::uint8_t type = 0; type < 3; ++type) {
-            filtered_[0] = type;
-            std::uint64_t sum = 0;
-            for (std::size_t i = 0; i < stride_; ++i) {
-                const int left = i >= channels_ ? line[i - channels_] : 0;
-                const int other = type == 0 ? 0 : type == 1 ? left : previous_[i];
-                filtered_[i + 1] = static_cast<std::uint8_t>(line[i] - other);
-                sum += static_cast<std::uint64_t>(std::abs(static_cast<std::int8_t>(filtered_[i + 1])));
-            }
-            if (sum >= least) continue;
-            least = sum;
-            std::swap(best_, filtered_);
-        }
-    }
-
     void pack(std::span<const std::uint8_t> bytes, int flush) {
         stream_.next_in = bytes.data();
         stream_.avail_in = static_cast<uInt>(bytes.size());
@@ -130,7 +110,7 @@ private:
     std::size_t stride_, channels_;
     z_stream stream_{};
     std::string packed_;
-    std::vector<std::uint8_t> previous_, filtered_, best_;
+    std::vector<std::uint8_t> filtered_;  ///< a row after the number of its filter, 0
 };
 
 }  // namespace

@@ -49,6 +49,13 @@ double raised(const Document& drawn, OptionValues values) {
 const std::string square = "{F+F+F+F+}";
 const std::string two_squares = "{F+F+F+F+;(1)}f{F+F+F+F+;(2)}";  // side by side
 
+TEST(Relief, NormalsAreThoseOfTheWrittenCorners) {
+    // Many small triangles, whose normals change most if a compiler omits the rounding of corners.
+    const Document kolam = load("snake-kolam", {"", {{"derivation length", "2"}}});
+    const ReadMesh mesh = stl(kolam, {{"size", "90x90mm"}, {"step", "8mm"}});
+    EXPECT_GT(mesh.triangles.size(), 5'000U);
+}
+
 TEST(Relief, RaisesShapesByTheirColours) {
     EXPECT_NEAR(raised(document("", square), {{"groove", "0mm"}}), 100 * 2, 0.02) << "by default, 2 mm";
     EXPECT_NEAR(raised(document("", square), {{"groove", "0mm"}, {"relief", "3mm"}}), 300, 0.02);

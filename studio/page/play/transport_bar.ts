@@ -168,6 +168,16 @@ export class TransportBar {
         this.volume.setAttribute("aria-valuetext", `${percent} percent`);
     }
 
+    /// Shows that there is nothing to play.
+    clear(): void {
+        this.place.textContent = "";
+        this.time.textContent = "";
+        this.position.max = "1";
+        this.position.value = "0";
+        this.position.style.setProperty("--at", "0%");
+        this.position.removeAttribute("aria-valuetext");
+    }
+
     showMelody(melody: Melody): void {
         const bars = barsOf(melody);
         if (this.bars[1] > bars) this.bars = [Math.min(this.bars[0], bars), bars];

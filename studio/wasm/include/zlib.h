@@ -20,7 +20,7 @@ struct z_stream {
 
 enum { Z_NO_FLUSH = 0, Z_FULL_FLUSH = 3, Z_FINISH = 4 };
 enum { Z_OK = 0, Z_STREAM_END = 1 };
-enum { Z_DEFLATED = 8, Z_DEFAULT_STRATEGY = 0, Z_FILTERED = 1 };
+enum { Z_DEFLATED = 8, Z_DEFAULT_STRATEGY = 0 };
 
 int deflateInit2(z_stream* stream, int level, int method, int window_bits, int memory_level, int strategy);
 int deflateReset(z_stream* stream);

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Compares the bytes of outputs of the program built by g++ and clang at -O0 to -O3. Builds those that are not given.
+# usage: tests/full/compilers.sh PROGRAM-BY-G++-O1 PROGRAM-BY-G++-O3
+set -euo pipefail
+[ $# -eq 2 ] || { echo "usage: tests/full/compilers.sh PROGRAM-BY-G++-O1 PROGRAM-BY-G++-O3" >&2; exit 2; }
+programs=("$(realpath "$1")" "$(realpath "$2")")
+cd "$(dirname "$0")/../.."
+for compiler in g++ clang++; do
+    for level in 0 1 2 3; do
+        build=$compiler-O$level folder=build/compilers/$compiler-O$level
+        case $build in g++-O1 | g++-O3) continue ;; esac
+        if ! command -v "$compiler" > /dev/null; then
+            echo "skipped: outputs of $build (it is not installed)"
+            continue
+        fi
+        mkdir -p "$folder"
+        # Without tests, which would take most of the time.
+        cmake -S . -B "$folder" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
+            -DCMAKE_CXX_FLAGS_RELEASE="-O$level -DNDEBUG" -DSIKKU_TESTS=OFF > "$folder.log" 2>&1 ||
+            { cat "$folder.log"; exit 1; }
+        cmake --build "$folder" -j "$(nproc)" --target sikku sikku_image > "$folder.log" 2>&1 ||
+            { tail -n 40 "$folder.log"; exit 1; }
+        programs+=("$folder/bin/sikku")
+    done
+done
+exec tests/full/same_bytes.sh "${programs[@]}"
