@@ -10,6 +10,7 @@
 #include "art/drawing/lesson.h"
 #include "art/drawing/lesson_drawing.h"
 #include "art/drawing/window_drawing.h"
+#include "art/drawing/word_drawing.h"
 #include "art/image/image_file.h"
 #include "art/plot_remarks.h"
 #include "art/print_cell.h"
@@ -19,6 +20,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lettering.h"
 #include "engine/language/surface.h"
+#include "engine/language/undrawn.h"
 #include "engine/map/map_measurement.h"
 
 #include <fmt/format.h>
@@ -467,7 +469,7 @@ void warn_of_letters(const Grammar& grammar, Made& made) {
 }
 
 Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
-                     int threads) {
+                     int threads) try {
     Made made;
     if (!dropped_border_.empty()) made.warn(dropped_border_);
     warn_of_letters(document_.grammar(), made);
@@ -498,6 +500,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
         made.warn(text);
     }
     return made;
+} catch (const NothingDrawn& error) {
+    throw std::runtime_error(error.what() + undrawn_hint(document_.grammar()));
 }
 
 DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {

@@ -1,11 +1,13 @@
 #include "cli/command.h"
 
+#include "art/gallery/shards.h"
 #include "art/prints.h"
 #include "cli/link_argument.h"
 #include "cli/options.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/language/arrangement_library.h"
+#include "engine/language/foreign_text.h"
 #include "music/score/midi_texts.h"
 #include "music/scores.h"
 
@@ -93,6 +95,20 @@ NamedText read_pattern_text(const std::string& pattern) {
     }
 }
 
+std::string foreign_message(const std::string& pattern, const NamedText& text) {
+    const ForeignKind kind = foreign_kind(text.text);
+    if (kind == ForeignKind::none) return {};
+    std::string message = fmt::format("{}: this is {}, not a pattern", pattern, foreign_kind_name(kind));
+    if (kind == ForeignKind::fractint || kind == ForeignKind::cpfg) {
+        const bool is_one = kind == ForeignKind::cpfg;
+        std::string output = pattern == "-" ? "imported" : std::filesystem::path(pattern).stem().string();
+        if (is_one) output += pattern.ends_with(".lsys") ? "-imported.lsys" : ".lsys";
+        message += fmt::format("; `sikku import {} -o {}` makes {}", sikku::quoted(pattern), sikku::quoted(output),
+                               is_one ? "a pattern of it" : "patterns of its entries");
+    }
+    return message;
+}
+
 std::span<const Interpreter* const> interpreters() {
     static const std::array all = {&prints(), &scores()};
     return all;
@@ -124,6 +140,9 @@ Document load(const PatternOptions& options, const SharedWork* link, bool quiet)
     }
     if (!options.seed.empty()) settings.push_back({"--seed", "seed", options.seed});
     NamedText text = link ? NamedText{link->name, link->text} : read_pattern_text(options.pattern);
+    if (const std::string foreign = foreign_message(options.pattern, text); !link && !foreign.empty()) {
+        throw UsageError(foreign);
+    }
     const std::string& variant = link && options.variant.empty() ? link->variant : options.variant;
     Diagnostics diagnostics;
     if (interrupted()) throw Interrupted();

@@ -56,6 +56,10 @@ struct NamedText {
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);
 
+/// The message for a text that was written for another program, with the command that imports it if there is one;
+/// empty for patterns. @param pattern  the argument that names the text
+std::string foreign_message(const std::string& pattern, const NamedText& text);
+
 /// Options of every command that takes a pattern.
 struct PatternOptions {
     std::string pattern;

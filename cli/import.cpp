@@ -2,7 +2,9 @@
 #include "engine/import/import.h"
 
 #include "cli/command.h"
+#include "engine/base/output_file.h"
 #include "engine/base/text.h"
+#include "engine/language/foreign_text.h"
 
 #include <fmt/format.h>
 
@@ -67,6 +69,7 @@ void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<
         const ImportedSystem& system = systems[i];
         fmt::print("{:<24} line {:<6} {}\n", printable(system.name), system.line,
                    system.pattern.empty() ? "has errors"
+                   : !system.draws        ? "draws nothing"
                    : system.losses.empty()
                        ? "complete"
                        : fmt::format("{} not supported", counted(system.losses.size(), "feature")));
@@ -78,8 +81,10 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
                   const std::string& folder, bool quiet) {
     std::filesystem::create_directories(folder);
     std::set<std::string> taken;
+    OutputFiles files;
     std::size_t written = 0;
     std::size_t lossy = 0;
+    std::size_t empty = 0;
     for (const std::size_t i : indices) {
         const ImportedSystem& system = systems[i];
         if (system.pattern.empty()) continue;
@@ -91,12 +96,15 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
             tell_unless(quiet, "sikku: {}.lsys already exists: '{}' on line {} becomes {}.lsys\n", plain, system.name,
                         system.line, name);
         }
-        write_file(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
+        files.add(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
         ++written;
         if (!system.losses.empty()) ++lossy;
+        if (!system.draws) ++empty;
     }
-    tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), folder,
-                lossy > 0 ? fmt::format(", {} of them incomplete", lossy) : "");
+    files.commit();
+    std::string note = lossy > 0 ? fmt::format(", {} of them incomplete", lossy) : "";
+    if (empty > 0) note += fmt::format("; {} draw{} nothing", empty, empty == 1 ? "s" : "");
+    tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), folder, note);
 }
 
 /// True if the message concerns one of the selected systems. Messages before the first system concern all.
@@ -113,6 +121,11 @@ void import_file(const ImportOptions& options, bool quiet) {
     const SourcePointer file = read_source(options.file);
     const auto format = import_format(file->text());
     if (!format) {
+        const ForeignKind kind = foreign_kind(file->text());
+        if (kind == ForeignKind::lpfg || kind == ForeignKind::lpy) {
+            throw UsageError(fmt::format("{}: this is {}; only files of cpfg and Fractint can be imported",
+                                         options.file, foreign_kind_name(kind)));
+        }
         throw UsageError(
             fmt::format("{} is neither a cpfg file, which has a line 'Lsystem:', nor a Fractint collection, "
                         "which has entries 'NAME {{'",
@@ -149,6 +162,10 @@ void import_file(const ImportOptions& options, bool quiet) {
         fmt::print("{}", first.pattern);
     } else {
         write_file(options.output, first.pattern);
+    }
+    if (!to_folder && !first.pattern.empty() && !first.draws) {
+        tell_unless(quiet, "sikku: warning: the pattern draws nothing{}\n",
+                    first.losses.empty() ? "" : ": what draws is among what is not supported");
     }
     const bool all_good =
         std::none_of(indices.begin(), indices.end(), [&](std::size_t i) { return systems[i].pattern.empty(); });

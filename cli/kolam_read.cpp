@@ -168,16 +168,26 @@ FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
         throw std::runtime_error(fmt::format("larger than {} MB", most_text >> 20U));
     }
     auto kolam = read_kolam_text(text, {options.number, lattice, !options.no_repair}, progress.monitor());
-    if (!kolam && text.find("axiom") == std::string::npos) {
+    const auto refuse = [](const std::string& why) {
         throw std::runtime_error(
             "unknown format; expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV "
-            "of one-stroke kolams, an SVG, gestures or a pattern");
-    }
+            "of one-stroke kolams, an SVG, gestures or a pattern" +
+            why);
+    };
+    if (!kolam && !states_axiom(text)) refuse("");
     if (!options.overlay.empty()) throw UsageError("--overlay applies only to photographs");
     if (kolam) return {std::move(*kolam), std::nullopt};
     PatternOptions pattern;
     pattern.pattern = options.file;
-    return {read_kolam_document(load(pattern, quiet), options.budget, progress.monitor()), std::nullopt};
+    try {
+        return {read_kolam_document(load(pattern, quiet), options.budget, progress.monitor()), std::nullopt};
+    } catch (const PatternError& damaged) {
+        // Every text with a line `axiom:` looks like a pattern.
+        if (options.file.ends_with(".lsys")) throw;
+        const Diagnostic& first = damaged.diagnostics().front();
+        refuse(fmt::format("; as a pattern it has errors, at line {}: {}", first.where.line, first.message));
+        throw;
+    }
 }
 
 void write(const ReadKolam& kolam, const Certificate& certificate, const std::string& output,

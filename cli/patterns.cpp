@@ -156,16 +156,23 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
+constexpr std::size_t most_shown_errors = 50;  // of a pattern, as Diagnostics keep them
+
 /// True if the file is without mistakes.
 bool check(const std::string& file) {
     NamedText text = read_pattern_text(file);
-    bool good = true;
+    if (const std::string foreign = foreign_message(file, text); !foreign.empty()) {
+        fmt::print("{}\n", foreign);
+        return false;
+    }
+    std::size_t errors = 0;
     for (const Diagnostic& diagnostic :
          check_pattern(std::move(text.name), std::move(text.text), interpreters(), stop_monitor())) {
         fmt::print("{}\n", diagnostic.text());
-        good = good && diagnostic.warning;
+        if (!diagnostic.warning) ++errors;
     }
-    return good;
+    if (errors >= most_shown_errors) fmt::print("{}: the first {} errors are shown\n", file, errors);
+    return errors == 0;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ SharedWork read_work(const std::string& pattern) {
     if (auto link = read_link_argument(pattern)) return std::move(*link);
     NamedText text = read_pattern_text(pattern);
     if (text.text.size() > most_pattern_bytes) throw UsageError(pattern + ": a pattern file can have at most 64 MB");
+    if (const std::string foreign = foreign_message(pattern, text); !foreign.empty()) throw UsageError(foreign);
     SharedWork work;
     work.name = pattern == "-" ? "pattern.lsys" : fs::path(text.name).filename().string();
     work.text = std::move(text.text);

@@ -1,10 +1,14 @@
 #include "engine/measurement.h"
 
 #include "engine/base/memory.h"
+#include "engine/base/text.h"
+#include "engine/language/undrawn.h"
 #include "engine/map/map_measurement.h"
 #include "engine/map/map_step.h"
 #include "engine/measure/extent.h"
 #include "engine/measure/measurement_text.h"
+
+#include <fmt/format.h>
 
 namespace sikku {
 namespace {
@@ -24,7 +28,13 @@ Measurement measured_word(const Document& document, double budget, const Monitor
 std::string measure_as_json(const Document& document, double budget, const Monitor& monitor) {
     const std::string title = document.text("title");
     if (document.map()) return measurement_json(title, measured_map(document, budget, monitor));
-    return measurement_json(title, measured_word(document, budget, monitor));
+    std::string json = measurement_json(title, measured_word(document, budget, monitor));
+    std::string undrawn;
+    for (const std::string& letter : meant_as_steps(document.pattern(), document.grammar())) {
+        undrawn += (undrawn.empty() ? "" : ", ") + json_string(letter);
+    }
+    if (!undrawn.empty()) json.insert(json.rfind('}'), fmt::format(", \"undrawn\": [{}]", undrawn));
+    return json;
 }
 
 std::string measure_as_text(const Document& document, double budget, const Monitor& monitor) {

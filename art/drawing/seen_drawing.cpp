@@ -8,6 +8,7 @@
 #include "art/drawing/tile_drawing.h"
 #include "art/drawing/view.h"
 #include "art/drawing/window_drawing.h"
+#include "art/drawing/word_drawing.h"
 #include "art/raster/raster.h"
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
@@ -448,8 +449,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
             extent_.box.add(turned * glm::dvec3(corner, 1.0));
         }
     }
-    if (extent_.box.empty())
-        throw std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label");
+    require_ink(extent_.box);
     if (spline_) spline_share_ = spline_share(*grammar_);
     view_ = View::make(*grammar_, std::move(parts), options_.window, spline_);
     if (!view_) throw std::runtime_error("the drawing is too large to be drawn");

@@ -82,8 +82,7 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 }
 
 void require_ink(const Box& box) {
-    if (!box.empty()) return;
-    throw std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label");
+    if (box.empty()) throw NothingDrawn();
 }
 
 WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options)

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace sikku {
@@ -61,7 +62,12 @@ Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& 
 /// The grammar without contexts, ready to be read. @throws BudgetError, WordError
 Grammar resolved(const Grammar& given, const DrawOptions& options);
 
-/// @throws std::runtime_error if the box is empty
+/// Thrown if nothing is drawn.
+class NothingDrawn : public std::runtime_error {
+public:
+    NothingDrawn() : std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label") {}
+};
+/// @throws NothingDrawn if the box is empty
 void require_ink(const Box& box);
 
 }  // namespace sikku

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -81,12 +82,34 @@ int synchronise(int descriptor) {
     return 0;
 }
 
+int open_folder(const std::filesystem::path& folder) {
+    return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+}
+
 /// Synchronises the names in a folder, unless it is unreadable.
 int synchronise_folder(const std::filesystem::path& folder) {
-    const int descriptor =
-        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+    const int descriptor = open_folder(folder);
     if (descriptor < 0) return 0;
     const int error = synchronise(descriptor);
+    ::close(descriptor);
+    return error;
+}
+
+/// Synchronises all files of the file system that a folder is on; nullopt if the folder is unreadable.
+std::optional<int> synchronise_file_system(const std::filesystem::path& folder) {
+    const int descriptor = open_folder(folder);
+    if (descriptor < 0) return std::nullopt;
+    int error = 0;
+#ifdef __EMSCRIPTEN__
+    error = synchronise(descriptor);
+#else
+    while (::syncfs(descriptor) != 0) {
+        error = errno;
+        if (error != EINTR) break;
+        error = 0;
+    }
+    if (is_not_for_sync(error)) error = 0;
+#endif
     ::close(descriptor);
     return error;
 }
@@ -292,7 +315,16 @@ const std::filesystem::path& OutputFile::temporary() {
 }
 
 void OutputFile::commit() {
+    finish(true);
+    if (direct_) return;
+    publish();
+    if (const int error = synchronise_folder(target_.parent_path()); error != 0) fail(error);
+}
+
+/// Writes what is left and closes the file.
+void OutputFile::finish(bool synchronised) {
     flush();
+    buffer_ = {};
     if (!direct_) {
         // Synchronise by name, because a library may have recreated the file.
         struct stat own {};
@@ -303,18 +335,51 @@ void OutputFile::commit() {
             is_own ? descriptor_ : ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
         if (whole < 0) fail(errno);
         int error = mode_ >= 0 && ::fchmod(whole, static_cast<mode_t>(mode_)) != 0 ? errno : 0;
-        if (error == 0) error = synchronise(whole);
+        if (error == 0 && synchronised) error = synchronise(whole);
         if (!is_own) ::close(whole);
         if (error != 0) fail(error);
     }
     const int descriptor = std::exchange(descriptor_, -1);
     // Some file systems report a full disk only here.
     if (::close(descriptor) != 0 && errno != EINTR) fail(errno);
-    if (direct_) return;
+}
+
+/// Renames the closed file into place.
+void OutputFile::publish() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     temporary_.clear();
     forget(std::exchange(entry_, nullptr));
-    if (const int error = synchronise_folder(target_.parent_path()); error != 0) fail(error);
+}
+
+void OutputFiles::add(const std::filesystem::path& target, std::string_view bytes) {
+    files_.push_back(std::make_unique<OutputFile>(target));
+    files_.back()->write(bytes);
+    files_.back()->finish(false);
+}
+
+void OutputFiles::commit() {
+    std::map<std::filesystem::path, bool> folders;  // and whether their files were synchronised together
+    for (const auto& file : files_) {
+        if (!file->direct_) folders[file->target_.parent_path()] = false;
+    }
+    for (auto& [folder, is_done] : folders) {
+        const std::optional<int> error = synchronise_file_system(folder);
+        is_done = error.has_value();
+        if (is_done && *error != 0) files_.front()->fail(*error);
+    }
+    for (const auto& file : files_) {
+        if (file->direct_ || folders[file->target_.parent_path()]) continue;
+        const int descriptor = ::open(file->temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+        const int error = descriptor < 0 ? errno : synchronise(descriptor);
+        if (descriptor >= 0) ::close(descriptor);
+        if (error != 0) file->fail(error);
+    }
+    for (const auto& file : files_) {
+        if (!file->direct_) file->publish();
+    }
+    for (const auto& each : folders) {
+        if (const int error = synchronise_folder(each.first); error != 0) files_.front()->fail(error);
+    }
 }
 
 void OutputFile::fail(int error) const {

@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -42,6 +44,9 @@ public:
     void commit() override;
 
 private:
+    friend class OutputFiles;
+    void finish(bool synchronised);
+    void publish();
     void create();
     void flush();
     void write_all(const char* bytes, std::size_t count);
@@ -57,6 +62,19 @@ private:
     bool direct_ = false;
     std::string buffer_;
     std::uint64_t written_ = 0;
+};
+
+/// Many files of one folder: all of them appear, or none. They are synchronised together, so that thousands of small
+/// files take hardly longer than one.
+class OutputFiles {
+public:
+    /// Adds a file of that content, which is written beside its target. @throws as OutputFile
+    void add(const std::filesystem::path& target, std::string_view bytes);
+    /// Synchronises the file systems of the files, renames them and synchronises their folders. Call once, last.
+    void commit();
+
+private:
+    std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
 /// Removes the temporary files of all OutputFiles that are neither committed nor destroyed, however many there are.

@@ -86,6 +86,7 @@ bool Expressions::is_number(const std::string& name, Macro& macro) {
         macro.kind = Macro::Kind::asked;
         Macro::Kind kind = Macro::Kind::text;
         const auto formals = std::exchange(formals_, {});
+        const auto locals = std::exchange(locals_, {});
         const Level deeper(number_depth_);
         const Level unwritten(unwritten_);
         try {
@@ -100,6 +101,7 @@ bool Expressions::is_number(const std::string& name, Macro& macro) {
             // Expanded where it is used, it is told what is wrong with it.
         }
         formals_ = formals;
+        locals_ = locals;
         macro.kind = kind;
     }
     return macro.kind == Macro::Kind::number;
@@ -239,6 +241,16 @@ Value Expressions::operand(Reader& reader) {
     const char after = next(reader);
     if (after == '(') return call(reader, name, at);
     if (after == '[') lose(at, fmt::format("'{}' is an array", name));
+    if (const auto local = locals_.find(name); local != locals_.end()) {
+        Value& value = local->second;
+        if (value.text.empty()) {
+            lose(at, value.is_random ? fmt::format("'{}' would draw the same chance twice", name)
+                                     : fmt::format("the statements that set '{}' are not read", name));
+        }
+        Value result = value;
+        if (value.is_random) value.text.clear();
+        return result;
+    }
     if (formals_.contains(name)) return {name};
     if (number_texts_.contains(name)) {
         if (unwritten_ == 0) used_.insert(name);

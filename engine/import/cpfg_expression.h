@@ -47,8 +47,14 @@ public:
     /// The defines that the pattern's expressions use, directly or through other defines.
     std::set<std::string> used() const;
 
-    /// Forgets the parameters of the previous production.
-    void forget_formals() { formals_.clear(); }
+    /// Forgets the parameters and local variables of the previous production.
+    void forget_formals() {
+        formals_.clear();
+        locals_.clear();
+    }
+    /// Puts the value where the name stands from now on, in place of a parameter of that name. A value without text
+    /// is not available.
+    void set_local(const std::string& name, Value value) { locals_[name] = std::move(value); }
     /// Adds a parameter of the production; false if it exists already.
     bool add_formal(const std::string& name) { return formals_.insert(name).second; }
 
@@ -75,6 +81,7 @@ private:
     std::map<std::string, std::string, std::less<>> number_texts_;
     std::set<std::string> used_;
     std::set<std::string, std::less<>> formals_;
+    std::map<std::string, Value, std::less<>> locals_;
     std::size_t number_depth_ = 0;
     std::size_t unwritten_ = 0;  // expressions being read that the pattern does not hold
     std::size_t nesting_ = 0;

@@ -6,6 +6,8 @@
 namespace sikku::cpfg {
 namespace {
 
+constexpr long long most_scheduled = 20'000;  // steps of a pattern with decomposition
+
 std::string written(const std::vector<Formal>& modules, std::string_view between) {
     std::string text;
     for (const Formal& module : modules) {
@@ -81,15 +83,59 @@ void drop_dead(std::vector<Rule>& rules, Report& report) {
     });
 }
 
+/// The letters of a word, without parameters.
+std::set<std::string> letters_of(const std::string& word) {
+    std::set<std::string> letters;
+    std::size_t depth = 0;
+    for (std::size_t at = 0; at < word.size();) {
+        if (word[at] == '(') ++depth;
+        if (word[at] == ')') --depth;
+        const bool is_long = word[at] == '@' || static_cast<unsigned char>(word[at]) >= 0x80;
+        const std::size_t bytes = is_long ? 2 : 1;
+        if (depth == 0 && word[at] != ')') letters.insert(word.substr(at, bytes));
+        at += bytes;
+    }
+    return letters;
+}
+
+/// Rounds of a decomposition after which no production applies, at most `depth`: as many as letters derive one
+/// another in a chain. A letter that derives itself may go on as long as conditions allow.
+long long rounds_of(const std::vector<Rule>& rules, long long depth) {
+    std::map<std::string, std::set<std::string>> derived;
+    for (const Rule& rule : rules) derived[rule.predecessor.front().letter].merge(letters_of(rule.successor));
+    std::map<std::string, long long> rounds;
+    for (const auto& [letter, letters] : derived) rounds[letter] = 1;
+    // The longest chain without a cycle has no more links than there are letters.
+    for (std::size_t pass = 0; pass <= derived.size(); ++pass) {
+        bool is_settled = true;
+        for (const auto& [letter, letters] : derived) {
+            for (const std::string& next : letters) {
+                const auto found = rounds.find(next);
+                if (found == rounds.end() || found->second < rounds[letter]) continue;
+                rounds[letter] = found->second + 1;
+                is_settled = false;
+            }
+        }
+        if (!is_settled) continue;
+        long long most = 0;
+        for (const auto& [letter, count] : rounds) most = std::max(most, count);
+        return std::min(most, depth);
+    }
+    return depth;
+}
+
 class PatternWriter {
 public:
     PatternWriter(System system, const View& view, Report& report)
         : system_(std::move(system)), view_(view), report_(report) {}
 
     std::string write(const std::string& name, const SourcePointer& file) {
-        weigh();
+        weigh(system_.rules);
+        weigh(system_.decomposition);
         if (!system_.seed) restore_order();
         drop_dead(system_.rules, report_);
+        drop_dead(system_.decomposition, report_);
+        const std::string schedule = decomposition();
         const std::string contexts = list();
         const std::string drawing = interpretation();
         for (const char letter : system_.letters.called) {
@@ -112,12 +158,26 @@ public:
         if (!stroke.empty()) body += stroke + '\n';
         body += contexts;
         body += line_of("axiom: " + (system_.axiom->empty() ? std::string("*") : *system_.axiom));
-        for (const Rule& rule : system_.rules) {
-            body += written(rule);
-            if (body.size() > most_import_bytes) break;  // as is told then
+        if (!schedule.empty()) body += "\ntable step:\n";
+        const auto write_rules = [&](const std::vector<Rule>& rules) {
+            for (const Rule& rule : rules) {
+                body += written(rule);
+                if (body.size() > most_import_bytes) break;  // as is told then
+            }
+        };
+        write_rules(system_.rules);
+        if (!schedule.empty()) {
+            body += "\ntable decompose:\n";
+            write_rules(system_.decomposition);
+            body += schedule;
         }
         body += drawing;
         std::string comments;
+        if (!schedule.empty()) {
+            comments += fmt::format(
+                "// A step of cpfg is {} here: a step, and {} of decomposition. -n {} is cpfg's step 1.\n",
+                rounds_ + 1, rounds_ == 1 ? "one" : fmt::format("{}", rounds_), 2 * rounds_ + 1);
+        }
         for (const auto& [letter, free] : system_.letters.surfaces) {
             comments +=
                 fmt::format("// The surface ~{} is ~{} here, as {} would move the turtle.\n", letter, free, letter);
@@ -179,9 +239,25 @@ private:
         system_.rules = std::move(kept);
     }
 
-    void weigh() {
+    /// Writes the schedule of a decomposition: its rounds follow the axiom and each step. Empty if there is none.
+    std::string decomposition() {
+        rounds_ = rounds_of(system_.decomposition, system_.decomposition_depth);
+        if (rounds_ <= 0) return {};
+        if ((system_.steps + 1) * (rounds_ + 1) > most_scheduled) {
+            report_.loss(system_.decomposition_at, "a decomposition of that many rounds");
+            rounds_ = 0;
+            return {};
+        }
+        const std::string rounds = rounds_ == 1 ? " decompose" : fmt::format(" decompose*{}", rounds_);
+        std::string schedule = "\nschedule:" + rounds;
+        for (long long step = 0; step < system_.steps; ++step) schedule += " step" + rounds;
+        system_.steps = rounds_ + system_.steps * (rounds_ + 1);
+        return schedule + '\n';
+    }
+
+    void weigh(std::vector<Rule>& rules) {
         if (!system_.seed) {
-            for (Rule& rule : system_.rules) {
+            for (Rule& rule : rules) {
                 if (!rule.weight) continue;
                 report_.once("weight", rule.at, "probabilities, which cpfg also ignores without 'seed:'");
                 rule.weight.reset();
@@ -191,7 +267,7 @@ private:
         std::map<std::string, std::set<std::string>> contexts;
         std::map<std::string, std::size_t> members;
         const auto context_of = [](const Rule& rule) { return type_of(rule.left) + "<>" + type_of(rule.right); };
-        for (const Rule& rule : system_.rules) {
+        for (const Rule& rule : rules) {
             const std::string predecessor = type_of(rule.predecessor);
             contexts[predecessor].insert(context_of(rule));
             if (contexts[predecessor].size() == 2) {
@@ -200,7 +276,7 @@ private:
             }
             ++members[predecessor + "|" + context_of(rule)];
         }
-        for (Rule& rule : system_.rules) {
+        for (Rule& rule : rules) {
             if (members[type_of(rule.predecessor) + "|" + context_of(rule)] < 2) {
                 rule.weight.reset();
             } else if (!rule.weight) {
@@ -295,6 +371,7 @@ private:
     System system_;
     const View& view_;
     Report& report_;
+    long long rounds_ = 0;  // of decomposition, after each step
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "engine/import/cpfg_preprocessor.h"
 
-#include <charconv>
+#include "engine/language/expression.h"
+
+#include <array>
+#include <optional>
 
 namespace sikku::cpfg {
 namespace {
@@ -12,12 +15,20 @@ bool is_comment(const std::string& text, std::size_t slashes) {
     return before < slashes && (slashes + 2 == text.size() || is_blank(text[slashes + 2]));
 }
 
-bool holds_for(std::string_view word, std::size_t at) {
-    long long number = 0;
-    const auto [last, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (problem == std::errc() && last == word.data() + word.size()) return number != 0;
-    if (!word.empty() && begins_identifier(word[0])) return false;  // what is not defined is 0
-    mistake(at, "unknown condition: expected a number or a name");
+/// The value of an expression of C with whole numbers, whose defines are expanded; what is not defined is 0.
+bool holds(const std::string& text, std::size_t at) {
+    const Source source("", text);
+    Diagnostics diagnostics;
+    const auto value = Expression::compile(
+        {&source, 0, text.size()},
+        [](std::string_view) {
+            return std::optional(NameMeaning{false, 0.0});
+        },
+        diagnostics);
+    if (!value || diagnostics.has_errors()) {
+        mistake(at, "this condition is not understood: expected an expression of numbers and names");
+    }
+    return value->evaluate() != 0;
 }
 
 }  // namespace
@@ -94,29 +105,27 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
     std::size_t at = begin + 1;
     const std::string_view what = word_at(at, end);
     if (what == "if" || what == "ifdef" || what == "ifndef") {
-        const bool was_active = is_active();
-        bool holds = false;
-        if (was_active) {
-            const std::size_t place = at;
-            const std::string_view name = word_at(at, end);
-            if (name.empty()) mistake(std::min(place, text_.size() - 1), "expected a name or a number");
-            const auto found = defines_.macros.find(name);
-            holds = what == "ifdef"    ? found != defines_.macros.end()
-                    : what == "ifndef" ? found == defines_.macros.end()
-                                       : holds_for(found == defines_.macros.end() ? name : found->second.body, place);
-            if (!is_empty(at, end)) mistake(at, "conditions of more than one word are not read");
-        }
         if (conditions_.size() >= most_defines_deep) mistake(begin, "conditions nest more than 200 deep");
-        conditions_.push_back({begin, holds, was_active});
-    } else if (what == "else" || what == "endif") {
-        if (conditions_.empty() || (what == "else" && conditions_.back().has_else)) {
+        const bool was_active = is_active();
+        // First of all, so that its #else and #endif are matched whatever the condition is.
+        conditions_.push_back({begin, false, was_active});
+        if (was_active) conditions_.back().holds = conditions_.back().has_held = condition(what, at, end);
+    } else if (what == "elif" || what == "else" || what == "endif") {
+        if (conditions_.empty() || (what != "endif" && conditions_.back().has_else)) {
             mistake(begin, fmt::format("this #{} has no #if", what));
         }
         if (what == "endif") {
             conditions_.pop_back();
-        } else {
-            conditions_.back().holds = !conditions_.back().holds;
-            conditions_.back().has_else = true;
+            return;
+        }
+        Condition& current = conditions_.back();
+        const bool may_hold = current.was_active && !current.has_held;
+        current.holds = false;
+        if (what == "else") {
+            current.has_else = true;
+            current.holds = may_hold;
+        } else if (may_hold) {
+            current.holds = current.has_held = condition("if", at, end);
         }
     } else if (!is_active()) {
         return;
@@ -126,9 +135,63 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
         defines_.macros.erase(std::string(word_at(at, end)));
     } else if (what == "include") {
         report_.loss(begin, "the contents of #include");
-    } else if (what.empty() ? !is_empty(at, end) : what != "pragma" && what != "line" && !is_digit(what[0])) {
+    } else if (what == "error") {
+        mistake(begin, "this #error is not in a condition that fails");
+    } else if (what.empty() ? !is_empty(at, end)
+                            : what != "pragma" && what != "line" && what != "warning" && !is_digit(what[0])) {
         mistake(begin, "unknown preprocessor directive; a production cannot begin with '#'");
     }
+}
+
+/// The value of what stands behind #if, #ifdef or #ifndef.
+bool Preprocessor::condition(std::string_view what, std::size_t at, std::size_t end) const {
+    const std::size_t place = std::min(at, text_.size() - 1);
+    if (what != "if") {
+        const std::string_view name = word_at(at, end);
+        if (name.empty()) mistake(place, "expected a name");
+        if (!is_empty(at, end)) mistake(at, "expected the end of the line");
+        return defines_.macros.contains(name) == (what == "ifdef");
+    }
+    if (is_empty(at, end)) mistake(place, "expected a condition");
+    // `defined NAME` asks before defines are expanded.
+    std::string text;
+    while (at < end) {
+        if (!begins_identifier(text_[at]) || (at > 0 && continues_identifier(text_[at - 1]))) {
+            text += text_[at++];
+            continue;
+        }
+        const std::string_view name = word_at(at, end);
+        if (name != "defined") {
+            text += name;
+            continue;
+        }
+        while (at < end && (is_blank(text_[at]) || text_[at] == '(')) ++at;
+        const std::string_view asked = word_at(at, end);
+        if (asked.empty()) mistake(place, "expected a name after 'defined'");
+        text += defines_.macros.contains(asked) ? '1' : '0';
+        while (at < end && is_blank(text_[at])) ++at;
+        if (at < end && text_[at] == ')') ++at;
+    }
+    Reader reader(defines_, text, place);
+    std::string expanded;
+    while (const char byte = reader.peek()) {
+        expanded += byte;
+        reader.take();
+    }
+    return holds(expanded, place);
+}
+
+bool Preprocessor::is_directive(std::string_view line) {
+    if (!line.starts_with('#')) return false;
+    line.remove_prefix(1);
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    std::size_t end = 0;
+    while (end < line.size() && continues_identifier(line[end])) ++end;
+    const std::string_view word = line.substr(0, end);
+    constexpr std::array<std::string_view, 13> names = {"if",     "ifdef",  "ifndef", "elif", "else",
+                                                        "endif",  "define", "undef",  "line", "include",
+                                                        "pragma", "error",  "warning"};
+    return line.empty() || std::find(names.begin(), names.end(), word) != names.end();
 }
 
 bool Preprocessor::is_empty(std::size_t at, std::size_t end) const {

@@ -150,6 +150,9 @@ public:
     }
     /// Executes one directive, from its '#' to the end of the line.
     void directive(std::size_t begin, std::size_t end);
+    /// True if a line that begins like this is one of the directives by name, `#` alone included. `#(0.1)` and `# F`
+    /// are words.
+    static bool is_directive(std::string_view line);
     /// Reports a condition without #endif.
     void finish();
 
@@ -158,10 +161,12 @@ private:
         std::size_t at;
         bool holds;
         bool was_active;
+        bool has_held = false;  // one of its branches so far was read
         bool has_else = false;
     };
     std::string_view word_at(std::size_t& at, std::size_t end) const;
     bool is_empty(std::size_t at, std::size_t end) const;
+    bool condition(std::string_view what, std::size_t at, std::size_t end) const;
     void define(std::size_t at, std::size_t end);
 
     const std::string& text_;

@@ -55,9 +55,13 @@ private:
         while (at < text_.size() && text_[at] != '\n' && is_blank(text_[at])) ++at;
         return at;
     }
+    /// True for a line of the preprocessor. After a tab, `#(0.1)` goes on with the production before.
     bool is_directive(std::size_t at) const {
-        at = first_of_line(at);
-        return at < text_.size() && text_[at] == '#';
+        const std::size_t first = first_of_line(at);
+        if (first >= text_.size() || text_[first] != '#') return false;
+        const bool continues = text_[at] == '\t' && system_.axiom;
+        return !continues ||
+               Preprocessor::is_directive(std::string_view(text_).substr(first, line_end(first) - first));
     }
 
     void read_lines() {
@@ -99,7 +103,8 @@ private:
             const std::string keyword = keyword_of(line);
             if (keyword == "define:" || keyword.starts_with("start") || keyword == "end:" || keyword == "endeach:") {
                 first = 0;
-            } else if (section_ == Section::productions || section_ == Section::homomorphism) {
+            } else if (section_ == Section::productions || section_ == Section::decomposition ||
+                       section_ == Section::homomorphism) {
                 const std::size_t colon = line.find(':');
                 const std::size_t brace = colon == nothing ? nothing : line.find('{', colon);
                 if (brace < line.find("-->") && brace < line.find("-o>")) first = brace;
@@ -159,18 +164,19 @@ private:
         } else if (keyword == "homomorphism") {
             section_ = Section::homomorphism;
         } else if (keyword == "decomposition") {
-            report_.loss(begin, "the decomposition, which is repeated within a step until no production applies");
+            system_.decomposition_at = begin;
             section_ = Section::decomposition;
         } else if (section_ == Section::header) {
             item(keyword, begin, rest, rest_at);
-        } else if (section_ == Section::decomposition) {
-            return;
+        } else if (section_ == Section::decomposition && keyword == "maximumdepth:") {
+            Reader reader(defines_, rest, rest_at);
+            system_.decomposition_depth = expressions_.whole_number(reader);
         } else if (section_ == Section::homomorphism && keyword == "maximumdepth:") {
             Reader reader(defines_, rest, rest_at);
             system_.homomorphism_depth = expressions_.whole_number(reader);
             if (system_.homomorphism_depth > 1) system_.homomorphism_depth_at = begin;
-        } else if (section_ == Section::homomorphism && keyword == "seed:") {
-            return;  // of choices that a homomorphism does not make
+        } else if ((section_ == Section::homomorphism || section_ == Section::decomposition) && keyword == "seed:") {
+            return;  // of choices that a homomorphism does not make, and that one seed makes here
         } else {
             production(whole, begin);
         }
@@ -211,11 +217,23 @@ private:
         } else if (keyword == "ringlsystem") {
             report_.loss(begin, "the ring of the word: here its end is not a neighbour of its beginning");
         } else if (keyword == "start:") {
+            note_globals(rest);
             start(reader, begin);
         } else if (keyword.empty()) {
             mistake(begin, "expected an item such as 'derivation length:' or 'Axiom:'");
         } else {
+            note_globals(rest);
             report_.loss(begin, fmt::format("the C statements of '{}'", keyword));
+        }
+    }
+
+    /// Remembers every name in the statements before the axiom: productions that set them have effects on others.
+    void note_globals(std::string_view text) {
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t begin = at;
+            while (at < text.size() && continues_identifier(text[at])) ++at;
+            if (at > begin) globals_.insert(std::string(text.substr(begin, at - begin)));
+            if (at == begin) ++at;
         }
     }
 
@@ -306,12 +324,62 @@ private:
         keep(std::move(rule));
     }
 
+    /// The statements of a production: assignments to names that no other production sees are put in where the names
+    /// stand. Others are lost, and so is what depends on them.
     void block(Reader& reader) {
         if (expressions_.next(reader) != '{') return;
         const std::size_t at = reader.where();
-        report_.loss(at, "the C statements of a production");
-        std::size_t depth = 0;
+        reader.take();
+        while (expressions_.next(reader) != '}') {
+            if (statement(reader, at)) continue;
+            report_.loss(at, "the C statements of a production");
+            return skip_block(reader, at);
+        }
+        reader.take();
+    }
+
+    /// Reads one statement. False if it is not an assignment to a local variable; its name has no value then.
+    bool statement(Reader& reader, std::size_t at) {
+        if (expressions_.next(reader) == ';') {
+            reader.take();
+            return true;
+        }
+        const std::string name = expressions_.identifier(reader);
+        if (name == "printf" && expressions_.next(reader) == '(') {
+            report_.once("printf", at, "what printf() writes");
+            bool in_text = false;
+            while (const char byte = expressions_.next(reader)) {
+                if (byte == '"') in_text = !in_text;
+                reader.take();
+                if (byte == ';' && !in_text) return true;
+            }
+            return false;
+        }
+        if (name.empty() || expressions_.next(reader) != '=') return false;
+        reader.take();
+        try {
+            Value value = expressions_.read(reader);
+            if (!globals_.contains(name) && expressions_.next(reader) == ';') {
+                reader.take();
+                expressions_.set_local(name, std::move(value));
+                return true;
+            }
+        } catch (const Fault& fault) {
+            if (!fault.is_loss) throw;
+        }
+        expressions_.set_local(name, {""});
+        return false;
+    }
+
+    /// Skips the rest of a block; what it sets has no value.
+    void skip_block(Reader& reader, std::size_t at) {
+        std::size_t depth = 1;
         while (const char byte = expressions_.next(reader)) {
+            if (const std::string name = expressions_.identifier(reader); !name.empty()) {
+                const bool is_set = expressions_.next(reader) == '=' && !reader.ahead().starts_with("==");
+                if (is_set) expressions_.set_local(name, {""});
+                continue;
+            }
             if (byte == '{') ++depth;
             if (byte == '}') --depth;
             reader.take();
@@ -321,7 +389,7 @@ private:
     }
 
     void keep(Rule rule) {
-        if (system_.rules.size() + system_.homomorphism.size() >= most_productions) {
+        if (system_.rules.size() + system_.decomposition.size() + system_.homomorphism.size() >= most_productions) {
             mistake(rule.at, "there are more than 10,000 productions");
         }
         if (section_ == Section::homomorphism) {
@@ -335,6 +403,13 @@ private:
             }
             rule.weight.reset();
             system_.homomorphism.push_back(std::move(rule));
+            return;
+        }
+        if (section_ == Section::decomposition) {
+            if (rule.predecessor.size() > 1 || rule.has_context()) {
+                lose(rule.at, "a decomposition replaces one symbol, without contexts");
+            }
+            system_.decomposition.push_back(std::move(rule));
             return;
         }
         for (const Formal& module : rule.left) {
@@ -384,6 +459,7 @@ private:
     std::size_t counted_end_ = 0;
     std::size_t counted_ = 0;
     std::map<std::string, std::size_t> assigned_;
+    std::set<std::string, std::less<>> globals_;  // names in statements outside of productions
 };
 
 }  // namespace

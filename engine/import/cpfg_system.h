@@ -53,6 +53,9 @@ struct System {
     bool considers = false;
     std::optional<std::string> axiom;
     std::vector<Rule> rules;
+    std::vector<Rule> decomposition;  ///< applied to the axiom and after each step, over and over
+    long long decomposition_depth = 1;
+    std::size_t decomposition_at = 0;
     std::vector<Rule> homomorphism;
     long long homomorphism_depth = 1;
     std::size_t homomorphism_depth_at = 0;

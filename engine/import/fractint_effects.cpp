@@ -9,19 +9,21 @@ namespace {
 
 constexpr std::size_t most_levels = 20;                           // that differ
 constexpr double most_digits = 300;                               // of a length, before or after the point
+constexpr std::int64_t whole_turn = 360'000'000'000;              // billionths of degrees
 constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
 
 }  // namespace
 
-Effects::Effects(const Entry& entry, ImportLosses& losses) : entry_(entry) {
-    find_reached(losses);
+Effects::Effects(const Entry& entry) : entry_(entry) {
+    find_reached();
     followed_steps_ = followed(leads_to_steps_);
     followed_turns_ = followed(leads_to_turns_);
+    followed_second_ = followed(leads_to_second_);
     is_sized_ = followed_steps_.test(index_of('@')) && has('@');
     compose();
 }
 
-void Effects::find_reached(ImportLosses& losses) {
+void Effects::find_reached() {
     // What each letter with a rule leads to, itself included: as the commands of all of them.
     std::map<char, Flags> leads;
     for (const auto& [letter, rule] : entry_.rules) {
@@ -39,14 +41,13 @@ void Effects::find_reached(ImportLosses& losses) {
     }
     has_own_steps_ = has('f') || has('g');
     has_other_steps_ = has('d') || has('m');
-    if (has_own_steps_ && has_other_steps_) {
-        losses.add(entry_.first_of("dm"), "separate headings of F and G and of D and M; the turtle has one heading");
-    }
     leads_to_steps_ = flags_of("fgdm");
     leads_to_turns_ = flags_of(turns());
+    leads_to_second_ = flags_of("dm");
     for (const auto& [letter, flags] : leads) {
         leads_to_steps_[index_of(letter)] = (flags & flags_of("fgdm")).any();
         leads_to_turns_[index_of(letter)] = (flags & flags_of(turns())).any();
+        leads_to_second_[index_of(letter)] = (flags & flags_of("dm")).any();
     }
 }
 
@@ -91,7 +92,7 @@ Flags Effects::followed(const Flags& sensitive) const {
 void Effects::compose() {
     std::map<char, Effect> none;
     for (const auto& [letter, rule] : entry_.rules) {
-        none[letter].halves.assign(entry_.factors.size(), 0);
+        none[letter].halves.assign(entry_.factors.values.size(), 0);
     }
     levels_.push_back(std::move(none));
     while (true) {
@@ -99,25 +100,27 @@ void Effects::compose() {
         bool is_small = true;
         for (const auto& [letter, rule] : entry_.rules) {
             Effect& effect = next[letter];
-            effect.halves.assign(entry_.factors.size(), 0);
+            effect.halves.assign(entry_.factors.values.size(), 0);
             std::size_t depth = 0;
             for (const Token& token : rule) {
                 if (token.letter == '[') ++depth;
                 if (token.letter == ']') --depth;
-                if (depth == 0) apply(token, levels_.back(), effect);
+                if (depth == 0) apply(token, entry_, levels_.back(), effect);
             }
             if (!followed_turns_.test(index_of(letter))) effect.flips = false;
+            if (!has_two_headings() || !followed_second_.test(index_of(letter))) {
+                effect.steps = effect.around = effect.billionths = 0;
+            }
             if (!is_sized_ || !followed_steps_.test(index_of(letter))) {
-                effect.halves.assign(entry_.factors.size(), 0);
+                effect.halves.assign(entry_.factors.values.size(), 0);
             }
             double digits = 0;
-            for (std::size_t i = 0; i < entry_.factors.size(); ++i) {
-                const double share = 0.5 * static_cast<double>(effect.halves[i]) * std::log10(entry_.factors[i]);
-                digits += share;
-                const bool is_much = std::abs(effect.halves[i]) > largest_exponent;
-                if (is_much || !(std::fabs(share) < most_digits)) is_small = false;
+            for (std::size_t i = 0; i < entry_.factors.values.size(); ++i) {
+                digits += 0.5 * static_cast<double>(effect.halves[i]) * std::log10(entry_.factors.values[i]);
+                if (std::abs(effect.halves[i]) > largest_exponent) is_small = false;
             }
-            if (!(std::fabs(digits) < most_digits)) is_small = false;
+            // Lengths may become 0, as they do there.
+            if (!(digits < most_digits)) is_small = false;
         }
         is_settled_ = next == levels_.back();
         if (is_settled_ || levels_.size() >= most_levels || !is_small) return;
@@ -125,13 +128,52 @@ void Effects::compose() {
     }
 }
 
-void apply(const Token& token, const std::map<char, Effect>& below, Effect& effect) {
-    if (token.letter == '@') effect.halves[token.base] += token.root;
-    if (token.letter == '!') effect.flips = !effect.flips;
+void apply(const Token& token, const Entry& entry, const std::map<char, Effect>& below, Effect& effect) {
+    const std::int64_t side = effect.flips ? -1 : 1;
+    const auto add = [](std::int64_t& sum, std::int64_t more, std::int64_t whole) {
+        sum = ((sum + more) % whole + whole) % whole;
+    };
+    switch (token.letter) {
+        case '@': {
+            const std::vector<std::int32_t>& exponents = entry.factors.exponents[token.base];
+            for (std::size_t i = 0; i < exponents.size(); ++i) {
+                effect.halves[i] += std::int64_t{token.root} * exponents[i];
+            }
+            break;
+        }
+        case '!':
+            effect.flips = !effect.flips;
+            break;
+        case '+':
+        case '-':
+            add(effect.steps, token.letter == '+' ? side : -side, entry.angle);
+            break;
+        case '|':
+            // As far as whole turns go, clockwise.
+            add(effect.around, -(entry.angle / 2), entry.angle);
+            break;
+        case '\\':
+        case '/': {
+            const auto turn = std::llround(std::fmod(token.number, 360) * 1e9);
+            add(effect.billionths, token.letter == '\\' ? side * turn : -side * turn, whole_turn);
+            break;
+        }
+        default:
+            break;
+    }
     const auto found = below.find(token.letter);
     if (found == below.end()) return;
-    effect.flips = effect.flips != found->second.flips;
-    for (std::size_t i = 0; i < effect.halves.size(); ++i) effect.halves[i] += found->second.halves[i];
+    const Effect& inner = found->second;
+    effect.flips = effect.flips != inner.flips;
+    for (std::size_t i = 0; i < effect.halves.size(); ++i) effect.halves[i] += inner.halves[i];
+    add(effect.steps, side * inner.steps, entry.angle);
+    add(effect.around, inner.around, entry.angle);
+    add(effect.billionths, side * inner.billionths, whole_turn);
+}
+
+double lead_of(const Effect& effect, const Entry& entry) {
+    const auto turned = static_cast<double>((effect.steps + effect.around) % entry.angle) / entry.angle * 360;
+    return std::remainder(static_cast<double>(effect.billionths) / 1e9 - turned, 360);
 }
 
 }  // namespace sikku::fractint

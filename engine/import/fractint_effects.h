@@ -10,19 +10,21 @@
 
 namespace sikku::fractint {
 
-/// What going through a symbol leaves behind: the step length multiplied by powers of the factors, in halves, and
-/// left and right exchanged.
+/// What going through a symbol leaves behind: the step length multiplied by powers of the factors, in halves, left
+/// and right exchanged, and the heading of D and M turned against that of F and G.
 struct Effect {
     std::vector<std::int64_t> halves;
     bool flips = false;
+    std::int64_t steps = 0;       ///< the turns of + and -, in turns of the entry's angle: 0 to less than that angle
+    std::int64_t around = 0;      ///< likewise those of |, which ! does not exchange
+    std::int64_t billionths = 0;  ///< the turns of \\ and /, in billionths of degrees, below 360 degrees
     bool operator==(const Effect&) const = default;
 };
 
 /// Keeps a reference to the entry.
 class Effects {
 public:
-    /// @param losses  receives the features that patterns do not support
-    Effects(const Entry& entry, ImportLosses& losses);
+    explicit Effects(const Entry& entry);
 
     /// True if the letter can be derived from the axiom.
     bool has(char letter) const { return reached_.test(index_of(letter)); }
@@ -30,6 +32,10 @@ public:
     bool leads_to_turns(char letter) const { return leads_to_turns_.test(index_of(letter)); }
     /// True if the letter turns the heading of the steps that the system uses.
     bool turns_count(char letter) const { return turns().find(letter) != std::string_view::npos; }
+    /// True if steps of F or G and of D or M occur together, which have headings of their own.
+    bool has_two_headings() const { return has_own_steps_ && has_other_steps_; }
+    /// True if the letter leads to steps of the second heading.
+    bool leads_to_second(char letter) const { return has_two_headings() && leads_to_second_.test(index_of(letter)); }
     /// True if '|' turns the turtle around.
     bool turns_around() const { return has_own_steps_ || !has_other_steps_; }
     /// True if an @ changes the length of any step.
@@ -43,7 +49,7 @@ public:
     const std::map<char, Effect>& at(std::size_t level) const { return levels_[level]; }
 
 private:
-    void find_reached(ImportLosses& losses);
+    void find_reached();
     std::string_view turns() const;
     Flags followed(const Flags& sensitive) const;
     void compose();
@@ -52,8 +58,10 @@ private:
     Flags reached_;
     Flags leads_to_steps_;
     Flags leads_to_turns_;
+    Flags leads_to_second_;
     Flags followed_steps_;
     Flags followed_turns_;
+    Flags followed_second_;
     bool has_own_steps_ = false;
     bool has_other_steps_ = false;
     bool is_sized_ = false;
@@ -62,6 +70,9 @@ private:
 };
 
 /// Goes through one token, its rule having the effects `below`.
-void apply(const Token& token, const std::map<char, Effect>& below, Effect& effect);
+void apply(const Token& token, const Entry& entry, const std::map<char, Effect>& below, Effect& effect);
+
+/// The heading of D and M minus that of F and G, in degrees.
+double lead_of(const Effect& effect, const Entry& entry);
 
 }  // namespace sikku::fractint

@@ -14,7 +14,7 @@ namespace sikku::fractint {
 namespace {
 
 constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // of all words of an entry
-constexpr std::size_t most_factors = 32;                       // different numbers after @
+constexpr std::size_t most_numbers = 32;                       // different ones after @
 
 class EntryReader {
 public:
@@ -38,6 +38,7 @@ public:
             fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no axiom", entry_.name));
         if (entry_.angle == 0)
             fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no angle", entry_.name));
+        entry_.factors = find_factors(number_texts_);
         return std::move(entry_);
     }
 
@@ -150,10 +151,13 @@ private:
             if (!(number > 0))
                 fail(file_, diagnostics_, token.at,
                      "expected a number above 0 after '@': the step would have no length");
-            const auto known = std::find(entry_.factors.begin(), entry_.factors.end(), number);
-            token.base = static_cast<std::uint16_t>(known - entry_.factors.begin());
-            if (known == entry_.factors.end()) entry_.factors.push_back(number);
-            if (entry_.factors.size() > most_factors)
+            const auto known = std::find(numbers_.begin(), numbers_.end(), number);
+            token.base = static_cast<std::uint16_t>(known - numbers_.begin());
+            if (known == numbers_.end()) {
+                numbers_.push_back(number);
+                number_texts_.push_back(text.substr(begin, at - begin));
+            }
+            if (numbers_.size() > most_numbers)
                 fail(file_, diagnostics_, token.at, "more than 32 different numbers after '@'");
             token.root = static_cast<std::int8_t>(number == 1 ? 0 : (root ? 1 : 2) * (inverse ? -1 : 1));
             return;
@@ -168,6 +172,8 @@ private:
     const SourcePointer& file_;
     Diagnostics& diagnostics_;
     Entry entry_;
+    std::vector<double> numbers_;  // the different ones after @
+    std::vector<std::string> number_texts_;
     std::size_t word_bytes_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // engine/import/fractint_entry.h: reads an entry of a Fractint collection.
 #pragma once
 
+#include "engine/import/fractint_factors.h"
 #include "engine/import/import.h"
 
 #include <bitset>
@@ -16,7 +17,7 @@ namespace sikku::fractint {
 struct Token {
     char letter = 0;
     std::int8_t root = 0;    ///< of @: exponent of the factor in halves
-    std::uint16_t base = 0;  ///< of @: which factor
+    std::uint16_t base = 0;  ///< of @: index of its number in Entry::factors
     std::uint32_t at = 0;
     double number = 0.0;  ///< of \ / c < >
 };
@@ -66,7 +67,7 @@ struct Entry {
     int angle = 0;  ///< turns are 360 degrees divided by this number
     Tokens axiom;
     std::map<char, Tokens> rules;
-    std::vector<double> factors;  ///< the different numbers after @
+    Factors factors;  ///< of the different numbers after @
 
     /// The rule of a letter, or null.
     const Tokens* rule_of(char letter) const {

@@ -14,6 +14,7 @@ namespace sikku::fractint {
 namespace {
 
 constexpr std::size_t most_pattern = std::size_t{4} << 20;  // bytes that one entry may become
+constexpr double most_term_digits = 150;                    // of the powers in an expression
 constexpr int palette_size = 16;
 constexpr int first_colour = 15;
 constexpr const char* palette =
@@ -131,12 +132,15 @@ private:
 
     /// Base of the length, and powers of the factors: `s*sqrt(3)/2`.
     std::string length(std::string_view base, const std::vector<std::int64_t>& halves) const {
+        const std::vector<double>& factors = entry_.factors.values;
         std::string over;
         std::string under;
+        double digits = 0;  // before or after the point, at most, of an intermediate result
         for (std::size_t i = 0; i < halves.size(); ++i) {
             const std::int64_t power = std::abs(halves[i]);
             if (power == 0) continue;
-            std::string term = fmt::format("{}", entry_.factors[i]);
+            digits += 0.5 * static_cast<double>(power) * std::fabs(std::log10(factors[i]));
+            std::string term = fmt::format("{}", factors[i]);
             if (power == 1) {
                 term = fmt::format("sqrt({})", term);
             } else if (power > 2) {
@@ -144,8 +148,21 @@ private:
             }
             (halves[i] > 0 ? over : under) += (halves[i] > 0 ? "*" : "/") + term;
         }
+        if (digits > most_term_digits) {
+            const double value = product_of_powers(factors, halves);
+            // Infinite lengths cannot be drawn; orders that need them are refused where they are used.
+            const std::string product = std::isfinite(value) ? fmt::format("{:.15g}", value) : "1e308*1e308";
+            return base == "1" ? product : fmt::format("{}*{}", base, product);
+        }
         if (base == "1" && !over.empty()) return over.substr(1) + under;
         return std::string(base) + over + under;
+    }
+
+    /// The heading of D and M against the turtle's, which is that of F and G: `d+30`.
+    std::string heading(bool is_relative, const Effect& state) const {
+        const double lead = lead_of(state, entry_);
+        if (!is_relative) return fmt::format("{}", lead);
+        return lead == 0 ? "d" : fmt::format("d{:+}", lead);
     }
 
     void grow(std::string& text, std::string_view more) {
@@ -174,7 +191,7 @@ private:
     std::string word(const Tokens& tokens, std::string_view base, bool flipped, std::size_t level) {
         const std::map<char, Effect>& below = effects_.at(level);
         Effect state;
-        state.halves.assign(entry_.factors.size(), 0);
+        state.halves.assign(entry_.factors.values.size(), 0);
         state.flips = flipped;
         std::vector<Effect> stack;
         std::string text;
@@ -186,8 +203,13 @@ private:
                 const Key key = key_of(token, state.flips);
                 if (has_rule && wanted_.insert(key).second) pending_.push_back(key);
                 std::string name = symbol(key);
-                if (effects_.is_sized() && steps) name += '(' + length(base, state.halves) + ')';
-                if (is_step(letter)) step_letters_.insert({letter, name.substr(0, name.find('('))});
+                if (is_step(letter)) step_letters_.insert({letter, name});
+                std::string parameters;
+                if (effects_.is_sized() && steps) parameters = length(base, state.halves);
+                if (effects_.leads_to_second(letter)) {
+                    parameters += (parameters.empty() ? "" : ",") + heading(base != "1", state);
+                }
+                if (!parameters.empty()) name += '(' + parameters + ')';
                 grow(text, name);
             } else if (letter == '[') {
                 stack.push_back(state);
@@ -205,7 +227,8 @@ private:
             } else if (letter == '+' || letter == '-') {
                 grow(text, (letter == '+') != state.flips ? "+" : "-");
             } else if (letter == '\\' || letter == '/') {
-                if (token.number != 0) {
+                // Where there are two headings, this one is a parameter.
+                if (token.number != 0 && !effects_.has_two_headings()) {
                     grow(text, fmt::format("{}({})", (letter == '\\') != state.flips ? '+' : '-', token.number));
                 }
             } else if (letter == '|') {
@@ -214,7 +237,7 @@ private:
             } else if (letter == 'c' || letter == '<' || letter == '>') {
                 grow(text, colour_command(letter, token.number));
             }
-            apply(token, below, state);
+            apply(token, entry_, below, state);
         }
         return text.empty() ? "*" : text;
     }
@@ -239,8 +262,7 @@ private:
             const Key key = pending_.back();
             pending_.pop_back();
             Line line;
-            const bool sized = effects_.is_sized() && effects_.leads_to_steps(key.letter);
-            line.left = symbol(key) + (sized ? "(s)" : "");
+            line.left = symbol(key) + formals(key.letter);
             for (std::size_t level = 0; level < levels; ++level) {
                 line.right.push_back(word(*entry_.rule_of(key.letter), "s", key.flipped, level));
             }
@@ -248,6 +270,13 @@ private:
         }
         std::sort(lines.begin() + 1, lines.end(), [](const Line& a, const Line& b) { return a.left < b.left; });
         return lines;
+    }
+
+    /// `(s)`, `(d)` or `(s,d)`: length of steps and second heading.
+    std::string formals(char letter) const {
+        const bool sized = effects_.is_sized() && effects_.leads_to_steps(letter);
+        const bool led = effects_.leads_to_second(letter);
+        return sized && led ? "(s,d)" : sized ? "(s)" : led ? "(d)" : "";
     }
 
     /// A letter that nothing else is called by.
@@ -273,6 +302,9 @@ private:
         comment(fmt::format("Fractint's order is the derivation length{}: -n {} is order 3.",
                             begins_late ? " less one" : "", begins_late ? 4 : 3));
         if (effects_.is_sized()) comment("The parameter is the length of steps, which @ multiplies.");
+        if (effects_.has_two_headings()) {
+            comment("The parameter d is the heading of D and M, in degrees to the left of that of F and G.");
+        }
         std::string twins;
         for (const Key& key : wanted_) {
             if (key.flipped) twins += (twins.empty() ? "" : " ") + symbol(key);
@@ -325,6 +357,12 @@ private:
         if (has_turn_around_ && entry_.angle % 2 == 1) {
             // As far as whole turns go, clockwise, whatever ! says.
             lines += "| --> " + repeated('-', entry_.angle / 2) + '\n';
+        }
+        for (const auto& [letter, name] : step_letters_) {
+            if (!effects_.leads_to_second(letter)) continue;
+            const std::string step = name + (effects_.is_sized() ? "(s)" : "");
+            const bool is_second = letter == 'd' || letter == 'm';
+            lines += fmt::format("{}{} --> {}\n", name, formals(letter), is_second ? "+(d)" + step + "-(d)" : step);
         }
         for (const Key& key : wanted_) {
             if (!takes_number(key.letter)) continue;

@@ -1,7 +1,9 @@
 #include "engine/import/import.h"
 
 #include "engine/base/text.h"
+#include "engine/language/foreign_text.h"
 #include "engine/language/grammar.h"
+#include "engine/language/undrawn.h"
 
 #include <fmt/format.h>
 
@@ -14,32 +16,13 @@ namespace {
 constexpr std::size_t most_losses = 200;  // kept of one system
 constexpr std::size_t most_told = 12;     // in its description
 
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t' || byte == '\r';
-}
-
 }  // namespace
 
 std::optional<ImportFormat> import_format(std::string_view text) {
-    bool has_entry = false;
-    bool in_comment = false;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        std::string_view line = text.substr(at, end - at);
-        while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-        // A cpfg file may begin with long comments and defines, which Fractint's entries look like in places.
-        if (!in_comment && lower_case(line.substr(0, 8)) == "lsystem:") return ImportFormat::cpfg;
-        if (!in_comment && !line.empty() && line.front() != ';' && line.front() != '#') {
-            const std::size_t brace = line.find('{');
-            has_entry = has_entry || (brace != std::string_view::npos && brace < line.find(';'));
-        }
-        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            if (!in_comment && line.substr(i, 2) == "/*") in_comment = true;
-            if (in_comment && line.substr(i, 2) == "*/") in_comment = false;
-        }
-        at = end + 1;
-    }
-    return has_entry ? std::optional(ImportFormat::fractint) : std::nullopt;
+    const ForeignKind kind = foreign_kind(text);
+    if (kind == ForeignKind::cpfg) return ImportFormat::cpfg;
+    if (kind == ForeignKind::lpfg || kind == ForeignKind::lpy) return std::nullopt;
+    return has_fractint_entry(text) ? std::optional(ImportFormat::fractint) : std::nullopt;
 }
 
 std::string import_file_name(std::string_view name) {
@@ -125,22 +108,27 @@ std::string import_head(std::string_view title, std::string_view source, std::st
     return head + '\n';
 }
 
-bool import_compiles(const std::string& name, const std::string& pattern, const Span& where,
-                     Diagnostics& diagnostics) {
+void compile_import(ImportedSystem& system, const Span& where, Diagnostics& diagnostics) {
+    const std::string pattern = std::move(system.pattern);
+    system.pattern.clear();
     Diagnostics own;
     if (pattern.size() > most_pattern_bytes) {
-        diagnostics.error(where, "the pattern of this system is longer than 64 MB");
-        return false;
+        return diagnostics.error(where, "the pattern of this system is longer than 64 MB");
     }
-    const Pattern parsed = parse_pattern(name, pattern, own);
-    if (!own.is_unreadable()) compile_grammar(parsed, own);
-    if (!own.has_errors()) return true;
+    const Pattern parsed = parse_pattern(system.name, pattern, own);
+    if (!own.is_unreadable()) {
+        const Grammar grammar = compile_grammar(parsed, own);
+        if (!own.has_errors()) system.draws = can_draw(grammar);
+    }
+    if (!own.has_errors()) {
+        system.pattern = pattern;
+        return;
+    }
     for (const Diagnostic& diagnostic : own.list()) {
         if (diagnostic.warning) continue;
         diagnostics.error(where, fmt::format("this system makes no pattern: {}", diagnostic.message));
         break;
     }
-    return false;
 }
 
 }  // namespace sikku

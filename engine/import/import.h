@@ -16,16 +16,19 @@ enum class ImportFormat { cpfg, fractint };
 
 /// A system that was found in a file, and the pattern made of it.
 struct ImportedSystem {
-    std::string name;                 ///< as the file calls it
-    int line = 1;                     ///< where it begins
-    std::string pattern;              ///< text of a pattern file; empty if the system has mistakes
-    std::vector<std::string> losses;  ///< what the pattern lacks of it, each with its line; the pattern tells it, too
+    std::string name;     ///< as the file calls it
+    int line = 1;         ///< where it begins
+    std::string pattern;  ///< text of a pattern file; empty if the system has mistakes
+    std::vector<std::string>
+        losses;         ///< what the pattern lacks of it, each with its line; the pattern states it, too
+    bool draws = true;  ///< false if the pattern draws nothing, at any derivation length
 };
 
 /// Maximum length of a text in bytes; longer ones are rejected.
 constexpr std::size_t most_import_bytes = std::size_t{64} << 20;
 
-/// Told by what stands in it: a line `Lsystem:`, or entries `NAME {`. Nullopt if it is neither. Cost: linear.
+/// Recognises cpfg by a line `Lsystem:`, and Fractint by entries `NAME {`. Nullopt for other texts, such as those of
+/// lpfg and L-Py. Cost: linear.
 std::optional<ImportFormat> import_format(std::string_view text);
 
 /// The system of a cpfg file; of several in one file the first, as the others are its sub-L-systems. A C
@@ -84,8 +87,8 @@ std::string import_text(std::string_view text, std::size_t most = 400);
 std::string import_head(std::string_view title, std::string_view source, std::string_view description,
                         const std::vector<std::string>& losses);
 
-/// Compiles what an importer wrote. True if it is a pattern; else the first mistake in it is an error at that place.
-bool import_compiles(const std::string& name, const std::string& pattern, const Span& where,
-                     Diagnostics& diagnostics);
+/// Compiles the pattern of a system and sets `draws`. After an error the pattern is empty, and its first error is an
+/// error at that place.
+void compile_import(ImportedSystem& system, const Span& where, Diagnostics& diagnostics);
 
 }  // namespace sikku

@@ -33,7 +33,7 @@ ImportedSystem import_system(const SourcePointer& file, const SourcePointer& vie
     if (!report.failed()) {
         system.pattern = cpfg::write_pattern(std::move(read), view, system.name, file, report);
         const Span where(file, at, 1);
-        if (!import_compiles(system.name, system.pattern, where, diagnostics)) system.pattern.clear();
+        compile_import(system, where, diagnostics);
     }
     system.losses = report.losses().take();
     return system;

@@ -64,11 +64,9 @@ std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnosti
         } else {
             try {
                 const Entry entry = read_entry(file, system.name, begin, brace + 1, end, diagnostics);
-                const Effects effects(entry, losses);
+                const Effects effects(entry);
                 system.pattern = write_pattern(entry, effects, file, diagnostics, losses, room);
-                if (!import_compiles(system.name, system.pattern, {file, begin, 1}, diagnostics)) {
-                    system.pattern.clear();
-                }
+                compile_import(system, {file, begin, 1}, diagnostics);
             } catch (const BadEntry&) {
             }
         }

@@ -1,11 +1,13 @@
 // engine/language/grammar_compiler.cpp: compiles a pattern into a grammar.
 #include "engine/language/command_table.h"
 #include "engine/language/edge_reader.h"
+#include "engine/language/foreign_line.h"
 #include "engine/language/label_reader.h"
 #include "engine/language/map_system.h"
 #include "engine/language/production_compiler.h"
 #include "engine/language/schedule.h"
 #include "engine/language/surface.h"
+#include "engine/language/undrawn.h"
 #include "engine/language/word_reader.h"
 
 #include <fmt/format.h>
@@ -61,6 +63,7 @@ public:
         grammar_.is_spatial_ = grammar_.tropism_ || reaches_into_space();
         labels.check(grammar_);
         warn_of_types(looked_at);
+        if (!diagnostics_.has_errors()) warn_of_undrawn(pattern_, grammar_, diagnostics_);
         return std::move(grammar_);
     }
 
@@ -85,6 +88,12 @@ private:
 
     Angle angle(const Key& key, const Angle& otherwise) {
         if (const auto angle = read_angle(key.value.view())) return *angle;
+        // 25°, 25 degrees
+        const LineAdvice advice = advice_for_line(fmt::format("{} = {}", key.name, key.value.view()), true);
+        if (!advice.lines.empty()) {
+            diagnostics_.error(key.value, fmt::format("degrees are a plain number; {}", advice.text()));
+            return otherwise;
+        }
         diagnostics_.error(key.value, "expected degrees: a number such as 25.7 or a fraction such as 360/7");
         return otherwise;
     }

@@ -2,6 +2,8 @@
 
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
+#include "engine/language/foreign_line.h"
+#include "engine/language/foreign_text.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +17,9 @@ namespace sikku {
 namespace {
 
 constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
+
+constexpr std::size_t most_key_bytes = 100;     // of `symbols`, with blanks
+constexpr std::size_t most_strange_lines = 10;  // for each line that may belong to a pattern
 
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
 // Limits of a pattern file, checked while it is read, so that a small file cannot take much memory.
@@ -86,16 +91,92 @@ public:
 
     void run() {
         const std::string_view text = pattern_.source->cleaned();
+        const ForeignKind kind = foreign_kind(pattern_.source->text());
+        if (kind != ForeignKind::none) {
+            const bool can_import = kind == ForeignKind::fractint || kind == ForeignKind::cpfg;
+            return diagnostics_.unreadable({pattern_.source, 0, 0},
+                                           fmt::format("this is {}, not a pattern{}", foreign_kind_name(kind),
+                                                       can_import ? "; import it first" : ""));
+        }
         for (std::size_t at = 0; at < text.size() && !diagnostics_.is_unreadable();) {
             std::size_t end = text.find('\n', at);
             if (end == std::string_view::npos) end = text.size();
             line(Span{pattern_.source, at, end - at}.trimmed());
             at = end + 1;
         }
+        if (!diagnostics_.is_unreadable()) finish();
     }
 
 private:
     enum class Section { common, table, interpret };
+
+    /// Reports the lines that are neither in the pattern language nor in another notation: all in one message, if
+    /// nothing else stands in the text.
+    void finish() {
+        find_axiom();
+        std::size_t strange = unknown_.size();  // lines
+        std::size_t known = productions_ + pattern_.tables.size() + pattern_.defines.size() +
+                            pattern_.patches.size() + (has_advice_ ? 1 : 0);
+        for (const Key& key : pattern_.keys) {
+            const bool is_key = find_language_key(key.name) || !nearest_key(key.name).empty();
+            ++(is_key ? known : strange);
+        }
+        if (strange > most_strange_lines * std::max<std::size_t>(known, 1) || (known == 0 && strange > 1)) {
+            return diagnostics_.unreadable(
+                unknown_.empty() ? pattern_.keys.front().name_at : unknown_.front(),
+                "this text is not a pattern: expected lines such as 'axiom: F' and 'F --> F+F'");
+        }
+        for (const Span& whole : unknown_) {
+            // Brackets of a program around lines that were reported.
+            if (has_advice_ && whole.view().find_first_not_of("{}[]();, \t") == std::string_view::npos) continue;
+            diagnostics_.error(whole, whole.view().starts_with('#')
+                                          ? "a comment begins with '//'"
+                                          : "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a "
+                                            "production with '-->'");
+        }
+    }
+
+    /// Without an axiom, `start: X` is meant to state it. What states it in another notation was reported: that there
+    /// is none would be said twice.
+    void find_axiom() {
+        if (pattern_.find("axiom")) return;
+        for (Key& key : pattern_.keys) {
+            double bars = 0;
+            if (key.name != "start" || key.value.empty() || read_number(key.value.view(), bars)) continue;
+            const LineAdvice advice = advice_for_line(fmt::format("axiom = {}", key.value.view()), true);
+            diagnostics_.error(key.name_at, fmt::format("'start:' delays a part of a score; {}", advice.text()));
+            key.name = "axiom";
+            return;
+        }
+        if (axiom_.empty()) return;
+        const auto source = std::make_shared<const Source>("axiom", axiom_, true);
+        pattern_.overrides.push_back(source);
+        pattern_.keys.push_back({"axiom", {source, 0, 0}, {source, 0, axiom_.size()}});
+    }
+
+    /// Reports a line in another notation. False if it is not understood.
+    bool advise(const Span& whole, std::size_t colon) {
+        const std::string_view text = whole.view();
+        const LineAdvice advice = advice_for_line(text, pattern_.find("axiom") || !axiom_.empty());
+        if (!advice.is_understood()) return false;
+        has_advice_ = true;
+        if (!advice.axiom.empty() && axiom_.empty()) axiom_ = advice.axiom;
+        const std::string_view arrow = foreign_arrow(text);
+        if (!arrow.empty()) {
+            diagnostics_.error(whole.part(static_cast<std::size_t>(arrow.data() - text.data()), arrow.size()),
+                               fmt::format("'{}' is not the arrow of a production; {}", arrow, advice.text()));
+        } else if (advice.is_needless && colon != std::string_view::npos) {
+            diagnostics_.error(whole, fmt::format("unknown key '{}': patterns do without it; {}",
+                                                  whole.part(0, colon).trimmed().view(), advice.text()));
+        } else if (colon != std::string_view::npos && text.find("-->") == std::string_view::npos) {
+            diagnostics_.error(
+                whole, fmt::format("unknown key '{}'; {}", whole.part(0, colon).trimmed().view(), advice.text()));
+        } else {
+            diagnostics_.error(whole,
+                               fmt::format("expected 'key: value' or a production with '-->'; {}", advice.text()));
+        }
+        return true;
+    }
 
     void line(const Span& whole) {
         if (whole.empty()) return;
@@ -111,17 +192,13 @@ private:
         if (starts_with_word(text, "define") || starts_with_word(text, "#define")) return define(whole);
         if (colon == std::string_view::npos && is_row(text)) return patch_row(whole);
         is_in_patch_ = false;
-        if (text.starts_with('#')) return diagnostics_.error(whole, "a comment begins with '//'");
+        if (text.starts_with('#')) return unknown_.push_back(whole);
+        const bool is_known = key == "interpret" || find_language_key(key) || starts_with_word(key, "table") ||
+                              starts_with_word(key, "patch") || starts_with_word(key, "variant");
+        if (!is_known && advise(whole, colon)) return;
         if (colon == std::string_view::npos) {
-            for (const std::string_view arrow : {"\xE2\x86\x92", "->", "=>", "::="}) {
-                const std::size_t at = find_outside(text, arrow);
-                if (at == std::string_view::npos) continue;
-                return diagnostics_.error(
-                    whole.part(at, arrow.size()),
-                    fmt::format("'{}' is not the arrow of a production; expected '-->'", arrow));
-            }
-            return diagnostics_.error(
-                whole, "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a production with '-->'");
+            unknown_.push_back(whole);
+            return;
         }
         if (key == "interpret") return interpret(whole, colon);
         if (starts_with_word(key, "table")) return table(whole, colon);
@@ -171,9 +248,83 @@ private:
         }
     }
 
+    /// ` # ` before a word in a word is a symbol, but was perhaps meant as a comment; so are the marks of other
+    /// languages.
+    void warn_of_remark(const Span& whole) {
+        const std::size_t at =
+            find_late_remark(whole.view(), [this](std::string_view word) { return is_listed_symbol(word); });
+        if (at == std::string_view::npos) return;
+        const std::string_view mark = whole.view().substr(at, whole.view().compare(at, 2, "--") == 0 ? 2 : 1);
+        diagnostics_.warning(whole.part(at),
+                             fmt::format("'{}' does not begin a comment: the rest of this line is read as symbols; "
+                                         "comments stand in lines of their own, after '//'",
+                                         mark));
+    }
+
+    /// Quotation marks around a word are symbols of it.
+    void warn_of_quotes(const Span& word) {
+        const std::string_view text = word.view();
+        if (text.size() < 3 || (text.front() != '"' && text.front() != '\'') || text.back() != text.front()) return;
+        if (text.find(text.front(), 1) != text.size() - 1) return;
+        diagnostics_.warning(word, fmt::format("a word has no quotation marks: here {} is a symbol", text.front()));
+    }
+
+    /// Reports `p1 : F --> FF` and `A ---> B`, which would be productions of other predecessors.
+    bool is_misread(const Span& whole, const Span& left_side, std::size_t arrow) {
+        const std::string_view left = left_side.view();
+        const std::size_t colon = left.find(':');
+        if (colon != std::string_view::npos) {
+            const std::string_view name = trimmed(left.substr(0, colon));
+            const std::string_view rest = trimmed(left.substr(colon + 1));
+            if (is_label(name, rest) && !define_names_.contains(rest) && !is_listed_symbol(name)) {
+                const LineAdvice advice = advice_for_line(whole.view(), true);
+                diagnostics_.error(
+                    left_side.part(0, name.size()),
+                    fmt::format("'{}:' is not a predecessor: productions have no names; {}", name, advice.text()));
+                return true;
+            }
+        }
+        const bool is_long = left.size() > 2 && arrow > 0 && whole.view()[arrow - 1] == '-';
+        if (is_long && (left[left.size() - 2] == ' ' || left[left.size() - 2] == '\t')) {
+            diagnostics_.error(left_side.part(left.size() - 1),
+                               "'--->' is not the arrow of a production; expected '-->'");
+            return true;
+        }
+        return false;
+    }
+
+    /// True if the key `symbols:`, wherever it stands, lists the name.
+    bool is_listed_symbol(std::string_view name) {
+        if (!listed_symbols_) find_listed_symbols();
+        return listed_symbols_->contains(name);
+    }
+
+    void find_listed_symbols() {
+        listed_symbols_.emplace();
+        const std::string_view text = pattern_.source->cleaned();
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            std::string_view line = trimmed(text.substr(at, end - at));
+            at = end + 1;
+            const std::size_t colon = line.find(':');
+            if (colon > most_key_bytes || folded(line.substr(0, colon)) != "symbols") continue;
+            line.remove_prefix(colon + 1);
+            while (!line.empty()) {
+                const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
+                if (length > 0) listed_symbols_->emplace(line.substr(0, length));
+                line.remove_prefix(std::min(length + 1, line.size()));
+            }
+            return;
+        }
+    }
+
     void add_key(const Span& whole, const std::string& name, std::size_t colon) {
         const Key key{name, whole.part(0, colon).trimmed(), whole.part(colon + 1).trimmed()};
         if (!has_room(key.name_at, pattern_.keys.size(), most_keys, "keys")) return;
+        if (name == "axiom") {
+            warn_of_remark(whole);
+            warn_of_quotes(key.value);
+        }
         if (!key_names_.insert(name).second) {
             return diagnostics_.error(key.name_at, fmt::format("'{}:' is given twice", name));
         }
@@ -295,6 +446,9 @@ private:
         const Span left_side = whole.part(0, arrow).trimmed();
         const Span right_side = whole.part(arrow + 3).trimmed();
         const std::string_view left = left_side.view();
+        warn_of_remark(whole);
+        warn_of_quotes(right_side);
+        if (is_misread(whole, left_side, arrow)) return;
         ProductionText result;
         result.whole = whole;
         if (const std::size_t second = find_outside(right_side.view(), "-->"); second != std::string_view::npos) {
@@ -347,6 +501,10 @@ private:
     bool is_in_patch_ = false;
     std::size_t productions_ = 0;
     std::size_t settings_ = 0;
+    std::vector<Span> unknown_;  // lines of no known kind
+    bool has_advice_ = false;
+    std::string axiom_;  // as another notation states it
+    std::optional<std::set<std::string, std::less<>>> listed_symbols_;
     std::set<std::string, std::less<>> key_names_;
     std::set<std::string, std::less<>> define_names_;
     std::set<std::string, std::less<>> table_names_;
@@ -506,28 +664,13 @@ void check_scope(const Key& key, const KeyInfo& known, bool is_map, Diagnostics&
 
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
     const bool is_map = pattern.find("map") != nullptr;
-    std::vector<std::string_view> known = {"interpret", "table", "variant", "define", "patch"};
-    for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     for (const Key& key : pattern.keys) {
         if (const KeyInfo* known_key = find_language_key(key.name)) {
             check_scope(key, *known_key, is_map, diagnostics);
             continue;
         }
-        // Names of these keys in other programs and in everyday English.
-        static const std::map<std::string_view, std::string_view> others = {{"angle", "angle increment"},
-                                                                            {"n", "derivation length"},
-                                                                            {"steps", "derivation length"},
-                                                                            {"colour", "stroke"},
-                                                                            {"color", "stroke"},
-                                                                            {"line width", "stroke"},
-                                                                            {"width", "stroke"},
-                                                                            {"background", "ground"},
-                                                                            {"start", "axiom"},
-                                                                            {"bpm", "tempo"},
-                                                                            {"key", "tonic"}};
-        const auto other = others.find(key.name);
-        const std::string_view near = other != others.end() ? other->second : nearest(key.name, known);
-        diagnostics.error(key.name_at, fmt::format("unknown key '{}'{}", key.name_at.view(), did_you_mean(near)));
+        diagnostics.error(key.name_at,
+                          fmt::format("unknown key '{}'{}", key.name_at.view(), did_you_mean(nearest_key(key.name))));
     }
 }
 

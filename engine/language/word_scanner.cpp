@@ -1,5 +1,6 @@
 #include "engine/language/word_scanner.h"
 
+#include "engine/language/foreign_line.h"
 #include "engine/language/surface.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,13 @@ namespace {
 
 constexpr std::size_t longest_allowed_name = 64;
 constexpr std::size_t most_arguments = std::size_t{1} << 16;  // of any module
+
+/// Of two or three bytes of valid UTF-8.
+std::uint32_t code_point(std::string_view point) {
+    std::uint32_t code = static_cast<unsigned char>(point[0]) & (point.size() == 2 ? 0x1FU : 0x0FU);
+    for (const char byte : point.substr(1)) code = code << 6U | (static_cast<unsigned char>(byte) & 0x3FU);
+    return code;
+}
 
 std::size_t code_point_length(char lead) {
     const auto byte = static_cast<unsigned char>(lead);
@@ -102,7 +110,10 @@ std::string_view WordScanner::letter(bool blank_before) {
                                   : "'(' without a symbol before it");
     }
     if (byte == ')') return wrong("')' without '('");
-    if (byte == '<' || byte == '>') return wrong(fmt::format("'{}' is not a symbol", byte));
+    if (byte == '<' || byte == '>') {
+        return wrong(
+            fmt::format("'{}' is not a symbol; a step takes its length as a parameter: F(x) --> F(1.36*x)", byte));
+    }
     if (byte == ':') return wrong("':' is not a symbol");
     if (byte == '*') return wrong("'*' is the empty word and must stand alone");
     if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F) {
@@ -110,13 +121,10 @@ std::string_view WordScanner::letter(bool blank_before) {
     }
     const std::size_t length = code_point_length(byte);
     const std::string_view point = text_.substr(at_, length);
-    struct Lookalike {
-        std::string_view sign, ascii;
-    };
-    static constexpr std::array<Lookalike, 4> lookalikes = {
-        {{"\xE2\x88\x92", "-"}, {"\xE2\x88\xA7", "^"}, {"\xE2\x80\x99", "'"}, {"\xE2\x86\x92", "-->"}}};
-    for (const Lookalike& pair : lookalikes) {
-        if (point == pair.sign) return wrong(fmt::format("'{}' is not a symbol: write '{}'", pair.sign, pair.ascii));
+    if (const char* ascii = ascii_of(point)) {
+        if (*ascii == 0) return wrong(fmt::format("U+{:04X} is not a symbol: leave it out", code_point(point)));
+        if (*ascii == ' ') return wrong("this blank is not one of ASCII: write a plain blank");
+        return wrong(fmt::format("'{}' is not a symbol: write '{}'", point, ascii));
     }
     // C1 controls are control characters too.
     if (length == 2 && byte == '\xC2' && static_cast<unsigned char>(point[1]) < 0xA0) {

@@ -87,7 +87,7 @@ TEST(Words, LookalikesNameTheAsciiSign) {
     expect_mistakes("axiom: F\nF\xE2\x88\xA7 --> F\n", {{{2, 2}, "write '^'"}});
     expect_mistakes("axiom: F\n\xE2\x80\x99 < F --> F\n", {{{2, 1}, "write '''"}});
     expect_mistakes("axiom: F\nignore: +\xE2\x88\x92\n", {{{2, 10}, "write '-'"}});
-    expect_mistakes("axiom: F\nF \xE2\x86\x92 F+F\n", {{{2, 3}, "expected '-->'"}});
+    expect_mistakes("axiom: F\nF \xE2\x86\x92 F+F\n", {{{2, 3}, "write 'F --> F+F'"}});
 }
 
 TEST(Words, ConstantParametersAreRead) {

@@ -392,8 +392,9 @@ TEST(ImportCpfg, LossesAreTold) {
     EXPECT_TRUE(has(losses(head + "A(x) --> B(y)\nendlsystem\n"), "line 3: this production: 'y' is not defined"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B(t[x])\nendlsystem\n"), "'t' is an array"));
     EXPECT_TRUE(
-        has(losses(head + "A(x) : {x=1;} 1 {\nx=2;\n} --> B(x)\nendlsystem\n"), "the C statements of a production"));
-    EXPECT_TRUE(has(losses(head + "A(x) --> B\ndecomposition\nB --> (\nendlsystem\n"), "line 4: the decomposition"));
+        has(losses(head + "A(x) : {x=1;} 1 {\nx=f(2);\n} --> B\nendlsystem\n"), "the C statements of a production"));
+    EXPECT_TRUE(has(losses(head + "A(x) --> B\ndecomposition\nmaximum depth: 90000\nB --> BB\nendlsystem\n"),
+                    "line 4: a decomposition of that many rounds"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nhomomorphism\nmaximum depth: 3\nB --> BC\nendlsystem\n"),
                     "line 5: a homomorphism that is applied to its own successors"));
     EXPECT_TRUE(has(losses(head + "A(x) --> B\nendlsystem\nLsystem: 2\n"), "line 5: the sub-L-systems"));
@@ -455,7 +456,8 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("#define S(a,b) a\nLsystem: 1\nAxiom: S(F)\nendlsystem\n", {{{3, 8}, "'S' takes 2 arguments, not 1"}});
     expect("#define S(a F\nLsystem: 1\nAxiom: F\nendlsystem\n", {{{1, 13}, "expected names"}});
     expect("#define x 1\n" + head + "A(x) --> B\nendlsystem\n", {{{4, 4}, "the parameter 'x' is a define"}});
-    expect("#if x > 1\n#endif\n" + head + "endlsystem\n", {{{1, 6}, "more than one word"}, {{2, 1}, "has no #if"}});
+    // What follows a condition that is not understood is matched all the same.
+    expect("#if x > (\n#else\n#endif\n" + head + "endlsystem\n", {{{1, 4}, "this condition is not understood"}});
     expect("#ifdef x\n" + head + "endlsystem\n",
            {{{1, 1}, "has no #endif"}, {{1, 1}, "there is no line 'Lsystem:'"}});
     expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "unknown preprocessor directive"}});

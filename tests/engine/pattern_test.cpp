@@ -195,7 +195,7 @@ TEST(Pattern, UnknownKeysNameTheNearestKnown) {
 
 TEST(Pattern, LinesThatAreNothingAreToldSo) {
     expect_mistakes("axiom: F\nF - F+F\n", {{{2, 1}, "expected 'key: value'"}});
-    expect_mistakes("axiom: F\n  F \xE2\x86\x92 F+F\n", {{{2, 5}, "expected '-->'"}});
+    expect_mistakes("axiom: F\n  F \xE2\x86\x92 F+F\n", {{{2, 5}, "write 'F --> F+F'"}});
     expect_mistakes("axiom: F\nF --> G --> H\n", {{{2, 9}, "a second '-->'"}});
     expect_mistakes("axiom: F\n --> H\n", {{{2, 2}, "expected a predecessor"}});
     expect_mistakes("axiom: F\nA < --> H\n", {{{2, 1}, "expected a predecessor"}});
@@ -256,7 +256,7 @@ TEST(Pattern, WarningsAreNoErrors) {
 
 TEST(Pattern, BeyondAHundredMistakesOnlyTheirNumberIsTold) {
     Diagnostics diagnostics;
-    parse_pattern("a", repeated("x\n", 1000), diagnostics);
+    parse_pattern("a", repeated("F --> G --> H\n", 1000), diagnostics);
     EXPECT_LE(diagnostics.list().size(), 100u);
     try {
         diagnostics.throw_if_errors();

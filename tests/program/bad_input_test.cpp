@@ -183,9 +183,9 @@ TEST(BadInput, SymbolsBeyondAscii) {
     EXPECT_EQ(outcome.output, "FF😀F日本\n") << outcome.errors;
     expect_mistake("axiom: F−F", "-:1:9: '−' is not a symbol: write '-'");
     expect_mistake("axiom: åF→F", "-:1:10: ");
-    expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is not the arrow of a production; expected '-->'");
-    expect_mistake("axiom: F\nF -> FF", "-:2:3: '->' is not the arrow of a production; expected '-->'");
-    expect_mistake("axiom: F\nF => FF", "-:2:3: '=>' is not the arrow of a production; expected '-->'");
+    expect_mistake("axiom: F\nF → FF", "-:2:3: '→' is not the arrow of a production; write 'F --> FF'");
+    expect_mistake("axiom: F\nF -> FF", "-:2:3: '->' is not the arrow of a production; write 'F --> FF'");
+    expect_mistake("axiom: F\nF => FF", "-:2:3: '=>' is not the arrow of a production; write 'F --> FF'");
     expect_mistake("axiom: A(1)\nA(x) : x => 4 --> F", "'=>' is not an operator; did you mean '>='?");
     expect_mistake("axiom: A(1)\nA(x) : x =< 4 --> F", "'=<' is not an operator; did you mean '<='?");
     expect_mistake("axiom: F\nstroke: 0.3 stp white",

@@ -1,0 +1,553 @@
+#include "engine/language/foreign_line.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/keys.h"
+#include "engine/base/text.h"
+#include "engine/language/angle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr std::size_t most_advised = 4096;  // bytes of a line; longer ones are not looked at
+constexpr int most_levels = 8;              // of brackets and lists within lists
+constexpr std::size_t nothing = std::string_view::npos;
+
+struct OtherName {
+    std::string_view name;
+    std::string_view key;
+};
+/// Names of keys in other programs, in the literature and in everyday English.
+constexpr std::array other_names = {
+    OtherName{"angle", "angle increment"},
+    OtherName{"angles", "angle increment"},
+    OtherName{"turn angle", "angle increment"},
+    OtherName{"turning angle", "angle increment"},
+    OtherName{"rotation angle", "angle increment"},
+    OtherName{"default angle", "angle increment"},
+    OtherName{"delta", "angle increment"},
+    OtherName{"theta", "angle increment"},
+    OtherName{"degrees", "angle increment"},
+    OtherName{"\xCE\xB4", "angle increment"},  // δ
+    OtherName{"\xCE\xB8", "angle increment"},  // θ
+    OtherName{"n", "derivation length"},
+    OtherName{"steps", "derivation length"},
+    OtherName{"iteration", "derivation length"},
+    OtherName{"iterations", "derivation length"},
+    OtherName{"iters", "derivation length"},
+    OtherName{"iter", "derivation length"},
+    OtherName{"order", "derivation length"},
+    OtherName{"generation", "derivation length"},
+    OtherName{"generations", "derivation length"},
+    OtherName{"recursion", "derivation length"},
+    OtherName{"recursions", "derivation length"},
+    OtherName{"recursion depth", "derivation length"},
+    OtherName{"depth", "derivation length"},
+    OtherName{"level", "derivation length"},
+    OtherName{"levels", "derivation length"},
+    OtherName{"start", "axiom"},
+    OtherName{"start word", "axiom"},
+    OtherName{"starting word", "axiom"},
+    OtherName{"start string", "axiom"},
+    OtherName{"initial", "axiom"},
+    OtherName{"initial word", "axiom"},
+    OtherName{"initial string", "axiom"},
+    OtherName{"initiator", "axiom"},
+    OtherName{"premise", "axiom"},
+    OtherName{"omega", "axiom"},
+    OtherName{"\xCF\x89", "axiom"},  // ω
+    OtherName{"\xCE\xA9", "axiom"},  // Ω
+    OtherName{"start angle", "heading"},
+    OtherName{"initial angle", "heading"},
+    OtherName{"starting angle", "heading"},
+    OtherName{"colour", "stroke"},
+    OtherName{"color", "stroke"},
+    OtherName{"line width", "stroke"},
+    OtherName{"width", "stroke"},
+    OtherName{"background", "ground"},
+    OtherName{"bpm", "tempo"},
+    OtherName{"key", "tonic"},
+    OtherName{"name", "title"},
+    OtherName{"author", "source"},
+    OtherName{"comment", "description"},
+};
+/// Lists that patterns do without, and headings.
+constexpr std::array<std::string_view, 18> needless_names = {
+    "variables", "variable",    "vars",      "constants",   "constant", "consts",
+    "alphabet",  "config",      "terminals", "lsystem",     "l-system", "step size",
+    "stepsize",  "step length", "step",      "line length", "distance", "length"};
+constexpr std::array<std::string_view, 4> length_factors = {"length factor", "length scale", "line length scale",
+                                                            "step factor"};
+/// Names of predecessors, where a program writes `{a: "F", b: "FF"}`.
+constexpr std::array<std::string_view, 9> predecessor_names = {"a",      "from", "symbol", "predecessor", "char",
+                                                               "letter", "in",   "key",    "input"};
+constexpr std::array<std::string_view, 8> rule_names = {
+    "rules", "rule", "productions", "production", "production rules", "p", "rewrite", "rewriting rules"};
+
+struct OtherSign {
+    std::string_view sign;
+    const char* ascii;
+};
+constexpr std::array other_signs = {
+    OtherSign{"\u2212", "-"},   OtherSign{"\u2010", "-"},   OtherSign{"\u2011", "-"},   OtherSign{"\u2012", "-"},
+    OtherSign{"\u2013", "-"},   OtherSign{"\u2014", "-"},   OtherSign{"\uFE63", "-"},   OtherSign{"\uFF0D", "-"},
+    OtherSign{"\uFF0B", "+"},   OtherSign{"\uFE62", "+"},   OtherSign{"\u2227", "^"},   OtherSign{"\u02C6", "^"},
+    OtherSign{"\u2018", "'"},   OtherSign{"\u2019", "'"},   OtherSign{"\u2032", "'"},   OtherSign{"\u2223", "|"},
+    OtherSign{"\uFF5C", "|"},   OtherSign{"\u2215", "/"},   OtherSign{"\u2044", "/"},   OtherSign{"\u2216", "\\"},
+    OtherSign{"\u2192", "-->"}, OtherSign{"\u27F6", "-->"}, OtherSign{"\u21D2", "-->"}, OtherSign{"\u27F9", "-->"},
+    OtherSign{"\u21A6", "-->"}, OtherSign{"\uFF3B", "["},   OtherSign{"\uFF3D", "]"},   OtherSign{"\u00A0", " "},
+    OtherSign{"\u2002", " "},   OtherSign{"\u2003", " "},   OtherSign{"\u2004", " "},   OtherSign{"\u2005", " "},
+    OtherSign{"\u2006", " "},   OtherSign{"\u2007", " "},   OtherSign{"\u2008", " "},   OtherSign{"\u2009", " "},
+    OtherSign{"\u200A", " "},   OtherSign{"\u202F", " "},   OtherSign{"\u205F", " "},   OtherSign{"\u3000", " "},
+    OtherSign{"\u200B", ""},    OtherSign{"\u200C", ""},    OtherSign{"\u2060", ""},    OtherSign{"\uFEFF", ""},
+    OtherSign{"\u00AD", ""},    OtherSign{"\u201C", ""},    OtherSign{"\u201D", ""},    OtherSign{"\u201E", ""},
+};
+
+/// Longer ones first, where one begins like another.
+constexpr std::array<std::string_view, 19> arrows = {
+    "--&gt;", "-&gt;",  "=&gt;",   "&rarr;",  "|->",     "\u2192", "\u27F6", "\u21D2", "\u27F9", "\u21A6",
+    "\u2794", "\u279C", "\u2013>", "\u2014>", "\u2212>", "->",     "=>",     "::=",    ":="};
+
+bool is_blank(char byte) {
+    return byte == ' ' || byte == '\t';
+}
+bool is_letter(char byte) {
+    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+}
+bool is_digit(char byte) {
+    return byte >= '0' && byte <= '9';
+}
+
+std::string folded(std::string_view name) {
+    std::string result;
+    for (const char byte : trimmed(name)) {
+        const char plain = byte == '_' || byte == '\t' ? ' ' : byte;
+        if (plain == ' ' && result.ends_with(' ')) continue;
+        result += plain >= 'A' && plain <= 'Z' ? static_cast<char>(plain - 'A' + 'a') : plain;
+    }
+    return result;
+}
+
+/// A text with the signs of ASCII.
+std::string plain(std::string_view text) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = std::max<std::size_t>(utf8_length(text.substr(at)), 1);
+        const std::string_view point = text.substr(at, length);
+        const char* ascii = ascii_of(point);
+        result += ascii ? std::string_view(ascii) : point;
+        at += length;
+    }
+    return result;
+}
+
+/// The depth of brackets and quotes, byte by byte.
+class Nesting {
+public:
+    /// True if the byte stands outside of all brackets and quotes. A quotation mark needs its twin to count.
+    bool is_outside(std::string_view text, std::size_t at) {
+        const char byte = text[at];
+        if (quote_ != 0) {
+            if (byte == quote_) quote_ = 0;
+            return false;
+        }
+        if (byte == '"' && text.find('"', at + 1) != nothing) {
+            quote_ = byte;
+            return false;
+        }
+        if (byte == '(' || byte == '{' || byte == '[') {
+            ++depth_;
+            return false;
+        }
+        if ((byte == ')' || byte == '}' || byte == ']') && depth_ > 0) {
+            --depth_;
+            return false;
+        }
+        return depth_ == 0;
+    }
+
+private:
+    char quote_ = 0;
+    int depth_ = 0;
+};
+
+std::size_t find_top(std::string_view text, std::string_view bytes) {
+    Nesting nesting;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (nesting.is_outside(text, at) && bytes.find(text[at]) != nothing) return at;
+    }
+    return nothing;
+}
+
+std::vector<std::string_view> split_top(std::string_view text, std::string_view separators) {
+    std::vector<std::string_view> parts;
+    Nesting nesting;
+    std::size_t begin = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (!nesting.is_outside(text, at) || separators.find(text[at]) == nothing) continue;
+        parts.push_back(trimmed(text.substr(begin, at - begin)));
+        begin = at + 1;
+    }
+    parts.push_back(trimmed(text.substr(begin)));
+    return parts;
+}
+
+/// The text between a pair of brackets or quotes around all of it; nullopt if there is none.
+std::optional<std::string_view> enclosed(std::string_view text) {
+    if (text.size() < 2) return std::nullopt;
+    const std::string_view inner = text.substr(1, text.size() - 2);
+    const char first = text.front();
+    if (first == '"' || first == '\'' || first == '`') {
+        if (text.back() != first || inner.find(first) != nothing) return std::nullopt;
+        return trimmed(inner);
+    }
+    const std::string_view pairs = "(){}[]";
+    const std::size_t pair = pairs.find(first);
+    if (pair == nothing || pair % 2 == 1 || text.back() != pairs[pair + 1]) return std::nullopt;
+    int depth = 1;
+    for (const char byte : inner) {
+        if (byte == '(' || byte == '{' || byte == '[') ++depth;
+        if (byte == ')' || byte == '}' || byte == ']') --depth;
+        if (depth == 0) return std::nullopt;  // closed before the end
+    }
+    return trimmed(inner);
+}
+
+std::string_view without_quotes(std::string_view text) {
+    if (!text.empty() && std::string_view("\"'`").find(text.front()) != nothing) {
+        if (const auto inner = enclosed(text)) return *inner;
+    }
+    return text;
+}
+
+/// Without what programs put around a line: list marks, declarations, separators at the end.
+std::string_view bare(std::string_view line) {
+    line = trimmed(line);
+    while (line.ends_with(',') || line.ends_with(';') || is_blank(line.empty() ? 'x' : line.back())) {
+        line.remove_suffix(1);
+    }
+    for (const std::string_view word :
+         {"- ", "* ", "let ", "var ", "const ", "String ", "string ", "this.", "self."}) {
+        if (line.starts_with(word)) line = trimmed(line.substr(word.size()));
+    }
+    return line;
+}
+
+/// With the signs that HTML writes as `&gt;`.
+std::string without_entities(std::string_view line) {
+    constexpr std::array<std::pair<std::string_view, char>, 4> entities = {
+        {{"&gt;", '>'}, {"&lt;", '<'}, {"&minus;", '-'}, {"&amp;", '&'}}};
+    std::string text(line);
+    for (const auto& [entity, sign] : entities) {
+        for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at)) {
+            text.replace(at, entity.size(), 1, sign);
+            ++at;
+        }
+    }
+    return text;
+}
+
+/// One code point, with parameters perhaps, and contexts.
+bool is_predecessor(std::string_view text) {
+    text = trimmed(text);
+    if (text.empty() || text.size() > 200) return false;
+    for (std::size_t at = 0; at < text.size();) {
+        if (is_blank(text[at]) || text[at] == '<' || text[at] == '>') return text.find_first_of("<>") != nothing;
+        at += std::max<std::size_t>(utf8_length(text.substr(at)), 1);
+        if (at < text.size() && text[at] == '(') at = std::min(text.find(')', at), text.size() - 1) + 1;
+        if (at >= text.size()) return true;
+        return text.find_first_of("<>", at) != nothing;
+    }
+    return false;
+}
+
+/// A word without quotes, in ASCII; `*` if it is empty.
+std::string word(std::string_view text) {
+    const std::string result(trimmed(without_quotes(trimmed(plain(text)))));
+    return result.empty() ? "*" : result;
+}
+
+/// A value of a key: degrees without their sign.
+std::string value_for(std::string_view key, std::string_view text) {
+    std::string value = word(text);
+    if (key != "angle increment" && key != "heading") return value;
+    for (const std::string_view unit : {"\u00B0", "\u00BA", "degrees", "degree", "deg"}) {
+        if (value.size() > unit.size() && value.ends_with(unit)) value.resize(value.size() - unit.size());
+    }
+    for (const std::string_view call : {"radians(", "math.radians(", "degrees("}) {
+        if (value.starts_with(call) && value.ends_with(')')) {
+            value = value.substr(call.size(), value.size() - call.size() - 1);
+        }
+    }
+    return std::string(trimmed(value));
+}
+
+bool is_number(std::string_view text) {
+    double value = 0;
+    return read_number(trimmed(text), value);
+}
+
+template <class List>
+bool contains(const List& list, std::string_view name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+class Adviser {
+public:
+    explicit Adviser(bool has_axiom) : has_axiom_(has_axiom) {}
+
+    LineAdvice read(std::string_view line) {
+        if (line.size() <= most_advised && !line_is_read(text_ = without_entities(line), 0)) advice_ = {};
+        return std::move(advice_);
+    }
+
+private:
+    bool line_is_read(std::string_view line, int level) {
+        line = bare(line);
+        if (line.empty() || level > most_levels) return false;
+        if (const auto inner = enclosed(line); inner && line.front() != '"') return list_is_read(*inner, level + 1);
+        if (const std::size_t sign = find_top(line, "=:,;");
+            sign != nothing && (line[sign] == '=' || line[sign] == ':')) {
+            if (is_needless(folded(without_quotes(trimmed(line.substr(0, sign)))))) return true;
+        }
+        if (const auto parts = split_top(line, ",;"); parts.size() > 1) return list_is_read(line, level + 1);
+        if (const std::size_t arrow = line.find("-->"); arrow != nothing && foreign_arrow(line).empty()) {
+            return production_is_read(line.substr(0, arrow), line.substr(arrow + 3));
+        }
+        if (const std::string_view arrow = foreign_arrow(line); !arrow.empty()) {
+            const auto at = static_cast<std::size_t>(arrow.data() - line.data());
+            return production_is_read(line.substr(0, at), line.substr(at + arrow.size()));
+        }
+        if (const std::size_t sign = find_top(line, "=:"); sign != nothing) {
+            return setting_is_read(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)), level);
+        }
+        return call_is_read(line);
+    }
+
+    bool list_is_read(std::string_view list, int level) {
+        const auto parts = split_top(list, ",;");
+        // ("F", "F+F") and rule('F', 'F+F')
+        if (parts.size() == 2 && parts[0] != without_quotes(parts[0]) && parts[1] != without_quotes(parts[1])) {
+            return is_predecessor(without_quotes(parts[0])) && production_is_read(parts[0], parts[1]);
+        }
+        if (parts.size() == 2 && named_pair_is_read(parts[0], parts[1])) return true;
+        std::size_t read = 0;
+        for (const std::string_view part : parts) {
+            if (part.empty()) continue;
+            if (!line_is_read(part, level)) return false;
+            ++read;
+        }
+        return read > 0;
+    }
+
+    /// {a: "F", b: "FF"}
+    bool named_pair_is_read(std::string_view first, std::string_view second) {
+        const std::size_t first_colon = find_top(first, ":=");
+        const std::size_t second_colon = find_top(second, ":=");
+        if (first_colon == nothing || second_colon == nothing) return false;
+        const std::string_view symbol = trimmed(first.substr(first_colon + 1));
+        if (!contains(predecessor_names, folded(without_quotes(trimmed(first.substr(0, first_colon)))))) return false;
+        if (symbol == without_quotes(symbol) || !is_predecessor(without_quotes(symbol))) return false;
+        return production_is_read(symbol, second.substr(second_colon + 1));
+    }
+
+    bool production_is_read(std::string_view left, std::string_view right) {
+        left = trimmed(left);
+        right = trimmed(right);
+        if (const std::size_t colon = left.find(':'); colon != nothing) {
+            if (is_label(trimmed(left.substr(0, colon)), trimmed(left.substr(colon + 1)))) {
+                left = trimmed(left.substr(colon + 1));
+            } else if (contains(rule_names, folded(left.substr(0, colon)))) {
+                left = trimmed(left.substr(colon + 1));
+            }
+        }
+        left = without_quotes(left);
+        // A label before '=', as in `rule1 = F -> FF`.
+        if (const std::size_t equals = find_top(left, "="); equals != nothing)
+            left = trimmed(left.substr(equals + 1));
+        while (left.starts_with('(')) left = trimmed(left.substr(1));
+        if (right.ends_with(')') &&
+            std::count(right.begin(), right.end(), ')') > std::count(right.begin(), right.end(), '(')) {
+            right.remove_suffix(1);
+        }
+        if (left.empty()) return false;
+        const std::string name = folded(left);
+        if (name == "axiom" || key_of_other_name(name) == "axiom") {
+            if (!(left.size() == 1)) return axiom_is_read(right);
+        }
+        advice_.lines.push_back(fmt::format("{} --> {}", trimmed(plain(left)), word(right)));
+        return true;
+    }
+
+    bool axiom_is_read(std::string_view value) {
+        if (trimmed(value).empty()) return false;
+        advice_.axiom = word(value);
+        advice_.lines.push_back("axiom: " + advice_.axiom);
+        return true;
+    }
+
+    bool is_needless(const std::string& name) {
+        if (contains(length_factors, name)) {
+            advice_.reason = "a step takes its length as a parameter: F(x) --> F(1.36*x)";
+        } else if (!contains(needless_names, name)) {
+            return false;
+        }
+        return advice_.is_needless = true;
+    }
+
+    bool setting_is_read(std::string_view left, std::string_view right, int level) {
+        const std::string name = folded(without_quotes(left));
+        if (name.empty()) return false;
+        if (is_needless(name)) return true;
+        // rules[0], rules["F"], rule1, p_1
+        const std::size_t bracket = name.find('[');
+        const std::string_view stem = std::string_view(name).substr(0, std::min(bracket, name.size()));
+        if (bracket != nothing && name.ends_with(']') && contains(rule_names, stem)) {
+            const std::string_view key = trimmed(left).substr(bracket + 1, left.size() - bracket - 2);
+            if (key != without_quotes(key)) return production_is_read(key, right);
+            return line_is_read(right, level + 1);
+        }
+        if (contains(rule_names, name) && name != "p") {
+            if (right.empty() || right == "{" || right == "[" || right == "[]" || right == "{}") {
+                return advice_.is_needless = true;
+            }
+            return line_is_read(right, level + 1);
+        }
+        if (name == "axiom") return axiom_is_read(right);
+        const std::string_view other = key_of_other_name(name);
+        const bool is_symbol = is_predecessor(without_quotes(left));
+        if (other == "axiom") return axiom_is_read(right);
+        if (name == "w" && !has_axiom_ && !is_number(right)) return axiom_is_read(right);
+        if (is_symbol && !is_number(value_for("angle increment", right))) return production_is_read(left, right);
+        const KeyInfo* known = find_language_key(name);
+        const std::string_view key = known ? std::string_view(name) : other;
+        if (!key.empty()) {
+            const std::string value = value_for(key, right);
+            if (right.empty() || ((key == "angle increment" || key == "heading") && !read_angle(value))) return false;
+            if (key == "derivation length" && !std::all_of(value.begin(), value.end(), is_digit)) return false;
+            advice_.lines.push_back(fmt::format("{}: {}", key, value));
+            return true;
+        }
+        if (is_label(left, right)) return line_is_read(right, level + 1);
+        return false;
+    }
+
+    /// setAxiom("F"), setProduction('F', 'F+F')
+    bool call_is_read(std::string_view line) {
+        const std::size_t open = line.find('(');
+        if (open == nothing || !line.ends_with(')') || open == 0) return false;
+        const std::string name = lower_case(line.substr(0, open));
+        const std::string_view inner = line.substr(open + 1, line.size() - open - 2);
+        if (name.find("axiom") != nothing) return axiom_is_read(inner);
+        if (name.find("rule") == nothing && name.find("production") == nothing) return false;
+        const auto parts = split_top(inner, ",");
+        if (parts.size() != 2 || !is_predecessor(without_quotes(parts[0]))) return false;
+        return production_is_read(parts[0], parts[1]);
+    }
+
+    bool has_axiom_;
+    std::string text_;
+    LineAdvice advice_;
+};
+
+}  // namespace
+
+std::string LineAdvice::text() const {
+    if (lines.empty()) return fmt::format("leave this line out{}{}", reason.empty() ? "" : "; ", reason);
+    if (lines.size() == 1) return fmt::format("write '{}'", printable(lines.front(), 120));
+    std::string list;
+    constexpr std::size_t most_shown = 8;
+    for (std::size_t i = 0; i < std::min(lines.size(), most_shown); ++i) {
+        list += fmt::format("{}'{}'", i > 0 ? ", " : "", printable(lines[i], 80));
+    }
+    if (lines.size() > most_shown) list += " …";
+    return "write each in its own line: " + list;
+}
+
+LineAdvice advice_for_line(std::string_view line, bool has_axiom) {
+    return Adviser(has_axiom).read(line);
+}
+
+std::string_view foreign_arrow(std::string_view line) {
+    int depth = 0;
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        if (line[at] == '(') ++depth;
+        if (line[at] == ')' && depth > 0) --depth;
+        if (depth > 0) continue;
+        if (line.compare(at, 3, "-->") == 0) return {};
+        for (const std::string_view arrow : arrows) {
+            if (line.compare(at, arrow.size(), arrow) == 0) return line.substr(at, arrow.size());
+        }
+    }
+    return {};
+}
+
+std::string_view key_of_other_name(std::string_view name) {
+    for (const OtherName& other : other_names) {
+        if (other.name == name) return other.key;
+    }
+    return {};
+}
+
+std::string_view nearest_key(std::string_view name) {
+    if (const std::string_view key = key_of_other_name(name); !key.empty()) return key;
+    std::vector<std::string_view> known = {"interpret", "table", "variant", "define", "patch"};
+    for (const KeyInfo& key : language_keys()) known.push_back(key.name);
+    if (const std::string_view near = nearest(name, known); !near.empty()) return near;
+    std::vector<std::string_view> others;
+    for (const OtherName& other : other_names) {
+        if (other.name.size() > 3) others.push_back(other.name);
+    }
+    return key_of_other_name(nearest(name, others));
+}
+
+const char* ascii_of(std::string_view point) {
+    for (const OtherSign& other : other_signs) {
+        if (other.sign == point) return other.ascii;
+    }
+    return nullptr;
+}
+
+bool is_label(std::string_view name, std::string_view after_colon) {
+    std::size_t letters = 0;
+    while (letters < name.size() && (is_letter(name[letters]) || name[letters] == '_')) ++letters;
+    if (letters == 0 || letters == name.size()) return false;
+    const std::string_view number = trimmed(name.substr(letters));
+    if (number.empty() || !std::all_of(number.begin(), number.end(), is_digit)) return false;
+    // What follows is a predecessor: a condition of its own, or single symbols with contexts.
+    after_colon = trimmed(after_colon);
+    if (find_top(after_colon, ":") != nothing) return true;
+    const bool has_number = std::any_of(after_colon.begin(), after_colon.end(), is_digit);
+    return !after_colon.empty() && !has_number && is_predecessor(after_colon);
+}
+
+std::size_t find_late_remark(std::string_view line, const std::function<bool(std::string_view)>& is_name) {
+    for (std::size_t at = 1; at + 2 < line.size(); ++at) {
+        if (!is_blank(line[at - 1])) continue;
+        const std::size_t length = line.compare(at, 2, "--") == 0 ? 2 : 1;
+        if (length == 1 && std::string_view("#;%").find(line[at]) == nothing) continue;
+        std::size_t next = at + length;
+        if (next >= line.size() || !is_blank(line[next])) continue;
+        // Symbols between blanks may follow, too; a word has a small letter that is not a move.
+        for (std::size_t i = next; i < line.size();) {
+            std::size_t end = i;
+            bool is_word = false;
+            while (end < line.size() && (is_letter(line[end]) || static_cast<unsigned char>(line[end]) >= 0x80)) {
+                if (line[end] >= 'a' && line[end] <= 'z' && line[end] != 'f') is_word = true;
+                ++end;
+            }
+            const bool has_parameter = end < line.size() && line[end] == '(';
+            if (is_word && end - i > 1 && !has_parameter && !is_name(line.substr(i, end - i))) return at;
+            i = std::max(end, i + 1);
+        }
+    }
+    return nothing;
+}
+
+}  // namespace sikku

@@ -1,0 +1,49 @@
+// engine/language/foreign_line.h: reads lines in the notations of other programs and of the literature, for messages.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// What a line would be in a pattern.
+struct LineAdvice {
+    std::vector<std::string> lines;  ///< as a pattern states it: `axiom: F`, `X --> F+X`
+    std::string axiom;               ///< the word, if one of the lines states the axiom
+    bool is_needless = false;        ///< it lists variables or constants, or is a heading
+    std::string_view reason{};       ///< what a pattern does instead of a line that is not needed; may be empty
+    bool is_understood() const { return is_needless || !lines.empty(); }
+    /// `write 'X --> F+X'`; `leave this line out` if it is not needed.
+    std::string text() const;
+};
+
+/// Reads a line in another notation: other arrows, `X=F+X`, `X: "F+X"`, `ω : F`, `p1 : F → FF`, `n=5, δ=25.7°`,
+/// `rules: (X → F+X), (F → FF)`, `rules = {"X": "F+X"}`. Typographic signs become those of ASCII.
+/// @param has_axiom  false if `w : F` may state the axiom, as Prusinkiewicz & Lindenmayer's `ω : F` does
+LineAdvice advice_for_line(std::string_view line, bool has_axiom);
+
+/// The first arrow of a production outside of parentheses in another notation than `-->`, such as `→`, `->`, `=>` or
+/// `--&gt;`; a view into `line`, empty if there is none.
+std::string_view foreign_arrow(std::string_view line);
+
+/// The key that is meant by a name of other programs, the literature or everyday English, such as `iterations`, `δ`
+/// or `colour`; empty if there is none. @param name  folded
+std::string_view key_of_other_name(std::string_view name);
+
+/// The nearest key, or that of the nearest other name; empty if none is near. @param name  folded
+std::string_view nearest_key(std::string_view name);
+
+/// The ASCII sign that a typographic character stands for, such as `-` for U+2212; `" "` for the blanks of Unicode;
+/// empty for invisible characters. Null if the character may be a symbol. @param point  one code point
+const char* ascii_of(std::string_view point);
+
+/// True for a name of a production, as in `p1 : F --> FF`, where a predecessor with its condition is expected.
+bool is_label(std::string_view name, std::string_view after_colon);
+
+/// The byte offset of a mark of comments in other languages (`#`, `;`, `%`, `--`) that stands between blanks and
+/// before a word of several letters; npos if there is none. @param is_name  true for words that are symbols
+std::size_t find_late_remark(std::string_view line, const std::function<bool(std::string_view)>& is_name);
+
+}  // namespace sikku

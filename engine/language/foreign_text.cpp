@@ -1,0 +1,135 @@
+#include "engine/language/foreign_text.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/keys.h"
+#include "engine/base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+bool is_letter(char byte) {
+    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+}
+
+/// Calls `work` with each line, without blanks at both ends, until it returns true.
+template <class Work>
+bool any_line(std::string_view text, Work work) {
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        while (line.ends_with('\r')) line.remove_suffix(1);
+        if (work(trimmed(line))) return true;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return false;
+}
+
+/// True if the line begins with the word (in lower case) and a blank, or ends there.
+bool begins_with_word(std::string_view line, std::string_view word) {
+    if (lower_case(line.substr(0, word.size())) != word) return false;
+    return line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t';
+}
+
+/// Sees the lines of a C-like text without its comments of several lines.
+class CommentSkipper {
+public:
+    /// True if the line begins outside of a comment.
+    bool next(std::string_view line) {
+        const bool outside = !in_comment_;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            if (!in_comment_ && line.substr(i, 2) == "/*") in_comment_ = true;
+            if (in_comment_ && line.substr(i, 2) == "*/") in_comment_ = false;
+        }
+        return outside;
+    }
+
+private:
+    bool in_comment_ = false;
+};
+
+bool is_entry_line(std::string_view line) {
+    if (line.empty() || line.front() == ';' || line.front() == '#') return false;
+    const std::size_t brace = line.find('{');
+    return brace != std::string_view::npos && brace < line.find(';');
+}
+
+/// `module A(float);`
+bool is_module_line(std::string_view line) {
+    if (!begins_with_word(line, "module")) return false;
+    std::string_view rest = trimmed(line.substr(std::min<std::size_t>(6, line.size())));
+    const auto is_name = [](char byte) { return is_letter(byte) || byte == '_' || (byte >= '0' && byte <= '9'); };
+    const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
+    if (end == rest.begin()) return false;
+    rest = trimmed(rest.substr(static_cast<std::size_t>(end - rest.begin())));
+    return rest.starts_with('(');
+}
+
+}  // namespace
+
+bool has_fractint_entry(std::string_view text) {
+    CommentSkipper comments;
+    return any_line(text, [&](std::string_view line) { return comments.next(line) && is_entry_line(line); });
+}
+
+ForeignKind foreign_kind(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    CommentSkipper comments;
+    bool in_entry = false;
+    bool has_axiom = false;  // as patterns state it
+    bool has_module = false;
+    bool has_produce = false;
+    bool has_python = false;
+    ForeignKind kind = ForeignKind::none;
+    any_line(text, [&](std::string_view line) {
+        if (!comments.next(line)) return false;
+        if (lower_case(line.substr(0, 8)) == "lsystem:") {
+            kind = ForeignKind::cpfg;
+            return true;
+        }
+        if (line.find("lpfgall.h") != std::string_view::npos || is_module_line(line)) has_module = true;
+        if (line.find("produce ") != std::string_view::npos || line.ends_with("produce")) has_produce = true;
+        if (begins_with_word(line, "production:") || begins_with_word(line, "homomorphism:") ||
+            (begins_with_word(line, "def") && line.ends_with(':'))) {
+            has_python = true;
+        }
+        if (lower_case(line.substr(0, 6)) == "axiom:" && !line.ends_with(';')) has_axiom = true;
+        if (in_entry && begins_with_word(line, "axiom")) kind = ForeignKind::fractint;
+        if (is_entry_line(line)) in_entry = true;
+        if (line.substr(0, line.find(';')).find('}') != std::string_view::npos) in_entry = false;
+        return kind == ForeignKind::fractint;
+    });
+    if (kind == ForeignKind::cpfg || kind == ForeignKind::fractint) return kind;
+    if (has_produce && has_python) return ForeignKind::lpy;
+    if (has_module) return ForeignKind::lpfg;
+    if (has_axiom) return ForeignKind::none;
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return ForeignKind::none;
+    const std::string begin = lower_case(text.substr(first, 5));
+    if (begin == "<html" || begin == "<!doc" || begin == "<?xml" || begin.starts_with("<svg"))
+        return ForeignKind::html;
+    return ForeignKind::none;
+}
+
+std::string_view foreign_kind_name(ForeignKind kind) {
+    switch (kind) {
+        case ForeignKind::fractint:
+            return "a Fractint collection of L-systems";
+        case ForeignKind::cpfg:
+            return "an L-system of cpfg";
+        case ForeignKind::lpfg:
+            return "an L+C file of lpfg, which is C++";
+        case ForeignKind::lpy:
+            return "an L-Py file, which is Python";
+        case ForeignKind::html:
+            return "HTML or XML";
+        case ForeignKind::none:
+            break;
+    }
+    return "a pattern";
+}
+
+}  // namespace sikku
