@@ -9,6 +9,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/origins.h"
 #include "engine/import/import.h"
+#include "engine/language/foreign_text.h"
 #include "engine/measure/extent.h"
 #include "music/scale/scale.h"
 #include "music/score/midi_texts.h"
@@ -415,7 +416,15 @@ Json answer_import(const Json& request, const std::string& file) {
     const std::string view_text = text_of(request, "view", "");
     const SourcePointer view = view_text.empty() ? nullptr : std::make_shared<const Source>("view", view_text);
     const auto format = import_format(file);
-    if (!format) throw std::runtime_error(source->name() + ": neither a cpfg file nor a Fractint collection");
+    if (!format) {
+        const ForeignKind kind = foreign_kind(file);
+        const bool is_named = kind == ForeignKind::lpfg || kind == ForeignKind::lpy;
+        throw std::runtime_error(fmt::format(
+            "{}: {}", source->name(),
+            is_named
+                ? fmt::format("this is {}; only files of cpfg and Fractint can be imported", foreign_kind_name(kind))
+                : "neither a cpfg file nor a Fractint collection"));
+    }
     Diagnostics diagnostics;
     const auto systems =
         *format == ImportFormat::cpfg ? import_cpfg(source, view, diagnostics) : import_fractint(source, diagnostics);
@@ -424,6 +433,7 @@ Json answer_import(const Json& request, const std::string& file) {
         list.push_back({{"name", import_file_name(system.name)},
                         {"line", system.line},
                         {"text", system.pattern},
+                        {"draws", system.draws},
                         {"losses", system.losses}});
     }
     return {{"systems", std::move(list)}, {"diagnostics", json_of(diagnostics.sorted())}};

@@ -27,6 +27,7 @@ struct OtherName {
 constexpr std::array other_names = {
     OtherName{"angle", "angle increment"},
     OtherName{"angles", "angle increment"},
+    OtherName{"ang", "angle increment"},
     OtherName{"turn angle", "angle increment"},
     OtherName{"turning angle", "angle increment"},
     OtherName{"rotation angle", "angle increment"},
@@ -303,7 +304,11 @@ public:
     explicit Adviser(bool has_axiom) : has_axiom_(has_axiom) {}
 
     LineAdvice read(std::string_view line) {
-        if (line.size() <= most_advised && !line_is_read(text_ = without_entities(line), 0)) advice_ = {};
+        if (line.size() > most_advised) return {};
+        text_ = without_entities(line);
+        if (line_is_read(text_, 0)) return std::move(advice_);
+        advice_ = {};
+        if (!quoted_pairs_are_read(text_)) advice_ = {};
         return std::move(advice_);
     }
 
@@ -324,10 +329,32 @@ private:
             const auto at = static_cast<std::size_t>(arrow.data() - line.data());
             return production_is_read(line.substr(0, at), line.substr(at + arrow.size()));
         }
+        // rule0=G>GG
+        const std::size_t symbol = std::max<std::size_t>(utf8_length(line), 1);
+        if (level > 0 && line.size() > symbol + 1 && line[symbol] == '>' &&
+            line.find_first_of("<>", symbol + 1) == nothing) {
+            return production_is_read(line.substr(0, symbol), line.substr(symbol + 1));
+        }
         if (const std::size_t sign = find_top(line, "=:"); sign != nothing) {
             return setting_is_read(trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 1)), level);
         }
         return call_is_read(line);
+    }
+
+    /// rules.Add('F', "FF"), new Rule("F", "FF"), [["F", "FF"]]
+    bool quoted_pairs_are_read(std::string_view line) {
+        std::vector<std::string_view> quoted;
+        for (std::size_t at = line.find_first_of("\"'"); at != nothing; at = line.find_first_of("\"'", at)) {
+            const std::size_t end = line.find(line[at], at + 1);
+            if (end == nothing) return false;
+            quoted.push_back(line.substr(at + 1, end - at - 1));
+            at = end + 1;
+        }
+        if (quoted.empty() || quoted.size() % 2 == 1) return false;
+        for (std::size_t i = 0; i < quoted.size(); i += 2) {
+            if (!is_predecessor(quoted[i]) || !production_is_read(quoted[i], quoted[i + 1])) return false;
+        }
+        return true;
     }
 
     bool list_is_read(std::string_view list, int level) {
@@ -420,6 +447,10 @@ private:
             return line_is_read(right, level + 1);
         }
         if (name == "axiom") return axiom_is_read(right);
+        // ruleF = "FF"
+        if (name.size() == 5 && name.starts_with("rule") && is_letter(name[4]) && right != without_quotes(right)) {
+            return production_is_read(left.substr(left.size() - 1), right);
+        }
         const std::string_view other = key_of_other_name(name);
         const bool is_symbol = is_predecessor(without_quotes(left));
         if (other == "axiom") return axiom_is_read(right);

@@ -57,6 +57,14 @@ bool is_entry_line(std::string_view line) {
     return brace != std::string_view::npos && brace < line.find(';');
 }
 
+/// `Axiom F--F`, but neither `axiom -> F` nor `axiom = F`.
+bool is_axiom_line(std::string_view line) {
+    if (!begins_with_word(line, "axiom")) return false;
+    const std::string_view word = trimmed(line.substr(5));
+    return !word.starts_with("->") && !word.starts_with('=') && !word.starts_with(':') && !word.starts_with('"') &&
+           (word.empty() || static_cast<unsigned char>(word.front()) < 0x80);
+}
+
 /// `module A(float);`
 bool is_module_line(std::string_view line) {
     if (!begins_with_word(line, "module")) return false;
@@ -90,14 +98,15 @@ ForeignKind foreign_kind(std::string_view text) {
             kind = ForeignKind::cpfg;
             return true;
         }
-        if (line.find("lpfgall.h") != std::string_view::npos || is_module_line(line)) has_module = true;
+        const bool includes = line.starts_with("#include") && line.find("lpfgall.h") != std::string_view::npos;
+        if (includes || is_module_line(line)) has_module = true;
         if (line.find("produce ") != std::string_view::npos || line.ends_with("produce")) has_produce = true;
         if (begins_with_word(line, "production:") || begins_with_word(line, "homomorphism:") ||
             (begins_with_word(line, "def") && line.ends_with(':'))) {
             has_python = true;
         }
         if (lower_case(line.substr(0, 6)) == "axiom:" && !line.ends_with(';')) has_axiom = true;
-        if (in_entry && begins_with_word(line, "axiom")) kind = ForeignKind::fractint;
+        if (in_entry && is_axiom_line(line)) kind = ForeignKind::fractint;
         if (is_entry_line(line)) in_entry = true;
         if (line.substr(0, line.find(';')).find('}') != std::string_view::npos) in_entry = false;
         return kind == ForeignKind::fractint;

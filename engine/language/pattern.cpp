@@ -114,7 +114,7 @@ private:
     /// nothing else stands in the text.
     void finish() {
         find_axiom();
-        std::size_t strange = unknown_.size();  // lines
+        std::size_t strange = unknown_.size() + repeated_;  // lines
         std::size_t known = productions_ + pattern_.tables.size() + pattern_.defines.size() +
                             pattern_.patches.size() + (has_advice_ ? 1 : 0);
         for (const Key& key : pattern_.keys) {
@@ -127,8 +127,11 @@ private:
                 "this text is not a pattern: expected lines such as 'axiom: F' and 'F --> F+F'");
         }
         for (const Span& whole : unknown_) {
-            // Brackets of a program around lines that were reported.
-            if (has_advice_ && whole.view().find_first_not_of("{}[]();, \t") == std::string_view::npos) continue;
+            // Brackets and headings of a program around lines that were reported.
+            const std::string_view text = whole.view();
+            const bool is_heading = text.ends_with('{') || (text.front() == '[' && text.back() == ']');
+            if (has_advice_ && (is_heading || text.find_first_not_of("{}[]();, \t") == std::string_view::npos))
+                continue;
             diagnostics_.error(whole, whole.view().starts_with('#')
                                           ? "a comment begins with '//'"
                                           : "expected 'key: value', 'define NAME = VALUE', 'table NAME:' or a "
@@ -263,7 +266,8 @@ private:
 
     /// Quotation marks around a word are symbols of it.
     void warn_of_quotes(const Span& word) {
-        const std::string_view text = word.view();
+        std::string_view text = word.view();
+        if (text.ends_with("\",") || text.ends_with("\";")) text.remove_suffix(1);
         if (text.size() < 3 || (text.front() != '"' && text.front() != '\'') || text.back() != text.front()) return;
         if (text.find(text.front(), 1) != text.size() - 1) return;
         diagnostics_.warning(word, fmt::format("a word has no quotation marks: here {} is a symbol", text.front()));
@@ -283,6 +287,19 @@ private:
                     fmt::format("'{}:' is not a predecessor: productions have no names; {}", name, advice.text()));
                 return true;
             }
+        }
+        // A weight in front of the arrow: `F 0.33 --> FF`.
+        const std::size_t blank = left.find_last_of(" \t");
+        double weight = 0;
+        if (blank != std::string_view::npos && colon == std::string_view::npos &&
+            left.find('.', blank) != std::string_view::npos && read_number(left.substr(blank + 1), weight)) {
+            const std::string_view rest = whole.view().substr(arrow);
+            diagnostics_.error(left_side.part(blank + 1),
+                               fmt::format("a weight follows the successor; write '{}'",
+                                           printable(fmt::format("{} {} : {}", trimmed(left.substr(0, blank)), rest,
+                                                                 left.substr(blank + 1)),
+                                                     120)));
+            return true;
         }
         const bool is_long = left.size() > 2 && arrow > 0 && whole.view()[arrow - 1] == '-';
         if (is_long && (left[left.size() - 2] == ' ' || left[left.size() - 2] == '\t')) {
@@ -326,6 +343,11 @@ private:
             warn_of_quotes(key.value);
         }
         if (!key_names_.insert(name).second) {
+            // One that is unknown was reported already.
+            if (!find_language_key(name)) {
+                ++repeated_;
+                return;
+            }
             return diagnostics_.error(key.name_at, fmt::format("'{}:' is given twice", name));
         }
         pattern_.keys.push_back(key);
@@ -502,6 +524,7 @@ private:
     std::size_t productions_ = 0;
     std::size_t settings_ = 0;
     std::vector<Span> unknown_;  // lines of no known kind
+    std::size_t repeated_ = 0;   // keys that are unknown and were stated before
     bool has_advice_ = false;
     std::string axiom_;  // as another notation states it
     std::optional<std::set<std::string, std::less<>>> listed_symbols_;

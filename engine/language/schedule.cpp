@@ -124,7 +124,9 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
     }
     if (missing > 0) {
         if (problem) {
-            *problem = fmt::format("the schedule has {} steps, but the derivation length is {}", total, steps);
+            *problem = fmt::format(
+                "the schedule has {0} steps, but the derivation length is {1}; at most {0} can be derived", total,
+                steps);
         }
         return std::nullopt;
     }

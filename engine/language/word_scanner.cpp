@@ -111,8 +111,9 @@ std::string_view WordScanner::letter(bool blank_before) {
     }
     if (byte == ')') return wrong("')' without '('");
     if (byte == '<' || byte == '>') {
-        return wrong(
-            fmt::format("'{}' is not a symbol; a step takes its length as a parameter: F(x) --> F(1.36*x)", byte));
+        return wrong(fmt::format(
+            "'{}' is not a symbol; branches stand in [ ], and a step takes its length as a parameter: F(1.36*x)",
+            byte));
     }
     if (byte == ':') return wrong("':' is not a symbol");
     if (byte == '*') return wrong("'*' is the empty word and must stand alone");

@@ -10,6 +10,11 @@ import { keepScale } from "./scales";
 
 const largest_file = 64 * 1024 * 1024;
 
+/// What an import left out, and whether anything is left that draws.
+function lossesOf(system: Imported["systems"][number]): string {
+    return system.losses.join("; ") + (system.draws ? "" : ". Nothing is left that draws.");
+}
+
 /// Lets the user choose a file.
 export function askForFile(studio: Studio): void {
     const input = element("input", { type: "file", hidden: true });
@@ -93,14 +98,14 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
     }
     if (json.systems.length === 1) {
         open(only);
-        if (only.text !== "" && only.losses.length > 0) studio.say(`Left out: ${only.losses.join("; ")}`, "warning");
+        if (only.text !== "" && only.losses.length > 0) studio.say(`Left out: ${lossesOf(only)}`, "warning");
         return;
     }
     const dialog = openDialog(`${json.systems.length} patterns in ${name}`);
     const list = element("div", { class: "choices" });
     for (const system of json.systems) {
         const entry = element("button", { type: "button", class: "button quiet" }, system.name);
-        if (system.losses.length > 0) entry.title = `Left out: ${system.losses.join("; ")}`;
+        if (system.losses.length > 0) entry.title = `Left out: ${lossesOf(system)}`;
         entry.addEventListener("click", () => {
             dialog.close();
             open(system);

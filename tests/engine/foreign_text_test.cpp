@@ -157,6 +157,20 @@ TEST(ForeignLine, WholePagesAreAnsweredLineByLine) {
     // A program's object: brackets alone in a line are not errors of their own.
     expect_mistakes("{\n  \"axiom\": \"F\",\n  \"rules\": {\n    \"F\": \"F+F\"\n  }\n}\n",
                     {{{2, 3}, "write 'axiom: F'"}, {{3, 3}, "leave this line out"}, {{4, 5}, "write 'F --> F+F'"}});
+    // Settings in sections.
+    expect_mistakes("[L-System]\nname=Plant\naxiom=G\nangle=26\nrule0=G>GX[+G]\niterations=6\n",
+                    {{{2, 1}, "write 'title: Plant'"},
+                     {{3, 1}, "write 'axiom: G'"},
+                     {{4, 1}, "write 'angle increment: 26'"},
+                     {{5, 1}, "write 'G --> GX[+G]'"},
+                     {{6, 1}, "write 'derivation length: 6'"}});
+    expect_mistakes(
+        "export const bush = {\n    axiom: \"X\",\n    rules: {\n        \"X\": \"F[+X]FX\",\n    },\n    angle: "
+        "30\n}\n",
+        {{{2, 12}, "quotation marks"},
+         {{3, 5}, "leave this line out"},
+         {{4, 9}, "write 'X --> F[+X]FX'"},
+         {{6, 5}, "write 'angle increment: 30'"}});
     // What can be understood is a pattern once the advice is followed.
     for (const char* text : {"axiom: X\nX --> F+[[X]-X]\nF --> FF\nangle increment: 25\n",
                              "derivation length: 5\nangle increment: 25.7\naxiom: F\nF --> F[+F]F[-F]F\n"}) {
@@ -203,7 +217,8 @@ TEST(ForeignSign, TypographyInWordsIsAnError) {
     expect_mistakes("axiom: F\nF\u00A0--> FF\n", {{{2, 2}, "write a plain blank"}});
     expect_mistakes("axiom: F\u200BF\n", {{{1, 9}, "U+200B is not a symbol: leave it out"}});
     expect_mistakes("axiom: \u201CF\u201D\n", {{{1, 8}, "leave it out"}});
-    expect_mistakes("axiom: F\nF --> >F<\n", {{{2, 7}, "F(x) --> F(1.36*x)"}});
+    expect_mistakes("axiom: F\nF --> >F<\n", {{{2, 7}, "a step takes its length as a parameter: F(1.36*x)"}});
+    expect_mistakes("axiom: F\nF --> F<+F>\n", {{{2, 8}, "branches stand in [ ]"}});
     // Letters of any script are symbols.
     EXPECT_TRUE(diagnostics_of("axiom: αஅ🌿\nα --> αβ\n").empty());
 }
@@ -225,6 +240,15 @@ TEST(LateRemark, OtherMarksOfCommentsAreWarnedOf) {
     }
 }
 
+TEST(ForeignSign, QuotationMarksAroundAWordAreWarnedOf) {
+    for (const char* line : {"F --> \"FF\"", "F --> 'FF'", "F --> \"FF\","}) {
+        const auto found = diagnostics_of("axiom: F\n" + std::string(line) + "\n");
+        ASSERT_EQ(found.size(), 1U) << line;
+        EXPECT_TRUE(found[0].warning);
+    }
+    EXPECT_TRUE(diagnostics_of("axiom: F\nF --> ''F;F'\nf --> 'F\n").empty());
+}
+
 TEST(LateRemark, NamesOfSymbolsAreNone) {
     EXPECT_TRUE(diagnostics_of("axiom: plant\nplant --> F -- leaf # leaf plant\nsymbols: plant leaf\n").empty());
 }
@@ -241,7 +265,8 @@ TEST(ForeignText, OtherProgramsAreRecognised) {
     EXPECT_EQ(foreign_kind("Axiom: A\nderivation length: 3\nproduction:\nA :\n  produce F A\n"), ForeignKind::lpy);
     EXPECT_EQ(foreign_kind("\n<!DOCTYPE html>\n<html></html>\n"), ForeignKind::html);
     for (const char* text : {"", "axiom: F\nF --> {F}\n", "title: x\naxiom: F\n/* Koch {\n axiom F\n} */\n",
-                             "rules = {\n'F': 'FF'\n}\naxiom = 'F'\n", "description: Lsystem: 1\naxiom: F\n"}) {
+                             "rules = {\n'F': 'FF'\n}\naxiom = 'F'\n", "description: Lsystem: 1\naxiom: F\n",
+                             "lsystem plant\n{\n  rules\n  rules {\n  axiom -> X;\n  X -> FF;\n }\n}\n"}) {
         EXPECT_EQ(foreign_kind(text), ForeignKind::none) << text;
     }
     expect_mistakes("Koch1 {\n  Angle 6\n  Axiom F\n  F=F-F\n}\n",

@@ -232,9 +232,21 @@ TEST(Bridge, FilesWithoutPatternsAreRefused) {
     EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, "<svg></svg>")["error"]["message"],
               "x.svg: this SVG file contains no pattern");
     EXPECT_EQ(kind_of_failure({{"do", "import"}, {"name", "x.l"}}, "no system"), "other");
+    const Json lpfg = asked({{"do", "import"}, {"name", "x.l"}}, "#include <lpfgall.h>\nmodule A();\nAxiom: A();\n");
+    EXPECT_NE(lpfg["error"]["message"].get<std::string>().find("an L+C file of lpfg, which is C++"),
+              std::string::npos);
     const Reply svg = request(
         Json({{"do", "make"}, {"interpreter", "draw"}, {"format", "svg"}, {"pattern", pattern(koch)}}).dump(), {});
     EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, svg.bytes)["text"], koch);
+}
+
+TEST(Bridge, WarnsOfLettersThatDrawNothing) {
+    const Json opened =
+        asked({{"do", "open"}, {"pattern", pattern("axiom: F\nderivation length: 2\nF --> F+G\nG --> F-G\n")}});
+    EXPECT_NE(opened.dump().find("'G' draws nothing; 'forward: F G' makes it a step"), std::string::npos);
+    // What is pasted is answered with the line as a pattern has it.
+    const Json pasted = asked({{"do", "open"}, {"pattern", pattern("axiom: F\nF = F+F\n")}});
+    EXPECT_NE(pasted.dump().find("write 'F --> F+F'"), std::string::npos) << pasted.dump();
 }
 
 }  // namespace
