@@ -96,7 +96,9 @@ const tests = {
     },
 
     async "messages of the pattern before are gone"() {
-        const page = await open("words/anabaena", { draws: false });
+        const page = await open("curves/hilbert");
+        await current(page);
+        await paste(page, "title: Nothing\naxiom: X\nX --> XX\nderivation length: 2\n");
         await page.locator(".map-problem:visible", { hasText: /draw/i }).waitFor();
         const before = await page.locator(".map-problem").textContent();
         await slow(page, { pixels: 1000 });
