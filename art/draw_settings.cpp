@@ -859,7 +859,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     Document drawn = document;
     const auto set = [&](const char* key, const std::string& value) {
         try {
-            drawn = drawn.with({{key, key, value}});
+            drawn = drawn.with({{key, value}});
         } catch (const PatternError& error) {
             throw SettingError(key, value, error.diagnostics().front().message);
         }

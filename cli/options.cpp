@@ -103,7 +103,7 @@ void report_compression(std::string_view format, const OptionValues& values, boo
 }
 
 std::string option_message(const SettingError& error) {
-    std::string message = with_dashes(error.what());
+    std::string message = with_dashes(error.message());
     if (error.option().empty()) return message;
     const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
     return fmt::format("--{}{}: {}", error.option(), value, message);

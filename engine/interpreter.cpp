@@ -52,6 +52,11 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
 
 namespace {
 
+/// The key that an option of the command line sets: `-n`, `--steps`.
+std::string key_of(const std::string& name) {
+    return name == "n" || name == "steps" ? "derivation length" : name;
+}
+
 /// @throws SettingError for a name that is neither an option nor a key nor a define
 void require_known(const Interpreter& interpreter, const Document& document, const std::string& name) {
     std::vector<std::string_view> known;
@@ -68,11 +73,12 @@ Assignment assign(const Interpreter& interpreter, const Document& document, cons
     OptionValues own;
     std::vector<Setting> settings;
     for (const OptionValue& value : values) {
-        require_known(interpreter, document, value.name);
-        const bool is_option = find_option(interpreter.options(), value.name) != nullptr;
+        const std::string key = key_of(value.name);
+        require_known(interpreter, document, key);
+        const bool is_option = find_option(interpreter.options(), key) != nullptr;
         if (is_option) own.push_back(value);
         // A seed applies to both the pattern and the option.
-        if (!is_option || value.name == "seed") settings.push_back({value.name, value.name, value.text});
+        if (!is_option || key == "seed") settings.push_back({value.name, key, value.text});
     }
     // So does the seed that the document was made with.
     if (find_option(interpreter.options(), "seed")) {

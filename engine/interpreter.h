@@ -107,7 +107,8 @@ struct Assignment {
 };
 
 /// Separates values by name: options of the interpreter are returned; keys and defines of the pattern are applied to
-/// the document. A seed is both, also that of document.overrides(). @throws SettingError for other names;
+/// the document. `n` and `steps` are the derivation length, as on the command line, also if the pattern has a define
+/// of that name. A seed is both, also that of document.overrides(). @throws SettingError for other names;
 /// PatternError
 Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values);
 

@@ -31,7 +31,7 @@ void translate(const std::exception_ptr& thrown) {
     } catch (const PatternError& error) {
         raise("PatternError", to_text(error.what()), to_list(error.diagnostics()));
     } catch (const SettingError& error) {
-        raise("SettingError", to_text(error.option()), to_text(error.value()), to_text(error.what()));
+        raise("SettingError", to_text(error.option()), to_text(error.value()), to_text(error.message()));
     } catch (const NotFound& error) {
         raise("NotFoundError", to_text(error.what()));
     } catch (const BudgetError& error) {

@@ -17,7 +17,7 @@ OptionValues to_values(const TextPairs& pairs) {
 
 std::vector<Setting> to_settings(const TextPairs& pairs) {
     std::vector<Setting> settings;
-    for (const auto& [name, text] : pairs) settings.push_back({name, name, text});
+    for (const auto& [name, text] : pairs) settings.emplace_back(name, text);
     return settings;
 }
 

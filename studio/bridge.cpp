@@ -228,8 +228,7 @@ Json failure_of(const std::function<Json()>& work) {
     } catch (const PatternError& error) {
         return failure("pattern", error.what(), {{"diagnostics", json_of(error.diagnostics())}});
     } catch (const SettingError& error) {
-        const std::string value = error.value().empty() ? "" : " " + error.value();
-        return failure("setting", error.option() + value + ": " + error.what(), {{"option", error.option()}});
+        return failure("setting", error.what(), {{"option", error.option()}});
     } catch (const BudgetError& error) {
         return failure("budget", error.what());
     } catch (const WordError& error) {

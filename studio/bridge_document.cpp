@@ -106,7 +106,7 @@ Document document_of(const Json& request) {
         std::find_if(kept.begin(), kept.end(), [&](const Kept& each) { return each.pattern == pattern; });
     if (found != kept.end()) return found->document;
     Overrides overrides{text_of(pattern, "variant", ""), {}};
-    for (auto& [name, text] : pairs_of(pattern, "settings")) overrides.settings.push_back({name, name, text});
+    for (auto& [name, text] : pairs_of(pattern, "settings")) overrides.settings.emplace_back(name, text);
     const std::array<const Interpreter*, 2> interpreters = {&prints(), &scores()};
     Diagnostics diagnostics;
     Document document =
@@ -278,7 +278,7 @@ namespace {
 /// True if the word of a derivation length has at most `most` nodes, counted by deriving if need be.
 bool is_short(const Document& document, std::int64_t steps, double most, const Monitor& monitor) {
     try {
-        const Document shorter = document.with({{"n", "derivation length", fmt::format("{}", steps)}});
+        const Document shorter = document.with({{"derivation length", fmt::format("{}", steps)}});
         measure(shorter.grammar(), most, [&](std::uint64_t symbols) { monitor.advance(symbols); });
         return true;
     } catch (const BudgetError&) {

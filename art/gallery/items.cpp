@@ -77,7 +77,7 @@ void check_value(const std::string& key, const GalleryKey* known, const std::str
                       .most = known->most},
                      value);
     } catch (const SettingError& error) {
-        fail(place, fmt::format("{}: {}, not '{}'", key, error.what(), printable(value, 80)));
+        fail(place, fmt::format("{}: {}, not '{}'", key, error.message(), printable(value, 80)));
     }
 }
 
@@ -255,7 +255,7 @@ void check_sheet_size(const std::string& key, const std::string& size, const std
     try {
         read_draw_settings({{"size", size}, {"margin", "0mm"}});
     } catch (const SettingError& error) {
-        fail(place, fmt::format("{} {}: {}", key, printable(size, 80), error.what()));
+        fail(place, fmt::format("{} {}: {}", key, printable(size, 80), error.message()));
     }
 }
 

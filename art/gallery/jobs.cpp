@@ -425,9 +425,7 @@ private:
         try {
             job.interpreter().check(job.format, job.values());
         } catch (const SettingError& error) {
-            const std::string value = error.value().empty() ? "" : " " + printable(error.value(), 80);
-            const std::string message =
-                error.option().empty() ? error.what() : fmt::format("{}{}: {}", error.option(), value, error.what());
+            const std::string message = error.what();
             // An error about a single option has the place of that option in the file.
             for (const GalleryItem::Axis& axis : item.axes) {
                 if (axis->key == error.option() && !axis->place.empty()) fail(axis->place, message);

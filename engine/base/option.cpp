@@ -25,7 +25,18 @@ const char* whole_problem(std::string_view text) {
     return error == std::errc() ? nullptr : "too large";
 }
 
+std::string whole_message(const std::string& option, const std::string& value, const std::string& message) {
+    if (option.empty()) return message;
+    return fmt::format("{}{}{}: {}", option, value.empty() ? "" : " ", printable(value, 80), message);
+}
+
 }  // namespace
+
+SettingError::SettingError(std::string option, std::string value, std::string message)
+    : std::runtime_error(whole_message(option, value, message)),
+      option_(std::move(option)),
+      value_(std::move(value)),
+      message_(std::move(message)) {}
 
 void refuse_option(std::string_view option, const std::string& value, const std::string& message) {
     throw SettingError(std::string(option), value, message);

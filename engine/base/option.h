@@ -52,18 +52,19 @@ struct OptionValue {
 };
 using OptionValues = std::vector<OptionValue>;
 
-/// Reports an invalid value or an invalid combination of options. what() is the message without the name of the
-/// option, which callers add in the notation of their users.
+/// Reports an invalid value or an invalid combination of options. what() is `option value: message`; callers who name
+/// options in the notation of their users (`--size`) use the parts.
 class SettingError : public std::runtime_error {
 public:
-    SettingError(std::string option, std::string value, const std::string& message)
-        : std::runtime_error(message), option_(std::move(option)), value_(std::move(value)) {}
-    const std::string& option() const { return option_; }  ///< name in the table
-    const std::string& value() const { return value_; }    ///< empty if a combination is invalid
+    SettingError(std::string option, std::string value, std::string message);
+    const std::string& option() const { return option_; }    ///< name in the table; empty if no option is at fault
+    const std::string& value() const { return value_; }      ///< empty if a combination is invalid
+    const std::string& message() const { return message_; }  ///< without option and value
 
 private:
     std::string option_;
     std::string value_;
+    std::string message_;
 };
 
 /// The text of a value without the unit of its option.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -54,6 +55,11 @@ struct Variant {
 
 /// A setting from outside the file that overrides it.
 struct Setting {
+    /// The key is its own origin.
+    Setting(std::string name, std::string text) : origin(name), key(std::move(name)), value(std::move(text)) {}
+    Setting(std::string from, std::string name, std::string text)
+        : origin(std::move(from)), key(std::move(name)), value(std::move(text)) {}
+
     std::string origin;  ///< where it was said, for messages: `--set` and `set` show key and value, `-n` the value
     std::string key;
     std::string value;

@@ -28,6 +28,23 @@ def test_a_sheet_is_that_of_the_program(tmp_path: Path, run: Run) -> None:
         sikku.sheet(ours, snake, nonsense=1)
 
 
+def test_the_derivation_length_is_an_option_named_n(tmp_path: Path) -> None:
+    hilbert = sikku.load("hilbert")
+    three = hilbert.with_settings(n=3)
+    assert hilbert.draw("svg", n=3) == three.draw("svg")
+    assert hilbert.play("mid", n=3) == three.play("mid")
+    assert numpy.array_equal(hilbert.notes(n=3).onset, three.notes().onset)
+    ours, theirs = tmp_path / "ours.pdf", tmp_path / "theirs.pdf"
+    hilbert.save(ours, n=3)
+    three.save(theirs)
+    assert ours.read_bytes() == theirs.read_bytes()
+    sikku.sheet(ours, (hilbert, {"n": 3}), hilbert)
+    sikku.sheet(theirs, three, hilbert)
+    assert ours.read_bytes() == theirs.read_bytes()
+    with pytest.raises(sikku.PatternError, match="n many"):
+        hilbert.draw("svg", n="many")
+
+
 def test_patterns_are_those_of_the_program(run: Run) -> None:
     arrangements = run("patterns", "arrangements", "--names").stdout.decode().split()
     names = run("patterns", "--names").stdout.decode().split()

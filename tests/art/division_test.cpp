@@ -32,7 +32,7 @@ std::string message(const Document& document, const std::string& format, const O
     try {
         draw(document, format, values);
     } catch (const SettingError& error) {
-        return error.option() + ": " + error.what();
+        return error.option() + ": " + error.message();
     } catch (const PatternError& error) {
         return error.diagnostics().front().message;
     } catch (const std::exception& error) {

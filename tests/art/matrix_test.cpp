@@ -299,7 +299,7 @@ protected:
     Document document(const Feature& feature, const Values& keys) const {
         Document result = parse("matrix.lsys", feature.pattern);
         std::vector<Setting> settings;
-        for (const auto& [key, value] : keys) settings.push_back({key, key, value});
+        for (const auto& [key, value] : keys) settings.emplace_back(key, value);
         return settings.empty() ? result : result.with(settings);
     }
 
@@ -351,7 +351,7 @@ protected:
             if (is_visible) return "yes";
             return target.is_cell || unchanged.contains(feature.name + " on " + target.name) ? "no change" : "lost";
         } catch (const SettingError& error) {
-            return error.what();
+            return error.message();
         } catch (const PatternError& error) {
             return error.diagnostics().front().message;
         }

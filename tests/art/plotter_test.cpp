@@ -406,7 +406,7 @@ TEST_F(Plotter, APlotResumes) {
         ADD_FAILURE() << "is accepted";
     } catch (const SettingError& error) {
         EXPECT_EQ(error.option(), "resume");
-        EXPECT_STREQ(error.what(), "the whole plot draws only 0.60 m");
+        EXPECT_EQ(error.message(), "the whole plot draws only 0.60 m");
     }
 }
 

@@ -31,7 +31,7 @@ std::string refusal(const Document& document, const OptionValues& more = {}, con
     try {
         draw(document, format, values);
     } catch (const SettingError& error) {
-        return error.option() + ": " + error.what();
+        return error.option() + ": " + error.message();
     }
     return "";
 }

@@ -1,5 +1,6 @@
 // tests/program/library_test.cpp: makes prints and scores in memory like a program that links the libraries.
 #include "art/prints.h"
+#include "art/sheets.h"
 #include "music/scores.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ TEST(Library, UnknownNamesAreSettingErrors) {
         try {
             work();
         } catch (const SettingError& caught) {
-            return caught.option() + ": " + caught.what();
+            return std::string(caught.what());
         }
         return std::string("no error");
     };
@@ -39,6 +40,43 @@ TEST(Library, UnknownNamesAreSettingErrors) {
               }),
               "widht: unknown option or key; did you mean 'width'?");
     EXPECT_EQ(error([] { play(curve(), "mid", {{"qqqqqqqq", "2"}}); }), "qqqqqqqq: unknown option or key");
+}
+
+TEST(Library, AnErrorNamesTheOptionAndItsValueWhoeverCatchesIt) {
+    const auto what = [](std::string_view format, const OptionValues& values) -> std::string {
+        try {
+            draw(curve(), format, values);
+        } catch (const std::exception& caught) {
+            return caught.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(what("sgv", {}), "format sgv: unknown format");
+    EXPECT_EQ(what("svg", {{"sise", "A3"}}), "sise: unknown option or key; did you mean 'size'?");
+    EXPECT_TRUE(what("svg", {{"size", "3x"}}).starts_with("size 3x: ")) << what("svg", {{"size", "3x"}});
+    EXPECT_TRUE(what("svg", {{"rotate", "left"}}).starts_with("rotate left: "));
+    EXPECT_TRUE(what("gif", {}).starts_with("generations: required for a .gif"));
+    // Settings of the pattern name the key, once.
+    EXPECT_TRUE(what("svg", {{"n", "many"}}).starts_with("n many: ")) << what("svg", {{"n", "many"}});
+}
+
+TEST(Library, TheDerivationLengthHasItsNamesOfTheCommandLine) {
+    const auto sheet = [](const SheetItem& item) {
+        MemoryDestination memory;
+        plan_sheet({item}, "svg", {})->make(memory, "sheet.svg", {});
+        return memory.take("sheet.svg");
+    };
+    const Document two = curve().with({{"derivation length", "2"}});
+    ASSERT_NE(draw(two, "svg"), draw(curve(), "svg"));
+    for (const char* name : {"n", "steps", "derivation length"}) {
+        EXPECT_EQ(draw(curve(), "svg", {{name, "2"}}), draw(two, "svg")) << name;
+        EXPECT_EQ(play(curve(), "mid", {{name, "2"}}), play(two, "mid")) << name;
+        EXPECT_EQ(sheet({curve(), {{name, "2"}}}), sheet({two, {}})) << name;
+    }
+    // Also if the pattern has a define of that name, which with() sets.
+    const Document own = parse("own.lsys", "define n = 2\naxiom: F(n)\nF(x) --> F(x)F(x)\nderivation length: 1\n");
+    EXPECT_EQ(own.with({{"n", "5"}}).grammar().steps(), 1U);
+    EXPECT_EQ(draw(own, "svg", {{"n", "3"}}), draw(own.with({{"derivation length", "3"}}), "svg"));
 }
 
 TEST(Library, SeveralOutputsNeedADestination) {

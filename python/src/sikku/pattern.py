@@ -199,7 +199,7 @@ class Pattern:
         """Draws a print or a model and returns it: text for SVG, HP-GL and G-code, otherwise bytes.
 
         format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode, dxf, obj, glb or stl.
-        options: `size="A3"`, `stroke="0.3mm navy"`, `dots=True`, … (docs/commands.md).
+        options: `n=3`, `size="A3"`, `stroke="0.3mm navy"`, `dots=True`, … (docs/commands.md).
 
         Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, and Error if
         nothing is drawn or the output has several files, which save() writes.
@@ -211,7 +211,7 @@ class Pattern:
 
         format: mid, musicxml, mxl, ly, pdf (printed by LilyPond), abc, wav, flac, csd, sco, strudel, svg (curve and piano
         roll) or html (a page that plays).
-        options: `scale="dorian"`, `bars=16`, `tempo=96`, … (docs/commands.md).
+        options: `n=5`, `scale="dorian"`, `bars=16`, `tempo=96`, … (docs/commands.md).
 
         Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
         """
