@@ -73,7 +73,7 @@ bool is_module_line(std::string_view line) {
     const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
     if (end == rest.begin()) return false;
     rest = trimmed(rest.substr(static_cast<std::size_t>(end - rest.begin())));
-    return rest.starts_with('(');
+    return rest.starts_with('(') && rest.ends_with(';');
 }
 
 }  // namespace
@@ -112,8 +112,8 @@ ForeignKind foreign_kind(std::string_view text) {
         return kind == ForeignKind::fractint;
     });
     if (kind == ForeignKind::cpfg || kind == ForeignKind::fractint) return kind;
-    if (has_produce && has_python) return ForeignKind::lpy;
     if (has_module) return ForeignKind::lpfg;
+    if (has_produce && has_python) return ForeignKind::lpy;
     if (has_axiom) return ForeignKind::none;
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) return ForeignKind::none;

@@ -17,82 +17,49 @@ bool is_ink(Action action) {
            action == Action::edge_end || action == Action::surface || action == Action::label;
 }
 
+/// What a letter does in a grammar.
+struct LetterFacts {
+    bool is_skipped = true;       ///< by a turtle, in all its forms
+    bool is_reached = false;      ///< words of the system hold it
+    bool has_rule = false;        ///< by itself
+    bool is_context = false;      ///< of a production, or ignored as one
+    bool draws = false;           ///< makes a step that draws
+    bool is_in_step = false;      ///< a step's successor contains it, outside of brackets
+    bool contains_self = false;   ///< a successor of its own does, outside of brackets
+    bool contains_other = false;  ///< a successor of its own contains other letters
+    bool multiplies = false;      ///< a successor of its own has several symbols
+};
+
 /// What the letters of a grammar do.
 class Letters {
 public:
-    explicit Letters(const Grammar& grammar)
-        : grammar_(grammar),
-          skipped_(grammar.letters().size(), 1),
-          reached_(grammar.letters().size(), 0),
-          has_rule_(grammar.letters().size(), 0),
-          in_context_(grammar.letters().size(), 0) {
+    explicit Letters(const Grammar& grammar) : grammar_(grammar), facts_(grammar.letters().size()) {
         const std::vector<char> reached = grammar.reachable();
         for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
             const Action action = grammar.symbols()[symbol].command.action;
-            const std::uint32_t letter = letter_of(symbol);
-            if (action != Action::pass) skipped_[letter] = 0;
+            LetterFacts& letter = facts_[letter_of(symbol)];
+            if (action != Action::pass) letter.is_skipped = false;
+            if (action == Action::draw) letter.draws = true;
             // Splines are drawn through moves, too.
             if (is_ink(action) || action == Action::move) draws_ = true;
             if (!reached[symbol]) continue;
-            reached_[letter] = 1;
+            letter.is_reached = true;
             if (action == Action::turn) turns_ = true;
-            if (grammar.ignored(symbol)) in_context_[letter] = 1;
+            if (grammar.ignored(symbol)) letter.is_context = true;
         }
         for (const Table& table : grammar.tables()) {
-            for (const Production& production : table.productions()) {
-                if (production.predecessor.size() == 1) has_rule_[letter_of(production.predecessor.front())] = 1;
-                for (const Word* context : {&production.left, &production.right}) {
-                    for (const Symbol symbol : *context) in_context_[letter_of(symbol)] = 1;
-                }
-            }
+            for (const Production& production : table.productions()) read(production);
         }
         // What is drawn in its place is what counts.
         if (!grammar.interpretation()) return;
         for (const Production& production : grammar.interpretation()->productions()) {
-            skipped_[letter_of(production.predecessor.front())] = 0;
+            facts_[letter_of(production.predecessor.front())].is_skipped = false;
         }
     }
 
-    std::uint32_t letter_of(Symbol symbol) const { return grammar_.symbols()[symbol].letter_index; }
     bool draws() const { return draws_; }
     bool turns() const { return turns_; }
-    bool is_candidate(std::uint32_t letter) const {
-        return skipped_[letter] && reached_[letter] && has_rule_[letter];
-    }
-    bool is_context(std::uint32_t letter) const { return in_context_[letter] != 0; }
-
-    /// All its productions consist of the letter, one of them several times.
-    bool only_multiplies(std::uint32_t letter) const {
-        bool multiplies = false;
-        for (const Table& table : grammar_.tables()) {
-            for (const Production& production : table.productions()) {
-                if (!is_rule_of(production, letter)) continue;
-                for (const Symbol symbol : production.successor) {
-                    if (letter_of(symbol) != letter) return false;
-                }
-                multiplies = multiplies || production.successor.size() > 1;
-            }
-        }
-        return multiplies;
-    }
-
-    /// One of its productions contains the other letter outside of brackets.
-    bool derives(std::uint32_t letter, std::uint32_t other) const {
-        for (const Table& table : grammar_.tables()) {
-            for (const Production& production : table.productions()) {
-                if (is_rule_of(production, letter) && contains(production.successor, other)) return true;
-            }
-        }
-        return false;
-    }
-
-    bool is_derived_from_a_step(std::uint32_t letter) const {
-        std::set<std::uint32_t> steps;
-        for (const SymbolInfo& symbol : grammar_.symbols()) {
-            if (symbol.command.action == Action::draw) steps.insert(symbol.letter_index);
-        }
-        return std::any_of(steps.begin(), steps.end(), [&](std::uint32_t step) { return derives(step, letter); });
-    }
+    const std::vector<LetterFacts>& facts() const { return facts_; }
 
     std::vector<std::string> names(const std::vector<std::uint32_t>& letters) const {
         std::vector<std::string> list;
@@ -102,29 +69,38 @@ public:
     }
 
 private:
-    bool is_rule_of(const Production& production, std::uint32_t letter) const {
-        return production.predecessor.size() == 1 && letter_of(production.predecessor.front()) == letter;
-    }
+    std::uint32_t letter_of(Symbol symbol) const { return grammar_.symbols()[symbol].letter_index; }
 
-    bool contains(const Word& word, std::uint32_t letter) const {
+    void read(const Production& production) {
+        for (const Word* context : {&production.left, &production.right}) {
+            for (const Symbol symbol : *context) facts_[letter_of(symbol)].is_context = true;
+        }
+        if (production.predecessor.size() != 1) return;
+        const std::uint32_t own = letter_of(production.predecessor.front());
+        facts_[own].has_rule = true;
+        if (production.successor.size() > 1) facts_[own].multiplies = true;
         std::int64_t depth = 0;
-        for (const Symbol symbol : word) {
+        for (const Symbol symbol : production.successor) {
             const Action action = grammar_.symbols()[symbol].command.action;
             if (action == Action::push) ++depth;
             if (action == Action::pop) --depth;
-            if (depth == 0 && letter_of(symbol) == letter) return true;
+            const std::uint32_t letter = letter_of(symbol);
+            if (letter != own) facts_[own].contains_other = true;
+            if (depth != 0) continue;
+            if (letter == own) facts_[own].contains_self = true;
+            if (facts_[own].draws) facts_[letter].is_in_step = true;
         }
-        return false;
     }
 
     const Grammar& grammar_;
-    std::vector<char> skipped_;
-    std::vector<char> reached_;
-    std::vector<char> has_rule_;
-    std::vector<char> in_context_;
+    std::vector<LetterFacts> facts_;
     bool draws_ = false;
     bool turns_ = false;
 };
+
+bool is_candidate(const LetterFacts& letter) {
+    return letter.is_skipped && letter.is_reached && letter.has_rule;
+}
 
 /// The pattern states what draws, or its symbols are notes.
 bool states_meaning(const Pattern& pattern) {
@@ -159,7 +135,8 @@ std::string key_with(std::string_view key, Action action, const Grammar& grammar
     }
     std::string list = fmt::format("{}:", key);
     for (const std::string& step : steps) list += ' ' + step;
-    for (const std::string& name : names) list += ' ' + name;
+    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i) list += ' ' + names[i];
+    if (names.size() > most_named) list += " …";
     return list;
 }
 
@@ -169,14 +146,14 @@ std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& g
     if (grammar.map() || states_meaning(pattern)) return {};
     const Letters letters(grammar);
     std::vector<std::uint32_t> found;
-    for (std::uint32_t letter = 0; letter < grammar.letters().size(); ++letter) {
-        if (!letters.is_candidate(letter)) continue;
-        if (!letters.draws()) {
-            if (letters.turns()) found.push_back(letter);
-        } else if (!letters.is_context(letter)) {
-            const bool is_like_a_step = letters.derives(letter, letter) && letters.is_derived_from_a_step(letter);
-            if (is_like_a_step || letters.only_multiplies(letter)) found.push_back(letter);
-        }
+    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
+        const LetterFacts& letter = letters.facts()[i];
+        if (!is_candidate(letter)) continue;
+        const bool is_like_a_step = letter.is_in_step && letter.contains_self;
+        const bool only_multiplies = letter.multiplies && !letter.contains_other;
+        const bool is_meant =
+            letters.draws() ? !letter.is_context && (is_like_a_step || only_multiplies) : letters.turns();
+        if (is_meant) found.push_back(i);
     }
     return letters.names(found);
 }
@@ -222,8 +199,8 @@ std::string undrawn_hint(const Grammar& grammar) {
     const Letters letters(grammar);
     if (grammar.map() || letters.draws()) return {};
     std::vector<std::uint32_t> found;
-    for (std::uint32_t letter = 0; letter < grammar.letters().size(); ++letter) {
-        if (letters.is_candidate(letter)) found.push_back(letter);
+    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
+        if (is_candidate(letters.facts()[i])) found.push_back(i);
     }
     if (found.empty()) return {};
     const std::vector<std::string> names = letters.names(found);

@@ -262,6 +262,9 @@ TEST(ForeignText, OtherProgramsAreRecognised) {
                            "  produce I(x/2);\n}\n"),
               ForeignKind::lpfg);
     EXPECT_EQ(foreign_kind("module A();\nAxiom: A();\n"), ForeignKind::lpfg);
+    EXPECT_EQ(
+        foreign_kind("#include <lpfgall.h>\nmodule A(int);\nAxiom: A(1);\nproduction:\nA(x): { produce F(1); }\n"),
+        ForeignKind::lpfg);
     EXPECT_EQ(foreign_kind("Axiom: A\nderivation length: 3\nproduction:\nA :\n  produce F A\n"), ForeignKind::lpy);
     EXPECT_EQ(foreign_kind("\n<!DOCTYPE html>\n<html></html>\n"), ForeignKind::html);
     for (const char* text : {"", "axiom: F\nF --> {F}\n", "title: x\naxiom: F\n/* Koch {\n axiom F\n} */\n",

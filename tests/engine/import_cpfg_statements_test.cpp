@@ -82,6 +82,8 @@ TEST(ImportCpfgStatements, WhatHasEffectsElsewhereIsLost) {
     const ImportedSystem lost = cpfg(system_with("A(t) : {if (t > 1) { t = 2; }} 1 --> F(t)\n", "A(4)"));
     EXPECT_EQ(word_of(lost.pattern), "A(4)");
     EXPECT_TRUE(has(all_losses(lost), "the statements that set 't' are not read"));
+    const ImportedSystem unread = cpfg(system_with("A(t) : {x = \"text\"[2] ? 1 : 0;} 1 --> F(t)\n", "A(4)"));
+    EXPECT_EQ(word_of(unread.pattern), "F(4)");
     // A variable that belongs to the whole system.
     const ImportedSystem shared = cpfg(
         "Lsystem: 1\nderivation length: 1\ndefine: { int total; }\nAxiom: A(4)\n"
