@@ -197,6 +197,11 @@ void check_piece_options(const CLI::App& command, const PieceOptions& options) {
 void cut_pieces(const PieceOptions& options, const PieceSource& source, const TilingResult& result, bool as_json,
                 const Monitor& monitor, bool quiet) {
     const double step = length_in("step", options.step, 0.001, 10'000);
+    // The list says so itself.
+    if (const std::string missing = missing_pieces(result.examination);
+        !missing.empty() && (as_json || !options.lists)) {
+        tell("sikku: warning: {}\n", missing);
+    }
     if (options.lists) {
         fmt::print("{}", as_json ? cut_list_json(source.title, source.n, result, step)
                                  : cut_list_text(source.title, source.n, result, step));

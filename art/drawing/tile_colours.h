@@ -11,9 +11,7 @@
 
 namespace sikku {
 
-/// Numbers tiles so that neighbours differ, with few numbers: two if there are no odd cycles, often three, four where
-/// exchanging the colours of chains of tiles (Kempe 1879) succeeds. Cost: linear, but for exchanges.
-/// @param neighbours  as of UnitedLines::Result
+/// colours_of_neighbours() of the engine. @param neighbours  as of UnitedLines::Result
 std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours);
 
 /// The same for tiles that repeat: those that two vectors translate onto each other get the same number.

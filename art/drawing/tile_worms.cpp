@@ -1,7 +1,7 @@
 #include "art/drawing/tile_worms.h"
 
-#include "art/kolam/union_find.h"
 #include "art/plotter/plot_layer.h"
+#include "engine/base/union_find.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 #include "art/kolam/dot_grid_making.h"
 
-#include "art/kolam/union_find.h"
 #include "engine/base/chance.h"
+#include "engine/base/union_find.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "art/kolam/dot_grid_symmetry.h"
 
-#include "art/kolam/union_find.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/base/union_find.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "art/kolam/faces.h"
 
-#include "art/kolam/union_find.h"
+#include "engine/base/union_find.h"
 
 #include <numeric>
 

@@ -1,7 +1,7 @@
 #include "art/kolam/fields.h"
 
 #include "art/kolam/kolam_plane.h"
-#include "art/kolam/union_find.h"
+#include "engine/base/union_find.h"
 #include "engine/geometry/parallel_curve.h"
 
 #include <algorithm>

@@ -86,7 +86,10 @@ KolamExamination examine_in(Plane& plane, int rank, const Grammar& grammar, cons
     derive(grammar, *turtle, derivation);
     const Strokes strokes = reader.finish();
     if (strokes.count() == 0) {
-        throw std::runtime_error("there is nothing to examine: the word contains no step that draws");
+        throw std::runtime_error(
+            Plane::is_exact ? std::string("there is nothing to examine: the word contains no step that draws")
+                            : fmt::format("there is nothing to examine: no step that draws is longer than {} steps",
+                                          steps_are_one));
     }
     return examine(plane, strokes, options);
 }

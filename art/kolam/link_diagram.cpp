@@ -1,6 +1,6 @@
 #include "art/kolam/link_diagram.h"
 
-#include "art/kolam/union_find.h"
+#include "engine/base/union_find.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "art/kolam/planar_graph.h"
 
-#include "art/kolam/union_find.h"
+#include "engine/base/union_find.h"
 
 #include <numeric>
 #include <tuple>

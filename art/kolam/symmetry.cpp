@@ -1,6 +1,6 @@
 #include "art/kolam/symmetry.h"
 
-#include "art/kolam/union_find.h"
+#include "engine/base/union_find.h"
 
 #include <array>
 #include <numeric>

@@ -105,7 +105,10 @@ PolygonClasses::Signature PolygonClasses::sides_and_angles(const std::vector<glm
 
 PolygonClass PolygonClasses::classify(std::span<const glm::dvec2> given) {
     const std::vector<glm::dvec2> corners = true_corners(given);
-    const Signature sides = sides_and_angles(corners);
+    return classify(corners, sides_and_angles(corners));
+}
+
+PolygonClass PolygonClasses::classify(std::span<const glm::dvec2> corners, const std::vector<std::int64_t>& sides) {
     const std::vector<std::size_t> starts = least_starts(sides);
     const Signature own = starts.empty() ? Signature{} : turned_to(sides, starts.front());
     const Signature seen = reflected(sides);

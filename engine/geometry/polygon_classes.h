@@ -57,6 +57,10 @@ public:
 
     /// Cost: k log k for k corners, and a search among the classes.
     PolygonClass classify(std::span<const glm::dvec2> corners);
+    /// The same for lengths and angles that the caller distinguishes. @param corners  anticlockwise, none on a
+    /// straight stretch @param sides  for each of them a number of the side that begins there, and one of the angle
+    /// at its end
+    PolygonClass classify(std::span<const glm::dvec2> corners, const std::vector<std::int64_t>& sides);
     std::size_t shapes() const { return shapes_.size(); }
 
 private:

@@ -1,6 +1,7 @@
 #include "engine/measure/extent.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -149,9 +150,7 @@ Measurement walked(const Grammar& grammar, DerivationOptions options) {
     return result;
 }
 
-}  // namespace
-
-Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
+Measurement measured(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
     DerivationOptions options;
     options.interpreted = true;
     options.limit_whole_words(budget);
@@ -182,6 +181,33 @@ Measurement measure(const Grammar& given, double budget, const std::function<voi
     if (!grammar.is_spatial()) result.geometry = fold(grammar);
     if (!result.geometry && interpreted.nodes <= budget) walk(grammar, options, false, result);
     if (result.geometry && grammar.has_labels()) note_labels(grammar, options, interpreted.nodes <= budget, result);
+    return result;
+}
+
+/// Rounded positions count as the start within 1e-9 steps, which says nothing about drawings of about that size.
+void doubt_closed(Measurement& result) {
+    constexpr double small = 1e-6;  // of the size
+    const auto is_far = [](double gap, double width, double height) { return gap > small * std::max(width, height); };
+    if (result.geometry) {
+        Fold& fold = *result.geometry;
+        const auto& box = fold.box;
+        if (is_far(std::hypot(fold.end[0].value, fold.end[1].value), box[2].value - box[0].value,
+                   box[3].value - box[1].value)) {
+            fold.closed = false;
+        }
+    }
+    if (result.space) {
+        SpaceSurvey& survey = *result.space;
+        const glm::dvec3 size = survey.box.high - survey.box.low;
+        if (is_far(glm::length(survey.end), std::max(size.x, size.y), size.z)) survey.closed = false;
+    }
+}
+
+}  // namespace
+
+Measurement measure(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
+    Measurement result = measured(given, budget, watch);
+    doubt_closed(result);
     return result;
 }
 

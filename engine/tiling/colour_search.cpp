@@ -12,25 +12,6 @@ namespace {
 using Tile = std::uint32_t;
 constexpr Tile none = std::numeric_limits<Tile>::max();
 
-/// The parity of distances, if neighbours always differ in it.
-std::optional<std::vector<Tile>> two_colours(const TileNeighbours& neighbours) {
-    std::vector<Tile> colours(neighbours.tiles(), none), reached;
-    for (Tile start = 0; start < neighbours.tiles(); ++start) {
-        if (colours[start] != none) continue;
-        colours[start] = 0;
-        reached.assign(1, start);
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            for (const Tile other : neighbours.of(reached[i])) {
-                if (colours[other] == colours[reached[i]]) return std::nullopt;
-                if (colours[other] != none) continue;
-                colours[other] = 1 - colours[reached[i]];
-                reached.push_back(other);
-            }
-        }
-    }
-    return colours;
-}
-
 /// Removes tiles with fewer than three remaining neighbours as long as there are any. The order of removal.
 std::vector<Tile> peel(const TileNeighbours& neighbours, std::vector<char>& is_removed) {
     std::vector<std::size_t> degree(neighbours.tiles());
@@ -436,16 +417,30 @@ private:
 
 }  // namespace
 
+std::optional<std::vector<Tile>> two_colours(const TileNeighbours& neighbours) {
+    std::vector<Tile> colours(neighbours.tiles(), none), reached;
+    for (Tile start = 0; start < neighbours.tiles(); ++start) {
+        if (colours[start] != none) continue;
+        colours[start] = 0;
+        reached.assign(1, start);
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            for (const Tile other : neighbours.of(reached[i])) {
+                if (colours[other] == colours[reached[i]]) return std::nullopt;
+                if (colours[other] != none) continue;
+                colours[other] = 1 - colours[reached[i]];
+                reached.push_back(other);
+            }
+        }
+    }
+    return colours;
+}
+
 TileColouring find_colours(const TileNeighbours& neighbours, const ColourBudget& budget, const Monitor& monitor) {
     TileColouring result;
-    if (auto two = two_colours(neighbours)) {
-        result.colours = std::move(*two);
-        result.at_least = result.at_most =
-            std::any_of(result.colours.begin(), result.colours.end(), [](Tile colour) { return colour == 1; }) ? 2
-                                                                                                               : 1;
-        return result;
-    }
-    result.at_least = 3;
+    result.colours = colours_of_neighbours(neighbours, monitor);
+    for (const Tile colour : result.colours) result.at_most = std::max(result.at_most, static_cast<int>(colour) + 1);
+    result.at_least = std::min(result.at_most, 3);
+    if (result.at_most <= 3) return result;
     std::vector<char> is_removed;
     const std::vector<Tile> order = peel(neighbours, is_removed);
     std::vector<Tile> colours(neighbours.tiles(), none);

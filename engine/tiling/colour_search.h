@@ -5,6 +5,7 @@
 #include "engine/tiling/tile_neighbours.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sikku {
@@ -15,8 +16,8 @@ enum class Colourable : std::uint8_t { yes, no, undecided };
 /// Result of find_colours().
 struct TileColouring {
     int at_least = 1;                    ///< so many are needed
-    int at_most = 4;                     ///< so many suffice; four always do for tiles without holes
-    std::vector<std::uint32_t> colours;  ///< of the tiles, if at_most is 3 or less
+    int at_most = 1;                     ///< so many suffice
+    std::vector<std::uint32_t> colours;  ///< of the tiles, at_most different ones
 };
 
 /// Limits of a search for three colours.
@@ -25,9 +26,17 @@ struct ColourBudget {
     std::uint64_t steps = 10'000'000;  ///< values set, clauses and causes looked at; 20 more for each tile
 };
 
-/// Colours tiles with as few colours as possible: one if none touch, two if there are no odd cycles, three if an
+/// Numbers tiles so that neighbours differ, with few numbers: one if none touch, two if there are no odd cycles,
+/// often three, four where exchanging the colours of chains of tiles (Kempe 1879) succeeds, seldom more. Cost:
+/// linear, but for exchanges.
+std::vector<std::uint32_t> colours_of_neighbours(const TileNeighbours& neighbours, const Monitor& monitor);
+
+/// The parity of distances, if neighbours always differ in it.
+std::optional<std::vector<std::uint32_t>> two_colours(const TileNeighbours& neighbours);
+
+/// Colours tiles with as few colours as possible: as colours_of_neighbours(), and with three if that has more and an
 /// exact search finds them. Tiles with fewer than three neighbours, also after others are removed, take no part in
-/// it. Cost: linear, and the search. @throws Stopped
+/// the search. Cost: linear, and the search. @throws Stopped
 TileColouring find_colours(const TileNeighbours& neighbours, const ColourBudget& budget, const Monitor& monitor);
 
 }  // namespace sikku

@@ -84,6 +84,12 @@ std::vector<CutKind> cut_list(const TilingResult& result, double step, bool keep
     return kinds;
 }
 
+std::string missing_pieces(const TilingExamination& examination) {
+    if (examination.violations.count == 0) return {};
+    return fmt::format("{} left out or overlap: see the examination without this option",
+                       counted(examination.violations.count, "polygon"));
+}
+
 std::string cut_list_text(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                           double step) {
     const TilingExamination& t = result.examination;
@@ -100,10 +106,7 @@ std::string cut_list_text(const std::string& title, std::optional<std::int64_t> 
                             listed(shape.sides, step), listed(shape.angles, 1));
     }
     text += fmt::format("{}, {} cm2\n", counted(t.tiles, "piece"), hundredths(area / 100));
-    if (t.violations.count > 0) {
-        text += fmt::format("{} left out or overlap: see the examination without this option\n",
-                            counted(t.violations.count, "polygon"));
-    }
+    if (const std::string missing = missing_pieces(t); !missing.empty()) text += missing + "\n";
     return text;
 }
 
@@ -123,9 +126,11 @@ std::string cut_list_json(const std::string& title, std::optional<std::int64_t> 
             t.shapes[kind.shape].is_chiral ? fmt::format("\"{}\"", hand_name(t, kind)) : "null", kind.colour,
             kind.pieces, kind.area, corners);
     }
-    return fmt::format("{{\"title\": {}, \"n\": {}, \"step\": {}, \"pieces\": {}, \"area\": {}, \"kinds\": [{}]}}\n",
-                       json_string(title), n ? std::to_string(*n) : "null", step, t.tiles, t.area * step * step,
-                       kinds);
+    return fmt::format(
+        "{{\"title\": {}, \"n\": {}, \"step\": {}, \"pieces\": {}, \"violations\": {}, \"area\": {}, \"kinds\": "
+        "[{}]}}\n",
+        json_string(title), n ? std::to_string(*n) : "null", step, t.tiles, t.violations.count, t.area * step * step,
+        kinds);
 }
 
 }  // namespace sikku

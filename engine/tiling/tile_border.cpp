@@ -1,12 +1,16 @@
 #include "engine/tiling/tile_border.h"
 
 #include "engine/base/numbers.h"
+#include "engine/base/union_find.h"
 #include "engine/tiling/place_grid.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -17,42 +21,77 @@ public:
         : plane_(plane), tiles_(tiles), pieces_(pieces), pulse_(monitor), loop_of_(pieces.sides(), no_number) {}
 
     TileBorder find() {
+        find_followers();
         for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
             pulse_();
             if (pieces_.twin[side] == no_number && loop_of_[side] == no_number) follow(side);
         }
-        for (TileLoop& loop : result_.loops) {
-            measure(loop);
-            ++(loop.area > 0 ? result_.regions : result_.gaps);
-        }
+        for (TileLoop& loop : result_.loops) measure(loop);
+        count_components();
         find_crossings();
         if (result_.overlap_count == 0) check_nesting();
+        if (result_.overlap_count == 0) find_gaps();
         result_.areas_agree = areas_agree();
         return std::move(result_);
     }
 
 private:
-    /// The next border piece around the tiles that are connected at its end.
-    std::uint32_t next_on_border(std::uint32_t side) const {
+    bool is_border(std::uint32_t side) const { return pieces_.twin[side] == no_number; }
+
+    /// The border piece with which the tiles begin, anticlockwise, that are connected around the end of a border
+    /// piece.
+    std::uint32_t begin_of_fan(std::uint32_t side) const {
         std::uint32_t next = pieces_.next(side);
-        while (pieces_.twin[next] != no_number) next = pieces_.next(pieces_.twin[next]);
+        while (!is_border(next)) next = pieces_.next(pieces_.twin[next]);
         return next;
+    }
+    /// Around each point, the border piece that begins there after another one, anticlockwise: between the tiles of
+    /// one and those of the other lies the complement.
+    void find_followers() {
+        follower_.assign(pieces_.sides(), no_number);
+        for (std::uint32_t point = 0; point < plane_.points(); ++point) {
+            pulse_();
+            std::uint32_t first = no_number, last = no_number;
+            for (const std::uint32_t side : pieces_.out_of(point)) {
+                if (!is_border(side)) continue;
+                if (first == no_number) first = side;
+                if (last != no_number) follower_[last] = side;
+                last = side;
+            }
+            if (last != no_number) follower_[last] = first;
+        }
     }
     void follow(std::uint32_t first) {
         const auto number = static_cast<std::uint32_t>(result_.loops.size());
         const auto begin = static_cast<std::uint32_t>(result_.sides.size());
-        for (std::uint32_t side = first; loop_of_[side] == no_number; side = next_on_border(side)) {
+        double turning = 0;
+        for (std::uint32_t side = first; loop_of_[side] == no_number;) {
             pulse_();
             loop_of_[side] = number;
             result_.sides.push_back(side);
+            const std::uint32_t fan = begin_of_fan(side), next = follower_[fan];
+            turning += opening(side, fan, next) - std::numbers::pi;
+            side = next;
         }
-        result_.loops.push_back({begin, static_cast<std::uint32_t>(result_.sides.size()), 0, glm::dvec2(0.0)});
+        const bool is_outer = turning > 0;
+        result_.loops.push_back({begin, static_cast<std::uint32_t>(result_.sides.size()), 0, is_outer});
+    }
+    /// The angle in radians between the tiles around a point that end with a border piece and those that follow.
+    double opening(std::uint32_t side, std::uint32_t fan, std::uint32_t next) const {
+        constexpr double turn = 2 * std::numbers::pi;
+        const glm::dvec2 along = end(fan) - start(fan);
+        const auto turned = [&](glm::dvec2 way) {
+            const double angle = std::atan2(determinant(along, way), scalar_product(along, way));
+            return angle < 0 ? angle + turn : angle;
+        };
+        const double room = next == fan ? turn : turned(end(next) - start(next));
+        return room - turned(start(side) - end(side));
     }
     glm::dvec2 start(std::uint32_t side) const { return plane_.at(pieces_.from[side]); }
     glm::dvec2 end(std::uint32_t side) const { return plane_.at(pieces_.to(side)); }
 
-    void measure(TileLoop& loop) const {
-        const glm::dvec2 origin = start(result_.sides[loop.begin]);
+    /// Twice the area of a loop and six times the moment about an origin.
+    std::pair<double, glm::dvec2> moments(const TileLoop& loop, glm::dvec2 origin) const {
         double twice = 0;
         glm::dvec2 moment(0.0);
         for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
@@ -61,8 +100,26 @@ private:
             twice += part;
             moment += part * (a + b);
         }
-        loop.area = twice / 2;
-        loop.centre = twice == 0 ? origin : origin + moment / (3 * twice);
+        return {twice, moment};
+    }
+    void measure(TileLoop& loop) const { loop.area = moments(loop, start(result_.sides[loop.begin])).first / 2; }
+
+    void count_components() {
+        UnionFind regions(tiles_.tiles()), components(plane_.points());
+        std::vector<char> is_used(plane_.points(), 0);
+        for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
+            pulse_();
+            if (!is_border(side)) regions.join(pieces_.tile[side], pieces_.tile[pieces_.twin[side]]);
+            components.join(pieces_.from[side], pieces_.to(side));
+            is_used[pieces_.from[side]] = 1;
+        }
+        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) result_.regions += regions.find(tile) == tile;
+        for (std::uint32_t point = 0; point < plane_.points(); ++point) {
+            result_.components += is_used[point] && components.find(point) == point;
+        }
+        const auto around = std::count_if(result_.loops.begin(), result_.loops.end(),
+                                          [](const TileLoop& loop) { return loop.is_outer; });
+        result_.loops_agree = static_cast<std::uint64_t>(around) == result_.components;
     }
 
     void overlap(std::uint32_t a, std::uint32_t b, glm::dvec2 at) {
@@ -114,14 +171,12 @@ private:
         return plane_.at(r) + (first / (first - second)) * (plane_.at(s) - plane_.at(r));
     }
 
-    /// Around each region the winding number of the other loops must be 0, around each gap 1.
+    /// Beside each loop, the winding number of the other ones must be 0, or 1 within a gap: then no tile covers the
+    /// face that the loop bounds. Finds the gap in which each outer loop lies.
     void check_nesting() {
         const std::size_t count = result_.loops.size();
-        if (count == 1) {
-            if (result_.loops.front().area < 0) ++result_.overlap_count;
-            return;
-        }
-        if (count == 0) return;
+        gap_around_.assign(count, no_number);
+        if (count < 2) return;
         // Pieces in levels of about their own height.
         double low = start(result_.sides.front()).y, high = low;
         for (const std::uint32_t side : result_.sides) {
@@ -141,31 +196,64 @@ private:
         for (const std::uint32_t side : result_.sides) visit(side, [&](std::size_t i) { lists.count(i); });
         lists.start();
         for (const std::uint32_t side : result_.sides) visit(side, [&](std::size_t i) { lists.add(i, side); });
+        std::vector<int> windings(count, 0);
+        std::vector<std::uint32_t> crossed;
         for (std::uint32_t number = 0; number < count; ++number) {
             const TileLoop& loop = result_.loops[number];
             const std::uint32_t own = result_.sides[loop.begin];
             const glm::dvec2 middle = (start(own) + end(own)) / 2.0;
             int winding = 0;
+            crossed.clear();
             lists.visit(level(middle.y), [&](std::uint32_t side) {
                 pulse_();
                 if (loop_of_[side] == number) return;
                 const glm::dvec2 a = start(side), b = end(side);
                 if ((a.y > middle.y) == (b.y > middle.y)) return;
                 // To the left of the middle?
-                const double place = determinant(b - a, middle - a);
-                if (b.y < a.y && place > 0) ++winding;
-                if (b.y > a.y && place < 0) --winding;
+                const int place = side_of_middle(side, own);
+                const int step = b.y < a.y && place > 0 ? 1 : b.y > a.y && place < 0 ? -1 : 0;
+                winding += step;
+                windings[loop_of_[side]] += step;
+                crossed.push_back(loop_of_[side]);
             });
-            if (winding == (loop.area > 0 ? 0 : 1)) continue;
+            for (const std::uint32_t other : crossed) {
+                if (std::exchange(windings[other], 0) >= 0) continue;
+                std::uint32_t& nearest = gap_around_[number];
+                // Of nested gaps, the smallest one.
+                if (nearest == no_number || result_.loops[other].area > result_.loops[nearest].area) nearest = other;
+            }
+            if (winding == (loop.is_outer ? 0 : 1)) continue;
             const std::uint32_t tile = pieces_.tile[own];
-            const std::uint32_t other = tile_around(middle, own);
+            const std::uint32_t other =
+                result_.overlaps.size() < TileViolations::most ? tile_around(middle, own) : no_number;
             if (other != no_number) {
                 overlap(tile, other, middle);
-            } else {
-                ++result_.overlap_count;
+                continue;
+            }
+            ++result_.overlap_count;
+            if (result_.overlaps.size() < TileViolations::most) {
                 result_.overlaps.push_back({TileFault::overlap, tiles_.number[tile], 0, middle});
             }
         }
+    }
+    /// 1 if the middle of the piece `own` lies left of a piece, 0 on its line, -1 right of it.
+    int side_of_middle(std::uint32_t side, std::uint32_t own) const {
+        const glm::dvec2 a = start(side), b = end(side), middle = (start(own) + end(own)) / 2.0;
+        const double height = determinant(b - a, middle - a);
+        if (!plane_.is_exact() ||
+            std::fabs(height) > 1e-9 * (1 + scalar_product(b - a, b - a) + scalar_product(middle - a, middle - a))) {
+            return height > 0 ? 1 : height < 0 ? -1 : 0;
+        }
+        const Cyclotomic::Number from = plane_.coordinates(pieces_.from[side]),
+                                 to = plane_.coordinates(pieces_.to(side)),
+                                 first = plane_.coordinates(pieces_.from[own]),
+                                 second = plane_.coordinates(pieces_.to(own));
+        Cyclotomic::Number along{}, twice{};
+        for (std::size_t i = 0; i < along.size(); ++i) {
+            along[i] = to[i] - from[i];
+            twice[i] = first[i] + second[i] - 2 * from[i];
+        }
+        return plane_.numbers().sign_imaginary(plane_.numbers().conjugate_product(along, twice));
     }
     /// A tile of another loop that contains a point of the border, or no_number.
     std::uint32_t tile_around(glm::dvec2 at, std::uint32_t side) const {
@@ -181,6 +269,72 @@ private:
             if (is_inside) return tile;
         }
         return no_number;
+    }
+
+    /// Loops within each gap, without those within other gaps in it, belong to its border.
+    void find_gaps() {
+        std::vector<std::vector<std::uint32_t>> islands(result_.loops.size());
+        for (std::uint32_t loop = 0; loop < result_.loops.size(); ++loop) {
+            if (result_.loops[loop].is_outer && gap_around_[loop] != no_number) {
+                islands[gap_around_[loop]].push_back(loop);
+            }
+        }
+        for (std::uint32_t loop = 0; loop < result_.loops.size(); ++loop) {
+            if (result_.loops[loop].is_outer) continue;
+            islands[loop].push_back(loop);
+            result_.gaps.push_back(gap_between(islands[loop]));
+        }
+    }
+    TileGap gap_between(const std::vector<std::uint32_t>& loops) {
+        const glm::dvec2 origin = start(result_.sides[result_.loops[loops.back()].begin]);
+        double twice = 0;
+        glm::dvec2 moment(0.0);
+        for (const std::uint32_t loop : loops) {
+            const auto [part, its_moment] = moments(result_.loops[loop], origin);
+            twice += part;
+            moment += its_moment;
+        }
+        TileGap gap{std::fabs(twice) / 2, twice == 0 ? origin : origin + moment / (3 * twice)};
+        const auto holds = [&](const std::vector<double>& crossings) {
+            for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+                if (crossings[i] < gap.centre.x && gap.centre.x < crossings[i + 1]) return true;
+            }
+            return false;
+        };
+        if (holds(crossings_at(loops, gap.centre.y, true)) && holds(crossings_at(loops, gap.centre.y, false))) {
+            return gap;
+        }
+        // A level between corners, and the middle of the longest part of the gap on it.
+        double next = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t loop : loops) {
+            for (std::uint32_t i = result_.loops[loop].begin; i < result_.loops[loop].end; ++i) {
+                const double y = start(result_.sides[i]).y;
+                if (y > gap.centre.y) next = std::min(next, y);
+            }
+        }
+        if (next < std::numeric_limits<double>::infinity()) gap.centre.y = (gap.centre.y + next) / 2;
+        const std::vector<double> crossings = crossings_at(loops, gap.centre.y, true);
+        double longest = 0;
+        for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+            if (crossings[i + 1] - crossings[i] <= longest) continue;
+            longest = crossings[i + 1] - crossings[i];
+            gap.centre.x = (crossings[i] + crossings[i + 1]) / 2;
+        }
+        return gap;
+    }
+    /// Where a level, moved up or down by nothing, crosses loops: the gap between them lies between pairs.
+    std::vector<double> crossings_at(const std::vector<std::uint32_t>& loops, double y, bool up) {
+        std::vector<double> crossings;
+        const auto is_above = [&](glm::dvec2 at) { return up ? at.y > y : at.y >= y; };
+        for (const std::uint32_t loop : loops) {
+            for (std::uint32_t i = result_.loops[loop].begin; i < result_.loops[loop].end; ++i) {
+                pulse_();
+                const glm::dvec2 a = start(result_.sides[i]), b = end(result_.sides[i]);
+                if (is_above(a) != is_above(b)) crossings.push_back(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+            }
+        }
+        std::sort(crossings.begin(), crossings.end());
+        return crossings;
     }
 
     bool areas_agree() const {
@@ -227,7 +381,9 @@ private:
     const TileSet& tiles_;
     const TilePieces& pieces_;
     Pulse pulse_;
-    std::vector<std::uint32_t> loop_of_;  // of sides
+    std::vector<std::uint32_t> loop_of_;     // of sides
+    std::vector<std::uint32_t> follower_;    // of sides
+    std::vector<std::uint32_t> gap_around_;  // of loops
     TilePairs pairs_;
     TileBorder result_;
 };

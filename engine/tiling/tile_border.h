@@ -1,4 +1,4 @@
-// engine/tiling/tile_border.h: the border of a tiling: loops around regions and around gaps.
+// engine/tiling/tile_border.h: the border of a tiling, and the gaps that it leaves open.
 #pragma once
 
 #include "engine/tiling/tile_pieces.h"
@@ -8,11 +8,19 @@
 
 namespace sikku {
 
-/// A closed loop of border pieces with tiles on their left: anticlockwise around a region, clockwise around a gap.
+/// A closed walk along border pieces with tiles on their left and one face of the complement on their right:
+/// anticlockwise around tiles, clockwise around a gap. It may pass a point several times, where tiles touch at a
+/// corner.
 struct TileLoop {
     std::uint32_t begin = 0, end = 0;  ///< range of TileBorder::sides
     double area = 0;                   ///< enclosed, in steps squared; negative around a gap
-    glm::dvec2 centre{0.0};            ///< centroid of that area
+    bool is_outer = true;              ///< anticlockwise
+};
+
+/// A bounded face of the complement of all tiles.
+struct TileGap {
+    double area = 0;         ///< steps squared; tiles that lie within the gap are not part of it
+    glm::dvec2 centre{0.0};  ///< a point of the gap: its centroid where that lies in it
 };
 
 struct TileBorder {
@@ -22,15 +30,19 @@ struct TileBorder {
     /// Pairs of tiles whose pieces cross, or of which one contains the other; counting ends soon after
     /// TileViolations::most_counted.
     std::uint64_t overlap_count = 0;
-    std::uint64_t regions = 0;
-    std::uint64_t gaps = 0;
+    std::uint64_t regions = 0;     ///< groups of tiles that are joined by pieces
+    std::uint64_t components = 0;  ///< groups of tiles that are joined by pieces or at corners
+    std::vector<TileGap> gaps;     ///< in the order of their loops; empty if tiles overlap
+    /// Each component has one loop around it.
+    bool loops_agree = false;
     /// Sum of the areas of tiles equals that within the loops: exactly, or to about 1e-9 of it.
     bool areas_agree = false;
 };
 
-/// Follows the border of pieces that check_vertices() found to be valid, and checks that its loops do not cross and
-/// that regions and gaps alternate from outside inwards. Cost: linear in the pieces, and border pieces near each
-/// loop's level for each loop.
+/// Walks around the faces of the complement of tiles whose vertices check_vertices() found to be valid, and checks
+/// that the border does not cross itself and that no tile lies beyond it. Every bounded face is a gap, also where the
+/// tiles around it touch at corners only. Cost: linear in the pieces, and border pieces near each loop's level for
+/// each loop.
 TileBorder find_border(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
                        const Monitor& monitor);
 

@@ -5,6 +5,7 @@
 #include "engine/geometry/turtle.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,14 +53,15 @@ public:
     struct Kind {
         std::uint32_t shape = 0;
         bool is_reflected = false;
+        std::optional<int> colour;
         bool operator<(const Kind& other) const {
-            return std::tie(shape, is_reflected) < std::tie(other.shape, other.is_reflected);
+            return std::tie(shape, is_reflected, colour) < std::tie(other.shape, other.is_reflected, other.colour);
         }
     };
-    void polygon(std::span<const glm::dvec2> vertices, const Pen&) override {
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         const PolygonClass found = classes_.classify(vertices);
         if (found.shape == shapes.size()) shapes.push_back(shape_of(vertices));
-        kinds.push_back({found.shape, found.is_reflected});
+        kinds.push_back({found.shape, found.is_reflected, pen.colour});
     }
 
     std::vector<TileShape> shapes;
@@ -128,9 +130,38 @@ private:
         return successor ? *successor : Word{symbol};
     }
 
+    static bool changes_colour(const Command& command) {
+        return command.action == Action::colour_set || command.action == Action::colour_step;
+    }
+    /// Whether any word changes the colour.
+    bool has_colours() const {
+        return std::any_of(symbols_.begin(), symbols_.end(), [&](Symbol symbol) {
+            const Word word = interpreted(symbol);
+            return std::any_of(word.begin(), word.end(),
+                               [&](Symbol each) { return changes_colour(grammar_.symbols()[each].command); });
+        });
+    }
+    /// For each polygon of a word, whether the word itself sets its colour.
+    std::vector<char> own_colours(const Word& word) const {
+        std::vector<char> result, outer;
+        char is_set = 0;
+        for (const Symbol symbol : word) {
+            const Action action = grammar_.symbols()[symbol].command.action;
+            if (action == Action::colour_set) is_set = 1;
+            if (action == Action::push) outer.push_back(is_set);
+            if (action == Action::pop && !outer.empty()) {
+                is_set = outer.back();
+                outer.pop_back();
+            }
+            if (action == Action::polygon_end) result.push_back(is_set);
+        }
+        return result;
+    }
+
     /// Draws what each symbol draws by itself; false if braces or brackets of one do not balance.
     bool read_tiles() {
         ShapeReader reader;
+        const bool is_coloured = has_colours();
         for (const Symbol symbol : symbols_) {
             const Word word = interpreted(symbol);
             int braces = 0, tiles = 0;
@@ -151,7 +182,12 @@ private:
             } catch (const WordError&) {
                 return false;
             }
-            for (const Kind kind : reader.kinds) ++kinds_[kind][symbol];
+            const std::vector<char> own = is_coloured ? own_colours(word) : std::vector<char>();
+            for (std::size_t i = 0; i < reader.kinds.size(); ++i) {
+                Kind& kind = reader.kinds[i];
+                if (is_coloured && (own.size() != reader.kinds.size() || !own[i])) kind.colour.reset();
+                ++kinds_[kind][symbol];
+            }
         }
         result_.shapes = reader.shapes;
         return true;
@@ -160,7 +196,7 @@ private:
     void count() {
         const auto known = forecast(grammar_, false);
         for (const auto& [kind, symbols] : kinds_) {
-            TileKindCount each{kind.shape, kind.is_reflected, {}, 0};
+            TileKindCount each{kind.shape, kind.is_reflected, kind.colour, {}, 0, {}};
             std::set<std::string> letters;
             for (const auto& [symbol, times] : symbols) {
                 const std::string& letter = grammar_.symbols()[symbol].letter;
@@ -245,16 +281,117 @@ private:
             return;
         }
         result_.tiles = factor - 1;
-        result_.frequencies.assign(result_.shapes.size(), 0);
-        double sum = 0;
-        for (const auto& [kind, symbols] : kinds_) {
-            for (const auto& [symbol, times] : symbols) {
-                result_.frequencies[kind.shape] += counts[index[symbol]] * times;
-                sum += counts[index[symbol]] * times;
-            }
-        }
-        for (double& frequency : result_.frequencies) frequency /= sum;
         result_.period = period_of(rows);
+        find_shares(rows, index, counts);
+    }
+
+    using Rows = std::vector<std::map<std::size_t, double>>;
+
+    /// Groups of kinds whose shares are asked for: shapes, reflected tiles of a shape, colours, and each kind.
+    struct Groups {
+        std::vector<std::vector<std::size_t>> of_kind;  ///< groups of each of kinds_
+        std::size_t count = 0;
+    };
+    Groups groups() const {
+        Groups result;
+        const std::size_t shapes = result_.shapes.size();
+        std::map<int, std::size_t> colours;
+        for (const auto& [kind, symbols] : kinds_) {
+            if (kind.colour) colours.try_emplace(*kind.colour, 0);
+        }
+        std::size_t next = 2 * shapes;
+        for (auto& [colour, group] : colours) group = next++;
+        for (const auto& [kind, symbols] : kinds_) {
+            std::vector<std::size_t> own = {kind.shape, next++};
+            if (kind.is_reflected) own.push_back(shapes + kind.shape);
+            if (kind.colour) own.push_back(colours[*kind.colour]);
+            result.of_kind.push_back(std::move(own));
+        }
+        result.count = next;
+        return result;
+    }
+    /// The shares of groups among all tiles. @param sum  receives the number of tiles
+    std::vector<double> shares(const Groups& groups, const std::map<Symbol, std::size_t>& index,
+                               const std::vector<double>& counts, double& sum) const {
+        std::vector<double> result(groups.count, 0);
+        sum = 0;
+        std::size_t number = 0;
+        for (const auto& [kind, symbols] : kinds_) {
+            double own = 0;
+            for (const auto& [symbol, times] : symbols) own += counts[index.at(symbol)] * times;
+            for (const std::size_t group : groups.of_kind[number]) result[group] += own;
+            ++number;
+            sum += own;
+        }
+        for (double& share : result) share /= sum;
+        return result;
+    }
+
+    /// The eigenvector gives limits only where the numbers of successive steps tend to it: shares may alternate for
+    /// ever. @param counts  the eigenvector
+    void find_shares(const Rows& rows, const std::map<Symbol, std::size_t>& index,
+                     const std::vector<double>& counts) {
+        constexpr int longest = 5000, enough = 60;
+        const Groups all = groups();
+        double tiles = 0, tiles_before = 0;
+        const std::vector<double> limit = shares(all, index, counts, tiles);
+        std::vector<int> steady(all.count + 1,
+                                0);  // steps for which each share, and the factor, was that of the limit
+        std::vector<double> now(rows.size(), 0), next;
+        for (const Symbol symbol : grammar_.axiom()) {
+            const auto found = index.find(symbol);
+            if (found != index.end()) ++now[found->second];
+        }
+        for (int step = 0; step < longest; ++step) {
+            const auto count = [&](std::size_t group, bool is_near) {
+                steady[group] = is_near ? steady[group] + 1 : 0;
+            };
+            const double size = std::accumulate(now.begin(), now.end(), 0.0);
+            if (!(size > 0)) return;
+            for (double& value : now) value /= size;
+            const std::vector<double> here = shares(all, index, now, tiles);
+            for (std::size_t i = 0; i < all.count; ++i) count(i, std::fabs(here[i] - limit[i]) < accuracy);
+            count(all.count, std::fabs(size * tiles - *result_.tiles * tiles_before) < accuracy * size * tiles);
+            tiles_before = tiles;
+            if (*std::min_element(steady.begin(), steady.end()) >= enough) break;
+            next.assign(rows.size(), 0);
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                for (const auto& [j, times] : rows[i]) next[j] += now[i] * times;
+            }
+            now.swap(next);
+        }
+        take_shares(all, limit, steady, enough);
+    }
+    void take_shares(const Groups& all, const std::vector<double>& limit, const std::vector<int>& steady,
+                     int enough) {
+        const std::size_t shapes = result_.shapes.size();
+        const auto settles = [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (steady[i] < enough) return false;
+            }
+            return true;
+        };
+        const auto part = [&](std::size_t begin, std::size_t end) {
+            return std::vector<double>(limit.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       limit.begin() + static_cast<std::ptrdiff_t>(end));
+        };
+        result_.is_average = steady[all.count] < enough;
+        if (settles(0, shapes)) result_.frequencies = part(0, shapes);
+        if (settles(shapes, 2 * shapes)) result_.reflected = part(shapes, 2 * shapes);
+        const std::size_t kinds = all.count - kinds_.size();
+        std::set<int> colours;
+        bool is_known = settles(2 * shapes, kinds);
+        std::size_t number = 0;
+        for (const auto& [kind, symbols] : kinds_) {
+            if (steady[kinds + number] >= enough) result_.counts[number].share = limit[kinds + number];
+            is_known = is_known && kind.colour.has_value();
+            if (kind.colour) colours.insert(*kind.colour);
+            ++number;
+        }
+        std::size_t group = 2 * shapes;
+        for (const int colour : colours) {
+            if (is_known) result_.colours.emplace_back(colour, limit[group++]);
+        }
     }
 
     /// The steps from the first symbol to each other one along the fewest symbols; empty if one is not reached.
@@ -292,6 +429,21 @@ private:
         return period;
     }
 
+    /// True if symbols follow one in its branch, so that its moves and turns move them.
+    bool is_followed(Symbol symbol) const {
+        const auto is_followed_in = [&](const Word& word) {
+            for (std::size_t i = 0; i + 1 < word.size(); ++i) {
+                if (word[i] == symbol && grammar_.symbols()[word[i + 1]].command.action != Action::pop) return true;
+            }
+            return false;
+        };
+        if (is_followed_in(grammar_.axiom())) return true;
+        return std::any_of(symbols_.begin(), symbols_.end(), [&](Symbol each) {
+            const Word* successor = grammar_.tables().front().successor(each);
+            return successor && is_followed_in(*successor);
+        });
+    }
+
     /// The move of a word of symbols of the finished word, branches left out.
     Move move_of(const Word& word, bool interprets) const {
         Move result;
@@ -317,29 +469,29 @@ private:
     }
 
     void find_length() {
-        const std::vector<Symbol> tiles = tile_symbols();
         std::optional<glm::dvec2> factor;
         for (const Symbol symbol : symbols_) {
-            if (std::binary_search(tiles.begin(), tiles.end(), symbol)) continue;
             const Move own = move_of({symbol}, true);
             const double square = scalar_product(own.way, own.way);
-            if (square < accuracy) continue;
             const Word* successor = grammar_.tables().front().successor(symbol);
+            if (square < accuracy && (!successor || !is_followed(symbol))) continue;
             // Modules with the values of the last step have no productions in the plain form.
             if (!successor && has_parameters_ && !grammar_.symbols()[symbol].arguments.empty()) continue;
             const Move next = successor ? move_of(*successor, true) : own;
-            const glm::dvec2 turned = next.turn - own.turn;
-            const glm::dvec2 ratio = product(next.way, {own.way.x, -own.way.y}) / square;
-            const glm::dvec2 gap = factor ? ratio - *factor : glm::dvec2(0.0);
-            if (std::sqrt(scalar_product(turned, turned)) > accuracy ||
-                std::sqrt(scalar_product(gap, gap)) > accuracy) {
+            const bool is_turned = glm::distance(next.turn, own.turn) > accuracy;
+            const bool begins_to_move = square < accuracy && scalar_product(next.way, next.way) > accuracy;
+            const glm::dvec2 ratio =
+                square < accuracy ? glm::dvec2(0.0) : product(next.way, {own.way.x, -own.way.y}) / square;
+            if (is_turned || begins_to_move ||
+                (square >= accuracy && factor && glm::distance(ratio, *factor) > accuracy)) {
                 result_.no_length = "the moves are not multiplied by one number";
                 return;
             }
+            if (square < accuracy) continue;
             factor = ratio;
         }
         if (!factor) {
-            result_.no_length = "there are no moves besides tiles";
+            result_.no_length = "there are no moves";
             return;
         }
         const double square = scalar_product(*factor, *factor);

@@ -6,16 +6,19 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
 
-/// Number of tiles of a shape and hand after n steps.
+/// Number of tiles of a shape, hand and colour after n steps.
 struct TileKindCount {
     std::uint32_t shape = 0;    ///< index into TileGrowth::shapes
     bool is_reflected = false;  ///< of the other hand than the first of its shape
+    std::optional<int> colour;  ///< absent if the symbols around those that draw the tile decide on it
     std::string letters;        ///< the symbols that draw it
     Integer count = 0;
+    std::optional<double> share;  ///< of all tiles, in the limit; absent if it has none
 };
 
 struct TileGrowth {
@@ -24,8 +27,12 @@ struct TileGrowth {
     std::vector<TileKindCount> counts;
 
     /// Without these, and with a reason in `no_limit`, numbers do not grow by a factor.
-    std::optional<double> tiles;      ///< factor of the number of tiles in a step, in the limit
-    std::vector<double> frequencies;  ///< of the shapes, in the limit
+    std::optional<double> tiles;  ///< factor of the number of tiles in a step, in the limit
+    bool is_average = false;      ///< `tiles` is the mean factor of steps that alternate
+    /// Shares of all tiles in the limit; empty if they alternate for ever.
+    std::vector<double> frequencies;              ///< of the shapes
+    std::vector<double> reflected;                ///< of the tiles of each shape that are reflected
+    std::vector<std::pair<int, double>> colours;  ///< of the colours, ascending; empty also if one is not known
     /// Greatest common divisor of the lengths of the cycles of tile symbols; 1: primitive (after some steps each
     /// leads to all); 0: not every tile symbol leads to every other.
     std::size_t period = 0;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -64,13 +65,12 @@ std::string TileOrigins::path_text(std::uint32_t number) const {
     return steps.size() > most_told ? text + ", …" : text;
 }
 
-std::string TileOrigins::text(std::uint32_t number) const {
-    if (number > positions_.size()) return {};
+std::optional<TileOrigin> TileOrigins::origin(std::uint32_t number) const {
+    if (number > positions_.size()) return std::nullopt;
     const Span symbol = tracer_.origin(positions_[number - 1]).symbol;
-    if (!symbol.source) return {};
+    if (!symbol.source) return std::nullopt;
     const Place place = symbol.source->place(symbol.at);
-    const std::string way = path_text(number);
-    return fmt::format("{}:{}{}", place.line, place.column, way.empty() ? "" : " (" + way + ")");
+    return TileOrigin{place.line, place.column, path_text(number)};
 }
 
 void find_origins(const Document& document, TilingExamination& examination, const Monitor& monitor) {
@@ -78,9 +78,10 @@ void find_origins(const Document& document, TilingExamination& examination, cons
     const auto origins = TileOrigins::make(document, monitor);
     if (!origins) return;
     for (TileViolation& violation : examination.violations.list) {
-        violation.origins = origins->text(violation.tile);
-        const std::string other = violation.other > 0 ? origins->text(violation.other) : "";
-        if (!other.empty()) violation.origins = other + " and " + violation.origins;
+        for (const std::uint32_t number : {violation.other, violation.tile}) {
+            if (number == 0) continue;
+            if (auto origin = origins->origin(number)) violation.origins.push_back(std::move(*origin));
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ public:
     std::vector<PathStep> path(std::uint32_t number) const;
     /// `A 1, B 3`: the symbols of path(), each with its place in the word that contains it. Long paths are cut.
     std::string path_text(std::uint32_t number) const;
-    /// Line and column in the pattern of the `}` that drew a polygon, and path_text() in parentheses.
-    std::string text(std::uint32_t number) const;
+    /// The `}` in the pattern that drew a polygon, and path_text(); nullopt if it is not known.
+    std::optional<TileOrigin> origin(std::uint32_t number) const;
 
 private:
     explicit TileOrigins(const Document& document) : document_(document), tracer_(document) {}

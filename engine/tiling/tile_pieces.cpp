@@ -238,7 +238,6 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
             }
         }
         if (ends == 0) ++result.inner;
-        result.fans += std::max<std::uint64_t>(ends, 1);
     }
     return result;
 }

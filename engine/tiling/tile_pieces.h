@@ -67,7 +67,6 @@ struct TileVertices {
     std::uint64_t overlap_count = 0;      ///< pairs of tiles that overlap around a point
     std::uint64_t points = 0;
     std::uint64_t inner = 0;  ///< points with tiles all around
-    std::uint64_t fans = 0;   ///< groups of tiles around points that are connected by pieces
 };
 
 /// Checks that no piece is used twice in one direction, and that the sectors of tiles around each vertex do not

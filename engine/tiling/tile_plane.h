@@ -83,8 +83,9 @@ public:
     explicit TilePlane(double tolerance);
 
     bool is_exact() const { return numbers_.has_value(); }
-    /// Positions were measured or rounded, not computed.
-    bool is_rough() const { return !is_exact() && tolerance_ > least_tolerance; }
+    /// Positions were measured or rounded, or computed with errors for which least_tolerance is too small or too
+    /// large.
+    bool is_rough() const { return !is_exact() && tolerance_ != least_tolerance; }
     /// Distance within which points are one, if the plane is not exact.
     double tolerance() const { return tolerance_; }
     const Lattice& lattice() const { return lattice_; }

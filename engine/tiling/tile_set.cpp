@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <unordered_map>
 
@@ -25,13 +26,37 @@ using Points = std::vector<std::uint32_t>;
 /// Bytes that the examination needs for each corner of a tile, at most.
 constexpr double bytes_of_corner = 120;
 
-/// Finds where an outline crosses or touches itself. Cost: k^2.
-std::optional<std::uint32_t> find_crossing(const TilePlane& plane, const Points& corners, const Monitor& monitor) {
+/// The place along the edge from a to b, from 0 to 1, where another edge crosses or touches it.
+std::optional<double> meeting(const TilePlane& plane, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                              std::uint32_t d) {
+    const int c_side = plane.side(a, b, c), d_side = plane.side(a, b, d);
+    if (c_side * d_side > 0) return std::nullopt;
+    const int a_side = plane.side(c, d, a), b_side = plane.side(c, d, b);
+    if (a_side * b_side > 0) return std::nullopt;
+    const glm::dvec2 from = plane.at(a), along = plane.at(b) - from;
+    const auto share = [&](std::uint32_t point) {
+        return scalar_product(along, plane.at(point) - from) / scalar_product(along, along);
+    };
+    if (c_side == 0 && d_side == 0) {
+        // On one line: apart, unless their intervals overlap.
+        const double first = std::min(share(c), share(d)), last = std::max(share(c), share(d));
+        if (last < 0 || first > 1) return std::nullopt;
+        return std::max(first, 0.0);
+    }
+    if (c_side == 0) return share(c);
+    if (d_side == 0) return share(d);
+    const double first = determinant(along, plane.at(c) - from), second = determinant(along, plane.at(d) - from);
+    const glm::dvec2 at = plane.at(c) + (first / (first - second)) * (plane.at(d) - plane.at(c));
+    return scalar_product(along, at - from) / scalar_product(along, along);
+}
+
+/// Finds where an outline crosses or touches itself: the first place along its first edge with one. Cost: k^2.
+std::optional<glm::dvec2> find_crossing(const TilePlane& plane, const Points& corners, const Monitor& monitor) {
     const std::size_t count = corners.size();
     Points sorted = corners;
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    if (twice != sorted.end()) return *twice;
+    if (twice != sorted.end()) return plane.at(*twice);
     Pulse pulse(monitor);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t a = corners[i], b = corners[(i + 1) % count];
@@ -39,25 +64,17 @@ std::optional<std::uint32_t> find_crossing(const TilePlane& plane, const Points&
         const double margin = plane.tolerance();
         const double left = std::min(from.x, to.x) - margin, right = std::max(from.x, to.x) + margin;
         const double low = std::min(from.y, to.y) - margin, high = std::max(from.y, to.y) + margin;
+        std::optional<double> first;
         for (std::size_t j = i + 2; j < count && j - i < count - 1; ++j) {
             pulse();
             const std::uint32_t c = corners[j], d = corners[(j + 1) % count];
             const glm::dvec2 p = plane.at(c), q = plane.at(d);
             if (std::min(p.x, q.x) > right || std::max(p.x, q.x) < left) continue;
             if (std::min(p.y, q.y) > high || std::max(p.y, q.y) < low) continue;
-            const int c_side = plane.side(a, b, c), d_side = plane.side(a, b, d);
-            if (c_side * d_side > 0) continue;
-            const int a_side = plane.side(c, d, a), b_side = plane.side(c, d, b);
-            if (a_side * b_side > 0) continue;
-            if (c_side == 0 && d_side == 0) {
-                // On one line: apart, unless their intervals overlap.
-                const glm::dvec2 along = to - from;
-                const double length = scalar_product(along, along);
-                const double first = scalar_product(along, p - from), second = scalar_product(along, q - from);
-                if (std::max(first, second) < 0 || std::min(first, second) > length) continue;
-            }
-            return a_side == 0 ? a : c_side == 0 ? c : d_side == 0 ? d : b;
+            const auto share = meeting(plane, a, b, c, d);
+            if (share && (!first || *share < *first)) first = share;
         }
+        if (first) return from + *first * (to - from);
     }
     return std::nullopt;
 }
@@ -135,11 +152,11 @@ public:
 
     void add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
         ++tiles_.polygons;
-        if (!is_closed) return fault(TileFault::open, points.back());
+        if (!is_closed) return fault(TileFault::open, plane_.at(points.back()));
         take_corners(points);
-        if (!corners_.empty() && has_spike_) return fault(TileFault::crossing, spike_);
-        if (plane_.is_rough() && loses_area()) return fault(TileFault::too_fine, points.front());
-        if (corners_.size() < 3) return fault(TileFault::empty, points.front());
+        if (!corners_.empty() && has_spike_) return fault(TileFault::crossing, plane_.at(spike_));
+        if (plane_.is_rough() && loses_area()) return fault(TileFault::too_fine, plane_.at(points.front()));
+        if (corners_.size() < 3) return fault(TileFault::empty, plane_.at(points.front()));
         vectors_.clear();
         for (std::size_t i = 0; i < corners_.size(); ++i) {
             vectors_.push_back(plane_.vector(corners_[i], corners_[(i + 1) % corners_.size()]));
@@ -164,7 +181,7 @@ public:
                     return fault(TileFault::crossing, *crossing);
                 }
                 if (std::fabs(area) < plane_.tolerance() * plane_.tolerance()) {
-                    return fault(TileFault::empty, corners_.front());
+                    return fault(TileFault::empty, plane_.at(corners_.front()));
                 }
                 in_class = add_class();
             }
@@ -183,7 +200,8 @@ private:
 
     void keep_tile(std::uint32_t in_class, std::int32_t colour) {
         const std::uint32_t earlier = anchors_.add(in_class, corners_.front());
-        if (earlier != no_number) return fault(TileFault::duplicate, corners_.front(), tiles_.number[earlier]);
+        if (earlier != no_number)
+            return fault(TileFault::duplicate, plane_.at(corners_.front()), tiles_.number[earlier]);
         if (static_cast<double>(tiles_.corner.size() + corners_.size()) > most_corners_) {
             throw BudgetError(
                 fmt::format("the tiles have more than {:.0f} corners, which exceeds the memory for "
@@ -197,8 +215,8 @@ private:
         tiles_.number.push_back(tiles_.polygons);
     }
 
-    void fault(TileFault fault, std::uint32_t point, std::uint32_t other = 0) {
-        tiles_.violations.add({fault, tiles_.polygons, other, plane_.at(point)});
+    void fault(TileFault fault, glm::dvec2 at, std::uint32_t other = 0) {
+        tiles_.violations.add({fault, tiles_.polygons, other, at});
     }
 
     /// Sets `corners_` without points on straight stretches, and looks for points where the outline turns back.
@@ -258,6 +276,22 @@ private:
         return no_number;
     }
 
+    /// Numbers of the squared length of each edge, and of its product with the next one: equal if and only if lengths
+    /// and angles are.
+    std::vector<std::int64_t> exact_signature() {
+        std::vector<std::int64_t> signature;
+        const auto number = [&](const Cyclotomic::Number& a, const Cyclotomic::Number& b) {
+            const auto fresh = static_cast<std::int64_t>(products_.size());
+            signature.push_back(products_.try_emplace(plane_.numbers().conjugate_product(a, b), fresh).first->second);
+        };
+        for (std::size_t i = 0; i < vectors_.size(); ++i) {
+            const Cyclotomic::Number side = plane_.vector_coordinates(vectors_[i]);
+            number(side, side);
+            number(side, plane_.vector_coordinates(vectors_[(i + 1) % vectors_.size()]));
+        }
+        return signature;
+    }
+
     std::uint32_t add_class() {
         TileClass added;
         added.vectors = vectors_;
@@ -268,7 +302,8 @@ private:
             places.push_back(at);
             at += plane_.vector_at(vector);
         }
-        const PolygonClass found = shapes_.classify(places);
+        const PolygonClass found =
+            plane_.is_exact() ? shapes_.classify(places, exact_signature()) : shapes_.classify(places);
         tiles_.shapes = static_cast<std::uint32_t>(shapes_.shapes());
         added.shape = found.shape;
         added.hand = found.hand;
@@ -322,6 +357,7 @@ private:
     bool has_spike_ = false;
     std::uint32_t spike_ = 0;
     PolygonClasses shapes_;
+    std::map<Cyclotomic::Number, std::int64_t> products_;  // numbers of products of edges of an exact plane
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
     std::unordered_map<std::int64_t, std::uint32_t> angles_;
     RoughNumbers rough_angles_;
@@ -344,10 +380,11 @@ namespace {
 /// Reads the polygons of a turtle.
 class TileReader : public PolygonSink, public PlaceSink {
 public:
-    TileReader(TilePlane& plane, TileCollector& collector)
+    TileReader(TilePlane& plane, TileCollector& collector, TileScale& scale)
         : plane_(plane),
           collector_(collector),
-          rank_(plane.is_exact() ? static_cast<std::size_t>(plane.lattice().rank) : 0) {}
+          rank_(plane.is_exact() ? static_cast<std::size_t>(plane.lattice().rank) : 0),
+          scale_(scale) {}
 
     void places(std::span<const std::int64_t>) override {}
     void vertices(std::span<const std::int64_t> coordinates, std::uint64_t, bool is_closed) override {
@@ -359,6 +396,7 @@ public:
         // Inserted edges bound blades, not tiles.
         if (!std::exchange(has_vertices_, false)) return;
         if (rank_ > 0) return collector_.add(coordinates_, vertices, pen.colour, is_closed_);
+        scale_.add(vertices);
         points_.clear();
         for (const glm::dvec2 vertex : vertices) points_.push_back(plane_.point({}, vertex));
         collector_.add(points_, pen.colour, is_closed_);
@@ -368,6 +406,7 @@ private:
     TilePlane& plane_;
     TileCollector& collector_;
     std::size_t rank_;
+    TileScale& scale_;
     std::span<const std::int64_t> coordinates_;
     bool is_closed_ = true;
     bool has_vertices_ = false;
@@ -393,12 +432,34 @@ double most_corners(const TileLimits& limits) {
     return std::min(bytes / bytes_of_corner, 1e9);
 }
 
-TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, const Monitor& monitor) {
+void TileScale::add(std::span<const glm::dvec2> corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        farthest = std::max({farthest, std::fabs(corners[i].x), std::fabs(corners[i].y)});
+        const double length = glm::distance(corners[i], corners[(i + 1) % corners.size()]);
+        // Shorter edges are rounding errors.
+        if (length > rounding * farthest) shortest = std::min(shortest, length);
+    }
+}
+
+double TileScale::tolerance() const {
+    constexpr double share = 0.01;  // of the shortest edge
+    const double least = rounding * farthest, most = share * shortest;
+    if (!(least <= most)) {
+        throw BudgetError(fmt::format(
+            "positions of up to {:.3g} steps are too large for doubles: edges are as short as {:.3g} steps; "
+            "use a shorter derivation",
+            farthest, shortest));
+    }
+    return std::clamp(TilePlane::least_tolerance, least, most);
+}
+
+TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, TileScale& scale,
+                      const Monitor& monitor) {
     require_few_tiles(grammar, limits);
     require_affordable(grammar, true, limits.nodes);
     TileSet tiles;
     TileCollector collector(plane, tiles, most_corners(limits), monitor);
-    TileReader reader(plane, collector);
+    TileReader reader(plane, collector, scale);
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
     DerivationOptions options;
     options.interpreted = true;

@@ -6,6 +6,7 @@
 #include "engine/tiling/tile_plane.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,13 +24,18 @@ enum class TileFault : std::uint8_t {
     duplicate,  ///< the same corners as an earlier tile
     overlap,
 };
+/// The symbol of a pattern that drew a polygon.
+struct TileOrigin {
+    int line = 0, column = 0;  ///< of the `}` in the text, from 1
+    std::string path;          ///< `A 1, B 3`: the symbols from the axiom to it, if there are any
+};
 /// A fault with its polygons, numbered from 1 in drawing order.
 struct TileViolation {
     TileFault fault = TileFault::open;
     std::uint32_t tile = 0;
     std::uint32_t other = 0;  ///< the earlier tile of two; else 0
     glm::dvec2 at{0.0};
-    std::string origins{};  ///< where they were derived, if known: see find_origins()
+    std::vector<TileOrigin> origins{};  ///< of `other` and `tile`, if known: see find_origins()
 };
 /// The first violations in their order, and the number of all.
 struct TileViolations {
@@ -111,8 +117,23 @@ double most_corners(const TileLimits& limits);
 /// The largest outline that is searched for crossings.
 constexpr std::size_t most_corners_of_tile = 20'000;
 
-/// Derives the word of a grammar and collects its polygons. @throws BudgetError, WordError, Stopped;
-/// TilePlane::OutOfRange
-TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, const Monitor& monitor);
+/// The sizes of polygons whose corners are doubles.
+struct TileScale {
+    /// Error of positions as a share of the farthest one: about a thousand roundings.
+    static constexpr double rounding = 0x1p-42;
+
+    double farthest = 0;                                        ///< the largest coordinate
+    double shortest = std::numeric_limits<double>::infinity();  ///< the shortest edge
+
+    void add(std::span<const glm::dvec2> corners);
+    /// The distance within which points can count as one: TilePlane::least_tolerance, unless positions have larger
+    /// errors or edges are shorter than a hundred times that. @throws BudgetError if both is so
+    double tolerance() const;
+};
+
+/// Derives the word of a grammar and collects its polygons. @param scale  receives their sizes, if the plane is not
+/// exact @throws BudgetError, WordError, Stopped; TilePlane::OutOfRange
+TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, TileScale& scale,
+                      const Monitor& monitor);
 
 }  // namespace sikku

@@ -67,21 +67,22 @@ void examine_neighbours(TilingPatch& patch, const TilingOptions& options, Tiling
     patch.colours = std::move(colouring.colours);
 }
 
+/// Vertices must not overlap.
 void examine_border(TilingPatch& patch, const TileVertices& vertices, const Monitor& monitor,
                     TilingExamination& result) {
     patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
     const TileBorder& border = patch.border;
     for (const TileViolation& overlap : border.overlaps) result.violations.add(overlap);
     result.violations.count += border.overlap_count - border.overlaps.size();
+    result.has_border = border.overlap_count == 0;
     result.regions = border.regions;
+    result.components = border.components;
     result.loops = border.loops.size();
-    for (const TileLoop& loop : border.loops) {
-        if (loop.area <= 0) result.gaps.push_back(loop);
-    }
+    result.gaps = border.gaps;
     result.areas_agree = border.areas_agree;
-    const auto euler = static_cast<std::int64_t>(vertices.fans) - static_cast<std::int64_t>(result.edges) +
-                       static_cast<std::int64_t>(result.tiles);
-    result.euler_agrees = euler == static_cast<std::int64_t>(border.regions) - static_cast<std::int64_t>(border.gaps);
+    const auto whole = [](std::uint64_t number) { return static_cast<std::int64_t>(number); };
+    result.euler_agrees = border.loops_agree && whole(vertices.points) - whole(result.edges) + whole(result.tiles) ==
+                                                    whole(border.components) - whole(border.gaps.size());
     result.figures = find_figures(patch.plane, patch.tiles, patch.pieces, patch.figure_of, monitor);
 }
 
@@ -91,8 +92,7 @@ void examine_vertices(TilingPatch& patch, const Monitor& monitor, TilingExaminat
     result.vertices = vertices.points;
     result.inner_vertices = vertices.inner;
     result.violations.count += vertices.overlap_count - vertices.overlaps.size();
-    result.has_border = vertices.overlap_count == 0;
-    if (result.has_border) examine_border(patch, vertices, monitor, result);
+    if (vertices.overlap_count == 0) examine_border(patch, vertices, monitor, result);
 }
 
 void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {
@@ -106,6 +106,8 @@ void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExam
     result.edges_cut = pieces.edges_cut;
     oneapi::tbb::parallel_invoke([&] { examine_vertices(patch, options.monitor, result); },
                                  [&] { examine_neighbours(patch, options, result); });
+    // Tiles that do not overlap are countries of a map (Appel & Haken 1977).
+    if (result.has_border) result.most_colours = std::min(result.most_colours, 4);
 }
 
 /// A result whose tiles are collected in a plane; then examine() finds the facts.
@@ -135,8 +137,17 @@ void examine(TilingResult& both, const TilingOptions& options) {
 }
 
 TilingResult examine(const Grammar& grammar, const Lattice& lattice, bool exact, const TilingOptions& options) {
-    TilingResult both = result_in(TilePlane(lattice, exact));
-    both.patch.tiles = collect_tiles(grammar, both.patch.plane, options.limits, options.monitor);
+    TileScale scale;
+    const auto collect = [&](TilePlane plane) {
+        TilingResult both = result_in(std::move(plane));
+        both.patch.tiles = collect_tiles(grammar, both.patch.plane, options.limits, scale, options.monitor);
+        return both;
+    };
+    TilingResult both = collect(TilePlane(lattice, exact));
+    if (!both.patch.plane.is_exact() && both.patch.tiles.polygons > 0) {
+        const double tolerance = scale.tolerance();
+        if (tolerance != both.patch.plane.tolerance()) both = collect(TilePlane(tolerance));
+    }
     examine(both, options);
     return both;
 }
@@ -229,6 +240,14 @@ TilingResult examine_polygons(const PolygonList& polygons, double tolerance, con
             fmt::format("there are {} polygons; at most {:.0f} are examined", polygons.size(), options.limits.tiles));
     }
     const double size = size_of(polygons);
+    double farthest = 0;
+    for (const glm::dvec2 at : polygons.corners) {
+        farthest = std::max({farthest, std::fabs(at.x), std::fabs(at.y)});
+    }
+    if (tolerance < farthest * 0x1p-50) {
+        throw std::runtime_error(fmt::format("coordinates of up to {:g} have larger errors than a tolerance of {:g}",
+                                             farthest, tolerance));
+    }
     if (!(tolerance >= 1e-12 && tolerance <= largest_tolerance * size && tolerance >= size * 1e-13)) {
         throw std::runtime_error(fmt::format(
             "a tolerance of {:g} does not suit polygons that extend over {:g}; expected 1e-12 or more, and a 10^13th "

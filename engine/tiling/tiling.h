@@ -43,7 +43,7 @@ struct TilingPatch {
     TilePieces pieces;
     TileBorder border;
     TileNeighbours neighbours{0, {}};
-    std::vector<std::uint32_t> colours;    ///< of tiles, so that neighbours differ; empty if none were found
+    std::vector<std::uint32_t> colours;    ///< of tiles, so that neighbours differ
     std::vector<std::uint32_t> figure_of;  ///< of points: index of their figure, or no_number
 };
 
@@ -54,10 +54,11 @@ struct TilingExamination {
     std::uint64_t polygons = 0;
     std::uint64_t tiles = 0;
     TileViolations violations;
-    /// False if tiles overlap around a vertex: then nothing from `regions` to `figures` is known.
+    /// False if tiles overlap: then nothing from `regions` to `loops` is known.
     bool has_border = false;
-    std::uint64_t regions = 0;
-    std::vector<TileLoop> gaps;
+    std::uint64_t regions = 0;     ///< groups of tiles that are joined by pieces
+    std::uint64_t components = 0;  ///< groups of tiles that are joined by pieces or at corners
+    std::vector<TileGap> gaps;     ///< bounded faces of the complement
     std::uint64_t loops = 0;
     std::vector<TileShape> shapes;
     std::uint64_t edges = 0;  ///< pieces between corners
@@ -67,14 +68,15 @@ struct TilingExamination {
     std::uint64_t vertices = 0;
     std::uint64_t inner_vertices = 0;
     std::vector<VertexFigure> figures;  ///< the most frequent first
-    bool euler_agrees = false;          ///< V - E + F = regions - gaps
-    bool areas_agree = false;           ///< sum of tiles = regions - gaps
+    bool euler_agrees = false;          ///< V - E + F = components - gaps
+    bool areas_agree = false;           ///< sum of tiles = within the outer loops - gaps
     double area = 0;                    ///< of all tiles, steps squared
     std::uint64_t neighbours = 0;       ///< pairs of tiles that share a piece
     /// Number of neighbours of a tile and number of such tiles, the largest number first.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> neighbour_counts;
     int least_colours = 0;  ///< needed so that neighbours differ; absent tiles need none
-    int most_colours = 0;   ///< that suffice; more than least_colours if the search did not decide
+    int most_colours = 0;   ///< that suffice; more than least_colours if the search did not decide. Four suffice for
+                            ///< tiles that do not overlap, also where TilingPatch::colours has more
     TileSymmetry symmetry;
 
     bool is_tiling() const {

@@ -73,7 +73,8 @@ std::string shape_json(const TileShape& shape) {
 std::string growth_json(const TileGrowth& growth) {
     const auto reason = [](const std::string& text) { return text.empty() ? "null" : json_string(text); };
     return fmt::format(
-        "{{\"unknown\": {}, \"shapes\": {}, \"counts\": {}, \"tiles\": {}, \"frequencies\": {}, \"primitive\": {}, "
+        "{{\"unknown\": {}, \"shapes\": {}, \"counts\": {}, \"tiles\": {}, \"average\": {}, \"frequencies\": {}, "
+        "\"reflected\": {}, \"colours\": {}, \"primitive\": {}, "
         "\"period\": {}, \"no_limit\": {}, \"length\": {}, \"closed_form\": {}, \"turn\": {}, \"no_length\": {}}}",
         reason(growth.unknown),
         array(growth.shapes,
@@ -83,13 +84,19 @@ std::string growth_json(const TileGrowth& growth) {
               }),
         array(growth.counts,
               [](const TileKindCount& each) {
-                  return fmt::format("{{\"shape\": {}, \"reflected\": {}, \"letters\": {}, \"count\": {}}}",
-                                     each.shape, json(each.is_reflected), json_string(each.letters),
-                                     json(each.count));
+                  return fmt::format(
+                      "{{\"shape\": {}, \"reflected\": {}, \"colour\": {}, \"letters\": {}, \"count\": {}, "
+                      "\"share\": {}}}",
+                      each.shape, json(each.is_reflected), each.colour ? fmt::format("{}", *each.colour) : "null",
+                      json_string(each.letters), json(each.count), json(each.share));
               }),
-        json(growth.tiles), json(growth.frequencies), json(growth.period == 1), growth.period,
-        reason(growth.no_limit), json(growth.length), growth.length ? reason(closed_form(*growth.length)) : "null",
-        number(growth.turn), reason(growth.no_length));
+        json(growth.tiles), json(growth.is_average), json(growth.frequencies), json(growth.reflected),
+        array(growth.colours,
+              [](const auto& each) {
+                  return fmt::format("{{\"colour\": {}, \"share\": {}}}", each.first, number(each.second));
+              }),
+        json(growth.period == 1), growth.period, reason(growth.no_limit), json(growth.length),
+        growth.length ? reason(closed_form(*growth.length)) : "null", number(growth.turn), reason(growth.no_length));
 }
 
 std::string lattice_json(const TilePlane& plane) {
@@ -100,6 +107,11 @@ std::string lattice_json(const TilePlane& plane) {
     return fmt::format("{{\"k\": {}, \"rank\": {}, \"basis\": {}]}}", lattice.headings, lattice.rank, basis);
 }
 
+std::string origin_json(const TileOrigin& origin) {
+    return fmt::format("{{\"line\": {}, \"column\": {}, \"path\": {}}}", origin.line, origin.column,
+                       origin.path.empty() ? "null" : json_string(origin.path));
+}
+
 std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
     const TilingExamination& t = result.examination;
     std::string text = fmt::format(
@@ -107,22 +119,23 @@ std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
         "\"tiles\": {}, ",
         json(t.is_tiling()), json(t.is_exact), t.inexact.empty() ? "null" : json_string(t.inexact),
         fmt::format("{}", t.tolerance), lattice_json(result.patch.plane), t.polygons, t.tiles);
+    text += fmt::format("\"violations\": {}, \"violation_list\": {}, ", t.violations.count,
+                        array(t.violations.list, [](const TileViolation& violation) {
+                            return fmt::format(
+                                "{{\"fault\": \"{}\", \"tile\": {}, \"other\": {}, \"at\": {}, \"origins\": {}}}",
+                                fault_name(violation.fault), violation.tile,
+                                violation.other == 0 ? "null" : fmt::format("{}", violation.other),
+                                json(violation.at), array(violation.origins, origin_json));
+                        }));
+    const auto known = [&](std::string value) { return t.has_border ? std::move(value) : "null"; };
     text += fmt::format(
-        "\"violations\": {}, \"violation_list\": {}, ", t.violations.count,
-        array(t.violations.list, [](const TileViolation& violation) {
-            return fmt::format("{{\"fault\": \"{}\", \"tile\": {}, \"other\": {}, \"at\": {}, \"origins\": {}}}",
-                               fault_name(violation.fault), violation.tile,
-                               violation.other == 0 ? "null" : fmt::format("{}", violation.other), json(violation.at),
-                               violation.origins.empty() ? "null" : json_string(violation.origins));
-        }));
-    text += fmt::format("\"regions\": {}, \"gaps\": {}, \"area\": {}, \"euler\": {}, \"areas_agree\": {}, ",
-                        t.has_border ? fmt::format("{}", t.regions) : "null",
-                        array(t.gaps,
-                              [](const TileLoop& gap) {
-                                  return fmt::format("{{\"area\": {}, \"centre\": {}}}", number(-gap.area),
-                                                     json(gap.centre));
-                              }),
-                        number(t.area), json(t.euler_agrees), json(t.areas_agree));
+        "\"regions\": {}, \"components\": {}, \"gaps\": {}, \"area\": {}, \"euler\": {}, \"areas_agree\": {}, ",
+        known(std::to_string(t.regions)), known(std::to_string(t.components)),
+        known(array(t.gaps,
+                    [](const TileGap& gap) {
+                        return fmt::format("{{\"area\": {}, \"centre\": {}}}", number(gap.area), json(gap.centre));
+                    })),
+        number(t.area), json(t.euler_agrees), json(t.areas_agree));
     text += fmt::format("\"shapes\": {}, ", array(t.shapes, shape_json));
     text += fmt::format("\"edges\": {}, \"inner_edges\": {}, \"border_edges\": {}, \"edges_cut\": {}, ", t.edges,
                         t.inner_edges, t.border_edges, t.edges_cut);

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -113,8 +115,12 @@ std::string heading(const std::string& title, std::optional<std::int64_t> n) {
 }
 
 std::string violation_text(const TileViolation& violation) {
-    const std::string where =
-        " at " + place(violation.at) + (violation.origins.empty() ? "" : ", drawn by " + violation.origins);
+    std::string where = " at " + place(violation.at);
+    for (std::size_t i = 0; i < violation.origins.size(); ++i) {
+        const TileOrigin& origin = violation.origins[i];
+        where += fmt::format("{}{}:{}{}", i == 0 ? ", drawn by " : " and ", origin.line, origin.column,
+                             origin.path.empty() ? "" : " (" + origin.path + ")");
+    }
     switch (violation.fault) {
         case TileFault::open:
             return fmt::format("polygon {} is open: it does not end where it began; it ends{}", violation.tile,
@@ -188,6 +194,38 @@ std::string with_closed_form(double value, const std::string& unit) {
     return number(value) + unit + (form.empty() || is_plain ? "" : ", " + form);
 }
 
+/// `0.381966 rhombs 36 144; 0.618034 rhombs 72 108`, with those of the other hand, and colours where shapes do not
+/// decide on them.
+std::string shares_text(const TileGrowth& growth) {
+    std::vector<std::string> parts;
+    const std::size_t shapes = growth.shapes.size();
+    const auto is_none = [](double share) { return share < 1e-9; };
+    const auto reflected = [&](std::size_t shape) {
+        const bool is_known = shape < growth.reflected.size() && !is_none(growth.reflected[shape]);
+        return is_known ? number(growth.reflected[shape]) + " reflected" : "";
+    };
+    if (shapes > 1 && !growth.frequencies.empty()) {
+        const std::vector<std::string> names = kind_names(growth.shapes);
+        for (std::size_t i = 0; i < shapes; ++i) {
+            const std::string hand = reflected(i);
+            parts.push_back(number(growth.frequencies[i]) + ' ' + names[i] + (hand.empty() ? "" : " (" + hand + ")"));
+        }
+    } else if (shapes == 1 && !reflected(0).empty()) {
+        parts.push_back(reflected(0));
+    }
+    // Colours that tell shapes apart say nothing new.
+    std::map<std::uint32_t, std::set<std::optional<int>>> colours;
+    for (const TileKindCount& each : growth.counts) {
+        if (!each.share || !is_none(*each.share)) colours[each.shape].insert(each.colour);
+    }
+    const bool says_more =
+        std::any_of(colours.begin(), colours.end(), [](const auto& each) { return each.second.size() > 1; });
+    for (const auto& [colour, share] : growth.colours) {
+        if (says_more && !is_none(share)) parts.push_back(fmt::format("{} colour {}", number(share), colour));
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string growth_text(const TileGrowth& growth) {
     if (!growth.unknown.empty() && growth.counts.empty()) return "unknown: " + growth.unknown;
     if (!growth.tiles) return growth.no_limit;
@@ -196,16 +234,14 @@ std::string growth_text(const TileGrowth& growth) {
         text = with_closed_form(*growth.length, " a step in length");
         if (std::fabs(growth.turn) > 1e-9) text += ", turned by " + degrees(growth.turn) + " degrees";
     } else {
-        text = with_closed_form(*growth.tiles, " times as many tiles a step in the limit");
+        text = with_closed_form(*growth.tiles, growth.is_average ? " times as many tiles a step on average"
+                                                                 : " times as many tiles a step in the limit");
         text += "; no factor of length: " + growth.no_length;
     }
-    if (growth.shapes.size() > 1) {
-        const std::vector<std::string> names = kind_names(growth.shapes);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            text += fmt::format("{}{} {}", i == 0 ? "; " : ", ", names[i], number(growth.frequencies[i]));
-        }
-        text += " in the limit";
-    }
+    if (const std::string shares = shares_text(growth); !shares.empty()) text += "; in the limit " + shares;
+    const bool moves = std::any_of(growth.counts.begin(), growth.counts.end(),
+                                   [](const TileKindCount& each) { return !each.share.has_value(); });
+    if (moves) text += "; shares of kinds do not settle";
     if (growth.period == 1) return text + "; primitive";
     return text +
            (growth.period > 0 ? fmt::format("; irreducible with period {}", growth.period) : "; not primitive");
@@ -216,11 +252,19 @@ std::string violations_text(std::uint64_t count) {
     return (count < TileViolations::most_counted ? "" : "at least ") + counted(count, "violation");
 }
 
+/// `3 regions joined at corners into 2`.
+std::string regions_text(const TilingExamination& t) {
+    if (t.regions == 1) return "one region";
+    std::string text = counted(t.regions, "region");
+    if (t.components == t.regions) return text;
+    return text +
+           (t.components == 1 ? " joined at corners" : fmt::format(" joined at corners into {}", t.components));
+}
+
 std::string verdict(const TilingExamination& t) {
     if (t.polygons == 0) return "no: the word contains no polygon { }";
     if (t.is_tiling()) {
-        return fmt::format("yes: {}, {}, no gap, no overlap", counted(t.tiles, "tile"),
-                           t.regions == 1 ? "one region" : counted(t.regions, "region"));
+        return fmt::format("yes: {}, {}, no gap, no overlap", counted(t.tiles, "tile"), regions_text(t));
     }
     std::vector<std::string> reasons;
     if (t.violations.count > 0) reasons.push_back(violations_text(t.violations.count));
@@ -265,7 +309,7 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
     }
     if (t.violations.count > most_listed) line("", fmt::format("… {} in all", violations_text(t.violations.count)));
     for (std::size_t i = 0; i < std::min(t.gaps.size(), most_listed); ++i) {
-        line("gap", fmt::format("of area {} around {}", number(-t.gaps[i].area), place(t.gaps[i].centre)));
+        line("gap", fmt::format("of area {} around {}", number(t.gaps[i].area), place(t.gaps[i].centre)));
     }
     if (t.gaps.size() > most_listed) line("", fmt::format("… {} in all", t.gaps.size()));
     if (t.tiles == 0) return text;
@@ -315,8 +359,9 @@ std::string tile_counts_text(const std::string& title, std::int64_t n, const Til
     const std::vector<std::string> names = kind_names(growth.shapes);
     for (const TileKindCount& each : growth.counts) {
         if (each.count == 0) continue;
-        line("", fmt::format("{} {}{}, by {}", each.count.str(), names[each.shape],
-                             each.is_reflected ? " of the other hand" : "", printable(each.letters)));
+        line("", fmt::format("{} {}{}{}, by {}", each.count.str(), names[each.shape],
+                             each.is_reflected ? " of the other hand" : "",
+                             each.colour ? fmt::format(", colour {}", *each.colour) : "", printable(each.letters)));
     }
     line("growth", growth_text(growth));
     return text;

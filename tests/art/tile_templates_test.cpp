@@ -64,7 +64,7 @@ TEST(CutList, TextAndJsonStateTheSums) {
     const TilingResult result = examined("penrose-rhombs", "3");
     const std::string text = cut_list_text("Penrose", 3, result, 40);
     EXPECT_NE(text.find("65 pieces, 843.79 cm2"), std::string::npos) << text;
-    EXPECT_NE(cut_list_json("Penrose", 3, result, 40).find("\"pieces\": 65, "), std::string::npos);
+    EXPECT_NE(cut_list_json("Penrose", 3, result, 40).find("\"pieces\": 65, \"violations\": 0, "), std::string::npos);
 }
 
 TEST(TileTemplates, OutlinesKeepTheirDistance) {

@@ -47,6 +47,21 @@ TEST(Measure, ThePublishedKolam) {
     EXPECT_FALSE(found.derived);
 }
 
+/// Positions off the lattice are rounded; a drawing of the size of their tolerance is not closed for that.
+TEST(Measure, IsNotClosedBecauseItIsSmall) {
+    const auto closed = [](const std::string& axiom) {
+        return measure(grammar_of("axiom: " + axiom + "\nangle increment: 17.3\n"), budget).geometry->closed;
+    };
+    EXPECT_FALSE(closed("F(0.0000000000001)+F(0.0000000000001)"));
+    EXPECT_FALSE(closed("F(0.0000000001)"));
+    EXPECT_TRUE(closed("F(0.0000000000001)+(180)F(0.0000000000001)"));
+    EXPECT_TRUE(closed("F+(180)F"));
+    EXPECT_TRUE(closed("+++"));
+    const std::string small = "F(0.0000000000001)";
+    EXPECT_FALSE(
+        measure(grammar_of("axiom: " + small + "&" + small + "\nangle increment: 17.3\n"), budget).space->closed);
+}
+
 TEST(Measure, SymbolsAreOfTheWordAndTheRestIsOfItsInterpretation) {
     const Measurement found = measure(
         grammar_of("axiom: A\nderivation length: 2\nA --> [A]B(2)B(3)\ninterpret:\nB --> *\nA --> FF(0.5)f\n"),

@@ -133,7 +133,7 @@ TEST_P(TilingFacts, AreFound) {
         EXPECT_EQ(t.most_colours, fact.colours);
     }
     const std::vector<std::uint32_t>& colours = result.patch.colours;
-    EXPECT_EQ(colours.empty(), t.most_colours == 4);
+    ASSERT_EQ(colours.size(), t.tiles);
     for (std::uint32_t tile = 0; tile < colours.size(); ++tile) {
         EXPECT_LT(colours[tile], static_cast<std::uint32_t>(t.most_colours));
         for (const std::uint32_t other : result.patch.neighbours.of(tile)) EXPECT_NE(colours[tile], colours[other]);
@@ -145,6 +145,16 @@ std::string name_of(const ::testing::TestParamInfo<Fact>& info) {
     return name;
 }
 INSTANTIATE_TEST_SUITE_P(Patterns, TilingFacts, ::testing::ValuesIn(facts), name_of);
+
+/// At its own derivation length, without exception.
+TEST(TilingExamination, CertifiesAllBundledTilings) {
+    const std::filesystem::path folder = std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/tilings";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const TilingExamination t = examined(contents(entry.path())).examination;
+        EXPECT_TRUE(t.is_tiling()) << entry.path() << '\n' << report("", 0, t);
+        EXPECT_EQ(t.regions, 1U) << entry.path();
+    }
+}
 
 /// Angles of each figure and the number of such vertices; figures of equal angles together.
 std::map<std::string, std::vector<std::uint64_t>> figures_of(const std::string& name, int n) {
@@ -306,7 +316,9 @@ TEST(TilingExamination, CountsRegionsThatTouchInACornerAsTwo) {
     const TilingExamination t = word(squares({{0, 0}, {1, 1}}));
     EXPECT_TRUE(t.is_tiling()) << report("", 0, t);
     EXPECT_EQ(t.regions, 2U);
-    EXPECT_EQ(t.loops, 2U);
+    EXPECT_EQ(t.components, 1U);
+    EXPECT_EQ(t.loops, 1U) << "around both";
+    EXPECT_NE(report("", 0, t).find("yes: 2 tiles, 2 regions joined at corners, no gap"), std::string::npos);
     EXPECT_EQ(t.vertices, 7U);
     EXPECT_EQ(t.neighbours, 0U);
     EXPECT_TRUE(t.euler_agrees);
@@ -325,7 +337,7 @@ TEST(TilingExamination, FindsGaps) {
     EXPECT_FALSE(t.is_tiling());
     EXPECT_EQ(t.violations.count, 0U);
     ASSERT_EQ(t.gaps.size(), 1U);
-    EXPECT_NEAR(t.gaps[0].area, -1, 1e-12);
+    EXPECT_NEAR(t.gaps[0].area, 1, 1e-12);
     EXPECT_NEAR(t.gaps[0].centre.x, 1.5, 1e-12);
     EXPECT_NEAR(t.gaps[0].centre.y, 1.5, 1e-12);
     EXPECT_EQ(t.regions, 1U);
@@ -337,7 +349,9 @@ TEST(TilingExamination, FindsGaps) {
     EXPECT_TRUE(island.is_exact);
     EXPECT_EQ(island.violations.count, 0U) << report("", 0, island);
     EXPECT_EQ(island.regions, 2U);
-    EXPECT_EQ(island.gaps.size(), 1U);
+    ASSERT_EQ(island.gaps.size(), 1U);
+    EXPECT_NEAR(island.gaps[0].area, 0.75, 1e-12) << "without the island";
+    EXPECT_EQ(island.components, 2U);
     EXPECT_TRUE(island.euler_agrees);
     EXPECT_TRUE(island.areas_agree);
 }
@@ -354,12 +368,11 @@ TEST(TilingExamination, FindsGapsThatTouchInACorner) {
     EXPECT_EQ(t.violations.count, 0U) << report("", 0, t);
     EXPECT_TRUE(t.euler_agrees);
     EXPECT_TRUE(t.areas_agree);
-    double area = 0;
-    for (const TileLoop& gap : t.gaps) area -= gap.area;
-    EXPECT_NEAR(area, 2, 1e-12);
-    // A gap that touches the outside in a corner is none: the border runs around it.
+    ASSERT_EQ(t.gaps.size(), 2U);
+    for (const TileGap& gap : t.gaps) EXPECT_NEAR(gap.area, 1, 1e-12);
+    // A gap that touches the outside at a corner is one.
     places.erase(std::find(places.begin(), places.end(), std::pair(3, 3)));
-    EXPECT_EQ(word(squares(places)).violations.count, 0U);
+    EXPECT_EQ(word(squares(places)).gaps.size(), 2U);
 }
 
 /// Random unit squares on a grid: facts by counting cells.
@@ -373,7 +386,7 @@ TEST(TilingExamination, AgreesWithCellsOfAGrid) {
                           static_cast<int>(random() % static_cast<unsigned>(size)));
         }
         const TilingExamination t = word(squares({cells.begin(), cells.end()}));
-        // Components of cells along edges, and of empty cells along edges and corners.
+        // Components of cells along edges, or along edges and corners.
         const auto components = [&](bool full, bool corners) {
             std::set<std::pair<int, int>> left;
             for (int x = -1; x <= size; ++x) {
@@ -401,11 +414,30 @@ TEST(TilingExamination, AgreesWithCellsOfAGrid) {
         };
         ASSERT_EQ(t.violations.count, 0U) << report("", 0, t);
         EXPECT_EQ(t.tiles, cells.size());
+        EXPECT_EQ(t.components, components(true, true));
         EXPECT_EQ(t.regions, components(true, false)) << squares({cells.begin(), cells.end()});
         EXPECT_TRUE(t.euler_agrees);
         EXPECT_TRUE(t.areas_agree);
-        EXPECT_EQ(t.gaps.size() + 1, components(false, true)) << report("", 0, t);
+        EXPECT_EQ(t.gaps.size() + 1, components(false, false)) << report("", 0, t);
     }
+}
+
+glm::dvec2 place_of_crossing(const std::string& polygon, int k) {
+    const TilingExamination t = word("{" + polygon + "}", k);
+    EXPECT_EQ(t.violations.list.at(0).fault, TileFault::crossing) << polygon;
+    return t.violations.list.at(0).at;
+}
+
+TEST(TilingExamination, ReportsCrossingsWhereTheyAre) {
+    const auto expect_at = [](const std::string& polygon, int k, double x, double y) {
+        const glm::dvec2 at = place_of_crossing(polygon, k);
+        EXPECT_NEAR(at.x, x, 1e-9) << polygon;
+        EXPECT_NEAR(at.y, y, 1e-9) << polygon;
+    };
+    expect_at("F++++F++++F++++F++++F", 10, 0.3819660112501051, 0);  // a pentagram: 1/τ² along its first edge
+    expect_at("FFF+FF+FF+FFF-F-F", 4, 1, 0);                        // the fourth edge crosses the first
+    expect_at("FFFF++FF++FF--FF++FF", 6, 2, 0);                     // a corner on the first edge
+    expect_at("FFFF+F+F+F-F+F-FF-F", 4, 2, 0);                      // edges upon each other
 }
 
 void expect_fault(const std::string& polygon, TileFault fault, int k = 4) {
@@ -459,6 +491,45 @@ TEST(TilingExamination, RefusesTooManyTilesBeforeDeriving) {
     EXPECT_THROW(examine_tiling(grammar, few), BudgetError);
 }
 
+/// Shapes that differ by less than doubles are compared with, and tiles that are smaller.
+TEST(TilingExamination, DistinguishesShapesExactly) {
+    const TilingExamination near = word("[{F+F+F+F}][f(2){F(1.000001)+F(1.000001)+F(1.000001)+F(1.000001)}]");
+    EXPECT_TRUE(near.is_exact);
+    EXPECT_EQ(near.shapes.size(), 2U);
+    const TilingExamination small = word(
+        "[{F(0.000001)+F(0.000001)+F(0.000001)+F(0.000001)}][f(0.000001){F(0.000001)+"
+        "F(0.000002)+F(0.000001)+F(0.000002)}]");
+    EXPECT_TRUE(small.is_exact);
+    EXPECT_TRUE(small.is_tiling());
+    EXPECT_EQ(small.shapes.size(), 2U);
+    // The same in doubles: the tolerance follows the edges.
+    TilingOptions options;
+    options.exact = false;
+    const TilingExamination rough =
+        examine_tiling(
+            reference::grammar_of(
+                "derivation length: 0\nangle factor: 4\nturn: left\naxiom: [{F(0.000001)+F(0.000001)+"
+                "F(0.000001)+F(0.000001)}][f(0.000001){F(0.000001)+F(0.000001)+F(0.000001)+F(0.000001)}]\n"),
+            options)
+            .examination;
+    EXPECT_TRUE(rough.is_tiling());
+    EXPECT_LE(rough.tolerance, 1e-8);
+    EXPECT_EQ(rough.tiles, 2U);
+}
+
+/// Doubles cannot tell positions apart that are much larger than edges: nothing is claimed then.
+TEST(TilingExamination, RefusesPositionsThatAreTooLarge) {
+    EXPECT_TRUE(bundled("fibonacci-spiral", 50).examination.is_tiling());
+    for (const char* name : {"fibonacci-spiral", "padovan-spiral"}) {
+        try {
+            bundled(name, 200);
+            ADD_FAILURE() << name;
+        } catch (const BudgetError& error) {
+            EXPECT_EQ(std::string(error.what()).substr(0, 19), "positions of up to ") << error.what();
+        }
+    }
+}
+
 TEST(TilingExamination, SaysWhatIsNotExact) {
     EXPECT_EQ(word(square).inexact, "");
     EXPECT_EQ(bundled("pinwheel", 2).examination.inexact, "the parameters of 'f' are computed");
@@ -469,7 +540,7 @@ TEST(TilingExamination, SaysWhatIsNotExact) {
     EXPECT_EQ(golden,
               "the length of 'F(1.618033988749895)' is not a short decimal; 'edge SYMBOL:' states lengths "
               "exactly");
-    const TilingExamination far = word("[f(1000000000000){F+F+F+F}]f(0.000001)");
+    const TilingExamination far = word("[f(1000000000){F+F+F+F}]f(0.000001)");
     EXPECT_FALSE(far.is_exact);
     EXPECT_FALSE(far.inexact.empty());
 }
@@ -480,131 +551,6 @@ TEST(TilingExamination, StopsOnRequest) {
     const Grammar grammar =
         reference::grammar_of(contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/tilings/chair.lsys"));
     EXPECT_THROW(examine_tiling(grammar, options), Stopped);
-}
-
-TileGrowth growth_of(const std::string& name, int n) {
-    return find_growth(reference::grammar_of(
-        contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/tilings" / (name + ".lsys")),
-        {{"-n", "derivation length", std::to_string(n)}}));
-}
-
-TEST(TileGrowth, FindsThePublishedFactors) {
-    const std::map<std::string, std::string> lengths = {
-        {"penrose-rhombs", "τ"},
-        {"penrose-kite-dart", "τ"},
-        {"ammann-beenker", "1 + √2"},
-        {"chair", "2"},
-        {"sphinx", "2"},
-        {"half-hex", "2"},
-        {"table", "2"},
-        {"p-pentomino", "2"},
-        {"twin-dragon", "√2"},
-        {"gosper-islands", "√7"},
-        {"ammann-a3", "τ"},
-        {"socolar", "2 + √3"},
-        {"shield", "√(2 + √3)"},
-        {"chair-of-nine", "3"},
-    };
-    for (const auto& [name, form] : lengths) {
-        const TileGrowth growth = growth_of(name, 5);
-        ASSERT_TRUE(growth.length.has_value()) << name << growth.unknown << growth.no_limit << growth.no_length;
-        EXPECT_EQ(closed_form(*growth.length), form) << name;
-        EXPECT_NEAR(*growth.length * *growth.length, growth.tiles.value_or(0), 1e-9) << name;
-    }
-    EXPECT_NEAR(growth_of("twin-dragon", 5).turn, 45, 1e-9);
-    const std::map<std::string, std::string> tiles = {
-        {"fibonacci-squares", "(3 + √5) / 2"}, {"hat", "(7 + 3 √5) / 2"}, {"spectre", "4 + √15"}};
-    for (const auto& [name, form] : tiles) {
-        const TileGrowth growth = growth_of(name, 5);
-        ASSERT_TRUE(growth.tiles.has_value()) << name;
-        EXPECT_EQ(closed_form(*growth.tiles), form) << name;
-        EXPECT_FALSE(growth.length.has_value()) << name;
-    }
-    for (const char* name : {"trihexagonal", "herringbone"}) EXPECT_FALSE(growth_of(name, 5).tiles) << name;
-    // Systems with parameters are counted in plain form.
-    const std::map<std::string, std::string> computed = {
-        {"pinwheel", "√5"}, {"pinwheel-10", "√10"}, {"pinwheel-13", "√13"}, {"golden-bee", "√τ"}};
-    for (const auto& [name, form] : computed) {
-        const TileGrowth growth = growth_of(name, 20);
-        ASSERT_TRUE(growth.length.has_value()) << name << growth.unknown << growth.no_limit << growth.no_length;
-        EXPECT_EQ(closed_form(*growth.length), form) << name;
-        EXPECT_NEAR(*growth.length * *growth.length, growth.tiles.value_or(0), 1e-9) << name;
-    }
-    EXPECT_FALSE(growth_of("padovan-spiral", 10).tiles);
-    EXPECT_EQ(closed_form(std::sqrt(4 + std::sqrt(15.0))), "√(4 + √15)");
-    EXPECT_EQ(closed_form(2 + std::sqrt(3.0)), "2 + √3");
-    EXPECT_EQ(closed_form(std::acos(-1.0)), "");
-}
-
-TEST(TileGrowth, FindsThePublishedFrequencies) {
-    const double tau = (1 + std::sqrt(5.0)) / 2;
-    const TileGrowth rhombs = growth_of("penrose-rhombs", 5);
-    ASSERT_EQ(rhombs.frequencies.size(), 2U);
-    EXPECT_NEAR(rhombs.frequencies[1] / rhombs.frequencies[0], tau, 1e-9);  // thick : thin
-    EXPECT_EQ(rhombs.period, 1U);
-    // Every step of the spectres reflects all tiles.
-    const TileGrowth spectres = growth_of("spectre", 5);
-    EXPECT_EQ(spectres.period, 2U);
-    const TileGrowth octagonal = growth_of("ammann-beenker", 5);
-    ASSERT_EQ(octagonal.frequencies.size(), 2U);
-    EXPECT_NEAR(octagonal.frequencies[0] / octagonal.frequencies[1], std::sqrt(2.0), 1e-9);  // rhombs : squares
-    // The tiles of Socolar are dual to the vertices and the crossings of two triangular grids at 30 degrees.
-    const TileGrowth twelvefold = growth_of("socolar", 5);
-    ASSERT_EQ(twelvefold.frequencies.size(), 3U);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double share = twelvefold.shapes[i].angles.size() == 6 ? 1 : std::sqrt(3.0);
-        EXPECT_NEAR(twelvefold.frequencies[i] * (1 + 2 * std::sqrt(3.0)), share, 1e-9);
-    }
-    const TileGrowth squares = growth_of("fibonacci-squares", 5);
-    ASSERT_EQ(squares.frequencies.size(), 3U);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double expected = squares.shapes[i].area == 64   ? 1
-                                : squares.shapes[i].area == 40 ? 2 / tau
-                                                               : 1 / tau / tau;
-        EXPECT_NEAR(squares.frequencies[i] * (1 + 2 / tau + 1 / tau / tau), expected, 1e-9);
-    }
-}
-
-/// Numbers by kind for long derivations follow the recurrences of the literature; for short ones those of the tiles.
-TEST(TileGrowth, CountsWithoutDeriving) {
-    const auto total = [](const TileGrowth& growth) {
-        Integer sum = 0;
-        for (const TileKindCount& each : growth.counts) sum += each.count;
-        return sum;
-    };
-    for (const char* name : {"penrose-rhombs", "ammann-beenker", "hat-equal", "sphinx", "herringbone"}) {
-        const TilingExamination t = bundled(name, 4).examination;
-        const TileGrowth growth = growth_of(name, 4);
-        EXPECT_EQ(total(growth), t.tiles) << name;
-        std::uint64_t reflected = 0;
-        for (const TileKindCount& each : growth.counts) {
-            if (each.is_reflected) reflected += static_cast<std::uint64_t>(each.count);
-        }
-        std::uint64_t seen = 0;
-        for (const TileShape& shape : t.shapes) seen += shape.reflected;
-        EXPECT_EQ(reflected, seen) << name;
-    }
-    Integer before = 1, now = 9;
-    for (int n = 2; n <= 60; ++n) {
-        const Integer next = 8 * now - before;
-        before = now;
-        now = next;
-    }
-    EXPECT_EQ(total(growth_of("spectre", 60)), now);
-    EXPECT_EQ(total(growth_of("chair", 60)), Integer(1) << 120);
-    EXPECT_EQ(total(growth_of("pinwheel", 60)), 2 * boost::multiprecision::pow(Integer(5), 60));
-    EXPECT_EQ(total(growth_of("padovan-spiral", 15)), 16);
-    // Thick and thin rhombs are five times Fibonacci numbers.
-    const TileGrowth rhombs = growth_of("penrose-rhombs", 60);
-    ASSERT_EQ(rhombs.counts.size(), 2U);
-    Integer thin = 5, thick = 5;
-    for (int n = 2; n <= 60; ++n) {
-        const Integer more = thick;
-        thick = 2 * thick + thin;
-        thin += more;
-    }
-    EXPECT_EQ(rhombs.counts[0].count, thin);
-    EXPECT_EQ(rhombs.counts[1].count, thick);
 }
 
 /// Random graphs: whether three colours suffice, by trying all colourings.
@@ -639,9 +585,11 @@ TEST(TileColours, AgreeWithTryingAll) {
         }
         impossible += fewest == 4 ? 1 : 0;
         EXPECT_EQ(found.at_least, fewest);
-        EXPECT_EQ(found.at_most, fewest);
+        // Some of these graphs are not planar.
+        EXPECT_GE(found.at_most, fewest);
+        EXPECT_TRUE(fewest == 4 || found.at_most == fewest);
         for (const auto& [a, b] : pairs) {
-            EXPECT_TRUE(found.colours.empty() || found.colours[a] != found.colours[b]);
+            EXPECT_NE(found.colours[a], found.colours[b]);
         }
     }
     EXPECT_GT(impossible, 20);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <set>
 #include <utility>
 #include <vector>
@@ -47,7 +48,7 @@ TEST(TilingCommand, ReportsTheCertificate) {
           "vertices   491; 401 inner with 7 figures: 108.108.144 160, 36.72.36.108.108 90, 72.144.144 60, ",
           "neighbours 845 pairs; 4 for 380 tiles, 3 for 40, 2 for 25; 3 colours suffice, 2 do not\n",
           "symmetry   C5 about 0 0\n",
-          "growth     1.618034 a step in length, τ; rhombs 36 144 0.381966, rhombs 72 108 0.618034 in the limit",
+          "growth     1.618034 a step in length, τ; in the limit 0.381966 rhombs 36 144; 0.618034 rhombs 72 108",
           "exact      yes\n"}) {
         EXPECT_NE(outcome.output.find(line), std::string::npos) << line << "is not in\n" << outcome.output;
     }
@@ -167,7 +168,15 @@ TEST(TilingCommand, CountsWithoutDeriving) {
     EXPECT_NE(outcome.output.find("tiles      1329227995784915872903807060280344576\n"), std::string::npos)
         << outcome.output;
     const Json json = tiling({"chair", "-n", "60", "--counts"});
-    EXPECT_EQ(json["growth"]["counts"][0]["count"], "1329227995784915872903807060280344576");
+    // By heading, each with its colour: 4^59 of two, 2^59 more of the first one, and fewer of its opposite.
+    std::multiset<std::string> counts;
+    for (const Json& each : json["growth"]["counts"]) {
+        counts.insert(each["count"].get<std::string>());
+        EXPECT_EQ(each["share"], 0.25);
+    }
+    EXPECT_EQ(counts, (std::multiset<std::string>{
+                          "332306998946228968802412517373509632", "332306998946228968225951765070086144",
+                          "332306998946228968225951765070086144", "332306998946228967649491012766662656"}));
     EXPECT_LT(outcome.seconds, 1.0);
 }
 
@@ -208,6 +217,57 @@ TEST(TilingCommand, CertifiesItsOwnPicturesAndLists) {
     EXPECT_EQ(text.output.find("growth"), std::string::npos) << text.output;
     EXPECT_NE(text.output.find("exact      no: corners within 0.0"), std::string::npos) << text.output;
     EXPECT_NE(text.errors.find("1 ground left out\n"), std::string::npos) << text.errors;
+}
+
+/// Colours of neighbours are those of prints, also where four are needed.
+TEST(TilingCommand, ListsTheColoursOfPrints) {
+    const ScratchFolder folder;
+    const std::string picture = folder.file("x.svg");
+    for (const char* name : {"hat", "ammann-a3", "table", "penrose-rhombs", "spiral-tiling"}) {
+        SCOPED_TRACE(name);
+        ASSERT_EQ(
+            run({"draw", name, "-n", "3", "--name-tiles", "--tile-colours", "neighbours", "-o", picture}).status, 0);
+        const std::string svg = contents(picture);
+        static const std::regex tile("<path id=\"t([0-9]+)\" class=\"[^\"]*colour-([0-9]+)\"");
+        std::map<int, int> drawn;
+        for (auto at = std::sregex_iterator(svg.begin(), svg.end(), tile); at != std::sregex_iterator(); ++at) {
+            drawn[std::stoi((*at)[1])] = std::stoi((*at)[2]);
+        }
+        const Json json = tiling({name, "-n", "3"});
+        ASSERT_EQ(drawn.size(), json["list"].size());
+        std::map<int, int> listed;
+        std::map<int, std::set<int>> pairs;
+        for (const Json& each : json["list"]) {
+            const int number = each["tile"].get<int>();
+            listed[number] = each["neighbour_colour"].get<int>();
+            pairs[listed[number]].insert(drawn.at(number));
+        }
+        for (const auto& [colour, others] : pairs) EXPECT_EQ(others.size(), 1U) << colour;
+        EXPECT_LE(pairs.size(), 4U);
+        for (const Json& each : json["list"]) {
+            for (const Json& other : each["neighbours"]) {
+                EXPECT_NE(listed.at(each["tile"].get<int>()), listed.at(other.get<int>()));
+            }
+        }
+    }
+}
+
+TEST(TilingCommand, ListsOriginsOfFaults) {
+    const ScratchFolder folder;
+    const Json json = tiling({folder.write("over.lsys",
+                                           "derivation length: 1\nangle increment: 90\nheading: 0\n"
+                                           "axiom: AfB\nA --> C\nB --> |f[|C]\ninterpret:\nC --> "
+                                           "[{F+F+F+F}]\n")});
+    ASSERT_EQ(json["violation_list"].size(), 1U) << json.dump();
+    const Json& origins = json["violation_list"][0]["origins"];
+    ASSERT_EQ(origins.size(), 2U);
+    for (const Json& origin : origins) {
+        EXPECT_EQ(origin["line"], 8);
+        EXPECT_EQ(origin["column"], 16);
+        EXPECT_FALSE(origin["path"].get<std::string>().empty());
+    }
+    EXPECT_NE(origins[0]["path"], origins[1]["path"]);
+    EXPECT_TRUE(tiling({"chair", "-n", "1"})["violation_list"].empty());
 }
 
 TEST(TilingCommand, NamesOfTilesNeedTiles) {

@@ -1,4 +1,4 @@
-// art/kolam/union_find.h: disjoint sets of numbers.
+// engine/base/union_find.h: disjoint sets of numbers.
 #pragma once
 
 #include <algorithm>
