@@ -3,6 +3,7 @@
 #include "art/reading/kolam_lines.h"
 #include "art/reading/svg_attributes.h"
 #include "art/reading/svg_path.h"
+#include "art/reading/svg_style.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -30,7 +31,7 @@ struct Inherited {
 
 class SvgReader {
 public:
-    explicit SvgReader(const Monitor& monitor) : monitor_(monitor) {}
+    SvgReader(pugi::xml_node root, const Monitor& monitor) : monitor_(monitor), style_(root, monitor) {}
 
     void visit(pugi::xml_node node, Inherited around, int level) {
         if (level > most_svg_levels) throw std::runtime_error("elements are nested too deeply");
@@ -40,11 +41,11 @@ public:
         for (const char* hidden : {"defs", "clipPath", "mask", "symbol", "pattern", "marker", "metadata"}) {
             if (name == hidden) return;
         }
-        if (svg_property(node, "display") == "none") return;
-        if (const std::string fill = svg_property(node, "fill"); !fill.empty()) {
+        if (style_.property(node, "display") == "none") return;
+        if (const std::string fill = style_.property(node, "fill"); !fill.empty()) {
             around.is_filled = fill != "none" && fill != "transparent";
         }
-        if (const std::string stroke = svg_property(node, "stroke"); !stroke.empty()) {
+        if (const std::string stroke = style_.property(node, "stroke"); !stroke.empty()) {
             around.is_stroked = stroke != "none" && stroke != "transparent";
         }
         around.transform = around.transform * parse_transform(node.attribute("transform").value());
@@ -63,6 +64,8 @@ public:
             add(std::move(path), around);
         } else if (name == "circle" || name == "ellipse") {
             ellipse(node, around);
+        } else if (name == "use") {
+            ++copies;
         }
         for (const pugi::xml_node child : node.children()) {
             if (child.type() == pugi::node_element) visit(child, around, level + 1);
@@ -72,6 +75,9 @@ public:
     std::vector<ClosedLine> lines;
     std::vector<glm::dvec2> dots;
     std::size_t open = 0;
+    std::size_t copies = 0;  ///< `use` elements, which are not read
+
+    std::size_t unread_rules() const { return style_.unread(); }
 
 private:
     static double number(pugi::xml_node node, const char* name) {
@@ -122,6 +128,7 @@ private:
     }
 
     const Monitor& monitor_;
+    SvgStyle style_;
     std::size_t points_ = 0;
 };
 
@@ -133,7 +140,7 @@ ReadKolam read_kolam_svg(std::string_view text, std::optional<DotLattice> lattic
     if (!parsed) {
         throw std::runtime_error(fmt::format("damaged XML at byte {}: {}", parsed.offset + 1, parsed.description()));
     }
-    SvgReader reader(monitor);
+    SvgReader reader(document.document_element(), monitor);
     reader.visit(document.document_element(), {}, 0);
     if (reader.lines.empty()) {
         throw std::runtime_error(
@@ -142,6 +149,14 @@ ReadKolam read_kolam_svg(std::string_view text, std::optional<DotLattice> lattic
     }
     ReadKolam kolam = kolam_of_lines(reader.lines, std::move(reader.dots), true, lattice, monitor);
     if (reader.open > 0) kolam.notes.push_back(fmt::format("{} left out", counted(reader.open, "open line")));
+    if (reader.copies > 0) {
+        kolam.notes.push_back(fmt::format("{} left out: lines and dots are read where they are drawn",
+                                          counted(reader.copies, "copied element")));
+    }
+    if (reader.unread_rules() > 0) {
+        kolam.notes.push_back(
+            fmt::format("{} not read: only simple selectors are", counted(reader.unread_rules(), "style rule")));
+    }
     const pugi::xml_node title = document.document_element().child("title");
     kolam.title = printable(title.text().get(), 200);
     return kolam;

@@ -1,38 +1,33 @@
 #include "art/reading/polygon_files.h"
 
-#include "art/reading/svg_attributes.h"
-#include "art/reading/svg_path.h"
+#include "art/reading/polygon_limits.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <pugixml.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace sikku {
-namespace {
 
-constexpr std::size_t most_points = 50'000'000;
-constexpr double most_coordinate = 1e9;
-constexpr std::size_t most_nested = 50;
-
-/// `line 3, column 7` of a byte of a text.
-std::string line_and_column(std::string_view text, std::size_t at) {
+std::string polygon_files::line_and_column(std::string_view text, std::size_t at) {
     const std::string_view before = text.substr(0, std::min(at, text.size()));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t start = before.rfind('\n');
     return fmt::format("line {}, column {}", line,
                        before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1);
 }
+
+namespace {
+
+constexpr std::size_t most_nested = 50;
 
 /// Collects polygons from the events of a parser.
 class JsonPolygons : public nlohmann::json_sax<nlohmann::json> {
@@ -99,8 +94,9 @@ public:
         nested_.pop_back();
         if (ended == In::corner) {
             if (numbers_ != 2) refuse_corner(counted(numbers_, "number"));
-            if (polygons_.corners.size() >= most_points) {
-                throw std::runtime_error(fmt::format("the polygons have more than {} corners", most_points));
+            if (polygons_.corners.size() >= polygon_files::most_points) {
+                throw std::runtime_error(
+                    fmt::format("the polygons have more than {} corners", polygon_files::most_points));
             }
             polygons_.corners.emplace_back(at_[0], at_[1]);
         } else if (ended == In::polygon) {
@@ -111,8 +107,8 @@ public:
     }
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
         // The parser counts the bytes that it read.
-        throw std::runtime_error(
-            fmt::format("{}: this is not valid JSON", line_and_column(text_, position > 0 ? position - 1 : 0)));
+        throw std::runtime_error(fmt::format("{}: this is not valid JSON",
+                                             polygon_files::line_and_column(text_, position > 0 ? position - 1 : 0)));
     }
 
     PolygonList finish() {
@@ -160,8 +156,8 @@ private:
     }
     bool take(double number) {
         if (in() == In::corner) {
-            if (!(std::fabs(number) <= most_coordinate)) {
-                refuse_corner(fmt::format("{:g}, which is larger than {:g}", number, most_coordinate));
+            if (!(std::fabs(number) <= polygon_files::most_coordinate)) {
+                refuse_corner(fmt::format("{:g}, which is larger than {:g}", number, polygon_files::most_coordinate));
             }
             if (numbers_ < 2) at_[numbers_] = number;
             ++numbers_;
@@ -173,6 +169,12 @@ private:
             }
             colour_ = static_cast<std::int32_t>(number);
             return true;
+        }
+        if (in() == In::top && key_ == "violations" && number > 0) {
+            polygons_.notes.push_back(
+                fmt::format("its list was examined before with {:.0f} violations; polygons that are no tiles may be "
+                            "missing in it",
+                            number));
         }
         return value("a number");
     }
@@ -189,177 +191,12 @@ private:
     std::array<double, 2> at_{};
 };
 
-/// Properties that an element inherits from those around it.
-struct Around {
-    Transform transform;
-    std::string fill = "black";
-};
-
-class SvgPolygons {
-public:
-    SvgPolygons(std::string_view text, const Monitor& monitor) : text_(text), pulse_(monitor) {}
-
-    void visit(pugi::xml_node node, Around around, int level) {
-        node_ = node;
-        if (level > most_svg_levels) refuse("elements are nested too deeply");
-        pulse_();
-        const std::string_view full = node.name();
-        const std::string_view name = full.substr(full.find(':') == std::string_view::npos ? 0 : full.find(':') + 1);
-        for (const char* hidden :
-             {"defs", "clipPath", "mask", "symbol", "pattern", "marker", "metadata", "title", "desc", "style"}) {
-            if (name == hidden) return;
-        }
-        if (svg_property(node, "display") == "none") return;
-        if (std::string_view(node.attribute("inkscape:label").value()) == "ground") {
-            ++grounds_;
-            return;
-        }
-        if (std::string fill = svg_property(node, "fill"); !fill.empty()) around.fill = std::move(fill);
-        try {
-            if (node.attribute("transform").empty() && !svg_property(node, "transform").empty()) {
-                refuse("its transform is a style; expected an attribute");
-            }
-            around.transform = around.transform * parse_transform(node.attribute("transform").value());
-            if (name == "svg" && level > 0) {
-                if (!node.attribute("viewBox").empty()) refuse("a picture in a picture cannot have a viewBox");
-                around.transform = around.transform * Transform{.e = number(node, "x"), .f = number(node, "y")};
-            }
-            element(name, node, around);
-        } catch (const Refused&) {
-            throw;
-        } catch (const std::runtime_error& error) {
-            refuse(error.what());
-        }
-        for (const pugi::xml_node child : node.children()) {
-            if (child.type() == pugi::node_element) visit(child, around, level + 1);
-        }
-    }
-
-    PolygonList finish() {
-        const bool has_fills = filled_.size() > 0;
-        PolygonList result = std::move(has_fills ? filled_ : outlined_);
-        result.colour_names.resize(colours_.size());
-        for (const auto& [fill, colour] : colours_) {
-            result.colour_names[static_cast<std::size_t>(colour)] = printable(fill, 40);
-        }
-        const auto note = [&](std::size_t count, const char* thing) {
-            if (count > 0) result.notes.push_back(fmt::format("{} left out", counted(count, thing)));
-        };
-        if (has_fills) note(outlined_.size(), "unfilled outline");
-        note(open_, "open line");
-        note(grounds_, "ground");
-        note(others_, "text or picture");
-        return result;
-    }
-
-private:
-    struct Refused : std::runtime_error {
-        using std::runtime_error::runtime_error;
-    };
-    [[noreturn]] void refuse(const std::string& what) const {
-        const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node_.offset_debug(), 0));
-        throw Refused(fmt::format("{}, <{}>: {}", line_and_column(text_, at), printable(node_.name(), 40), what));
-    }
-    void element(std::string_view name, pugi::xml_node node, const Around& around) {
-        if (name == "path") {
-            const std::string_view data = node.attribute("d").value();
-            if (const std::size_t at = first_curve(data); at != std::string_view::npos) {
-                refuse(fmt::format("byte {} of its path is the curve '{}'; tiles have straight edges", at + 1,
-                                   data[at]));
-            }
-            for (const FlatPath& path : flatten_path(data, most_points - points_)) add(path, around);
-        } else if (name == "polygon" || name == "polyline") {
-            const std::vector<double> numbers = numbers_of(node.attribute("points").value());
-            if (numbers.size() % 2 != 0) refuse("its points have an odd number of coordinates");
-            FlatPath path;
-            for (std::size_t i = 0; i < numbers.size(); i += 2) path.points.emplace_back(numbers[i], numbers[i + 1]);
-            const bool returns = path.points.size() > 2 && path.points.front() == path.points.back();
-            path.is_closed = name == "polygon" || returns;
-            if (returns) path.points.pop_back();
-            add(path, around);
-        } else if (name == "rect") {
-            rectangle(node, around);
-        } else if (name == "circle" || name == "ellipse") {
-            if (is_visible(around)) refuse("this is a curve; tiles have straight edges");
-        } else if (name == "use") {
-            refuse("copies of elements are not supported; write each tile as an element");
-        } else if (name == "line") {
-            ++open_;
-        } else if (name == "text" || name == "image" || name == "foreignObject") {
-            ++others_;
-        }
-    }
-    static bool is_visible(const Around& around) { return around.fill != "none" && around.fill != "transparent"; }
-
-    /// A length in user units.
-    double number(pugi::xml_node node, const char* name) const {
-        const std::string text(trimmed(node.attribute(name).value()));
-        if (text.empty()) return 0;
-        const std::vector<double> numbers = numbers_of(text);
-        if (numbers.size() != 1) refuse(fmt::format("'{}' is not a number", name));
-        return numbers.front();
-    }
-    void rectangle(pugi::xml_node node, const Around& around) {
-        if (number(node, "rx") > 0 || number(node, "ry") > 0) {
-            refuse("it has round corners; tiles have straight edges");
-        }
-        const double x = number(node, "x"), y = number(node, "y");
-        const double width = number(node, "width"), height = number(node, "height");
-        if (!(width > 0 && height > 0)) return;
-        add({{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, true}, around);
-    }
-    void add(const FlatPath& path, const Around& around) {
-        if (!path.is_closed) {
-            if (path.points.size() > 1) ++open_;
-            return;
-        }
-        points_ += path.points.size();
-        if (points_ > most_points) refuse(fmt::format("the polygons have more than {} corners", most_points));
-        PolygonList& list = is_visible(around) ? filled_ : outlined_;
-        for (const glm::dvec2 point : path.points) {
-            const glm::dvec2 at = around.transform(point);
-            if (!(std::fabs(at.x) <= most_coordinate && std::fabs(at.y) <= most_coordinate)) {
-                refuse(fmt::format("a coordinate is larger than {:g}", most_coordinate));
-            }
-            list.corners.emplace_back(at.x, -at.y);
-        }
-        const auto colour =
-            colours_.try_emplace(around.fill, static_cast<std::int32_t>(colours_.size())).first->second;
-        list.end_polygon(colour);
-    }
-
-    std::string_view text_;
-    Pulse pulse_;
-    pugi::xml_node node_;  ///< the element that is being read
-    PolygonList filled_, outlined_;
-    std::map<std::string, std::int32_t> colours_;
-    std::size_t points_ = 0;
-    std::size_t open_ = 0, grounds_ = 0, others_ = 0;
-};
-
 }  // namespace
 
 PolygonList read_polygons_json(std::string_view text, const Monitor& monitor) {
     JsonPolygons polygons(text, monitor);
     nlohmann::json::sax_parse(text.begin(), text.end(), &polygons);
     return polygons.finish();
-}
-
-PolygonList read_polygons_svg(std::string_view text, const Monitor& monitor) {
-    pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
-    if (!parsed) {
-        throw std::runtime_error(fmt::format("{}: damaged XML: {}",
-                                             line_and_column(text, static_cast<std::size_t>(parsed.offset)),
-                                             parsed.description()));
-    }
-    SvgPolygons polygons(text, monitor);
-    const pugi::xml_node root = document.document_element();
-    polygons.visit(root, {}, 0);
-    PolygonList result = polygons.finish();
-    if (result.size() == 0) throw std::runtime_error("the SVG has no closed polygons");
-    result.title = printable(root.child("title").text().get(), 200);
-    return result;
 }
 
 }  // namespace sikku

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -65,20 +64,6 @@ Transform parse_transform(std::string_view text) {
         at = text.find_first_not_of(" \t\r\n,", close + 1);
     }
     return all;
-}
-
-std::string svg_property(pugi::xml_node node, const char* name) {
-    const std::string style = node.attribute("style").value();
-    for (std::size_t at = 0; at < style.size();) {
-        const std::size_t end = std::min(style.find(';', at), style.size());
-        const std::string_view part = std::string_view(style).substr(at, end - at);
-        const std::size_t colon = part.find(':');
-        if (colon != std::string_view::npos && trimmed(part.substr(0, colon)) == name) {
-            return std::string(trimmed(part.substr(colon + 1)));
-        }
-        at = end + 1;
-    }
-    return node.attribute(name).value();
 }
 
 }  // namespace sikku

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <pugixml.hpp>
 
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,8 +26,5 @@ std::vector<double> numbers_of(std::string_view text);
 
 /// The product of a list of transforms. Source: SVG 1.1 (Second Edition), section 7.6. @throws std::runtime_error
 Transform parse_transform(std::string_view text);
-
-/// A property of an element, from its attribute or its style; empty if neither has it.
-std::string svg_property(pugi::xml_node node, const char* name);
 
 }  // namespace sikku

@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 
 targets=(pattern_fuzz derivation_fuzz import_fuzz surface_fuzz scl_fuzz kbm_fuzz gallery_toml_fuzz gallery_jsonl_fuzz show_fuzz
-    midi_fuzz icc_fuzz link_fuzz grid_fuzz reading_fuzz)
+    midi_fuzz icc_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz)
 if command -v clang++ > /dev/null; then
     mkdir -p build
     cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
@@ -25,6 +25,7 @@ if command -v clang++ > /dev/null; then
             link_fuzz) seeds=(tests/corpus/link) ;;
             grid_fuzz) seeds=(tests/corpus/grids) ;;
             reading_fuzz) seeds=(tests/corpus/reading) ;;
+            svg_fuzz) seeds=(tests/corpus/svg) ;;
             surface_fuzz) seeds=(tests/corpus/surfaces) ;;
             scl_fuzz | kbm_fuzz) seeds=(tests/corpus/scales) ;;
             gallery_*) seeds=(tests/corpus/gallery patterns/posters) ;;

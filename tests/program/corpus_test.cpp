@@ -6,6 +6,7 @@
 #include "tests/fuzz/reading_targets.h"
 #include "tests/fuzz/scale_targets.h"
 #include "tests/fuzz/surface_targets.h"
+#include "tests/fuzz/svg_targets.h"
 #include "tests/fuzz/targets.h"
 #include "tests/program.h"
 
@@ -90,6 +91,15 @@ TEST(Corpus, KolamsOfOtherFormatsAreReadOrRefused) {
     for (const auto& file : list) {
         SCOPED_TRACE(file.string());
         mutate(contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_reading(changed)); });
+    }
+}
+
+TEST(Corpus, PicturesOfOtherProgramsAreReadOrRefused) {
+    const auto list = files_of("tests/corpus/svg");
+    EXPECT_FALSE(list.empty());
+    for (const auto& file : list) {
+        SCOPED_TRACE(file.string());
+        mutate(contents(file), [](const std::string& changed) { ASSERT_NO_THROW(try_svg(changed)); });
     }
 }
 
