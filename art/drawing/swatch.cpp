@@ -3,6 +3,7 @@
 #include "art/drawing/draw.h"
 #include "art/drawing/tile_colours.h"
 #include "art/drawing/torus_places.h"
+#include "engine/base/text.h"
 #include "engine/tiling/lattice_rectangle.h"
 #include "engine/tiling/polygon_place.h"
 #include "engine/tiling/tile_growth.h"
@@ -91,7 +92,8 @@ private:
         try {
             Patch patch{steps, examine_tiling(*grammar, options), {}, {}};
             if (patch.tiles() > 0 && !patch.result.examination.has_border) {
-                throw SwatchError("the polygons overlap, so this is not a tiling");
+                throw SwatchError(
+                    fmt::format("polygons overlap at a derivation length of {}, so this is not a tiling", steps));
             }
             if (patch.tiles() == 0) return true;
             patch.periods =
@@ -102,8 +104,9 @@ private:
             }
             patch_ = std::move(patch);
             return true;
-        } catch (const BudgetError&) {
+        } catch (const BudgetError& error) {
             if (steps == 0) throw;
+            limit_ = error.what();
             return false;
         }
     }
@@ -284,8 +287,8 @@ private:
 
     /// Everything else that is drawn has to repeat, too.
     void compare_pictures() const {
-        constexpr int same = 24;             // levels
-        constexpr double differing = 0.002;  // share of all values
+        constexpr int same = 24;              // levels
+        constexpr double differing = 0.0001;  // share of all values
         const std::vector<std::uint8_t> here = picture(glm::dvec2(0.0));
         for (const glm::dvec2 way : swatch_.cell.sides) {
             const std::vector<std::uint8_t> there = picture(way);
@@ -303,30 +306,33 @@ private:
         if (patch_.tiles() == 0)
             throw SwatchError("this drawing has no tiles, which are closed polygons between { and }");
         if (patch_.tiles() < fewest_tiles) {
-            throw SwatchError(fmt::format("found no period in {} tiles, up to a derivation length of {}",
-                                          patch_.tiles(), patch_.steps));
+            throw SwatchError(fmt::format("found no period in {}, up to a derivation length of {}{}",
+                                          counted(patch_.tiles(), "tile"), patch_.steps,
+                                          limit_.empty() ? "" : "; longer ones: " + limit_));
         }
         if (patch_.without_colours.count == 2) {
             throw SwatchError(
                 "the tiles repeat, but their colours do not; 'tile colours' by shape or neighbours repeat");
         }
-        if (patch_.periods.count > 0 && patch_.periods.compared * 4 < patch_.tiles()) {
+        if (patch_.result.examination.neighbours == 0 ||
+            (patch_.periods.count > 0 && patch_.periods.compared * 4 < patch_.tiles())) {
             throw SwatchError("the tiles do not touch along their edges, so this is not a tiling");
         }
-        if (patch_.periods.count == 1) throw SwatchError("this tiling repeats in one direction only");
-        throw SwatchError(
-            fmt::format("this tiling has no period: no translation of up to {:.3g} steps maps its {} tiles "
-                        "onto each other{}",
-                        patch_.periods.reach, patch_.tiles(), irrational_shares()));
+        const std::string searched = fmt::format("among translations of up to {:.3g} steps of {}",
+                                                 patch_.periods.reach, counted(patch_.tiles(), "tile"));
+        if (patch_.periods.count == 1) {
+            throw SwatchError(fmt::format("found periods in one direction only, {}", searched));
+        }
+        throw SwatchError(fmt::format("found no period {}{}", searched, irrational_shares()));
     }
 
-    /// A tiling with a period has rational shares of its shapes.
+    /// A tiling with two periods has rational shares of its shapes. The limit is recognised by nine digits.
     std::string irrational_shares() const {
         const TileGrowth growth = find_growth(grammar_);
         for (const double share : growth.frequencies) {
             const std::string form = closed_form(share / growth.frequencies.front());
             if (form.find("√") != std::string::npos || form == "τ") {
-                return fmt::format(", and its shapes are in the ratio {}, which is irrational", form);
+                return fmt::format("; its shapes tend to the ratio {}, which is irrational", form);
             }
         }
         return "";
@@ -337,6 +343,7 @@ private:
     const DrawOptions& options_;
     bool may_turn_;
     Patch patch_{0, TilingResult{{}, {TilePlane(1.0), {}, {}, {}, TileNeighbours(0, {}), {}, {}}}, {}, {}};
+    std::string limit_;  // why no longer derivation was examined
     Swatch swatch_;
     double needed_ = 0;
 };
