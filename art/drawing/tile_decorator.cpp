@@ -264,8 +264,9 @@ void TileDecorator::draw_own(Curves& curves) const {
     }
 }
 
-void TileDecorator::draw(PathSink& sink, const Monitor& monitor) const {
+bool TileDecorator::draw(PathSink& sink, const Monitor& monitor) const {
     const TileDecoration& decoration = style_.decoration;
+    bool has_worms = false;
     Curves curves(style_, most_);
     Pulse pulse(monitor);
     draw_own(curves);
@@ -311,12 +312,16 @@ void TileDecorator::draw(PathSink& sink, const Monitor& monitor) const {
         }
     }
     if (decoration.worms) {
-        for (const WormLink& link : find_worms(tiles_, monitor)) curves.line(0, link.from, link.to);
+        for (const WormLink& link : find_worms(tiles_, monitor)) {
+            curves.line(0, link.from, link.to);
+            has_worms = true;
+        }
     }
     if (decoration.dots) {
         for (std::size_t i = 0; i < colours_.size(); ++i) curves.dot(0, middle(tiles_[i]));
     }
     curves.draw(decoration.strands, sink, monitor);
+    return has_worms;
 }
 
 }  // namespace sikku

@@ -30,8 +30,8 @@ public:
     /// its last side
     void add(std::span<const glm::dvec2> vertices, const Pen& pen);
     /// Draws all curves: those of a colour in as few strokes as possible, smooth ones of curves. Cost: n log n for n
-    /// sides. @throws BudgetError, Stopped
-    void draw(PathSink& sink, const Monitor& monitor) const;
+    /// sides. @returns true if it drew worms @throws BudgetError, Stopped
+    bool draw(PathSink& sink, const Monitor& monitor) const;
 
 private:
     class Curves;

@@ -110,6 +110,8 @@ private:
     PolygonClasses& classes_;
 };
 
+}  // namespace
+
 /// Hands on polygons in the colours of their numbers and, if edges are drawn afterwards, no straight lines.
 class TilePainter : public PathFilter {
 public:
@@ -125,8 +127,15 @@ public:
         if (!drawn_.tile_colours) return sink_.polygon(vertices, pen);
         if (*drawn_.tile_colours == TileColours::blank) return;
         const std::uint32_t number = numbers_ ? (*numbers_)[next_++] : class_of(vertices);
+        differs_ = differs_ || (first_number_ && *first_number_ != number);
+        is_several_ = is_several_ || first_number_.has_value();
+        if (!first_number_) first_number_ = number;
         sink_.polygon(vertices, Pen{.colour = static_cast<int>(first_ + number % colours_)});
     }
+    /// Several tiles were coloured.
+    bool is_several() const { return is_several_; }
+    /// Their numbers differ.
+    bool differs() const { return differs_; }
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         if (draws_lines()) sink_.begin_stroke(start, pen);
     }
@@ -155,8 +164,12 @@ private:
     std::size_t colours_;
     const std::vector<std::uint32_t>* numbers_;
     std::size_t next_ = 0;
+    std::optional<std::uint32_t> first_number_;
+    bool is_several_ = false, differs_ = false;
     PolygonClasses classes_;
 };
+
+namespace {
 
 /// Collects the polygons of a drawing for its decoration.
 class DecorationGatherer : public PolygonSink {
@@ -222,6 +235,7 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
         TilePainter painter(sink, drawn_, first_colour_, colours_, nullptr, *drawing_);
         OldColours inner(painter, drawn_);
         drawing_->read(print, window, inner);
+        note(painter);
         return decorate(print, window, old);
     }
     UnitedLines united(options_.budget / nodes_of_tile_edge);
@@ -251,6 +265,7 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     const bool fills =
         !is_plot || !unites || (options_.plot && (options_.plot->hatch || options_.plot->leaves_tiles));
     drawing_->read(print, window, fills ? static_cast<PathSink&>(inner) : bare);
+    note(painter);
     if (layers_) {
         std::vector<UnitedLines::Line> lines = found.lines;
         for (UnitedLines::Line& line : lines) line.pen.colour = *layers_ + (line.is_inner ? 0 : 1);
@@ -261,12 +276,24 @@ void TileDrawing::read(const Print& print, const Window& window, PathSink& sink)
     decorate(print, window, old);
 }
 
+void TileDrawing::note(const TilePainter& painter) const {
+    if (painter.is_several()) has_tiles_ = true;
+    if (painter.differs()) differs_ = true;
+}
+
+void TileDrawing::report(DrawReport& report) const {
+    drawing_->report(report);
+    report.tiles_are_alike = has_tiles_ && !differs_;
+    const bool wants_worms = drawn_.tile_colours == TileColours::worms || drawn_.decoration.worms;
+    report.lacks_worms = wants_worms && !has_worms_;
+}
+
 void TileDrawing::decorate(const Print& print, const Window& window, PathSink& sink) const {
     if (!drawn_.decoration.is_set()) return;
     TileDecorator decorator(drawn_, seed_, options_.budget / nodes_of_tile_edge);
     DecorationGatherer gatherer(decorator);
     drawing_->read(print, window, gatherer);
-    decorator.draw(sink, options_.monitor);
+    if (decorator.draw(sink, options_.monitor)) has_worms_ = true;
 }
 
 std::vector<std::uint32_t> TileDrawing::numbers(const TileGatherer& gatherer, const UnitedLines& united,
@@ -277,8 +304,11 @@ std::vector<std::uint32_t> TileDrawing::numbers(const TileGatherer& gatherer, co
             return distances_from_border(united.tiles(), found.neighbours, found.border);
         case TileColours::generation:
             return colours_of_parts(gatherer.parts(), found.neighbours);
-        case TileColours::worms:
-            return ranks_of_worms(united.tiles(), find_worms(gatherer.outlines(), options_.monitor));
+        case TileColours::worms: {
+            const std::vector<WormLink> worms = find_worms(gatherer.outlines(), options_.monitor);
+            if (!worms.empty()) has_worms_ = true;
+            return ranks_of_worms(united.tiles(), worms);
+        }
         default:
             break;
     }

@@ -4,6 +4,7 @@
 #include "art/drawing/drawing.h"
 #include "art/drawing/united_lines.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,7 @@
 namespace sikku {
 
 class TileGatherer;
+class TilePainter;
 
 /// True if a style requests colours or decorations of tiles, or their edges otherwise than each tile draws them.
 bool has_tile_work(const Style& style);
@@ -37,13 +39,14 @@ public:
     /// once more for a decoration.
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
-    void report(DrawReport& report) const override { drawing_->report(report); }
+    void report(DrawReport& report) const override;
 
 private:
     std::vector<std::uint32_t> numbers(const TileGatherer& gatherer, const UnitedLines& united,
                                        const UnitedLines::Result& found,
                                        const std::vector<glm::dvec2>& middles) const;
     void add_layers();
+    void note(const TilePainter& painter) const;
     void decorate(const Print& print, const Window& window, PathSink& sink) const;
 
     std::unique_ptr<Drawing> drawing_;
@@ -52,7 +55,9 @@ private:
     Style style_;                   ///< with the colours of tiles added
     std::size_t first_colour_ = 0;  ///< index of the first of these
     std::size_t colours_ = 0;       ///< number of these
-    std::optional<int> layers_;     ///< colour of inner edges in layers for cutting; that of the border is the next
+    /// What the reads have found so far.
+    mutable std::atomic<bool> has_tiles_{false}, differs_{false}, has_worms_{false};
+    std::optional<int> layers_;  ///< colour of inner edges in layers for cutting; that of the border is the next
 };
 
 }  // namespace sikku

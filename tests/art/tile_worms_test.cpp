@@ -140,5 +140,29 @@ TEST(TileWorms, AreDrawnAsStraightStrokes) {
     EXPECT_EQ(strokes({{"decorate", "worms"}}) - strokes({}), std::lround(count));
 }
 
+/// Colours and lines without effect are warned of.
+TEST(TileWorms, AreMissed) {
+    const auto warnings = [](const char* name, const OptionValues& more) {
+        OptionValues values = {{"derivation length", "3"}, {"size", "100x100mm"}};
+        values.insert(values.end(), more.begin(), more.end());
+        MemoryDestination nowhere;
+        std::string text;
+        const Document document = load(bundled(name));
+        const Assignment assigned = assign(prints(), document, values);
+        for (const Remark& remark :
+             prints().plan(assigned.document, "svg", assigned.options)->make(nowhere, "x.svg", {}).remarks) {
+            if (remark.is_warning) text += remark.text + '\n';
+        }
+        return text;
+    };
+    const std::string none = "no tiles form worms: only rhombs do, three around a vertex\n";
+    EXPECT_EQ(warnings("tilings/pinwheel", {{"tile-colours", "worms"}}), none);
+    EXPECT_EQ(warnings("tilings/pinwheel", {{"decorate", "worms"}}), none);
+    EXPECT_EQ(warnings("tilings/penrose-rhombs", {{"tile-colours", "worms"}, {"decorate", "worms"}}), "");
+    const std::string alike = "'tile colours' gives all tiles one colour: they do not differ in what it colours by\n";
+    EXPECT_EQ(warnings("tilings/chair", {{"tile-colours", "hand"}}), alike);
+    EXPECT_EQ(warnings("tilings/chair", {{"tile-colours", "direction"}}), "");
+}
+
 }  // namespace
 }  // namespace sikku
