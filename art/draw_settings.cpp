@@ -331,16 +331,14 @@ const std::array own_rows = {
     Option<S>{{.name = "fill-page",
                .help = "cover the whole page with a tiling, at the length of a step that --step sets (a 40th of the "
                        "page's shorter side); finds a place and the derivation length it needs",
-               .kind = flag,
-               .is_alone = true},
+               .kind = flag},
               [](S& s, Text t) { s.fills_page = is_true(t); }},
     Option<S>{
         {.name = "swatch",
          .help = "draw only the smallest rectangle of a periodic tiling whose copies join without a seam, on a page "
                  "of its size; --step sets the length of a step (a 40th of the page's shorter side); 'turn' also "
                  "turns the tiling where that makes the rectangle smaller",
-         .value = "[turn]",
-         .is_alone = true},
+         .value = "[turn]"},
         [](S& s, Text t) {
             if (!t.empty() && t != "turn") refuse_option("swatch", t, "expected turn, or no value");
             s.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
@@ -434,8 +432,7 @@ const std::array own_rows = {
          .unit = "s",
          .kind = number,
          .least = 0.01,
-         .most = 600,
-         .is_alone = true},
+         .most = 600},
         [](S& s, Text t) { s.frame_time = to_number(t); }},
     Option<S>{{.name = "hold",
                .help = "minimum seconds for the last generation of a .gif, or with --divide, 0.01 to 600 (2)",
@@ -444,8 +441,7 @@ const std::array own_rows = {
                .unit = "s",
                .kind = number,
                .least = 0.01,
-               .most = 600,
-               .is_alone = true},
+               .most = 600},
               [](S& s, Text t) { s.hold = to_number(t); }},
     Option<S>{{.name = "fit-frames",
                .help = "fit each generation to the page separately; by default all share one scale and position, "
@@ -490,22 +486,17 @@ const std::array own_rows = {
                  "cells of a picture",
          .value = "[SECONDS]",
          .group = kolams,
-         .unit = "s",
-         .is_alone = true},
+         .unit = "s"},
         set_lesson},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
                        "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
                .value = "SIZE[,MARGIN]",
-               .group = kolams,
-               .is_alone = true},
+               .group = kolams},
               set_tile},
-    Option<S>{{.name = "overlap",
-               .help = "overlap of neighbouring sheets (10mm)",
-               .value = "LENGTH",
-               .group = kolams,
-               .is_alone = true},
-              [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
+    Option<S>{
+        {.name = "overlap", .help = "overlap of neighbouring sheets (10mm)", .value = "LENGTH", .group = kolams},
+        [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
     Option<S>{
         {.name = "relief",
          .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "

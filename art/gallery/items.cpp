@@ -240,6 +240,8 @@ void read_gallery_key(const GalleryKeys& keys, const std::string& written, const
         }
     } else if (const GalleryKey* row = keys.find(key)) {
         item.take(std::make_shared<const GalleryAxis>(axis_of(key, value, row)));
+    } else if (const std::string reason = keys.not_a_key(key); !reason.empty()) {
+        fail(value.place, reason);
     } else {
         std::vector<std::string_view> known = {"pattern", "format", "name",    "set",  "generations",
                                                "item",    "poster", "contact", "title"};

@@ -96,8 +96,9 @@ private:
 /// A key of jobs, with what it does to them.
 struct Choice {
     GalleryItem::Axis axis;
-    std::string target;    ///< the pattern's key, where it sets one
-    bool is_flag = false;  ///< false is as good as absent
+    std::string target;        ///< the pattern's key, where it sets one
+    bool is_flag = false;      ///< false is as good as absent
+    bool has_default = false;  ///< true stands for the default value
 };
 
 /// A name template, `{pattern}-n{n}`, split at its placeholders.
@@ -293,7 +294,8 @@ private:
                                axis->in_set ? axis->key
                                : overrides  ? override_key(axis->key, pattern)
                                             : "",
-                               facts && facts->kind == OptionKind::flag});
+                               facts && (facts->kind == OptionKind::flag || facts->has_optional_value),
+                               facts && facts->has_optional_value});
         }
         return choices;
     }
@@ -358,6 +360,7 @@ private:
             if (!choices[i].target.empty()) {
                 job.overrides[choices[i].target] = std::move(value);
             } else if (value != "false" || !choices[i].is_flag) {
+                if (choices[i].has_default && value == "true") value.clear();
                 job.keys[choices[i].axis->key] = std::move(value);
             }
         }
@@ -422,6 +425,16 @@ private:
     }
 
     static void check(const GalleryItem& item, const GalleryJob& job) {
+        if (job.keys.contains("tile") && job.format != "pdf") {
+            const auto axis = std::find_if(item.axes.begin(), item.axes.end(),
+                                           [](const GalleryItem::Axis& each) { return each->key == "tile"; });
+            const std::string& place = axis == item.axes.end() ? job.place : (*axis)->place;
+            fail(place.empty() ? job.place : place,
+                 fmt::format(
+                     "tile: sheets as {} are several files, and each job of a gallery makes one; a pdf has all "
+                     "sheets as pages",
+                     job.format));
+        }
         try {
             job.interpreter().check(job.format, job.values());
         } catch (const SettingError& error) {

@@ -2,6 +2,8 @@
 
 #include "engine/base/keys.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -28,13 +30,15 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters, PieceRead
         for (const OptionInfo* info : interpreter->options()) {
             const std::string name = (info->is_on ? "no-" : "") + std::string(info->name);
             if (info->is_alone || info->is_key || find(name)) continue;
+            const bool has_optional_value = info->value.starts_with('[');
             keys_.push_back({.name = name,
-                             .help = std::string(info->help),
+                             .help = std::string(info->help) + (has_optional_value ? "; true: without a value" : ""),
                              .unit = info->unit,
                              .use = interpreter,
                              .kind = info->kind,
                              .least = info->least,
-                             .most = info->most});
+                             .most = info->most,
+                             .has_optional_value = has_optional_value});
         }
     }
     keys_.push_back({.name = "angle",
@@ -69,6 +73,18 @@ const GalleryKey* GalleryKeys::find(std::string_view name) const {
     const auto found =
         std::find_if(keys_.begin(), keys_.end(), [&](const GalleryKey& key) { return key.name == name; });
     return found == keys_.end() ? nullptr : &*found;
+}
+
+std::string GalleryKeys::not_a_key(std::string_view name) const {
+    for (const Interpreter* interpreter : interpreters_) {
+        const OptionInfo* option = find_option(interpreter->options(), name);
+        if (!option || !option->is_alone) continue;
+        return fmt::format(
+            "'{}' is an option of single works, not a key of galleries: each job makes one file of one derivation "
+            "length; 'n' lists derivation lengths",
+            name);
+    }
+    return {};
 }
 
 const GalleryKeys::Known* GalleryKeys::known(std::string_view format) const {

@@ -22,7 +22,8 @@ struct GalleryKey {
     bool overrides = false;  ///< true if it overrides a key of the pattern
     double least = -1e300;
     double most = 1e300;
-    bool is_option = true;  ///< the command line has it, too
+    bool is_option = true;            ///< the command line has it, too
+    bool has_optional_value = false;  ///< `true` stands for its default
 };
 
 /// The keys and formats that gallery files may contain.
@@ -35,6 +36,8 @@ public:
     const std::vector<GalleryKey>& list() const { return keys_; }
     /// Null if the name is unknown.
     const GalleryKey* find(std::string_view name) const;
+    /// Why an option of an interpreter is not a key; empty if there is no such option.
+    std::string not_a_key(std::string_view name) const;
     /// Names of all formats whose jobs are one file each, without aliases: `svg, pdf, …`.
     std::string format_list() const;
     /// Names and aliases of all formats whose jobs are one file each.
