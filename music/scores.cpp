@@ -273,7 +273,8 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
                           report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
                           range_of(report, first)));
     if (report.is_strict) {
-        made.fact(fmt::format("counterpoint: {} moved, {} left", counted(report.counterpoint.moved, "note"),
+        made.fact(fmt::format("counterpoint: {} moved, {} left before endings",
+                              counted(report.counterpoint.moved, "note"),
                               counted(report.counterpoint.left, "fault")));
     }
     report_moved(ensemble, playing, report, made);

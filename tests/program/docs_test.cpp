@@ -150,6 +150,27 @@ TEST(Docs, TheTutorialShowsWhatItsCommandsPrint) {
     EXPECT_GE(compared, 8);
 }
 
+TEST(Docs, TheReadmeListsAllPages) {
+    const std::string text = contents(root / "README.md");
+    for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
+        if (entry.path().extension() != ".md") continue;
+        const std::string name = entry.path().filename().string();
+        EXPECT_NE(text.find("](docs/" + name + ")"), std::string::npos) << name;
+    }
+}
+
+/// Each row of claims says what, how, and what not.
+TEST(Docs, ClaimsHaveThreeColumns) {
+    std::istringstream lines(contents(root / "docs" / "claims.md"));
+    std::size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("|")) continue;
+        ++rows;
+        EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 4) << line;
+    }
+    EXPECT_GT(rows, 30U);
+}
+
 TEST(Docs, TheReadmeIsShort) {
     const std::string text = contents(root / "README.md");
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 150);
