@@ -10,9 +10,17 @@
 namespace sikku {
 namespace {
 
-/// Finds a pattern: `folders` in their order for files.
+/// Finds a pattern: `folders` in their order for files. Other names are those of bundled patterns, and never of
+/// files.
 PatternFile find_border(const std::string& name, std::initializer_list<std::filesystem::path> folders) {
-    if (!lower_case(name).ends_with(".lsys")) return find_pattern(name);
+    if (!lower_case(name).ends_with(".lsys")) {
+        const PatternLibrary& library = PatternLibrary::bundled();
+        if (const LibraryPattern* known = library.find(name)) return {known->name + ".lsys", known->file};
+        const auto similar = library.similar(name);
+        throw NotFound(fmt::format("no pattern named '{}'{}; names of files end in .lsys", printable(name, 80),
+                                   did_you_mean(similar)),
+                       !similar.empty());
+    }
     std::error_code error;
     for (const std::filesystem::path& folder : folders) {
         if (std::filesystem::exists(folder / name, error)) return {name, folder / name};

@@ -530,7 +530,8 @@ const std::array own_rows = {
     Option<S>{{.name = "profile",
                .help = "plotter: axidraw, grbl, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
                .value = "NAME|FILE",
-               .group = plotters},
+               .group = plotters,
+               .names_file = is_profile_file},
               set_profile},
     Option<S>{{.name = "split",
                .help = "maximum length of a stroke, for controllers that stutter",
@@ -565,17 +566,20 @@ const std::array own_rows = {
                        "refill, such as '2 speed=20mm/s pause=0.5s'; may be repeated",
                .value = "PEN SETTINGS",
                .group = plotters,
-               .is_list = true},
+               .is_list = true,
+               .moves_machine = true},
               [](S& s, Text t) { read_as("pen", t, [&] { s.pen_rules.push_back(parse_pen_rule(t, s.dpi)); }); }},
     Option<S>{{.name = "park",
                .help = "place of the pen while it is changed, from the bottom left corner of the page; HP-GL, G-code",
                .value = "X,Y",
-               .group = plotters},
+               .group = plotters,
+               .moves_machine = true},
               [](S& s, Text t) { read_as("park", t, [&] { s.park = parse_place(t, s.dpi); }); }},
     Option<S>{{.name = "refill",
                .help = "dip the pen at a place before it draws, and again after each LENGTH, such as 5m@10,10",
                .value = "LENGTH@X,Y",
-               .group = plotters},
+               .group = plotters,
+               .moves_machine = true},
               [](S& s, Text t) { read_as("refill", t, [&] { s.refill = parse_refill(t, s.dpi); }); }},
     Option<S>{{.name = "resume",
                .help = "begin where an interrupted plot had drawn this length, such as 12.5m",
@@ -634,12 +638,18 @@ const std::array own_rows = {
                .least = 0,
                .most = 3600},
               [](S& s, Text t) { s.speeds.lift = to_number(t); }},
-    Option<S>{
-        {.name = "gcode-start", .help = "G-code lines before the first stroke", .value = "LINES", .group = plotters},
-        [](S& s, Text t) { set_lines("gcode-start", t, s.gcode.start); }},
-    Option<S>{
-        {.name = "gcode-end", .help = "G-code lines after the last stroke", .value = "LINES", .group = plotters},
-        [](S& s, Text t) { set_lines("gcode-end", t, s.gcode.end); }},
+    Option<S>{{.name = "gcode-start",
+               .help = "G-code lines before the first stroke",
+               .value = "LINES",
+               .group = plotters,
+               .moves_machine = true},
+              [](S& s, Text t) { set_lines("gcode-start", t, s.gcode.start); }},
+    Option<S>{{.name = "gcode-end",
+               .help = "G-code lines after the last stroke",
+               .value = "LINES",
+               .group = plotters,
+               .moves_machine = true},
+              [](S& s, Text t) { set_lines("gcode-end", t, s.gcode.end); }},
     Option<S>{{.name = "bleed",
                .help = "extension of the ground beyond the page, up to 100mm (0mm)",
                .value = "LENGTH",
@@ -664,7 +674,8 @@ const std::array own_rows = {
     Option<S>{{.name = "cmyk",
                .help = "convert colours to the inks of this ICC profile; TIFF, and PDF, which becomes PDF/X-4",
                .value = "FILE.icc",
-               .group = presses},
+               .group = presses,
+               .names_file = [](std::string_view file) { return !file.empty(); }},
               [](S& s, Text t) { s.press.cmyk = t; }},
     Option<S>{{.name = "bits",
                .help = "bits per channel: 8, or 1 for line art, best at 600 dpi and more; TIFF (8)",
@@ -736,6 +747,11 @@ void set_key(S& settings, std::string_view name, Text text) {
 /// The rows above, and one for each further key of the language that art reads.
 std::vector<Option<S>> make_table() {
     std::vector<Option<S>> table(own_rows.begin(), own_rows.end());
+    for (Option<S>& row : table) {
+        std::string key(row.info.name);
+        std::replace(key.begin(), key.end(), '-', ' ');
+        if (row.info.is_key) row.info.names_file = find_language_key(key)->names_file;
+    }
     for (const std::string_view name : keys_of(KeyOwner::art)) {
         const auto has_name = [&](const Option<S>& row) { return row.info.name == name; };
         if (std::any_of(table.begin(), table.end(), has_name)) continue;

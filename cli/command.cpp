@@ -42,6 +42,12 @@ void add_override_options(CLI::App& command, PatternOptions& options) {
         ->allow_extra_args(false);
     command.add_option("--variant", options.variant, "variant of the pattern")->type_name("NAME");
     command.add_option("--seed", options.seed, "random seed, instead of the pattern's")->type_name("N");
+    add_trust_option(command, options.trusts_link);
+}
+
+void add_trust_option(CLI::App& command, bool& trusts_link) {
+    command.add_flag("--trust-link", trusts_link,
+                     "allow a studio link to name files of this machine and to set commands for plotters");
 }
 
 std::uint64_t seed_of(const PatternOptions& options) {
@@ -64,7 +70,10 @@ void add_budget_option(CLI::App& command, double& budget) {
 }
 
 NamedText read_pattern_text(const std::string& pattern) {
-    if (auto link = read_link_argument(pattern)) return {std::move(link->name), std::move(link->text)};
+    if (auto link = read_link_argument(pattern)) {
+        check_text_of_link(*link);
+        return {std::move(link->name), std::move(link->text)};
+    }
     PatternFile found;
     try {
         if (pattern != "-") found = find_pattern(pattern);
@@ -144,6 +153,7 @@ Document load(const PatternOptions& options, const SharedWork* link, bool quiet)
         throw UsageError(foreign);
     }
     const std::string& variant = link && options.variant.empty() ? link->variant : options.variant;
+    if (link) check_pattern_of_link(*link, variant, options);
     Diagnostics diagnostics;
     if (interrupted()) throw Interrupted();
     Document document = compile(std::move(text.name), std::move(text.text), {variant, std::move(settings)},
@@ -163,7 +173,7 @@ void make(Work& work, const std::string& output, bool quiet) {
     }
     if (quiet) return;
     for (const Remark& remark : made.remarks)
-        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", with_dashes(remark.text));
+        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", printable_lines(with_dashes(remark.text), 2000));
 }
 
 Progress::Progress(bool quiet)

@@ -67,8 +67,11 @@ struct PatternOptions {
     std::vector<std::string> settings;
     std::string variant;
     std::string seed;
+    bool trusts_link = false;  ///< a link may name files and set commands for machines
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
+/// `--trust-link`.
+void add_trust_option(CLI::App& command, bool& trusts_link);
 /// The value of `--seed`; 0 if it was not given. @throws UsageError
 std::uint64_t seed_of(const PatternOptions& options);
 /// The same without PATTERN.
@@ -82,7 +85,8 @@ std::span<const Interpreter* const> interpreters();
 
 /// Reads, compiles and checks a pattern; warnings are printed unless `quiet`. The settings of a link apply, except
 /// those that the options replace.
-/// @throws PatternError; UsageError for an unknown name or a damaged link
+/// @throws PatternError; UsageError for an unknown name, a damaged link, and one that names files without being
+/// trusted
 Document load(const PatternOptions& options, bool quiet);
 /// Does the same for a PATTERN that was already read as a link; null if it is not one.
 Document load(const PatternOptions& options, const SharedWork* link, bool quiet);

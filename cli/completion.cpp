@@ -27,7 +27,7 @@ std::string script(const CLI::App& app, bool zsh) {
     // zsh reads the same function through its emulation of bash's completion.
     const std::string head = zsh ? "#compdef sikku\nautoload -U +X bashcompinit && bashcompinit\n" : "";
     return head + fmt::format(R"sh(_sikku() {{
-    local current="${{COMP_WORDS[COMP_CWORD]}}" command="${{COMP_WORDS[1]}}" options=""
+    local current="${{COMP_WORDS[COMP_CWORD]}}" command="${{COMP_WORDS[1]}}" options="" word
     COMPREPLY=()
     if [ "$COMP_CWORD" -eq 1 ]; then
         COMPREPLY=($(compgen -W "{} --help --version" -- "$current"))
@@ -37,7 +37,9 @@ std::string script(const CLI::App& app, bool zsh) {
 {}    esac
     case "$current" in
         -*) COMPREPLY=($(compgen -W "$options" -- "$current")) ;;
-        *) COMPREPLY=($(compgen -W "$(sikku patterns --names 2>/dev/null)" -- "$current") $(compgen -f -- "$current")) ;;
+        *) while IFS= read -r word; do COMPREPLY+=("$word"); done < <(
+               compgen -W "$(sikku patterns --names 2>/dev/null)" -- "$current"
+               compgen -f -- "$current") ;;
     esac
 }}
 complete -o filenames -F _sikku sikku

@@ -56,6 +56,7 @@ void run(const DrawCommand& command, bool quiet) {
     if (!link) prints().check(format, given);  // before the pattern is read
     Assignment assigned{load(command.pattern, link ? &*link : nullptr, quiet), given};
     const OptionValues shared = link ? link->draw : OptionValues();
+    check_options_of_link(prints().options(), shared, given, command.pattern);
     const auto work = blaming_link(shared, given, [&] {
         if (link) assigned = assign(prints(), assigned.document, options_with(shared, given, command.pattern));
         return prints().plan(assigned.document, format, assigned.options);

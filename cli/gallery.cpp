@@ -131,7 +131,8 @@ bool print_forecast(Gallery& gallery) {
         if (!forecast.problem.empty()) {
             impossible += print_problem(file, forecast.problem);
         } else if (forecast.memory > 0) {
-            fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", file, "", "", "", bytes_text(forecast.memory));
+            fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(file, 2000), "", "", "",
+                       bytes_text(forecast.memory));
         }
     }
     return impossible == 0;
@@ -187,8 +188,8 @@ void submit(const Options& options, std::size_t jobs) {
     const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
                                          quoted(folder.string() + ".%j.log"));
     if (!is_in_path("sbatch")) {
-        tell("sikku: sbatch is not available here; to submit {} where it is:\n  id=$({})\n  {}$id {}\n", script,
-             array, last, quoted(script));
+        tell("sikku: sbatch is not available here; to submit {} where it is:\n  id=$({})\n  {}$id {}\n",
+             printable(script, 2000), array, last, quoted(script));
         return;
     }
     // Another cluster's name may follow behind a semicolon.
@@ -196,7 +197,7 @@ void submit(const Options& options, std::size_t jobs) {
     const std::string id = number(output_of(array));
     const std::string end = number(output_of(last + id + " " + quoted(script)));
     fmt::print("submitted job {} with {}, followed by job {}; their script is {}\n", id, counted(tasks, "task"), end,
-               script);
+               printable(script, 2000));
 }
 
 /// Reports progress on standard error; on a terminal, as a bar with jobs per second and the time left.
@@ -216,13 +217,13 @@ public:
     void sheet(const std::string& name) override {
         if (!shown_) return;
         visible_ = true;
-        tell("\r{} …\033[K", name);
+        tell("\r{} …\033[K", printable(name));
     }
     void wait_for_jobs(std::size_t jobs) override {
         tell_unless(quiet_, "sikku: another run is making {}; waiting for it\n", counted(jobs, "job"));
     }
     void wait_for_record(const std::string& record) override {
-        tell_unless(quiet_, "sikku: another run is using '{}'; waiting for it\n", record);
+        tell_unless(quiet_, "sikku: another run is using '{}'; waiting for it\n", printable(record, 2000));
     }
     void finish(double cost) override {
         const std::lock_guard guard(mutex_);
@@ -280,10 +281,10 @@ void print_result(const Gallery& gallery, const GalleryResult& result, const Opt
     for (const std::size_t job : result.made) {
         const FinishedJob& made = result.finished.at(job);
         for (const std::string& text : made.warnings) {
-            if (++told <= 20) tell("{}: {}\n", printable(made.file, 2000), printable(text, 2000));
+            if (++told <= 20) tell("{}: {}\n", printable(made.file, 2000), printable_lines(text, 2000));
         }
     }
-    if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, result.record);
+    if (told > 20) tell("sikku: and {} more warnings; see {}\n", told - 20, printable(result.record, 2000));
     const std::size_t made = result.made.size();
     const std::size_t chosen = gallery.chosen().size();
     const std::string all = counted(gallery.jobs().size(), "job");
@@ -340,9 +341,10 @@ void run(Options& options, bool quiet) {
         std::string message = failure.message;
         while (message.ends_with('\n')) message.pop_back();
         tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", printable(job.file(), 2000),
-             printable(with_force(message), 2000));
+             printable_lines(with_force(message), 2000));
     }
-    for (const std::string& trouble : result.troubles) tell("sikku: {}\n", printable(with_force(trouble), 2000));
+    for (const std::string& trouble : result.troubles)
+        tell("sikku: {}\n", printable_lines(with_force(trouble), 2000));
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);
 }
 

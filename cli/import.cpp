@@ -93,8 +93,8 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
         std::string name = plain;
         for (int number = 2; !taken.insert(name).second; ++number) name = fmt::format("{}-{}", plain, number);
         if (name != plain) {
-            tell_unless(quiet, "sikku: {}.lsys already exists: '{}' on line {} becomes {}.lsys\n", plain, system.name,
-                        system.line, name);
+            tell_unless(quiet, "sikku: {}.lsys already exists: '{}' on line {} becomes {}.lsys\n", plain,
+                        printable(system.name), system.line, name);
         }
         files.add(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
         ++written;
@@ -104,7 +104,7 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
     files.commit();
     std::string note = lossy > 0 ? fmt::format(", {} of them incomplete", lossy) : "";
     if (empty > 0) note += fmt::format("; {} draw{} nothing", empty, empty == 1 ? "s" : "");
-    tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), folder, note);
+    tell_unless(quiet, "sikku: {} in {}{}\n", counted(written, "pattern"), printable(folder, 2000), note);
 }
 
 /// True if the message concerns one of the selected systems. Messages before the first system concern all.

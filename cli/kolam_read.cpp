@@ -38,14 +38,6 @@ GridSymmetry symmetry_of(const ReadKolam& kolam) {
     return best;
 }
 
-/// Text for one line of a pattern file.
-std::string for_pattern(std::string_view text) {
-    std::string result = printable(text, 200);
-    std::erase(result, '\\');
-    for (std::size_t at = result.find("//"); at != std::string::npos; at = result.find("//")) result.erase(at, 1);
-    return result;
-}
-
 struct Certificate {
     std::size_t lines = 0;
     std::string gaps;  ///< `12 of 20 gaps crossed`
@@ -82,9 +74,9 @@ std::string summary(const ReadKolam& kolam, const Certificate& certificate) {
 
 std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, const std::string& source) {
     KolamPatternOptions options;
-    options.title = for_pattern(kolam.title);
+    options.title = kolam.title;
     if (options.title.empty()) options.title = fmt::format("Kolam on {} dots", printable(kolam.grid.text(), 80));
-    options.description = fmt::format("{}; read from {}", summary(kolam, certificate), for_pattern(source));
+    options.description = fmt::format("{}; read from {}", summary(kolam, certificate), source);
     options.monitor = stop_monitor();
     std::string text = kolam_pattern(kolam.grid, kolam.states, options).text;
     const std::vector<std::uint32_t> doubts = kolam.doubtful();
@@ -125,7 +117,8 @@ std::string json_of(const ReadKolam& kolam, const Certificate& certificate) {
 }
 
 void report(const ReadKolam& kolam, const Certificate& certificate, const std::string& source, bool quiet) {
-    tell_unless(quiet, "sikku: {}: {}: {}\n", source, printable(kolam.grid.text(), 80), summary(kolam, certificate));
+    tell_unless(quiet, "sikku: {}: {}: {}\n", printable(source), printable(kolam.grid.text(), 80),
+                summary(kolam, certificate));
     for (const std::string& note : kolam.notes) tell_unless(quiet, "sikku: {}\n", note);
     const std::vector<std::uint32_t> doubts = kolam.doubtful();
     if (doubts.empty()) return;

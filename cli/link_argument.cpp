@@ -1,5 +1,8 @@
 #include "cli/link_argument.h"
 
+#include "engine/base/keys.h"
+#include "engine/language/pattern.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +26,16 @@ std::set<std::string> replaced_names(const PatternOptions& options) {
 /// True for options that set the scale of a drawing, of which only one can be given.
 bool sets_scale(const std::string& name) {
     return name == "fit" || name == "step" || name == "dot-spacing";
+}
+
+bool names_file(const Key& key) {
+    const KeyInfo* row = find_language_key(key.name);
+    return row && row->names_file && row->names_file(key.value.view());
+}
+
+[[noreturn]] void refuse_key(const Key& key, const char* remedy) {
+    throw UsageError(fmt::format("the pattern of the link names a file of this machine: {} '{}'; {}", key.name,
+                                 printable(key.value.view(), 80), remedy));
 }
 
 }  // namespace
@@ -68,6 +81,44 @@ OptionValues options_with(const OptionValues& shared, const OptionValues& given,
     return values;
 }
 
+void check_pattern_of_link(const SharedWork& link, const std::string& variant, const PatternOptions& options) {
+    if (options.trusts_link) return;
+    Diagnostics diagnostics;  // reported when the pattern is compiled
+    Pattern pattern = parse_pattern(link.name, link.text, diagnostics);
+    apply_overrides(pattern, variant, settings_of(link, options), diagnostics);
+    const std::set<std::string> replaced = replaced_names(options);
+    for (const Key& key : pattern.keys) {
+        if (!replaced.contains(key.name) && names_file(key)) refuse_key(key, "--trust-link allows it");
+    }
+}
+
+void check_text_of_link(const SharedWork& link) {
+    Diagnostics diagnostics;
+    const Pattern pattern = parse_pattern(link.name, link.text, diagnostics);
+    const auto check = [](const std::vector<Key>& keys) {
+        for (const Key& key : keys) {
+            if (names_file(key)) refuse_key(key, "`sikku show` prints the pattern");
+        }
+    };
+    check(pattern.keys);
+    for (const Variant& variant : pattern.variants) check(variant.settings);
+}
+
+void check_options_of_link(std::span<const OptionInfo* const> table, const OptionValues& shared,
+                           const OptionValues& given, const PatternOptions& options) {
+    if (options.trusts_link) return;
+    for (const OptionValue& value : shared) {
+        if (has_option(given, value.name)) continue;
+        const OptionInfo* row = find_option(table, value.name);
+        const KeyInfo* key = row ? nullptr : find_language_key(value.name);
+        if (row ? !row->is_local(value.text) : !key || !key->names_file || !key->names_file(value.text)) continue;
+        throw UsageError(fmt::format(
+            "the link {}: {} '{}'; --trust-link allows it{}",
+            row && row->moves_machine ? "sets commands for a plotter" : "names a file of this machine", value.name,
+            printable(value.text, 80), row ? fmt::format(", and --{} replaces it", value.name) : ""));
+    }
+}
+
 std::string describe_settings(const SharedWork& link) {
     std::string text;
     const auto append = [&](const char* heading, const OptionValues& values) {
@@ -75,7 +126,7 @@ std::string describe_settings(const SharedWork& link) {
         text += fmt::format("{}{}", text.empty() ? "" : "; ", heading);
         const char* separator = "";
         for (const OptionValue& value : values) {
-            text += fmt::format("{}{} {}", separator, value.name, value.text);
+            text += fmt::format("{}{} {}", separator, printable(value.name, 80), printable(value.text, 500));
             separator = ", ";
         }
     };

@@ -7,6 +7,7 @@
 #include "engine/base/option.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,18 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
 /// Returns the options of a link that the command line does not replace, followed by those of the command line.
 /// @param shared  draw or play options of the link  @param given  options on the command line
 OptionValues options_with(const OptionValues& shared, const OptionValues& given, const PatternOptions& options);
+
+/// Refuses links whose pattern names files of this machine by a key that the command line does not replace, unless
+/// `options` trusts the link. @param variant  that will be used  @throws UsageError
+void check_pattern_of_link(const SharedWork& link, const std::string& variant, const PatternOptions& options);
+
+/// The same for commands without options: no variant may name files either. @throws UsageError
+void check_text_of_link(const SharedWork& link);
+
+/// The same of draw or play options: files, and commands for machines.
+/// @param table  of the options  @param shared  those of the link  @param given  options on the command line
+void check_options_of_link(std::span<const OptionInfo* const> table, const OptionValues& shared,
+                           const OptionValues& given, const PatternOptions& options);
 
 /// True if the option has a value.
 bool has_option(const OptionValues& values, std::string_view name);

@@ -22,7 +22,7 @@
 namespace {
 int fail(int status, std::string_view message) {
     if (message.ends_with('\n')) message.remove_suffix(1);
-    sikku::tell("sikku: {}\n", sikku::printable(message, 2000));
+    sikku::tell("sikku: {}\n", sikku::printable_lines(message, 2000));
     return status;
 }
 

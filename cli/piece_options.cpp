@@ -92,7 +92,7 @@ void report(const PieceOptions& options, const std::vector<DrawReport>& reports,
         if (each.plot) report_plot(*each.plot, settings.speeds, settings.pen_rules, made);
     }
     for (const Remark& remark : made.remarks) {
-        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", with_dashes(remark.text));
+        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", printable_lines(with_dashes(remark.text), 2000));
     }
 }
 

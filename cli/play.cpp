@@ -150,6 +150,7 @@ Parts read_parts(const PlayCommand& command, const OptionValues& given, bool qui
             }
         }
         if (work) {
+            check_options_of_link(scores().options(), work->play, given, one);
             const Assignment assigned = blaming_link(work->play, given, [&] {
                 return assign(scores(), documents.back(), options_with(work->play, given, one));
             });

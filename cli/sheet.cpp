@@ -20,6 +20,7 @@ namespace {
 struct SheetCommand {
     std::vector<std::string> drawings;
     std::string output;
+    PatternOptions pattern;  ///< for all drawings
     TableOptions options, prints;
 };
 
@@ -81,7 +82,7 @@ void run(const SheetCommand& command, bool quiet) {
     const std::string name(info(*format).extension);
     check_sheet(name, values);
     std::vector<SheetItem> items;
-    for (const std::string& drawing : command.drawings) items.push_back(read_item(drawing, {}, quiet));
+    for (const std::string& drawing : command.drawings) items.push_back(read_item(drawing, command.pattern, quiet));
     const auto work = plan_sheet(items, name, values);
     make(*work, command.output, quiet);
     report_compression(name, values, quiet);
@@ -101,6 +102,7 @@ void add_sheet(CLI::App& app, bool& quiet) {
     command->add_option("-o,--output", options->output, "output file; its extension selects the format")
         ->type_name("FILE")
         ->required();
+    add_trust_option(*command, options->pattern.trusts_link);
     options->options.add(*command, sheet_options());
     options->prints.add(*command, prints().options());
     command->footer(

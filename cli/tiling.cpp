@@ -37,7 +37,8 @@ std::pair<PolygonList, TilingResult> read_polygons(const std::string& file, doub
         }
         const bool is_svg = lower_case(std::filesystem::path(file).extension().string()) == ".svg";
         PolygonList polygons = is_svg ? read_polygons_svg(text, how.monitor) : read_polygons_json(text, how.monitor);
-        for (const std::string& note : polygons.notes) tell_unless(quiet, "{}: {}\n", file, note);
+        for (const std::string& note : polygons.notes)
+            tell_unless(quiet, "{}: {}\n", printable(file, 2000), printable(note));
         if (polygons.size() == 0) throw std::runtime_error("the list has no polygons");
         TilingResult result = examine_polygons(polygons, tolerance > 0 ? tolerance : usual_tolerance(polygons), how);
         return {std::move(polygons), std::move(result)};

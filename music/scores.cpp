@@ -18,6 +18,7 @@
 #include "music/players.h"
 #include "music/score/abc.h"
 #include "music/score/audio.h"
+#include "music/score/comments.h"
 #include "music/score/csound.h"
 #include "music/score/engraving.h"
 #include "music/score/glides.h"
@@ -541,6 +542,7 @@ private:
     std::vector<std::pair<std::string, std::string>> files_;
     MidiOptions midi_;
     Monitor monitor_;
+    std::filesystem::path name_;  // of the output, for messages
 };
 
 /// @throws BudgetError for more notes than a MIDI file can contain
@@ -560,7 +562,7 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
 
 double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing, Output& output,
                               EnsembleReport& report) {
-    OutputFile score(output.temporary().string() + ".mid");  // never committed
+    OutputFile score(output.temporary().string() + ".mid", name_);  // never committed
     report = write_midi_file(head, playing, score);
     const double seconds = static_cast<double>(report.end) / static_cast<double>(ticks_per_quarter) * 60 / head.tempo;
     if (seconds > most_audio_seconds) {
@@ -569,9 +571,9 @@ double ScoreWork::write_sound(const ScoreHead& head, const PlayOptions& playing,
                         "seconds",
                         time_text(seconds)));
     }
-    return render_audio(score.temporary(), output.temporary(),
-                        format_ == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac,
-                        [this](double) { monitor_.check(); });
+    return render_audio(
+        score.temporary(), output.temporary(), format_ == ScoreFormat::wav ? AudioFormat::wav : AudioFormat::flac,
+        [this](double) { monitor_.check(); }, name_);
 }
 
 void ScoreWork::write_notation(const Notation& notation, const ScoreHead& head, Output& output) const {
@@ -583,7 +585,7 @@ void ScoreWork::write_notation(const Notation& notation, const ScoreHead& head, 
             break;
         case ScoreFormat::pdf:
             write_lilypond(notation, head, whole);
-            engrave(whole.bytes(), head, output.temporary(), [this] { monitor_.check(); });
+            engrave(whole.bytes(), head, output.temporary(), name_, [this] { monitor_.check(); });
             break;
         case ScoreFormat::abc:
             write_abc(notation, head, output);
@@ -646,6 +648,14 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
     }
     report_notes(ensemble_, playing, report, made);
     if (notation) report_notation(*notation, ensemble_, made);
+    const bool is_commented = format_ == ScoreFormat::abc || format_ == ScoreFormat::lilypond ||
+                              format_ == ScoreFormat::csd || format_ == ScoreFormat::sco ||
+                              format_ == ScoreFormat::strudel;
+    if (is_commented && !comments_keep(head.pattern)) {
+        made.warn(
+            "the comments of the score hold the pattern with blanks or '?' for its control characters and marks of "
+            "direction");
+    }
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
 
@@ -656,6 +666,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
         for (const std::string& warning : player.warnings) made.warn(warning);
     }
     monitor_ = monitor;
+    name_ = name;
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
     monitor.expect(0);
     check_size(playing);

@@ -1,6 +1,10 @@
 // studio/bridge_link.cpp: writes works as links, and reads links.
 #include "art/link/link.h"
+#include "art/prints.h"
+#include "engine/base/option.h"
 #include "studio/bridge_answers.h"
+
+#include <utility>
 
 namespace sikku {
 
@@ -14,7 +18,15 @@ Json answer_link(const Json& request) {
 }
 
 Json answer_read_link(const Json& request) {
-    return {{"shared", Json::parse(shared_json(read_link(text_of(request, "link"))))}};
+    SharedWork work = read_link(text_of(request, "link"));
+    Json withheld = Json::array();
+    std::erase_if(work.draw, [&](const OptionValue& value) {
+        const OptionInfo* row = find_option(prints().options(), value.name);
+        if (!row || !row->moves_machine) return false;
+        withheld.push_back(Json::array({value.name, value.text}));
+        return true;
+    });
+    return {{"shared", Json::parse(shared_json(work))}, {"withheld", std::move(withheld)}};
 }
 
 }  // namespace sikku

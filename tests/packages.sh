@@ -1,6 +1,6 @@
 # What Debian 12 packages the project needs; sourced by ./demo and ./check.
 
-build_packages=(g++ cmake ninja-build libopenimageio-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
+build_packages=(g++ cmake ninja-build libopenimageio-dev libheif-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev
     libasound2-dev)
 # For tests: the framework, independent readers of the program's outputs, the linters, and the Python module.

@@ -51,18 +51,6 @@ bool read_blocks(const Descriptor& descriptor, std::size_t most, const Take& tak
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this != &other) {
-        close();
-        descriptor_ = std::exchange(other.descriptor_, -1);
-    }
-    return *this;
-}
-
-void Descriptor::close() {
-    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-}
-
 GalleryPlace::GalleryPlace(Descriptor folder, std::string name, std::filesystem::path shown)
     : folder_(std::move(folder)), name_(std::move(name)), shown_(std::move(shown)) {
     const std::filesystem::path held = fmt::format("/proc/{}/fd/{}", ::getpid(), folder_.get());

@@ -1,6 +1,8 @@
 // art/gallery/folder.h: the folder of a gallery: opens, creates, reads and removes its files.
 #pragma once
 
+#include "engine/base/child_process.h"
+
 #include <sys/stat.h>
 
 #include <cstddef>
@@ -11,22 +13,6 @@
 #include <vector>
 
 namespace sikku {
-
-/// A file descriptor that is closed with its owner; -1: none.
-class Descriptor {
-public:
-    Descriptor() = default;
-    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-    Descriptor(Descriptor&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    ~Descriptor() { close(); }
-    int get() const { return descriptor_; }
-    explicit operator bool() const { return descriptor_ >= 0; }
-    void close();
-
-private:
-    int descriptor_ = -1;
-};
 
 /// Output location of a gallery file: its folder, held open, and its name in that folder.
 class GalleryPlace {

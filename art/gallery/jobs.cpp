@@ -388,13 +388,17 @@ private:
         const std::string file = name + "." + job.format;
         const bool has_controls = std::any_of(name.begin(), name.end(),
                                               [](char letter) { return static_cast<unsigned char>(letter) < ' '; });
+        const auto refuse = [&](const char* why) {
+            fail(item.name_place.empty() ? item.place : item.name_place,
+                 fmt::format("name: '{}' cannot be the name of an output{}", printable(name, 80), why));
+        };
+        // Records are JSON.
+        if (!has_controls && !fits_xml(name)) refuse(": it is not valid UTF-8; 'name' sets another");
         // Parts of a path that are empty, hidden, or lead elsewhere.
         const std::string path = "/" + name + "/";
         if (name.empty() || path.find("//") != std::string::npos || path.find("/.") != std::string::npos ||
-            is_summary(file) || is_record(name, file) || has_controls || !fits_xml(name) ||
-            file.size() > longest_job_name) {
-            fail(item.name_place.empty() ? item.place : item.name_place,
-                 fmt::format("name: '{}' cannot be the name of an output", printable(name, 80)));
+            is_summary(file) || is_record(name, file) || has_controls || file.size() > longest_job_name) {
+            refuse("");
         }
         return name;
     }

@@ -48,7 +48,7 @@ GalleryLocks::GalleryLocks(const GalleryFolder& folder) : folder_(folder) {
                 fmt::format("'{}' already exists and was not made by a gallery", folder_.shown(lock_name)));
         }
         if (lock(F_RDLCK, presence, true) == Result::unsupported) {
-            file_.close();
+            file_.reset();
             folder_.remove(lock_name);
             return;
         }
@@ -82,7 +82,8 @@ GalleryLocks::Result GalleryLocks::lock(short type, std::int64_t byte, bool wait
     range.l_len = 1;
     while (::fcntl(file_.get(), waits ? F_OFD_SETLKW : F_OFD_SETLK, &range) != 0) {
         if (errno == EINTR) continue;
-        return errno == EAGAIN || errno == EACCES ? Result::busy : Result::unsupported;
+        // EACCES means that locks are denied: Linux reports those of others as EAGAIN.
+        return errno == EAGAIN ? Result::busy : Result::unsupported;
     }
     return Result::locked;
 }

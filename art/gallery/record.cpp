@@ -431,7 +431,7 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
     }
     for (const Left& shard : shards) folder_.remove(shard.name);
     // Release it before the lock of the records, so that another run may merge it.
-    descriptor_.close();
+    descriptor_.reset();
 }
 
 void GalleryRecord::replace(const std::string& text) const {

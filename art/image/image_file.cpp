@@ -1,7 +1,7 @@
 #include "art/image/image_file.h"
 
 #include "art/image/image_module.h"
-#include "engine/base/installation.h"
+#include "art/image/module_folders.h"
 #include "engine/base/threads.h"
 
 #include <dlfcn.h>
@@ -59,14 +59,9 @@ const ImageModule& image_module(int threads = 0) {
             reasons += "\n  " + name + ": made for another version of sikku";
             return nullptr;
         };
-        const std::filesystem::path beside = binary_folder();
-        if (!beside.empty()) {
-            const auto file = (beside / SIKKU_MODULE_RELATIVE).lexically_normal();
-            if (const ImageModule* found = load(file)) return *found;
+        for (const std::filesystem::path& folder : module_folders()) {
+            if (const ImageModule* found = load(folder / "sikku_image.so")) return *found;
         }
-#ifdef SIKKU_MODULE_INSTALLED
-        if (const ImageModule* found = load(SIKKU_MODULE_INSTALLED)) return *found;
-#endif
         throw std::runtime_error("pictures need the module with OpenImageIO, which could not be loaded:" + reasons);
     }();
     return loaded;
@@ -101,11 +96,6 @@ bool is_picture(std::string_view bytes) {
            (bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp"sv &&
             is_any_of(bytes.substr(8, 4), {"heic"sv, "heix"sv, "mif1"sv, "avif"sv})) ||
            (bytes.starts_with("BM"sv) && bytes.size() >= 18 && bytes.substr(6, 4) == "\0\0\0\0"sv);
-}
-
-DecodedPicture read_picture(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
-                            const Monitor& monitor) {
-    return image_module().read(path, longest_side, most_pixels, monitor);
 }
 
 }  // namespace sikku

@@ -1,9 +1,8 @@
-// art/image/image_module.cpp: the only file that includes OpenImageIO. With icc.cpp it is a module of its own, loaded
-// by image_file.cpp.
+// art/image/image_module.cpp: writes pictures with OpenImageIO. With icc.cpp it is a module of its own, loaded by
+// image_file.cpp.
 #include "art/image/image_module.h"
 
 #include "art/image/icc.h"
-#include "art/image/picture_reader.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -363,17 +362,6 @@ void check_cmyk_profile(const std::filesystem::path& file) {
     const InkTransform transform(file);
 }
 
-/// read_picture() of the module.
-DecodedPicture read(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
-                    const Monitor& monitor) {
-    {
-        const std::scoped_lock lock(opening);
-        OIIO::attribute("debug", 0);
-        set_threads(1);
-    }
-    return PictureReader(path, most_pixels).read(longest_side, monitor);
-}
-
 class Inks final : public InkProfile {
 public:
     explicit Inks(const std::filesystem::path& file) : transform_(file) {
@@ -394,8 +382,7 @@ std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {
     return std::make_unique<Inks>(file);
 }
 
-constexpr ImageModule functions{
-    image_module_version(SIKKU_VERSION), open, check_cmyk_profile, read, open_inks};
+constexpr ImageModule functions{image_module_version(SIKKU_VERSION), open, check_cmyk_profile, open_inks};
 
 }  // namespace
 }  // namespace sikku

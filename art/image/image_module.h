@@ -12,8 +12,6 @@ struct ImageModule {
     std::uint64_t version;
     std::unique_ptr<ImageWriter> (*open)(const std::filesystem::path& path, const ImageSpec& spec);
     void (*check_cmyk_profile)(const std::filesystem::path& file);
-    DecodedPicture (*read)(const std::filesystem::path& path, int longest_side, std::uint64_t most_pixels,
-                           const Monitor& monitor);
     std::unique_ptr<InkProfile> (*open_inks)(const std::filesystem::path& file);
 };
 /// A number that changes with the program's version and with the size of what both sides hand over (FNV-1a).

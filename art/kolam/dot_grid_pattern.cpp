@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid_pattern.h"
 
 #include "art/print/ornaments.h"
+#include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "engine/language/pattern.h"
 
@@ -178,8 +179,7 @@ public:
 
 private:
     void write_head(const GapStates& states) {
-        if (!options_.title.empty()) text_ += fmt::format("title: {}\n", options_.title);
-        if (!options_.description.empty()) text_ += fmt::format("description: {}\n", options_.description);
+        text_ += kolam_head(options_);
         if (states.size() > most_listed_gaps) return;
         text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states));
     }
@@ -272,6 +272,15 @@ private:
 
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
     return PatternWriter(grid, states, options).pattern();
+}
+
+std::string kolam_head(const KolamPatternOptions& options) {
+    std::string head;
+    for (const auto& [key, value] : {std::pair("title", &options.title), {"description", &options.description}}) {
+        const std::string line = pattern_line(*value);
+        if (!line.empty()) head += fmt::format("{}: {}\n", key, line);
+    }
+    return head;
 }
 
 std::string_view kolam_comment(std::string_view pattern, std::string_view name) {

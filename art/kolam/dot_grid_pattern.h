@@ -14,10 +14,10 @@ namespace sikku {
 constexpr std::size_t most_listed_gaps = 1000;
 
 struct KolamPatternOptions {
-    std::string title = {};
-    std::string description = {};
-    bool coloured = false;     ///< each class of lines that are images of each other in a colour, eight in turn
-    bool dot_symbols = false;  ///< draws the dots, too, as `@.`
+    std::string title = {};        ///< any text: it becomes one line, as pattern_line() says
+    std::string description = {};  ///< the same
+    bool coloured = false;         ///< each class of lines that are images of each other in a colour, eight in turn
+    bool dot_symbols = false;      ///< draws the dots, too, as `@.`
     Monitor monitor = {};
 };
 
@@ -38,6 +38,9 @@ struct KolamPattern {
 /// Steps are whole (or halves, to dots), so that every position is exact.
 /// @throws std::runtime_error if the text were too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
+
+/// The keys `title` and `description` of such a pattern; those that are empty are left out.
+std::string kolam_head(const KolamPatternOptions& options);
 
 /// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps), or empty.
 std::string_view kolam_comment(std::string_view pattern, std::string_view name);

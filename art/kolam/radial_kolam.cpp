@@ -166,8 +166,7 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
     KolamPattern pattern;
     pattern.lines = kolam.lines();
     std::string& text = pattern.text;
-    if (!options.title.empty()) text += fmt::format("title: {}\n", options.title);
-    if (!options.description.empty()) text += fmt::format("description: {}\n", options.description);
+    text += kolam_head(options);
     text += "\nderivation length: 0\nheading: 90\naxiom: ";
     const std::uint32_t line_colours = options.coloured ? colour_count : 1;
     const std::string pen_up = fmt::format(";({})", line_colours);

@@ -13,6 +13,7 @@
 #include <array>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 namespace sikku {
 namespace {
@@ -236,6 +237,10 @@ PlotterProfile parse_profile(const std::string& name, const std::string& text) {
 }
 
 PlotterProfile read_profile(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::is_fifo(file, error)) {
+        throw std::runtime_error(fmt::format("'{}' is a pipe; expected a file", file.string()));
+    }
     std::string text = read_file(file, file.string(), most_bytes);
     if (text.size() > most_bytes) {
         throw std::runtime_error(

@@ -543,12 +543,18 @@ void doubt_around(ReadKolam& kolam, std::uint32_t dot) {
 
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options,
                            const Monitor& monitor) {
+    return read_photograph(
+        [&](int longest_side) { return read_picture(path, longest_side, options.most_pixels, monitor); }, options,
+        monitor);
+}
+
+Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions& options, const Monitor& monitor) {
     std::optional<Reading> best;
     DecodedPicture picture;
     bool is_dark = true;
     bool is_rough = false;
     for (const int side : {1500, 4000}) {
-        picture = read_picture(path, side, options.most_pixels, monitor);
+        picture = decode(side);
         if (std::min(picture.width, picture.height) < 16) throw std::runtime_error("the picture is too small");
         InkSpots ink(find_ink(picture, monitor), monitor);
         is_dark = ink.is_dark;

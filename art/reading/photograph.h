@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace sikku {
@@ -32,6 +33,12 @@ struct Photograph {
 /// @throws std::runtime_error if the file is no picture, or no lattice of dots is found in it
 /// Time: about 1.5 s for 12 megapixels.
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options = {},
+                           const Monitor& monitor = {});
+
+/// Decodes a picture so that no side is longer than `longest_side`, as read_picture() does.
+using PictureDecoder = std::function<DecodedPicture(int longest_side)>;
+/// The same of a picture that comes from elsewhere. @param decode  called once or twice
+Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
 
 /// Draws the kolam that was read over the picture, as PNG: dots as rings, strands in the colour of their state

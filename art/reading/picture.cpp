@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -54,9 +55,8 @@ float GreyPicture::at(glm::dvec2 point) const {
     return above * (1 - v) + below * v;
 }
 
-GreyPicture blurred(const GreyPicture& picture, double radius) {
-    GreyPicture result = picture;
-    if (picture.values.empty()) return result;
+GreyPicture blurred(GreyPicture picture, double radius) {
+    if (picture.values.empty()) return picture;
     // Each average of 2 r + 1 values adds ((2 r + 1)^2 - 1) / 12 to the variance.
     GreyPicture turned;
     // A wider average than the picture is that of its border.
@@ -67,10 +67,10 @@ GreyPicture blurred(const GreyPicture& picture, double radius) {
         if (r == 0) break;
         const double side = 2.0 * static_cast<double>(r) + 1;
         missing = std::max(0.0, missing - (side * side - 1) / 12);
-        average_rows(result, turned, r);
-        average_rows(turned, result, r);
+        average_rows(picture, turned, r);
+        average_rows(turned, picture, r);
     }
-    return result;
+    return picture;
 }
 
 Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
@@ -84,15 +84,14 @@ Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
     }
     monitor.check();
     const double around = 0.06 * static_cast<double>(std::min(grey.width, grey.height));
-    const GreyPicture ground = blurred(grey, around);
+    Ink ink{blurred(grey, around)};
     monitor.check();
-    Ink ink;
-    ink.values = grey;
-    GreyPicture squares = ink.values;
+    // What is no longer needed is written over: pictures are large.
+    GreyPicture& squares = grey;
     double sum = 0;
     double cubes = 0;
     for (std::size_t i = 0; i < grey.values.size(); ++i) {
-        const float value = ground.values[i] - grey.values[i];
+        const float value = ink.values.values[i] - grey.values[i];
         ink.values.values[i] = value;
         squares.values[i] = value * value;
         sum += squares.values[i];
@@ -100,7 +99,7 @@ Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
     }
     const double deviation = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, grey.values.size())));
     ink.is_dark = cubes >= 0;
-    squares = blurred(squares, 1.5 * around);
+    squares = blurred(std::move(squares), 1.5 * around);
     monitor.check();
     const auto floor = static_cast<float>(0.6 * deviation * deviation + 1e-6);
     for (std::size_t i = 0; i < grey.values.size(); ++i) {

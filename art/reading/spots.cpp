@@ -65,11 +65,13 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
         const std::size_t w = picture.width;
         for (std::size_t y = 1; y + 1 < picture.height; ++y) {
             const float* row = &picture.values[y * w];
+            const float* above = row - w;
+            const float* below = row + w;
             for (std::size_t x = 1; x + 1 < w; ++x) {
                 const float value = row[x];
-                if (value < 0.6F || value <= row[x - 1] || value < row[x + 1] || value <= row[x - w] ||
-                    value < row[x + w] || value <= row[x - w - 1] || value < row[x + w + 1] ||
-                    value <= row[x - w + 1] || value < row[x + w - 1]) {
+                if (value < 0.6F || value <= row[x - 1] || value < row[x + 1] || value <= above[x] ||
+                    value < below[x] || value <= above[x - 1] || value < below[x + 1] || value <= above[x + 1] ||
+                    value < below[x - 1]) {
                     continue;
                 }
                 const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
@@ -81,7 +83,7 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
                     return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
                 };
                 all.push_back(
-                    {at + glm::dvec2(offset(row[x - 1], value, row[x + 1]), offset(row[x - w], value, row[x + w])),
+                    {at + glm::dvec2(offset(row[x - 1], value, row[x + 1]), offset(above[x], value, below[x])),
                      radii_[scale], found});
             }
         }

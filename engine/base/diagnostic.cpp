@@ -250,15 +250,23 @@ std::size_t utf8_length(std::string_view text) {
     return overlong || beyond ? 0 : length;
 }
 
-std::string printable(std::string_view text, std::size_t most) {
+namespace {
+
+/// Replaces what a terminal obeys; ends of lines by `line_end`.
+std::string plain_text(std::string_view text, std::size_t most, char line_end) {
     std::string result;
     const auto append = [&](std::size_t begin, std::size_t end) {
         while (begin < end) {
             const std::size_t length = utf8_length(text.substr(begin));
-            if (length == 0 || (text[begin] != '\n' && is_command(text.substr(begin, length)))) {
+            const std::string_view point = text.substr(begin, length);
+            if (point == "\n") {
+                result += line_end;
+            } else if (point == "\r" || point == "\u2028" || point == "\u2029") {
+                result += ' ';
+            } else if (length == 0 || is_command(point)) {
                 result += '?';
             } else {
-                result += text.substr(begin, length);
+                result += point;
             }
             begin += std::max<std::size_t>(length, 1);
         }
@@ -272,6 +280,34 @@ std::string printable(std::string_view text, std::size_t most) {
         result += " … ";
         append(tail, text.size());
     }
+    return result;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t most) {
+    return plain_text(text, most, ' ');
+}
+
+std::string printable_lines(std::string_view text, std::size_t most) {
+    std::string result;
+    const std::string plain = plain_text(text, most, '\n');
+    for (std::size_t at = 0; at < plain.size(); ++at) {
+        result += plain[at];
+        if (plain[at] == '\n' && plain.compare(at + 1, 2, "  ") != 0) result += "  ";
+    }
+    return result;
+}
+
+std::string pattern_line(std::string_view text, std::size_t most) {
+    std::string result;
+    for (const char byte : printable(text, most)) {
+        if (byte == ' ' && (result.empty() || result.back() == ' ')) continue;
+        // `//` begins a comment only at the beginning of a line.
+        if (byte == '*' && result.ends_with('/')) result += ' ';
+        result += byte;
+    }
+    while (result.ends_with('\\') || result.ends_with(' ')) result.pop_back();
     return result;
 }
 

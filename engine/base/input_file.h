@@ -32,6 +32,9 @@ public:
     /// Reads into `bytes`; returns the number of bytes read.
     std::size_t read(std::uint64_t at, char* bytes, std::size_t count) const;
 
+    /// For another process. Stays open as long as this object.
+    int descriptor() const { return descriptor_; }
+
 private:
     int descriptor_ = -1;
     std::uint64_t size_ = 0;

@@ -1,12 +1,26 @@
 #include "engine/base/keys.h"
 
+#include "engine/base/text.h"
+
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace sikku {
 namespace {
 
 using enum KeyOwner;
+
+constexpr bool names_any_file(std::string_view value) {
+    return !value.empty() && value != "none";
+}
+bool names_scale_file(std::string_view value) {
+    return lower_case(value).ends_with(".scl");
+}
+/// One pattern file or two, separated by a comma; other names are those of bundled borders and patterns.
+bool names_border_file(std::string_view value) {
+    return lower_case(value).find(".lsys") != std::string::npos;
+}
 
 constexpr std::array language = {
     KeyInfo{"axiom", engine, "a word", "an error", "Initial word", KeyScope::all},
@@ -33,7 +47,7 @@ constexpr std::array language = {
     KeyInfo{"edges", engine, "two symbols such as ? #", "none",
             "Symbols that begin and end an inserted edge, instead of what else they mean"},
     KeyInfo{"surface", engine, "NAME = FILE, such as leaf = leaf.s; several with commas", "none",
-            "Surface files of cpfg (.s), beside the pattern, for `~NAME`"},
+            "Surface files of cpfg (.s), beside the pattern, for `~NAME`", KeyScope::words, names_any_file},
     KeyInfo{"label SYMBOL", engine, "a text such as {1} or A({1}, {2})", "",
             "Text that a symbol writes, upright, with its middle at the turtle; {1}, {2} … are its parameters"},
     KeyInfo{"lettering", engine, "a number of steps", "0.4", "Height of the capital letters of labels"},
@@ -79,7 +93,7 @@ constexpr std::array language = {
     KeyInfo{"border", art, "kaavi, padi, lotus, rope, diamonds, waves; a pattern file, or two; none", "none",
             "Frame around the drawing; the first pattern file is repeated along the sides, the second drawn in the "
             "corners",
-            KeyScope::all},
+            KeyScope::all, names_border_file},
     KeyInfo{"fields", art, "chessboard, by kind, by distance, by centre, by strand, by symmetry; none", "none",
             "How the fields between closed lines are coloured"},
     KeyInfo{
@@ -121,8 +135,10 @@ constexpr std::array language = {
     KeyInfo{"tissue", art, "a colour, none", "none", "Colour of the area within the outer wall, under the cells",
             KeyScope::maps},
 
-    KeyInfo{"scale", music, "a name, or a Scala file such as x.scl", "major", "Scale of the melody"},
-    KeyInfo{"keyboard", music, "a Scala key map such as x.kbm", "none", "Key map that gives all pitches"},
+    KeyInfo{"scale", music, "a name, or a Scala file such as x.scl", "major", "Scale of the melody", KeyScope::words,
+            names_scale_file},
+    KeyInfo{"keyboard", music, "a Scala key map such as x.kbm", "none", "Key map that gives all pitches",
+            KeyScope::words, names_any_file},
     KeyInfo{"tonic", music, "C4, F#3, Bb, or a frequency", "C4", "Pitch of degree 0"},
     KeyInfo{"anchor", music, "first note, piece, lowest note, lowest vertex, centre", "first note",
             "Height of the curve that sounds the tonic"},

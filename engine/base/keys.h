@@ -22,6 +22,8 @@ struct KeyInfo {
     std::string_view if_absent;  ///< default value; empty: none
     std::string_view help;       ///< meaning of the key, as a noun phrase
     KeyScope scope = KeyScope::words;
+    /// True for values that name files of this machine; null: no value does.
+    bool (*names_file)(std::string_view value) = nullptr;
 
     /// True for keys with one row for each symbol, such as `note A: C4`; their names end in ` SYMBOL`.
     bool is_for_symbols() const { return name.ends_with(symbol_place); }

@@ -62,7 +62,13 @@ OptionInfo key_option(std::string_view key, std::string_view group, bool is_alon
     const std::string& help = texts.emplace_back(fmt::format("{}: {}", row.help, row.values));
     std::string& name = texts.emplace_back(key);
     std::replace(name.begin(), name.end(), ' ', '-');
-    return {.name = name, .help = help, .value = "VALUE", .group = group, .is_alone = is_alone, .is_key = true};
+    return {.name = name,
+            .help = help,
+            .value = "VALUE",
+            .group = group,
+            .is_alone = is_alone,
+            .is_key = true,
+            .names_file = row.names_file};
 }
 
 const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name) {

@@ -33,6 +33,14 @@ struct OptionInfo {
     char letter = 0;         ///< short form on the command line; 0: none
     bool sets_more = false;  ///< with `is_key`: accepts more values than the key
     bool is_key = false;     ///< overrides the key of the same name
+    bool moves_machine = false;  ///< commands or places for a machine, beyond the lines of the drawing
+    /// True for values that name files of this machine; null: no value does.
+    bool (*names_file)(std::string_view value) = nullptr;
+
+    /// True for what a link must not set unless its reader trusts it: it sets looks and sounds.
+    bool is_local(std::string_view value_text) const {
+        return moves_machine || (names_file && names_file(value_text));
+    }
 };
 
 /// `set` reads the text of a value; numbers are in range, flags are `true` or `false`.

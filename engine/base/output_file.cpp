@@ -169,7 +169,8 @@ std::string stem_of(const std::filesystem::path& target) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path target) : name_(std::move(target)), target_(name_) {
+OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path shown)
+    : name_(std::move(target)), shown_(shown.empty() ? name_ : std::move(shown)), target_(name_) {
     buffer_.reserve(buffer_bytes);
     if (const auto named = named_descriptor(name_.string())) {
         direct_ = true;
@@ -384,7 +385,7 @@ void OutputFiles::commit() {
 
 void OutputFile::fail(int error) const {
     throw std::runtime_error(
-        fmt::format("cannot write '{}': {}", name_.string(), std::generic_category().message(error)));
+        fmt::format("cannot write '{}': {}", shown_.string(), std::generic_category().message(error)));
 }
 
 void remove_unfinished_files() noexcept {

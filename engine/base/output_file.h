@@ -22,7 +22,8 @@ struct UnfinishedFile;
 /// and pipes are themselves replaced.
 class OutputFile final : public Output {
 public:
-    explicit OutputFile(std::filesystem::path target);
+    /// @param shown  name in messages; empty: `target`
+    explicit OutputFile(std::filesystem::path target, std::filesystem::path shown = {});
     ~OutputFile() override;
 
     /// Buffered (1 MB).
@@ -53,7 +54,8 @@ private:
     void write_at(const char* bytes, std::size_t count, std::uint64_t offset);
     [[noreturn]] void fail(int error) const;
 
-    std::filesystem::path name_;  ///< as the caller gave it, for messages
+    std::filesystem::path name_;   ///< as the caller gave it
+    std::filesystem::path shown_;  ///< for messages
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;

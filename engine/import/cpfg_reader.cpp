@@ -153,7 +153,7 @@ private:
                 return;
             }
             system_.at = begin;
-            system_.label = import_text(rest, 80);
+            system_.label = pattern_line(rest, 80);
             section_ = Section::header;
         } else if (section_ == Section::before) {
             mistake(begin, "expected 'Lsystem:'");

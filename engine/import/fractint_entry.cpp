@@ -46,7 +46,7 @@ private:
     void note_comment(std::string_view comment) {
         while (!comment.empty() && (comment.front() == ';' || comment.front() == ' ')) comment.remove_prefix(1);
         if (entry_.comments.size() > 300 || comment.empty()) return;
-        entry_.comments += (entry_.comments.empty() ? "" : " ") + import_text(comment, 200);
+        entry_.comments += (entry_.comments.empty() ? "" : " ") + pattern_line(comment, 200);
     }
 
     /// True if it is the axiom.

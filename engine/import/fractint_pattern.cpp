@@ -298,7 +298,7 @@ private:
 
     std::string head(bool begins_late, bool is_cut_off) {
         std::string comments;
-        const auto comment = [&](const std::string& text) { comments += "// " + import_text(text) + '\n'; };
+        const auto comment = [&](const std::string& text) { comments += "// " + pattern_line(text) + '\n'; };
         comment(fmt::format("Fractint's order is the derivation length{}: -n {} is order 3.",
                             begins_late ? " less one" : "", begins_late ? 4 : 3));
         if (effects_.is_sized()) comment("The parameter is the length of steps, which @ multiplies.");

@@ -81,27 +81,14 @@ std::string import_base_name(std::string_view path) {
     return std::string(path.substr(path.rfind('/') + 1));
 }
 
-std::string import_text(std::string_view text, std::size_t most) {
-    std::string line = printable(text, most);
-    std::string result;
-    for (const char byte : line) {
-        const char plain = byte == '\n' || byte == '\t' || byte == '\r' ? ' ' : byte;
-        if (plain == ' ' && (result.empty() || result.back() == ' ')) continue;
-        if (plain == '*' && result.ends_with('/')) result += ' ';
-        result += plain;
-    }
-    while (result.ends_with('\\') || result.ends_with(' ')) result.pop_back();
-    return result;
-}
-
 std::string import_head(std::string_view title, std::string_view source, std::string_view description,
                         const std::vector<std::string>& losses) {
-    std::string head = fmt::format("title: {}\nsource: {}\ndescription: {}", import_text(title, 120),
-                                   import_text(source), import_text(description));
+    std::string head = fmt::format("title: {}\nsource: {}\ndescription: {}", pattern_line(title, 120),
+                                   pattern_line(source), pattern_line(description));
     if (!losses.empty()) {
         head += " Not supported: ";
         const std::size_t told = std::min(losses.size(), most_told);
-        for (std::size_t i = 0; i < told; ++i) head += (i > 0 ? "; " : "") + import_text(losses[i], 200);
+        for (std::size_t i = 0; i < told; ++i) head += (i > 0 ? "; " : "") + pattern_line(losses[i], 200);
         if (told < losses.size()) head += fmt::format("; and {} more", losses.size() - told);
         head += '.';
     }

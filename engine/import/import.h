@@ -80,9 +80,6 @@ private:
 /// A file's name without its folders, for the `source:` of a pattern.
 std::string import_base_name(std::string_view path);
 
-/// Free text for a key or a comment of a pattern: one line of UTF-8 in which nothing is read as a comment.
-std::string import_text(std::string_view text, std::size_t most = 400);
-
 /// The keys `title:`, `source:` and `description:`, losses told in the last.
 std::string import_head(std::string_view title, std::string_view source, std::string_view description,
                         const std::vector<std::string>& losses);

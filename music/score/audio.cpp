@@ -44,8 +44,8 @@ static_assert(std::endian::native == std::endian::little, "samples are handed ov
 /// Buffered, from front to back.
 class Output {
 public:
-    explicit Output(fs::path name) : name_(std::move(name)) {
-        file_ = Descriptor(::open(name_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    Output(const fs::path& file, fs::path name) : name_(std::move(name)) {
+        file_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
         if (file_.get() < 0) fail(name_, "write", errno);
     }
     void write(std::string_view bytes) {
@@ -78,7 +78,7 @@ struct Rendering {
     float peak = 0.0F;
 };
 
-Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch& watch) {
+Rendering render(const fs::path& midi, const fs::path& output, const fs::path& shown, const AudioWatch& watch) {
     const std::optional<fs::path> program = find_program("fluidsynth");
     if (!program) {
         throw std::runtime_error(fmt::format(
@@ -88,7 +88,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
     // fluidsynth says nothing about files that it cannot read, and takes names with a dash for options.
     if (!is_readable_file(midi)) fail(midi, "read", errno != 0 ? errno : ENOENT);
     Rendering rendering;
-    rendering.name = output;
+    rendering.name = shown;
     rendering.file = nameless_file(output);
     const Descriptor messages = lifted(nameless_file(output));
     int ends[2];
@@ -98,31 +98,31 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
 
     // No settings of the user's: the same everywhere. A chorus would blur microtones. Floats have no loudest value,
     // so that nothing is clipped whatever the gain.
-    Process process(*program,
-                    {"-n",
-                     "-i",
-                     "-q",
-                     "-f",
-                     "/dev/null",
-                     "-C",
-                     "0",
-                     "-R",
-                     "1",
-                     "-g",
-                     "0.5",
-                     "-r",
-                     std::to_string(rate),
-                     "-T",
-                     "raw",
-                     "-O",
-                     "float",
-                     "-E",
-                     "little",
-                     "-F",
-                     "/dev/fd/3",
-                     fs::absolute(soundfont).string(),
-                     fs::absolute(midi).string()},
-                    messages.get(), drain.get());
+    Process process({.program = *program,
+                     .arguments = {"-n",
+                                   "-i",
+                                   "-q",
+                                   "-f",
+                                   "/dev/null",
+                                   "-C",
+                                   "0",
+                                   "-R",
+                                   "1",
+                                   "-g",
+                                   "0.5",
+                                   "-r",
+                                   std::to_string(rate),
+                                   "-T",
+                                   "raw",
+                                   "-O",
+                                   "float",
+                                   "-E",
+                                   "little",
+                                   "-F",
+                                   "/dev/fd/3",
+                                   fs::absolute(soundfont).string(),
+                                   fs::absolute(midi).string()},
+                     .descriptors = {-1, messages.get(), messages.get(), drain.get()}});
     drain.reset();
 
     const auto failed = [&](std::string_view why) {
@@ -158,7 +158,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const AudioWatch&
             if (!(size < 1e6F)) throw failed("gave no readable sound; is it built with libsndfile?");
             rendering.peak = std::max(rendering.peak, size);
         }
-        write_all(rendering.file.get(), bytes, frames * frame_bytes, output);
+        write_all(rendering.file.get(), bytes, frames * frame_bytes, shown);
         rendering.frames += frames;
         if (rendering.frames > most_frames) {
             throw std::runtime_error("the music is too long to become sound: a WAV file holds 6 hours 45 minutes");
@@ -590,9 +590,10 @@ std::filesystem::path find_soundfont() {
 }
 
 double render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
-                    const AudioWatch& watch) {
-    const Rendering rendering = render(midi, output, watch);
-    Output out(output);
+                    const AudioWatch& watch, const std::filesystem::path& given_name) {
+    const fs::path& shown = given_name.empty() ? output : given_name;
+    const Rendering rendering = render(midi, output, shown, watch);
+    Output out(output, shown);
     if (format == AudioFormat::wav) {
         write_wav(rendering, out);
     } else {

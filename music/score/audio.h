@@ -32,11 +32,12 @@ std::filesystem::path find_soundfont();
 /// second for some hundred seconds of music.
 ///
 /// `output` is not written before the rendering has succeeded, and always from front to back.
+/// @param shown  name of the output in messages, where `output` is a temporary file; empty: `output`
 /// @return the loudest sample before that, in units of full scale; 0 if the soundfont has no sound for these keys
 /// @throws std::runtime_error if fluidsynth or a soundfont is missing (it tells what to install), if fluidsynth fails
 ///         (with what it printed), if a file cannot be read or written, and for more sound than a WAV file of 4 GB
 ///         holds, 6 hours 45 minutes
 double render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
-                    const AudioWatch& watch = {});
+                    const AudioWatch& watch = {}, const std::filesystem::path& shown = {});
 
 }  // namespace sikku

@@ -9,11 +9,11 @@
 namespace sikku {
 
 std::string single_line(std::string_view text) {
-    constexpr std::array<std::string_view, 6> marks = {"\n", "\u2028", "\u2029", "\u200E", "\u200F", "\u061C"};
+    constexpr std::array<std::string_view, 3> marks = {"\u200E", "\u200F", "\u061C"};
     const std::string whole = printable(text, std::string::npos);
     std::string result;
     for (std::string_view rest = whole; !rest.empty();) {
-        const std::size_t plain = std::min(rest.find_first_of("\n\xD8\xE2"), rest.size());  // where no mark begins
+        const std::size_t plain = std::min(rest.find_first_of("\xD8\xE2"), rest.size());  // where no mark begins
         result += rest.substr(0, plain);
         rest.remove_prefix(plain);
         if (rest.empty()) break;
@@ -38,6 +38,14 @@ std::string head_comments(const ScoreHead& head, std::string_view sign) {
         }
     }
     return comments;
+}
+
+bool comments_keep(std::string_view text) {
+    std::string plain(text);
+    std::erase(plain, '\r');
+    std::replace_if(
+        plain.begin(), plain.end(), [](char byte) { return byte == '\t' || byte == '\n'; }, ' ');
+    return single_line(plain) == plain;
 }
 
 }  // namespace sikku

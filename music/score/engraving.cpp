@@ -103,7 +103,7 @@ std::string with_texts(std::string pdf, const ScoreHead& head) {
 
 }  // namespace
 
-void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& output,
+void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& output, const fs::path& shown,
              const std::function<void()>& watch) {
     const auto program = child::find_program("lilypond");
     if (!program) {
@@ -114,15 +114,16 @@ void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& o
     const WorkFolder folder;
     const fs::path score = folder / "score.ly";
     {
-        const child::Descriptor file(::open(score.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+        const Descriptor file(::open(score.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
         if (file.get() < 0) child::fail(score, "write", errno);
         child::write_all(file.get(), lilypond.data(), lilypond.size(), score);
     }
-    const child::Descriptor messages = child::lifted(child::nameless_file(score));
-    child::Process process(*program,
-                           {"--loglevel=WARNING", "-dno-point-and-click", "--pdf",
-                            "--output=" + (folder / "score").string(), score.string()},
-                           messages.get(), -1, {"SOURCE_DATE_EPOCH=0"});
+    const Descriptor messages = lifted(child::nameless_file(score));
+    Process process({.program = *program,
+                     .arguments = {"--loglevel=WARNING", "-dno-point-and-click", "--pdf",
+                                   "--output=" + (folder / "score").string(), score.string()},
+                     .descriptors = {-1, messages.get(), messages.get(), -1},
+                     .environment = {"SOURCE_DATE_EPOCH=0"}});
     std::optional<int> status;
     constexpr auto pause = std::chrono::milliseconds(50);
     while (!(status = process.ended())) {
@@ -141,9 +142,9 @@ void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& o
     }
     constexpr std::size_t most_bytes = std::size_t{1} << 30;
     const std::string whole = with_texts(read_file(print, "the print of lilypond", most_bytes), head);
-    const child::Descriptor file(::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0) child::fail(output, "write", errno);
-    child::write_all(file.get(), whole.data(), whole.size(), output);
+    const Descriptor file(::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) child::fail(shown, "write", errno);
+    child::write_all(file.get(), whole.data(), whole.size(), shown);
 }
 
 }  // namespace sikku

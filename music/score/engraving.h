@@ -14,9 +14,10 @@ namespace sikku {
 /// a second; what it throws ends the work. Cost: one or two seconds, and one for each ten pages.
 /// The file contains the pattern and what made it, as PDF files of prints do; the same bytes each time for the same
 /// LilyPond and Ghostscript.
+/// @param shown  name of the output in messages, where `output` is a temporary file
 /// @throws std::runtime_error if lilypond is missing (it tells what to install) or fails (with what it printed), or
 /// if a file cannot be read or written
 void engrave(std::string_view lilypond, const ScoreHead& head, const std::filesystem::path& output,
-             const std::function<void()>& watch);
+             const std::filesystem::path& shown, const std::function<void()>& watch);
 
 }  // namespace sikku

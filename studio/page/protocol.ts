@@ -173,6 +173,9 @@ export interface Grid {
     line_orbits?: number[]; // lines that the kolam's symmetries take to each other have the same number, and colour
 }
 export interface Link { link: string } // the fragment, without `#`
-export interface ReadLink { shared: Shared }
+export interface ReadLink {
+    shared: Shared;
+    withheld: [string, string][]; // options with commands for a plotter, which a link does not set
+}
 export interface Command { command: string }
 export interface Affordable { n: string } // empty: none, or unknown

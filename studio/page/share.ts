@@ -105,9 +105,11 @@ export async function inspectLink(application: Application, link: string): Promi
     const { hash } = location;
     const forget = () => forgetHash(hash);
     let contents: Shared;
+    let withheld: ReadLink["withheld"];
     try {
-        contents = (await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") }))
-            .json.shared;
+        ({ shared: contents, withheld } = (
+            await application.engine.request<ReadLink>({ do: "read_link", link: link.replace(/^.*#/s, "") })
+        ).json);
         if (inspection !== inspections) return;
         const unknown = unknownOptions(contents, application.help);
         if (unknown.length > 0) {
@@ -147,6 +149,7 @@ export async function inspectLink(application: Application, link: string): Promi
             ? [element("p", { class: "note warning" }, `${count(String(shown.rest))} more characters are not shown.`)]
             : []),
         ...values(contents, pattern),
+        ...leftOut(withheld),
     );
     const open = button(
         "Open",
@@ -167,6 +170,20 @@ export async function inspectLink(application: Application, link: string): Promi
         open,
     );
     text.focus(); // not Open: whoever presses Enter has read nothing yet
+}
+
+/// Commands for a plotter that the link wants to set. They are shown, and not used.
+function leftOut(withheld: ReadLink["withheld"]): HTMLElement[] {
+    if (withheld.length === 0) return [];
+    const names = withheld.map(([name, value]) => `${name}: ${value}`).join("; ");
+    return [
+        element(
+            "p",
+            { class: "note warning" },
+            "Left out, because a link sets no commands for a plotter: ",
+            element("code", {}, excerpt(names, most_value).text),
+        ),
+    ];
 }
 
 function values(contents: Shared, pattern: PatternRequest): HTMLElement[] {

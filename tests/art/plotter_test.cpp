@@ -8,6 +8,8 @@
 #include "engine/base/output.h"
 #include "tests/plot_tools.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -213,6 +215,13 @@ TEST_F(Plotter, ErrorsOfAProfileHaveTheirPlaces) {
     EXPECT_THROW(read_profile(folder.write("large.plotter", std::string(70'000, ' '))), std::runtime_error);
     EXPECT_EQ(read_profile(folder.write("mine.plotter", "language: HP-GL\npark: 1cm,-20\n")).park,
               glm::dvec2(10, -20));
+}
+
+/// Opening a pipe waits for its writer, for ever.
+TEST_F(Plotter, PipesAreNotProfiles) {
+    const ScratchFolder folder;
+    ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+    EXPECT_THROW(read_profile(folder / "pipe"), std::runtime_error);
 }
 
 TEST_F(Plotter, DamagedProfilesAreErrorsAndNothingElse) {

@@ -382,7 +382,7 @@ TEST(ImportCpfg, ViewFiles) {
 TEST(ImportCpfg, LossesAreTold) {
     const auto losses = [](const std::string& text) {
         const ImportedSystem system = cpfg(text);
-        for (const std::string& loss : system.losses) EXPECT_TRUE(has(system.pattern, import_text(loss, 200)));
+        for (const std::string& loss : system.losses) EXPECT_TRUE(has(system.pattern, pattern_line(loss, 200)));
         return fmt::format("{}", fmt::join(system.losses, "\n"));
     };
     const std::string head = "Lsystem: 1\nAxiom: A(1)\n";

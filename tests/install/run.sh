@@ -38,4 +38,7 @@ sikku=$work/prefix/bin/sikku
 [ "$("$sikku" derive fibonacci-words)" = abaababa ]
 "$sikku" draw snake-kolam --dpi 20 -o "$work/snake.png"
 "$sikku" -q show "$work/snake.png" | cmp - "$work/prefix/share/sikku/patterns/kolams/snake-kolam.lsys"
+"$sikku" kolam --grid 3x3 --seed 2 -o "$work/kolam.lsys" -q
+"$sikku" draw "$work/kolam.lsys" --dots --size 60x60mm --dpi 150 -o "$work/kolam.png"
+"$sikku" -q kolam --read "$work/kolam.png" -o "$work/read.lsys"
 echo "installation works"

@@ -348,6 +348,19 @@ TEST(Audio, TellsWhatFluidsynthSaid) {
                     "0123456789"));
 }
 
+/// Messages name what the user named, and not the temporary file beside it.
+TEST(Audio, FailuresNameTheOutput) {
+    NEEDS_FLUIDSYNTH;
+    const ScratchFolder folder;
+    folder.write("x.mid", midi({60}, 480));
+    try {
+        render_audio(folder / "x.mid", "/dev/full", AudioFormat::wav, {}, "my music.wav");
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+        EXPECT_TRUE(has(error.what(), "cannot write 'my music.wav': "));
+    }
+}
+
 TEST(Audio, IsWrittenWholeOrTheFailureIsTold) {
     NEEDS_FLUIDSYNTH;
     const ScratchFolder folder;

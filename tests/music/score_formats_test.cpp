@@ -1,9 +1,11 @@
 // The formats that need little code: ABC, Csound, Strudel, compressed MusicXML.
 #include "music/score/abc.h"
+#include "music/score/comments.h"
 #include "music/score/csound.h"
 #include "music/score/musicxml.h"
 #include "music/score/mxl.h"
 #include "music/score/strudel.h"
+#include "music/scores.h"
 #include "tests/files.h"
 #include "tests/notation_tools.h"
 #include "tests/tools.h"
@@ -270,6 +272,26 @@ TEST(Mxl, IsReadByOthers) {
             "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
             "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
     EXPECT_TRUE(outcome.ok) << outcome.text;
+}
+
+/// Comments cannot hold everything that a pattern can: `show` would give another text without a word.
+TEST(ScoreFormats, LossesOfCommentsAreReported) {
+    EXPECT_TRUE(comments_keep("axiom: F\r\n\ttitle: கோலம்\n"));
+    for (const char* lost : {"// \x1b[0m", "a\u2028b", "a\u200Fb", "\xff"}) EXPECT_FALSE(comments_keep(lost)) << lost;
+    const auto is_reported = [](const std::string& text, const std::string& format) {
+        const Document document = parse("a.lsys", text);
+        MemoryDestination memory;
+        const Made made = plan_score(std::span(&document, 1), format, {}, {})->make(memory, "x", {}, 1);
+        return std::any_of(made.remarks.begin(), made.remarks.end(), [](const Remark& remark) {
+            return remark.text.find("hold the pattern with blanks") != std::string::npos;
+        });
+    };
+    const std::string plain = "axiom: F+F\nangle factor: 4\n";
+    for (const char* format : {"abc", "ly", "sco", "csd", "strudel"}) {
+        EXPECT_TRUE(is_reported(plain + "// \u2028\n", format)) << format;
+        EXPECT_FALSE(is_reported(plain, format)) << format;
+    }
+    EXPECT_FALSE(is_reported(plain + "// \u2028\n", "mid"));
 }
 
 }  // namespace

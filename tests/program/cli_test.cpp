@@ -737,11 +737,15 @@ std::set<std::string> completed(const std::vector<std::string>& words) {
     const std::string bin = std::filesystem::path(SIKKU_PROGRAM).parent_path().string();
     const ScratchFolder folder;
     folder.write("snake-file.lsys", "axiom: F");
+    folder.write("blank snake.lsys", "axiom: F");
+    folder.write("*", "");
+    folder.write("$(touch run)", "");
     const Outcome outcome =
         run({"-c", line, SIKKU_PROGRAM},
             {.folder = folder.path(), .environment = {{"PATH", bin + ":" + getenv("PATH")}}, .program = "bash"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.errors, "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "run"));
     std::set<std::string> found;
     std::string word;
     for (const char byte : outcome.output) {
@@ -765,6 +769,10 @@ TEST(Program, CompletionLoadsAndCompletes) {
     const auto patterns = completed({"sikku", "draw", "snake"});
     EXPECT_TRUE(patterns.contains("snake-kolam"));
     EXPECT_TRUE(patterns.contains("snake-file.lsys"));
+    // A name is one word, whatever it consists of.
+    EXPECT_EQ(completed({"sikku", "check", "blank"}), (std::set<std::string>{"blank snake.lsys"}));
+    EXPECT_EQ(completed({"sikku", "check", "*"}), (std::set<std::string>{"*"}));
+    EXPECT_EQ(completed({"sikku", "check", "$"}), (std::set<std::string>{"$(touch run)"}));
 }
 
 TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {

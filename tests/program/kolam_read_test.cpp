@@ -97,6 +97,51 @@ TEST_F(KolamRead, PhotographsGiveAPatternAnOverlayAndAReport) {
     EXPECT_TRUE(has(kolam({"a.lsys"}).output, "kolam      yes"));
 }
 
+/// The process that decodes a picture gets descriptors 0 to 2, which may be those of the file and of its answers.
+TEST_F(KolamRead, PhotographsNeedNoStandardStreams) {
+    write_photo("a.png", "3x3", "all");
+    for (const char* closed : {"<&-", "<&- >&-", "2>&-", "<&- >&- 2>&-"}) {
+        std::filesystem::remove(folder_ / "k.lsys");
+        const std::string command = std::string("'") + SIKKU_PROGRAM + "' -q kolam --read a.png -o k.lsys " + closed;
+        const Outcome outcome = run({"-c", command}, {.folder = folder_.path(), .program = "/bin/sh"});
+        EXPECT_EQ(outcome.status, 0) << closed << outcome.errors;
+        EXPECT_EQ(gaps("k.lsys").substr(0, 13), "// grid: 3x3\n") << closed;
+    }
+}
+
+/// A title, or the name of a file, of a stranger set keys of the pattern, or made it faulty.
+TEST_F(KolamRead, TitlesAndNamesStayInTheirLine) {
+    const std::string design =
+        R"("design": {"rows": 2, "cols": 2, "mask": ["11", "11"], "h": ["x", "x"], "v": ["xx"]}})";
+    const std::string head = R"({"format": "kolam", "version": 1, "title": ")";
+    const std::string svg =
+        "<svg><title>A&#10;stroke: none&#10;//</title><g fill=\"none\" stroke=\"red\"><path d=\"M0 1C.5 1.5.5 2.5 0 "
+        "2.5S-.5 1.5 0 1S.5-.5 0-.5S-.5.5 0 1z\"/></g><circle cy=\"0\" r=\".1\"/><circle cy=\"2\" r=\".1\"/></svg>";
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"lines.json", head + "Lotus\\nstroke: none\\n//\", " + design},
+        {"comment.json", head + "/* open\", " + design},
+        {"separator.json", head + "a\u2028stroke: none\", " + design},
+        {"slash.json", head + "ends in \\\\\", " + design},
+        {"a\nstroke: none\n.json", head + "plain\", " + design},
+        {"/* open.json", head + "plain\", " + design},
+        {"title.svg", svg}};
+    for (const auto& [given, text] : files) {
+        SCOPED_TRACE(given);
+        std::string name = given;
+        std::replace(name.begin(), name.end(), '/', ' ');
+        folder_.write(name, text);
+        const Outcome outcome = kolam({"--read", name, "-o", "k.lsys"});
+        ASSERT_EQ(outcome.status, 0) << outcome.errors;
+        const std::string pattern = contents(folder_ / "k.lsys");
+        EXPECT_EQ(pattern.find("\nstroke: none"), std::string::npos) << pattern;
+        EXPECT_EQ(pattern.find("/*"), std::string::npos) << pattern;
+        EXPECT_EQ(outcome.errors.find("\nstroke"), std::string::npos) << outcome.errors;
+        const Outcome checked = run({"check", "k.lsys"}, {.folder = folder_.path()});
+        EXPECT_EQ(checked.status, 0) << checked.output;
+        EXPECT_EQ(checked.output, "");
+    }
+}
+
 TEST_F(KolamRead, MistakesAreNamed) {
     folder_.write("text.txt", "a text\n");
     folder_.write("broken.json", "{\"format\": \"kolam\"");

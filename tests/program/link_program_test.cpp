@@ -148,6 +148,80 @@ TEST(LinkProgram, EveryCommandReadsLinks) {
     EXPECT_EQ(several.status, 0) << several.errors;
 }
 
+TEST(LinkProgram, LinksSetNeitherCommandsForMachinesNorFiles) {
+    const ScratchFolder folder;
+    folder.write("frame.lsys", "title: a secret\naxiom: [\n");
+    const auto draw = [&](const Json& work, const std::string& name, const std::vector<std::string>& more = {}) {
+        std::filesystem::remove(folder / name);
+        std::vector<std::string> arguments = {"-q", "draw", link_to(work), "-o", name};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments, {.folder = folder.path()});
+    };
+    const auto refused = [&](const Outcome& outcome, std::string_view message) {
+        EXPECT_EQ(outcome.status, 2) << message;
+        EXPECT_TRUE(has(outcome.errors, message));
+        EXPECT_EQ(outcome.errors.find("secret"), std::string::npos) << outcome.errors;
+    };
+    const Json commands = shared("hilbert", {}, {{"gcode-start", "M3 S1000\nG0 X999 Y999 Z-50"}}, {});
+    refused(draw(commands, "x.gcode"),
+            "sikku: the link sets commands for a plotter: gcode-start 'M3 S1000 G0 X999 Y999 Z-50'; --trust-link "
+            "allows it, and --gcode-start replaces it\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.gcode"));
+    EXPECT_EQ(draw(commands, "x.gcode", {"--trust-link"}).status, 0);
+    EXPECT_TRUE(has(contents(folder / "x.gcode"), "\nG0 X999 Y999 Z-50\n"));
+    EXPECT_EQ(draw(commands, "x.gcode", {"--gcode-start", "G21"}).status, 0);
+    EXPECT_EQ(contents(folder / "x.gcode").find("X999"), std::string::npos);
+    for (const OptionValue& option :
+         OptionValues{{"pen", "1 down=-50mm"}, {"park", "9m,9m"}, {"refill", "1m@1m,1m"}}) {
+        refused(draw(shared("hilbert", {}, {option}, {}), "x.gcode"), "the link sets commands for a plotter");
+    }
+    for (const OptionValue& option : OptionValues{{"border", "frame.lsys"},
+                                                  {"border", "kaavi,/etc/frame.lsys"},
+                                                  {"profile", "./frame.lsys"},
+                                                  {"cmyk", "frame.lsys"},
+                                                  {"surface", "a = frame.s"}}) {
+        refused(draw(shared("hilbert", {}, {option}, {}), option.name == "profile" ? "x.gcode" : "x.pdf"),
+                "the link names a file of this machine: " + option.name);
+    }
+    // The same as a setting, in the text, and in a variant that is chosen.
+    const std::string names_file = "names a file of this machine: ";
+    const Json setting = shared("hilbert", {{"border", "frame.lsys"}}, {}, {});
+    refused(draw(setting, "x.svg"), names_file + "border 'frame.lsys'");
+    EXPECT_EQ(draw(setting, "x.svg", {"--set", "border=none"}).status, 0);
+    Json work = shared("hilbert", {}, {}, {});
+    for (const char* line :
+         {"border: frame.lsys", "surface: a = frame.s", "scale: frame.scl", "keyboard: frame.kbm"}) {
+        work["pattern"]["text"] = std::string("axiom: F\nF --> F+F\nangle factor: 4\n") + line + "\n";
+        refused(draw(work, "x.svg"), "the pattern of the link " + names_file);
+        refused(run({"check", link_to(work)}), names_file);
+        refused(run({"measure", link_to(work)}), names_file);
+        EXPECT_EQ(run({"show", link_to(work)}).status, 0);
+    }
+    work["pattern"]["text"] = "axiom: F\nF --> F+F\nangle factor: 4\nvariant far: border = frame.lsys\n";
+    EXPECT_EQ(draw(work, "x.svg").status, 0);
+    refused(draw(work, "x.svg", {"--variant", "far"}), names_file);
+    refused(run({"check", link_to(work)}), names_file);
+    work["pattern"]["text"] = "axiom: F\nborder: frame.lsys\n";
+    refused(run({"sheet", link_to(work), "-o", folder.file("x.svg")}), names_file);
+    refused(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "frame.scl"}}))}), names_file);
+    // Looks are free, also where other values would be files.
+    EXPECT_EQ(draw(shared("hilbert", {}, {{"border", "kaavi"}}, {}), "x.svg").status, 0);
+    EXPECT_EQ(draw(shared("hilbert", {}, {{"profile", "grbl"}, {"pen-width", "0.5mm"}}, {}), "x.gcode").status, 0);
+    EXPECT_EQ(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "dorian"}}))}).status, 0);
+}
+
+TEST(LinkProgram, TheStudioLeavesOutCommandsForMachines) {
+    const Json work = shared("hilbert", {}, {{"size", "A5"}, {"gcode-end", "M3"}, {"pen", "1 down=-9"}}, {});
+    const Answer answer = ask({{"do", "read_link"}, {"link", link_to(work)}});
+    EXPECT_EQ(answer.json["withheld"], pairs({{"gcode-end", "M3"}, {"pen", "1 down=-9"}}));
+    EXPECT_EQ(answer.json["shared"]["draw"], pairs({{"size", "A5"}}));
+}
+
+TEST(LinkProgram, ValuesOfLinksAreOneLine) {
+    const Json work = shared("hilbert", {{"title", "a\nsikku: done\u2028b"}}, {{"title-line", "c\r\nd"}}, {});
+    EXPECT_EQ(run({"show", link_to(work)}).errors, "the link sets title a sikku: done b; draw: title-line c  d\n");
+}
+
 TEST(LinkProgram, FaultsAreReported) {
     const ScratchFolder folder;
     const std::string out = folder.file("x.svg");

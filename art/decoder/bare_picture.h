@@ -1,4 +1,4 @@
-// art/image/bare_picture.h: strips picture files of what their decoders need not see.
+// art/decoder/bare_picture.h: strips picture files of what their decoders need not see.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,19 @@ namespace sikku {
 
 /// A picture file without metadata, and the metadata that are needed.
 struct BarePicture {
-    const char* format = "";  ///< name of OpenImageIO's reader
+    const char* format = "";  ///< name of OpenImageIO's reader, or `heif`
     std::string bytes;
     int orientation = 1;  ///< EXIF, 1 to 8; of JPEG
 };
 
 /// Removes colour profiles, EXIF, comments and other metadata from JPEG, PNG, WebP and TIFF, whose readers parse them
 /// without sufficient checks, and checks the sizes that the file claims before a decoder reserves memory for them: a
-/// progressive JPEG holds all its coefficients, and each further scan passes over them. HEIF and BMP stay as they
-/// are. Cost: linear in the file.
+/// progressive JPEG holds all its coefficients, and each further scan passes over them. BMP and HEIF stay as they
+/// are; the header of BMP is checked. Cost: linear in the file.
 /// @throws std::runtime_error for other files, damaged headers, more than `most_pixels`, and too many scans
 BarePicture bare_picture(std::string bytes, std::uint64_t most_pixels);
+
+/// @throws std::runtime_error for sides of 0, and for more than `most_pixels`
+void check_size(std::uint64_t width, std::uint64_t height, std::uint64_t most_pixels);
 
 }  // namespace sikku
