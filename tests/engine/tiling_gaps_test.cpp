@@ -301,7 +301,9 @@ TEST(TilingGaps, AgreeWithCountingTriangles) {
         }
         PolygonList list;
         std::string axiom;
-        for (const auto& [x, y, down] : full) {
+        for (const Triangle& triangle : full) {
+            // Clang 14 does not capture structured bindings.
+            const int x = triangle[0], y = triangle[1], down = triangle[2];
             const auto at = [&](int i, int j) { return glm::dvec2(x + i + 0.5 * (y + j), height * (y + j)); };
             if (down == 1) {
                 list.corners.insert(list.corners.end(), {at(1, 0), at(1, 1), at(0, 1)});
