@@ -134,6 +134,40 @@ TEST(Bridge, CommandsHoldNothingButTheirOptions) {
               "setting");
 }
 
+TEST(Bridge, CommandsNameTheSourceOfThePattern) {
+    const auto command = [](const char* source) {
+        return asked({{"do", "command"},
+                      {"interpreter", "draw"},
+                      {"format", "svg"},
+                      {"pattern", pattern("axiom: F\n")},
+                      {"source", source}})["command"];
+    };
+    EXPECT_EQ(command("#sikku1.abc"), "sikku draw '#sikku1.abc' -o test.svg");
+    EXPECT_EQ(command("koch-curve"), "sikku draw koch-curve -o test.svg");
+}
+
+TEST(Bridge, FindsTheLargestDerivationLengthThatIsDrawn) {
+    const auto largest = [](const std::string& text) {
+        return asked({{"do", "affordable"}, {"seconds", 600}, {"pattern", pattern(text)}})["n"].get<std::string>();
+    };
+    // 3 x 10^7 nodes: 6^9 segments, and as many nodes above them as a fifth of that.
+    EXPECT_EQ(largest("axiom: F\nderivation length: 25\nF --> FFF+F[F]F\n"), "9");
+    // Only deriving counts the words of parameters: 2^(n + 1) - 1 symbols of A, and as many of F but one.
+    const std::string parametric = "axiom: A(1)\nA(x) : x>0 --> F(x)A(x+1)A(x+2)\nderivation length: ";
+    const int found = std::stoi(largest(parametric + "40\n"));
+    EXPECT_GE(found, 22);
+    EXPECT_LE(found, 24);
+    // A length that is short but does not end in time.
+    EXPECT_EQ(largest(parametric + "5\n"), "4");
+    EXPECT_EQ(largest("axiom: F\nderivation length: 0\n"), "");
+}
+
+TEST(Bridge, SaysWhatIsAMap) {
+    const std::string checkers = "map: clockwise\nderivation length: 2\naxiom: A~B~AB\nA --> B[-A][+~A]B\nB --> ~A\n";
+    EXPECT_TRUE(asked({{"do", "open"}, {"pattern", pattern(checkers)}})["is_map"].get<bool>());
+    EXPECT_FALSE(asked({{"do", "open"}, {"pattern", pattern(koch)}})["is_map"].get<bool>());
+}
+
 TEST(Bridge, OriginsStopInTime) {
     std::string word;
     for (int i = 0; i < 10'000; ++i) word += 'Y';
