@@ -30,7 +30,7 @@ using polygon_files::most_coordinate;
 using polygon_files::most_points;
 
 constexpr std::size_t most_copied_levels = 50;
-constexpr std::size_t most_copied_elements = 5'000'000;
+constexpr std::size_t most_copied_elements = 1'000'000;
 
 /// Properties that an element inherits from those around it.
 struct Around {
