@@ -92,6 +92,8 @@ inline void try_pattern(std::string_view bytes) {
     if (!compiled.grammar || compiled.grammar->axiom().empty()) return;
     const std::string text = to_text(*compiled.grammar, compiled.grammar->axiom());
     Pattern again = compiled.pattern;
+    // The text states no parameters, which labels may show.
+    std::erase_if(again.keys, [](const Key& key) { return key.name.starts_with("label "); });
     Diagnostics diagnostics;
     apply_overrides(again, "", {{"--set", "axiom", text}}, diagnostics);
     const Grammar grammar = compile_grammar(again, diagnostics);
