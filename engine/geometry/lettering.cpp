@@ -2,7 +2,9 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/tamil.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -98,6 +100,37 @@ constexpr NamedGlyph further_glyphs[] = {
     {U'Ł', "HYLFL[ RL[X[ RIRRM"},
     {U'đ', "I\\XFX[ RXPVNTMQMONMPLSLUMXOZQ[T[VZXX RTI[I"},
     {U'Đ', "G\\KFK[ RKFRFUGWIXKYNYSXVWXUZR[K[ RHPPP"},
+    {U'„', "JZOWNXMWNVOWOYM[ RWWVXUWVVWWWYU["},
+    {U'‚', "NVSWRXQWRVSWSYQ["},
+    {U'‹', "LXTMOTT["},
+    {U'›', "LXPMUTP["},
+    {U'€', "F]YIWGUFRFPGNILMLTNXPZR[U[WZYX RHOTO RHRTR"},
+    {U'₹', "H\\KFYF RKLYL RKFPFSGUIUNSQPRKRU["},
+    {U'£', "H\\XJWHUFRFPGNINLOQOUNXLZK[Y[ RKQTQ"},
+    {U'¥', "I[JFRP RZFRPR[ RKRYR RKVYV"},
+    {U'©', "E_QFNGKIIKHNHRIUKXNZQ[S[VZYX[U\\R\\N[KYIVGSFQF RVMULSKQKOLNNNROTQUSUUTVS"},
+    {U'®', "E_QFNGKIIKHNHRIUKXNZQ[S[VZYX[U\\R\\N[KYIVGSFQF ROUOKSKULUOSPOP RSPUU"},
+    {U'™', "E]GFOF RKFKO RQOQFUKYFYO"},
+    {U'¡', "MWRQRb RRLQMRNSMRL"},
+    {U'¿', "I[X]X^W`VaTbPbNaM`L^L\\MZNYRWRT RROSNRMQNRO"},
+    {U'Æ', "D`QFE[ RQFQ[ RITQT RQF_F RQPZP RQ[_["},
+    {U'æ', "B^RMR[ RRPPNNMKMINGPFSFUGXIZK[N[PZRX RQS]S]Q\\O[NYMVMTNRPQSQURXTZV[Y[[Z]X"},
+    {U'Œ', "A_LFJGHIGKFNFSGVHXJZL[P[RZTXUVVSVNUKTIRGPFLF RNFN[ RNF[F RNPVP RN[[["},
+    {U'œ', "B^KMINGPFSFUGXIZK[N[PZRXSUSSRPPNNMKM RRS^S^Q]O\\NZMWMUNSPRSRUSXUZW[Z[\\Z^X"},
+    {U'Þ', "G\\KFK[ RKKTKWLXMYOYRXTWUTVKV"},
+    {U'þ', "H[LFLb RLPNNPMSMUNWPXSXUWXUZS[P[NZLX"},
+    {U'Ð', "G\\KFK[ RKFRFUGWIXKYNYSXVWXUZR[K[ RHPPP"},
+    {U'ð', "I\\XSXPVNTMQMONMPLSLUMXOZQ[T[VZXXYUYRXNVJTHQF RPLVF"},
+    {U'ħ', "I\\MFM[ RMQPNRMUMWNXQX[ RJISI"},
+    {U'′', "NVSFQL"},
+    {U'″', "JZPFNL RVFTL"},
+    {U'µ', "I\\MMMb RMWNZP[S[UZXW RXMX["},
+    {U'÷', "E_IR[R RRJQKRLSKRJ RRXQYRZSYRX"},
+    {U'≠', "E_IO[O RIU[U RWJMZ"},
+    {U'∞', "C`RRPNNLKLHNGQGSHVKXNXPVRRTNVLYL\\N]Q]S\\VYXVXTVRR"},
+    {U'√', "F\\HSKRO[\\D"},
+    {U'♥', "F^R[KTHPHLJILHOHQIRLSIUHXHZI\\L\\PYTR["},
+    {U'★', "F^RFTN\\NVSXZRVLZNSHNPNRF"},
     {U'ı', "NVRMR["},
 };
 
@@ -135,7 +168,8 @@ using Polyline = std::vector<glm::dvec2>;
 struct Glyph {
     double width = 0.0;
     std::vector<Polyline> strokes;
-    double low = 0.0, high = 0.0;  ///< extent of the strokes, across
+    std::vector<LetterStroke> drawn;  ///< strokes with curves of their own
+    double low = 0.0, high = 0.0;     ///< extent of the strokes, across
     double top = 0.0;
 };
 
@@ -187,6 +221,43 @@ void take_dot(Glyph& glyph) {
     measure(glyph);
 }
 
+/// A smaller glyph, raised.
+Glyph scaled(const Glyph& glyph, double scale, double up) {
+    Glyph result = glyph;
+    result.width *= scale;
+    for (Polyline& stroke : result.strokes) {
+        for (glm::dvec2& point : stroke) point = scale * point + glm::dvec2(0.0, up);
+    }
+    measure(result);
+    return result;
+}
+
+/// One glyph after another.
+Glyph joined(Glyph first, const Glyph& second) {
+    for (Polyline stroke : second.strokes) {
+        for (glm::dvec2& point : stroke) point.x += first.width;
+        first.strokes.push_back(std::move(stroke));
+    }
+    first.width += second.width;
+    measure(first);
+    return first;
+}
+
+/// Raised letters and fractions.
+void add_small_glyphs(std::map<char32_t, Glyph>& glyphs) {
+    constexpr double smaller = 0.6;
+    const auto raised = [&](char32_t code) { return scaled(glyphs[code], smaller, (1 - smaller) * capital); };
+    constexpr std::array<std::array<char32_t, 2>, 5> raises = {
+        {{U'¹', U'1'}, {U'²', U'2'}, {U'³', U'3'}, {U'ª', U'a'}, {U'º', U'o'}}};
+    for (const auto& [code, letter] : raises) glyphs[code] = raised(letter);
+    constexpr std::array<std::array<char32_t, 3>, 3> fractions = {
+        {{U'½', U'1', U'2'}, {U'¼', U'1', U'4'}, {U'¾', U'3', U'4'}}};
+    for (const auto& [code, above, below] : fractions) {
+        glyphs[code] = joined(joined(raised(above), scaled(glyphs[U'/'], 0.8, 0.1 * capital)),
+                              scaled(glyphs[below], smaller, 0.0));
+    }
+}
+
 /// All there are, by code point.
 const std::map<char32_t, Glyph>& font() {
     static const std::map<char32_t, Glyph> made = [] {
@@ -205,12 +276,20 @@ const std::map<char32_t, Glyph>& font() {
                 glyphs[mark.composed[i]] = std::move(glyph);
             }
         }
+        add_small_glyphs(glyphs);
+        glyphs[U'‐'] = glyphs[U'‑'] = glyphs[U'-'];
+        glyphs[U'❤'] = glyphs[U'♥'];
+        // They have neither ink nor width.
+        for (const char32_t invisible : {U'\u00AD', U'\u200B', U'\u200C', U'\u200D', U'\uFE0F', U'\uFEFF'})
+            glyphs[invisible] = Glyph{};
         for (const char32_t space : {U'\u00A0', U'\u2009', U'\u202F', U'\t', U'\n', U'\r'})
             glyphs[space] = glyphs[U' '];
         return glyphs;
     }();
     return made;
 }
+
+constexpr char32_t first_tamil = 0x0B80, last_tamil = 0x0BFF;
 
 const Glyph& box_glyph() {
     static const Glyph box = glyph_of("I[KFKXYXYFKF");
@@ -234,6 +313,24 @@ std::pair<char32_t, std::size_t> first_character(std::string_view text) {
     return {code, length};
 }
 
+/// The glyph of the Tamil syllable with which a text begins, and the bytes it takes; 0 if it begins with none.
+std::size_t take_tamil(std::string_view text, Glyph& glyph) {
+    constexpr std::size_t most = 6;  // of the longest syllable
+    std::u32string characters;
+    std::array<std::size_t, most + 1> ends{};
+    while (characters.size() < most && ends[characters.size()] < text.size()) {
+        const std::size_t begin = ends[characters.size()];
+        const auto [code, bytes] = first_character(text.substr(begin));
+        characters += code;
+        ends[characters.size()] = begin + bytes;
+    }
+    auto syllable = tamil_syllable(characters);
+    if (!syllable) return 0;
+    glyph.width = syllable->width;
+    glyph.drawn = std::move(syllable->strokes);
+    return ends[syllable->characters];
+}
+
 /// Calls `see` with each glyph, marks added, and with the bytes it takes.
 template <class See>
 void each_glyph(std::string_view text, See&& see) {
@@ -241,6 +338,14 @@ void each_glyph(std::string_view text, See&& see) {
     while (!text.empty()) {
         const auto [code, bytes] = first_character(text);
         std::size_t taken = bytes;
+        if (code >= first_tamil && code <= last_tamil) {
+            Glyph syllable;
+            if (const std::size_t length = take_tamil(text, syllable)) {
+                see(syllable, length, true);
+                text.remove_prefix(length);
+                continue;
+            }
+        }
         const auto found = glyphs.find(code);
         const Glyph* glyph = found == glyphs.end() ? &box_glyph() : &found->second;
         Glyph marked;
@@ -308,6 +413,19 @@ void write_stroke(const Polyline& points, glm::dvec2 start, double scale, const 
     sink.end_stroke(closed);
 }
 
+void write_stroke(const LetterStroke& stroke, glm::dvec2 start, double scale, const Pen& pen, PathSink& sink) {
+    const auto placed = [&](glm::dvec2 point) { return start + scale * point; };
+    sink.begin_stroke(placed(stroke.start), pen);
+    for (const LetterStroke::Piece& piece : stroke.pieces) {
+        if (piece.is_curve) {
+            sink.curves(std::array{placed(piece.first), placed(piece.second), placed(piece.end)});
+        } else {
+            sink.lines(std::array{placed(piece.end)});
+        }
+    }
+    sink.end_stroke(stroke.is_closed);
+}
+
 /// Bytes of the beginning that is at most `units` wide.
 std::size_t fitting(std::string_view text, double units) {
     double width = 0;
@@ -336,10 +454,39 @@ bool has_letters(std::string_view utf8) {
     return all;
 }
 
+std::string missing_letters(const std::vector<std::string>& texts) {
+    constexpr std::size_t most = 12;
+    std::vector<std::string> missing;
+    for (const std::string& whole : texts) {
+        std::string_view text = whole;
+        each_glyph(text, [&](const Glyph&, std::size_t taken, bool known) {
+            const auto [code, bytes] = first_character(text);
+            const std::string name =
+                code == 0xFFFD && bytes == 1
+                    ? fmt::format("the byte {:#04x}", static_cast<unsigned char>(text.front()))
+                : code < 0x20 || code == 0x7F || (code >= 0x80 && code < 0xA0)
+                    ? fmt::format("U+{:04X}", static_cast<unsigned>(code))
+                    : fmt::format("{} (U+{:04X})", text.substr(0, bytes), static_cast<unsigned>(code));
+            if (!known && std::find(missing.begin(), missing.end(), name) == missing.end()) missing.push_back(name);
+            text.remove_prefix(taken);
+        });
+    }
+    if (missing.empty()) return "";
+    std::string list;
+    for (std::size_t i = 0; i < std::min(missing.size(), most); ++i) list += (i > 0 ? ", " : "") + missing[i];
+    if (missing.size() > most) list += fmt::format(" and {} more", missing.size() - most);
+    return list;
+}
+
+std::string letters_warning(const std::string& missing) {
+    return fmt::format("the lettering does not have {}; an empty box stands in place of each", missing);
+}
+
 void write_text(std::string_view utf8, glm::dvec2 start, double height, const Pen& pen, PathSink& sink) {
     const double scale = height / capital;
     each_glyph(utf8, [&](const Glyph& glyph, std::size_t, bool) {
         for (const Polyline& stroke : glyph.strokes) write_stroke(stroke, start, scale, pen, sink);
+        for (const LetterStroke& stroke : glyph.drawn) write_stroke(stroke, start, scale, pen, sink);
         start.x += scale * glyph.width;
     });
 }

@@ -12,8 +12,8 @@
 namespace sikku {
 
 /// Lengths are in the unit of the sink; `height` is that of a capital letter. Text is UTF-8: printable ASCII, Latin
-/// letters with their accents (also as combining marks), dashes, quotes, `…`, `→`, `−`, `×`, `·`, `°`. What the font
-/// does not have, and bytes that are no UTF-8, become a box; a line break is a space.
+/// letters with their accents (also as combining marks), dashes, quotation marks, currencies, fractions and other signs
+/// of titles, and modern Tamil. Other characters, and bytes that are not UTF-8, become a box; a line break is a space.
 
 /// Height of accents above capital letters, and of descenders below the line, as parts of the height.
 constexpr double letter_ascent = 1.4;
@@ -24,6 +24,13 @@ double text_width(std::string_view utf8, double height);
 
 /// Does the font have every character of it?
 bool has_letters(std::string_view utf8);
+
+/// The characters of several texts that the font does not have, each once, as a list for messages: `日 (U+65E5)`;
+/// empty if it has all.
+std::string missing_letters(const std::vector<std::string>& texts);
+
+/// A warning about characters that are missing. @param missing  a list of them that is not empty
+std::string letters_warning(const std::string& missing);
 
 /// Writes from `start`, on the line that letters stand on, to the right, with y up: strokes of lines and curves.
 void write_text(std::string_view utf8, glm::dvec2 start, double height, const Pen& pen, PathSink& sink);

@@ -1,10 +1,12 @@
 #include "engine/geometry/lettering.h"
 
 #include "art/print/page.h"
+#include "engine/geometry/tamil.h"
 #include "engine/language/pattern.h"
 #include "tests/files.h"
 
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 
@@ -98,7 +100,7 @@ TEST(Lettering, AccentsAreComposed) {
 }
 
 TEST(Lettering, WhatTheFontDoesNotHaveIsABox) {
-    for (const std::string_view text : {"கோ", "日", "\x80", "\xff", "\x01"}) {
+    for (const std::string_view text : {"௧", "日", "\x80", "\xff", "\x01"}) {
         EXPECT_FALSE(has_letters(text));
         EXPECT_GT(written(text, 1.0).strokes, 0u);
     }
@@ -158,6 +160,134 @@ TEST(Lettering, LinesBreakAtSpacesAndElseWithinWords) {
     EXPECT_LE(text_width(two.back(), 1.0), width);
     // No room at all is no endless loop.
     EXPECT_EQ(wrapped(word, 1.0, 0.01, 5), std::vector<std::string>{""});
+}
+
+TEST(Lettering, QuotationMarksCurrenciesAndFractionsAreWritten) {
+    for (const std::string_view text : {"„“”‚‘’«»‹›", "–—…·•", "€ ₹ £ ¥", "20° ½ ¼ ¾ 2² 3³ 1¹",
+                                        "Æon Œuvre œ æ þ ð Þ Ð", "¿Qué? ¡Sí!", "© ® ™ ♥ ★", "′ ″ µ ÷ ≠ ∞ √", "a‑b"}) {
+        EXPECT_TRUE(has_letters(text)) << text << ": " << missing_letters({std::string(text)});
+    }
+    EXPECT_LT(text_width("²", 1.0), text_width("2", 1.0));
+    EXPECT_GT(written("²", 1.0).box.low.y, 0.3);
+    EXPECT_EQ(text_width("\u00AD", 1.0), 0.0);
+}
+
+TEST(Lettering, MissingCharactersAreNamedOnce) {
+    EXPECT_EQ(missing_letters({"Würzburg „Kolam“ €", "அன்பு & மீரா"}), "");
+    EXPECT_EQ(missing_letters({"日本 日", "a日"}), "日 (U+65E5), 本 (U+672C)");
+    EXPECT_EQ(missing_letters({"\xff", "\x01"}), "the byte 0xff, U+0001");
+    EXPECT_EQ(letters_warning("日 (U+65E5)"),
+              "the lettering does not have 日 (U+65E5); an empty box stands in place of each");
+}
+
+std::u32string u32(std::string_view utf8) {
+    std::u32string text;
+    for (std::size_t i = 0; i < utf8.size();) {
+        const auto lead = static_cast<unsigned char>(utf8[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+        char32_t code = length == 1 ? lead : lead & (0x7Fu >> length);
+        for (std::size_t k = 1; k < length; ++k) code = code << 6 | (static_cast<unsigned char>(utf8[i + k]) & 0x3Fu);
+        text += code;
+        i += length;
+    }
+    return text;
+}
+
+const std::vector<std::string> consonants = {"க", "ங", "ச", "ஞ", "ட", "ண", "த", "ந", "ப",  "ம", "ய", "ர",
+                                             "ல", "வ", "ழ", "ள", "ற", "ன", "ஜ", "ஷ", "க்ஷ", "ஸ", "ஹ", "ஶ"};
+const std::vector<std::string> signs = {"ா", "ி", "ீ", "ு", "ூ", "ெ", "ே", "ை", "ொ", "ோ", "ௌ", "்"};
+
+TEST(Tamil, EverySyllableIsOneGlyphWithinItsRoom) {
+    for (const char* vowel : {"அ", "ஆ", "இ", "ஈ", "உ", "ஊ", "எ", "ஏ", "ஐ", "ஒ", "ஓ", "ஔ", "ஃ", "ஸ்ரீ", "ஶ்ரீ"}) {
+        EXPECT_TRUE(has_letters(vowel)) << vowel;
+        EXPECT_EQ(tamil_syllable(u32(vowel))->characters, u32(vowel).size()) << vowel;
+    }
+    for (const std::string& consonant : consonants) {
+        for (const std::string& sign : signs) {
+            const std::string syllable = consonant + sign;
+            ASSERT_TRUE(has_letters(syllable)) << syllable;
+            // Nothing of the next syllable, and all of this one.
+            const auto found = tamil_syllable(u32(syllable + "க"));
+            ASSERT_TRUE(found);
+            EXPECT_EQ(found->characters, u32(syllable).size()) << syllable;
+            const Written sink = written(syllable, 1.0);
+            EXPECT_GE(sink.box.low.x, 0.0) << syllable;
+            EXPECT_LE(sink.box.high.x, text_width(syllable, 1.0)) << syllable;
+            EXPECT_GE(sink.box.low.y, -letter_descent) << syllable;
+            EXPECT_LE(sink.box.high.y, letter_ascent) << syllable;
+            // A sign changes what is written.
+            const Written plain = written(consonant, 1.0);
+            EXPECT_TRUE(sink.segments != plain.segments || sink.box.high != plain.box.high ||
+                        sink.box.low != plain.box.low)
+                << syllable;
+        }
+    }
+}
+
+TEST(Tamil, SignsStandWhereTheyAreRead) {
+    const auto width = [](std::string_view text) { return text_width(text, 21.0); };
+    // To the left: the sign alone, then the letter alone.
+    for (const char* sign : {"ெ", "ே", "ை"}) {
+        const std::string syllable = std::string("க") + sign;
+        EXPECT_NEAR(width(syllable), width(sign) + width("க"), 1e-9);
+        const auto whole = tamil_syllable(u32(syllable)), alone = tamil_syllable(u32(sign));
+        ASSERT_GE(whole->strokes.size(), alone->strokes.size());
+        EXPECT_EQ(whole->strokes[0].start, alone->strokes[0].start);
+        EXPECT_GT(whole->strokes[alone->strokes.size()].start.x, alone->width);
+    }
+    // On both sides, whether the text has one character for the sign or two.
+    using Spellings = std::pair<const char*, const char*>;
+    for (const auto& [one, two] :
+         {Spellings("\u0B95\u0BCA", "\u0B95\u0BC6\u0BBE"), Spellings("\u0B95\u0BCB", "\u0B95\u0BC7\u0BBE"),
+          Spellings("\u0B95\u0BCC", "\u0B95\u0BC6\u0BD7")}) {
+        EXPECT_EQ(written(one, 1.0).box.high, written(two, 1.0).box.high);
+        EXPECT_EQ(written(one, 1.0).segments, written(two, 1.0).segments);
+        EXPECT_EQ(width(one), width(two));
+    }
+    EXPECT_NEAR(width("கொ"), width("ெ") + width("க") + width("ா"), 1e-9);
+    EXPECT_EQ(written("ஔ", 1.0).segments, written("ஒ\u0BD7", 1.0).segments);
+    // A pulli takes no room, and stands above.
+    EXPECT_EQ(width("க்"), width("க"));
+    EXPECT_GT(written("க்", 1.0).box.high.y, written("க", 1.0).box.high.y + 0.1);
+    // Before a consonant other than ssa it ends the syllable.
+    EXPECT_EQ(tamil_syllable(u32("க்ஷா"))->characters, 4u);
+    EXPECT_EQ(tamil_syllable(u32("க்கா"))->characters, 2u);
+}
+
+TEST(Tamil, TextsAreNeverCutWithinASyllable) {
+    const std::string text = "கோலங்கள் மீனாட்சி";
+    for (double part = 0.05; part < 1; part += 0.01) {
+        const std::string less = shortened(text, 2.0, part * text_width(text, 2.0));
+        if (less.empty()) continue;
+        const std::string kept = less.substr(0, less.size() - std::string("…").size());
+        EXPECT_TRUE(text.starts_with(kept));
+        if (kept.size() == text.size()) continue;
+        const char32_t next = u32(text.substr(kept.size())).front();
+        EXPECT_FALSE(next >= 0x0BBE && next <= 0x0BD7) << less << ": a sign without its letter";
+    }
+}
+
+TEST(Tamil, CurvesAreSmoothWhereAStrokeGoesOn) {
+    // A loop closes with the tangent it began with, and has no corner.
+    const auto ring = tamil_syllable(U"ஃ");
+    ASSERT_EQ(ring->strokes.size(), 3u);
+    for (const LetterStroke& stroke : ring->strokes) {
+        EXPECT_TRUE(stroke.is_closed);
+        ASSERT_EQ(stroke.pieces.size(), 4u);
+        glm::dvec2 centre(0.0);
+        for (const auto& piece : stroke.pieces) centre += piece.end / 4.0;
+        glm::dvec2 from = stroke.start;
+        for (const auto& piece : stroke.pieces) {
+            EXPECT_TRUE(piece.is_curve);
+            for (const double t : {0.25, 0.5, 0.75}) {
+                const double s = 1 - t;
+                const glm::dvec2 at = s * s * s * from + 3 * s * s * t * piece.first + 3 * s * t * t * piece.second +
+                                      t * t * t * piece.end;
+                EXPECT_NEAR(glm::distance(at, centre), 4.4, 0.003);
+            }
+            from = piece.end;
+        }
+    }
 }
 
 }  // namespace
