@@ -121,6 +121,7 @@ public:
             collect([&] { read_track(track); });
         }
         throw_if_any();
+        add_remarks();
         check_sections(*tracks, form);
         read_frame();
         return std::move(result_);
@@ -328,6 +329,7 @@ private:
             }
         }
         diagnostics.throw_if_errors();
+        if (std::find(inner_.begin(), inner_.end(), track.pattern) != inner_.end()) note_replaced(document, track);
         for (const PlacedSetting& one : track.settings) {
             collect([&] { document = with(document, one); });
         }
@@ -338,6 +340,31 @@ private:
         if (unplayable.has_errors()) fail(value, unplayable.list().front().message);
         result_.tracks.push_back(
             {std::move(document), std::move(track.pattern), track.section, std::move(track.name)});
+    }
+
+    /// Notes the keys of a pattern of this file that keys above the tracks replace.
+    void note_replaced(const Document& document, const TrackKeys& track) {
+        for (const PlacedSetting& one : shared_) {
+            const std::string& key = one.setting.key;
+            const Key* stated = document.pattern().find(key);
+            if (!stated || stated->value.view() == one.setting.value) continue;
+            // The track may set the key itself.
+            const bool is_own = std::any_of(track.settings.begin() + static_cast<std::ptrdiff_t>(shared_.size()),
+                                            track.settings.end(),
+                                            [&](const PlacedSetting& own) { return own.setting.key == key; });
+            auto& keys = replaced_[track.pattern];
+            if (!is_own && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+        }
+    }
+
+    void add_remarks() {
+        for (const auto& [pattern, keys] : replaced_) {
+            if (keys.empty()) continue;
+            result_.remarks.push_back(
+                fmt::format("'{}' states {} itself, but the piece's, above the tracks, {}; to keep its own, state it in "
+                            "the tracks instead",
+                            printable(pattern), fmt::join(keys, ", "), keys.size() == 1 ? "applies" : "apply"));
+        }
     }
 
     /// @throws FileError at the place of the setting
@@ -397,6 +424,7 @@ private:
     const PatternReader& read_;
     std::map<std::string, NamedPattern> known_;
     std::vector<std::string> inner_;
+    std::map<std::string, std::vector<std::string>> replaced_;  ///< keys by pattern
     std::vector<PlacedSetting> shared_;
     std::vector<FileError> errors_;
     Arrangement result_;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -250,6 +251,17 @@ std::string range_of(const PlayReport& report, const Melody& melody) {
     return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
 }
 
+namespace {
+
+/// The title of a pattern, or the name of its file.
+std::string name_of(const Document& document) {
+    const std::string title = document.text("title");
+    const std::string file = std::filesystem::path(document.source().name()).stem().string();
+    return !title.empty() ? printable(title) : file.empty() || file == "-" ? "(untitled)" : printable(file);
+}
+
+}  // namespace
+
 std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped) {
     constexpr std::size_t most_named = 8;
     std::vector<std::pair<std::string, std::uint64_t>> counts(skipped.begin(), skipped.end());
@@ -270,7 +282,6 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
     for (const Player& player : players) {
         if (player.is_bass) continue;
         const Melody& melody = player.melody;
-        const std::string title = player.document.text("title");
         const bool is_arranged = melody.layout.needs_whole();
         const bool is_all = is_whole && !has_excerpt(player) && !is_arranged;
         const auto known = is_all ? census(player.document.grammar(), melody) : std::nullopt;
@@ -284,8 +295,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
             if (!known) throw;
         }
         const auto out = std::back_inserter(text);
-        fmt::format_to(out, "{}, n = {}\n", title.empty() ? "(untitled)" : printable(title),
-                       player.document.grammar().steps());
+        fmt::format_to(out, "{}, n = {}\n", name_of(player.document), player.document.grammar().steps());
         const Integer notes = played ? Integer(played->notes) : known->notes;
         const Integer ticks = played ? Integer(played->end) : known->ticks;
         // Several parts slow down together.

@@ -407,6 +407,7 @@ public:
         EnsembleReport report = has_tempo ? play_into(nobody, playing) : play_all(ensemble_, playing, nobody);
         if (!has_tempo) report.seconds = seconds_of(report.end, {});
         report_notes(ensemble_, playing, report, made);
+        report_replaced(made);
         // A single part is described already, unless its tempo changes.
         const bool is_alone = !arrangement_ && ensemble_.players.size() == 1 && !has_tempo;
         if (!is_alone) text += "together\n";
@@ -417,6 +418,29 @@ public:
     }
 
 private:
+    /// Warns of options that this format cannot express.
+    void warn_of_unused(Made& made) const {
+        const auto warn = [&](const std::string& option, const char* reason) {
+            made.warn(fmt::format("'{}' has no effect: {}", option, reason));
+        };
+        if (settings_.format != 1 && format_ != ScoreFormat::midi)
+            warn("midi-format", "it applies only to MIDI files");
+        if (settings_.tuning != Tuning::bend && !is_midi()) warn("tuning", "it applies only to MIDI and sound");
+        if (settings_.humanise > 0 && is_printed(format_) && format_ != ScoreFormat::strudel) {
+            warn("humanise", "printed scores are exact");
+        }
+        for (const Setting& key : settings_.keys) {
+            if (!is_printed(format_)) break;
+            if (key.key == "pan" || key.key == "controller") warn(key.key, "it is heard, not printed");
+            if (key.key == "gamaka") warn(key.key, "gamakas are heard, not printed");
+            if (key.key == "swing") warn(key.key, "eighths are printed straight");
+        }
+    }
+    /// Reports keys of the piece that replace those of patterns within it.
+    void report_replaced(Made& made) const {
+        if (!arrangement_) return;
+        for (const std::string& remark : arrangement_->remarks) made.fact(remark);
+    }
     PlayReport play_alone(const Player& player, const PlayOptions& playing) const {
         Ensemble alone;
         alone.players = {player};
@@ -647,6 +671,7 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
             break;
     }
     report_notes(ensemble_, playing, report, made);
+    report_replaced(made);
     if (notation) report_notation(*notation, ensemble_, made);
     const bool is_commented = format_ == ScoreFormat::abc || format_ == ScoreFormat::lilypond ||
                               format_ == ScoreFormat::csd || format_ == ScoreFormat::sco ||
@@ -665,6 +690,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     for (const Player& player : ensemble_.players) {
         for (const std::string& warning : player.warnings) made.warn(warning);
     }
+    warn_of_unused(made);
     monitor_ = monitor;
     name_ = name;
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);

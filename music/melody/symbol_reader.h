@@ -24,7 +24,7 @@ public:
           entries_(entries_of(grammar, melody)),
           moves_sound_(entries_.empty() && draws_nothing(grammar)),
           origin_(melody.anchor == Anchor::piece && entries_.empty() ? unknown : 0) {
-        if (!entries_.empty()) skipped_.assign(grammar.symbols().size(), 0);
+        skipped_.assign(grammar.symbols().size(), 0);
         emitter_.take(state_.line, 0);
     }
 
@@ -59,6 +59,7 @@ public:
                 case Kind::turn:
                     if (info.letter == "+") ++state_.degree;
                     if (info.letter == "-") --state_.degree;
+                    if (!info.arguments.empty() || info.arity > 0) ++skipped_[symbol];
                     state_.turned = sign_of(command.angle);
                     break;
                 case Kind::open:
@@ -85,7 +86,7 @@ public:
                 case Kind::mark:
                 case Kind::level:
                 case Kind::nothing:
-                    if (!skipped_.empty()) ++skipped_[symbol];
+                    ++skipped_[symbol];
                     break;
             }
         }
@@ -93,7 +94,10 @@ public:
 
     void report_skipped(PlayReport& report) const override {
         for (std::size_t symbol = 0; symbol < skipped_.size(); ++symbol) {
-            if (skipped_[symbol] > 0) report.skipped[grammar_.symbols()[symbol].letter] += skipped_[symbol];
+            if (skipped_[symbol] == 0) continue;
+            const SymbolInfo& info = grammar_.symbols()[symbol];
+            const bool is_turn = kind_of(info.command, moves_sound_) == Kind::turn;
+            report.skipped[is_turn ? "parameter of " + info.letter : info.letter] += skipped_[symbol];
         }
         if (!entries_.empty()) report.unused = unused_rows(grammar_, melody_.table);
     }
@@ -310,7 +314,7 @@ private:
     int level_;             // level of the next note
     bool may_stop_;
     std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
-    std::vector<std::uint64_t> skipped_;  // by symbol; empty without a table
+    std::vector<std::uint64_t> skipped_;  // by symbol; of turns, those whose parameter has no effect
     bool moves_sound_;                    // the word has no F: its f are notes
     std::int64_t origin_;
     State state_;

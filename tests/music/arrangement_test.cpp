@@ -280,6 +280,56 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
               (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
 }
 
+TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
+    const auto facts = [](const std::string& text) {
+        MemoryDestination memory;
+        std::string all;
+        for (const Remark& remark : plan_score(read(text), "mid", {})->make(memory, "score", {}).remarks) {
+            all += remark.text + "\n";
+        }
+        return all;
+    };
+    const std::string drone =
+        "[[pattern]]\nname = \"drone\"\ntext = \"\"\"\naxiom: FF\nscale: major\ntonic: C3\nunit: 1/4\n\"\"\"\n";
+    const std::string head = "scale = \"dorian\"\ntonic = \"D4\"\n";
+    const std::string told = facts(head + drone + track("", "drone") + track("start = 2\n", "drone"));
+    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the piece's, above the tracks, apply"),
+              std::string::npos)
+        << told;
+    EXPECT_EQ(told.find("'drone'"), told.rfind("'drone'")) << "once";
+    // The track decides for itself, or the piece says the same.
+    EXPECT_EQ(facts(head + drone + track("scale = \"minor\"\ntonic = \"C3\"\n", "drone")).find("'drone'"),
+              std::string::npos);
+    EXPECT_EQ(facts("scale = \"major\"\n" + drone + track("", "drone")).find("'drone'"), std::string::npos);
+    // Patterns of other files are meant to be played in the key of the piece.
+    EXPECT_EQ(facts(head + track("")).find("itself"), std::string::npos);
+    EXPECT_TRUE(describe_score(read(head + drone + track("", "drone")), {}, {}).starts_with("drone, n = 0\n"));
+}
+
+/// Options that a format of scores cannot express change nothing, and a warning says so.
+TEST(ScoreOptions, AreAppliedOrReported) {
+    const Document document = parse(
+        "h.lsys", "axiom: X\nX --> +YF-XFX-FY+\nY --> -XF+YFY+FX-\nderivation length: 2\nangle increment: 90\n");
+    const auto warnings_of = [&](const std::string& format, const OptionValues& values) {
+        MemoryDestination memory;
+        const Made made = plan_score(std::span(&document, 1), format, values)->make(memory, "score." + format, {});
+        std::string warnings;
+        for (const Remark& remark : made.remarks) {
+            if (remark.is_warning) warnings += remark.text + "\n";
+        }
+        return warnings;
+    };
+    const OptionValues options = {{"midi-format", "0"}, {"tuning", "mts"},         {"humanise", "0.5"},
+                                  {"pan", "by x"},      {"controller", "74 by y"}, {"swing", "66"}};
+    for (const char* format : {"mid", "musicxml", "ly", "abc"}) {
+        for (const auto& [name, value] : options) {
+            const std::string warnings = warnings_of(format, {{name, value}});
+            const bool is_told = warnings.find("'" + name + "' has no effect: ") != std::string::npos;
+            EXPECT_EQ(is_told, std::string(format) != "mid") << name << " as " << format;
+        }
+    }
+}
+
 TEST(Arrangement, WarnsOfSharedPan) {
     const auto tracks = [](int count, const std::string& keys, const std::string& pattern = "steps") {
         std::string text;

@@ -269,6 +269,16 @@ TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
     EXPECT_NE(describe_score(std::span(&document, 1), {}, {}).find("skipped   5 Y, 2 X\n"), std::string::npos);
 }
 
+TEST(SymbolTable, WhatIsSkippedIsReportedWithoutATable) {
+    const Document document = parse("d.lsys", head + "axiom: F+(3)F!;CDF-(1)+\n");
+    MemoryDestination files;
+    const Made made = plan_score(std::span(&document, 1), "mid", {})->make(files, "x.mid", {});
+    ASSERT_EQ(made.remarks.size(), 2u);
+    EXPECT_EQ(made.remarks[1].text, "skipped: 1 !, 1 ;, 1 C, 1 D, 1 parameter of +, 1 parameter of -");
+    const Document plain = parse("d.lsys", head + "axiom: F+F-F[+F]f\n");
+    EXPECT_EQ(plan_score(std::span(&plain, 1), "mid", {})->make(files, "y.mid", {}).remarks.size(), 1u);
+}
+
 TEST(SymbolTable, TracksOfArrangements) {
     const auto read = [](const std::string& text) {
         return read_arrangement("a.toml", text, [](const std::string& name) {
