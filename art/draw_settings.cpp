@@ -33,7 +33,7 @@ bool is_true(const std::string& text) {
 
 double length(const char* option, const std::string& text, double dpi) {
     const auto value = parse_length(text, dpi);
-    if (!value) refuse_option(option, text, "expected a length such as 5mm, 1.5cm, 2in, 12pt or 300px");
+    if (!value) refuse_option(option, text, "expected a length such as 5mm, 1.5cm, 0.5m, 2in, 12pt or 300px");
     return *value;
 }
 
@@ -73,11 +73,11 @@ void set_repeat(DrawSettings& settings, const std::string& text) {
     if (settings.repeat) return;
     std::string names;
     for (const std::string_view name : repeat_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-    refuse_option(
-        "repeat", text,
-        fmt::format("expected a group and its cells, such as frieze:5, p4m:3x4, p4m:fill or ring:8, up to {} copies, "
-                    "then ,gap=2 in steps or ,gap=5%; groups are {}",
-                    most_copies, names));
+    refuse_option("repeat", text,
+                  fmt::format("expected a group and its cells, such as frieze:5, frieze:fill, p4m:3x4, p4m:fill or "
+                              "ring:8, up to {} copies, "
+                              "then ,gap=2 in steps or ,gap=5%; groups are {}",
+                              most_copies, names));
 }
 
 /// Parses `only`, `SIZE COLOUR`, or `only SIZE COLOUR`.
@@ -527,12 +527,14 @@ const std::array own_rows = {
          .kind = flag},
         [](S& s, Text t) { s.plotter = is_true(t); }},
     // Stands before the options that override its settings.
-    Option<S>{{.name = "profile",
-               .help = "plotter: axidraw, grbl, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
-               .value = "NAME|FILE",
-               .group = plotters,
-               .names_file = is_profile_file},
-              set_profile},
+    Option<S>{
+        {.name = "profile",
+         .help =
+             "plotter: axidraw, grbl, grbl-laser, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
+         .value = "NAME|FILE",
+         .group = plotters,
+         .names_file = is_profile_file},
+        set_profile},
     Option<S>{{.name = "split",
                .help = "maximum length of a stroke, for controllers that stutter",
                .value = "LENGTH",
@@ -768,6 +770,30 @@ std::span<const Option<DrawSettings>> draw_options() {
     return table;
 }
 
+namespace {
+
+/// The paper in an HP-GL plotter, as its unit makes it.
+std::optional<HpglPaper> plotter_paper(const DrawSettings& settings) {
+    const std::optional<PlotterProfile>& profile = settings.profile;
+    std::optional<HpglPaper> paper = settings.paper;
+    if (!paper && profile && profile->paper) paper = paper_for(*profile->paper, settings.page);
+    if (paper && profile) paper = with_unit(*paper, profile->unit);
+    return paper;
+}
+
+/// Widens the margin until the plotter reaches everything within it, if the page leaves room for that.
+void widen_margin(DrawSettings& settings) {
+    const std::optional<HpglPaper> paper = plotter_paper(settings);
+    if (!paper) return;
+    Page& page = settings.page;
+    const double margin = hpgl_margin(*paper, page);
+    if (margin <= page.margin || 2 * margin >= std::min(page.width, page.height)) return;
+    page.margin = margin;
+    settings.widens_margin = true;
+}
+
+}  // namespace
+
 DrawSettings read_draw_settings(const OptionValues& values, const std::filesystem::path* folder) {
     DrawSettings settings;
     for (const OptionValue& value : values) {
@@ -784,6 +810,9 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
     settings.gcode.travel_feed = 60 * settings.speeds.travelling;
     Page& page = settings.page;
     if (settings.landscape && page.height > page.width) std::swap(page.width, page.height);
+    const bool has_margin =
+        std::any_of(values.begin(), values.end(), [](const OptionValue& value) { return value.name == "margin"; });
+    if (!has_margin) widen_margin(settings);
     if (!(2 * page.margin < std::min(page.width, page.height))) {
         refuse_option("margin", fmt::format("{:g}mm", page.margin),
                       fmt::format("the margins leave nothing of a page of {:g} x {:g} mm", page.width, page.height));
@@ -855,9 +884,9 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     setup.gcode = settings.gcode;
     setup.gcode.rules = plot.rules;
     setup.gcode.park = plot.park;
-    setup.hpgl = {settings.paper, plot.park, plot.rules, settings.speeds.drawing};
+    setup.hpgl = {plotter_paper(settings), plot.park, plot.rules, settings.speeds.drawing};
     if (!profile) return setup;
-    if (!settings.paper && profile->paper) setup.hpgl.paper = paper_for(*profile->paper, settings.page);
+    setup.hpgl.unit = profile->unit;
     setup.layer_codes = profile->layers;
     return setup;
 }

@@ -81,6 +81,7 @@ struct DrawSettings {
     double pen_width = 0.0;                 ///< width of the plotter's pen; 0: the width of each stroke
     int pens = 0;                           ///< maximum number of pens; 0: no limit
     std::optional<HpglPaper> paper;         ///< sheet or limits of an HP-GL plotter
+    bool widens_margin = false;             ///< the margin is the one that the plotter needs
     bool travel = false;                    ///< show pen-up travel
     std::optional<PlotterProfile> profile;  ///< the plotter, whose speeds and G-code are the defaults
     std::vector<PenRule> pen_rules;         ///< settings of single pens, which replace those of the profile

@@ -2,6 +2,7 @@
 
 #include "art/style/colour.h"
 #include "engine/base/text.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,32 @@ void warn_of_unused(const PlotReport& plot, std::span<const PenRule> rules, Made
 }
 
 }  // namespace
+
+void warn_of_letters(const std::string& missing, Made& made) {
+    if (missing.empty()) return;
+    made.warn(letters_warning(missing));
+}
+
+std::string faint_text(const FaintInk& ink) {
+    const char* const what = ink.kind == FaintInk::Kind::lines   ? "lines"
+                             : ink.kind == FaintInk::Kind::discs ? "dots"
+                                                                 : "fields";
+    const char* const key = ink.kind == FaintInk::Kind::lines   ? "'stroke'"
+                            : ink.kind == FaintInk::Kind::discs ? "'dots'"
+                                                                : "'powders'";
+    const std::string colour = colour_name(ink.ink), ground = colour_name(ink.ground);
+    return fmt::format("{} in {} can hardly be seen on {}; set the colour of {}, or 'ground'", what, colour,
+                       colour == ground ? "a ground of the same colour" : "a ground in " + ground, key);
+}
+
+void warn_of_faint_inks(std::span<const FaintInk> inks, Made& made) {
+    std::vector<std::string> texts;
+    for (const FaintInk& ink : inks) {
+        const std::string text = faint_text(ink);
+        if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+    }
+    for (const std::string& text : texts) made.warn(text);
+}
 
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made) {
     warn_of_unused(plot, rules, made);
@@ -58,8 +85,12 @@ void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& m
     made.warn("'name-tiles' has no effect: this drawing has no filled polygons with straight edges");
 }
 
-void report_hpgl(const PlotReport& plot, const Page& page, const HpglOptions& options, Made& made) {
-    made.fact("HP-GL: " + describe_hpgl(page, options));
+void report_hpgl(const PlotReport& plot, const DrawSettings& settings, const HpglOptions& options, Made& made) {
+    made.fact("HP-GL: " + describe_hpgl(settings.page, options));
+    if (settings.widens_margin) {
+        made.fact(
+            fmt::format("the margin is {:g} mm, beyond which the plotter does not reach", settings.page.margin));
+    }
     constexpr std::size_t most = 8;
     const std::size_t pens = plot.colours - plot.merged.size();
     if (pens <= most) return;

@@ -19,12 +19,21 @@ namespace sikku {
 /// @param tiles  number of filled polygons
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made);
 
+/// Warns that a text has characters that the lettering lacks. @param missing  list of them; empty: none
+void warn_of_letters(const std::string& missing, Made& made);
+
+/// A warning that an ink is hardly visible.
+std::string faint_text(const FaintInk& ink);
+/// Warns of inks that are hardly visible, once of each kind and colour.
+void warn_of_faint_inks(std::span<const FaintInk> inks, Made& made);
+
 /// Adds the lengths and the time before and after arranging, and the merged pens.
 /// @param rules  requested for single pens; those for pens that the plot does not use are reported
 void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<const PenRule> rules, Made& made);
 
-/// Reports the position of an HP-GL plot, and that it needs more pens than plotters hold.
-void report_hpgl(const PlotReport& plot, const Page& page, const HpglOptions& options, Made& made);
+/// Reports the position of an HP-GL plot, a margin that the plotter needs, and that it needs more pens than plotters
+/// hold.
+void report_hpgl(const PlotReport& plot, const DrawSettings& settings, const HpglOptions& options, Made& made);
 
 /// Warnings that requested dots, fields, weaves or parallel lines were not drawn as requested.
 /// @param report  of this drawing, after it was drawn

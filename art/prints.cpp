@@ -6,6 +6,7 @@
 #include "art/drawing/division_file.h"
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
+#include "art/drawing/faint_inks.h"
 #include "art/drawing/growth.h"
 #include "art/drawing/lesson.h"
 #include "art/drawing/lesson_drawing.h"
@@ -16,6 +17,7 @@
 #include "art/print_cell.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet.h"
+#include "art/unused_options.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lettering.h"
@@ -105,11 +107,12 @@ void report_relief(const ReliefReport& report, Made& made) {
 class PrintWork : public Work {
 public:
     /// @throws SettingError, PatternError
-    PrintWork(const Document& document, PrintFormat format, DrawSettings settings,
+    PrintWork(const Document& document, PrintFormat format, DrawSettings settings, GivenOptions given,
               const std::filesystem::path& folder)
         : document_(settings.keys.empty() ? document : document.with(settings.keys)),
           format_(format),
           settings_(std::move(settings)),
+          given_(std::move(given)),
           folder_(folder) {
         print_.style = read_print_style(document_, settings_);
         print_.page = settings_.page;
@@ -162,6 +165,7 @@ private:
         drawing_.dot_spacing = settings_.dot_spacing;
         if (settings_.swatch_place) take_swatch(*settings_.swatch_place);
         drawing_.threads = settings_.threads;
+        drawing_.lists_contents = needs_contents(given_);
         drawing_.compression = settings_.compression.value_or(print_.style.hand > 0 ? 4 : 6);
         if (settings_.tile) drawing_.tiles = tile_options(settings_);
         static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
@@ -278,7 +282,7 @@ private:
     void make_division(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                        Made& made);
     void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
-                    const std::vector<SheetCell>& cells);
+                    const std::vector<SheetCell>& cells, Made& made);
     std::vector<SheetCell> generation_cells() const;
     std::vector<SheetCell> lesson_cells(const DrawOptions& options) const;
     void make_lesson(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -289,9 +293,11 @@ private:
     Document document_;
     PrintFormat format_;
     DrawSettings settings_;
+    GivenOptions given_;
     Print print_;
     DrawOptions drawing_;
     std::filesystem::path folder_;
+    DrawReport report_;                                       ///< of the drawing, once it is made
     std::string dropped_border_;                              ///< warning; empty: none
     std::vector<std::pair<std::string, std::string>> files_;  ///< of borders and surfaces
 };
@@ -299,6 +305,13 @@ private:
 void PrintWork::make_model(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                            Made& made) {
     const ModelReport report = draw_model(document_.grammar(), print_, options, format_, name, destination);
+    if (options.lists_contents) {
+        const auto drawing = make_drawing(document_.grammar(), print_.style, options);
+        Print print = print_;
+        drawing->place(print);
+        print.style = drawing->style();
+        report_.contents = contents_of(*drawing, print);
+    }
     made.fact(counted(report.triangles, "triangle") + ", " + counted(report.materials, "material"));
 }
 
@@ -365,7 +378,7 @@ std::vector<SheetCell> PrintWork::lesson_cells(const DrawOptions& options) const
 
 /// Makes a sheet of drawings side by side.
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
-                           const std::vector<SheetCell>& cells) {
+                           const std::vector<SheetCell>& cells, Made& made) {
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
     SheetOptions sheet;
     sheet.format = options.format;
@@ -384,13 +397,22 @@ void PrintWork::make_sheet(Destination& destination, const std::filesystem::path
     sheet.compression = options.compression;
     sheet.monitor = options.monitor;
     sheet.watch = options.watch;
-    draw_sheet(cells, sheet, name, destination);
+    const SheetLayout layout = draw_sheet(cells, sheet, name, destination);
+    warn_of_letters(layout.missing_letters, made);
+    std::vector<FaintInk> faint;
+    for (const DrawReport& report : layout.reports)
+        faint.insert(faint.end(), report.faint.begin(), report.faint.end());
+    warn_of_faint_inks(faint, made);
 }
 
 void PrintWork::make_lesson(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                             Made& made) {
+    const Style& style = print_.style;
+    if (style.ground && style.ground->alpha == 255 && is_faint(style.line_colour({}), *style.ground)) {
+        made.warn(faint_text({FaintInk::Kind::lines, style.line_colour({}), *style.ground}));
+    }
     if (info(format_).kind == FormatKind::pixels)
-        return make_sheet(destination, name, options, lesson_cells(options));
+        return make_sheet(destination, name, options, lesson_cells(options), made);
     LessonOptions lesson;
     lesson.seconds = *settings_.lesson * 2 / 3;
     lesson.pause = *settings_.lesson / 3;
@@ -404,12 +426,26 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
                            Made& made) {
     // Before the drawing, which may take long.
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
-    const DrawReport report = draw(document_.grammar(), print_, options, name, destination);
+    report_ = draw(document_.grammar(), print_, options, name, destination);
+    const DrawReport& report = report_;
     report_text(report, name, made);
+    std::vector<std::string> texts = {options.title_line, options.edition, report.sheets > 1 ? print_.title : ""};
+    for (const LabelText& label : document_.grammar().labels()) {
+        for (const LabelText::Part& part : label.parts) texts.push_back(part.text);
+    }
+    warn_of_letters(missing_letters(texts), made);
+    warn_of_faint_inks(report.faint, made);
     if (report.copies > 0) {
         made.fact(fmt::format("{}: {}, {}", settings_.repeat->group,
                               report.copies == 1 ? "1 copy" : fmt::format("{} copies", report.copies),
                               counted(report.strokes.value_or(0), "line")));
+    }
+    constexpr double half = 0.55, most = 0.7;
+    if (report.copies > 0 && report.covered > 0 && report.covered < half && report.covered_by_moves > most) {
+        made.fact(
+            fmt::format("the copies cover only {:.0f} % of {}, whose units have another shape than the drawing; "
+                        "p1 covers {:.0f} %",
+                        100 * report.covered, settings_.repeat->group, 100 * report.covered_by_moves));
     }
     for (const std::string& warning : drawing_warnings(report, print_.style, settings_, report.plot.has_value())) {
         made.warn(warning);
@@ -445,7 +481,7 @@ void PrintWork::make_print(Destination& destination, const std::filesystem::path
         made.warn("'hatch' has no effect: this drawing has no fills");
     }
     if (!report.is_empty) warn_of_no_tiles(report.polygons, settings_, made);
-    if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, print_.page, options.hpgl, made);
+    if (report.plot && format_ == PrintFormat::hpgl) report_hpgl(*report.plot, settings_, options.hpgl, made);
     if (report.sheets > 0) report_sheets(report, made);
     if (settings_.swatch_place) report_swatch(*settings_.swatch_place, print_, settings_.swatch_stretch, made);
     if (settings_.fills_page) made.fact(fmt::format("derivation length {}", document_.grammar().steps()));
@@ -492,11 +528,14 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     } else if (settings_.lesson) {
         make_lesson(destination, name, options, made);
     } else if (settings_.generations) {
-        make_sheet(destination, name, options, generation_cells());
+        make_sheet(destination, name, options, generation_cells(), made);
     } else {
         make_print(destination, name, options, made);
     }
-    for (const std::string& text : space_warnings(settings_, document_.grammar().is_spatial(), format_)) {
+    const bool is_spatial = document_.grammar().is_spatial();
+    for (const std::string& text : space_warnings(settings_, is_spatial, format_)) made.warn(text);
+    if (is_spatial && needs_contents(given_)) report_.contents = contents_in_space(document_.grammar());
+    for (const std::string& text : unused_options(given_, settings_, print_.style, format_, is_spatial, report_)) {
         made.warn(text);
     }
     return made;
@@ -668,15 +707,16 @@ std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat form
     DrawSettings settings = read_draw_settings(with_resolution(values, format), &folder);
     if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
     check_draw_settings(settings, format);
+    GivenOptions given = given_options(values, document.source().text());
     if (settings.swatch != SwatchChoice::none) {
         const Document longer = take_swatch(document, settings, format);
-        return std::make_unique<PrintWork>(longer, format, std::move(settings), folder);
+        return std::make_unique<PrintWork>(longer, format, std::move(settings), std::move(given), folder);
     }
     if (settings.fills_page) {
         const Document longer = fill_page(document, settings);
-        return std::make_unique<PrintWork>(longer, format, std::move(settings), folder);
+        return std::make_unique<PrintWork>(longer, format, std::move(settings), std::move(given), folder);
     }
-    return std::make_unique<PrintWork>(document, format, std::move(settings), folder);
+    return std::make_unique<PrintWork>(document, format, std::move(settings), std::move(given), folder);
 }
 
 class Prints : public Interpreter {

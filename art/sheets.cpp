@@ -9,6 +9,7 @@
 #include "art/sheet/sheet.h"
 #include "art/style/length.h"
 #include "engine/base/text.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 
@@ -218,7 +219,7 @@ public:
         const SheetLayout layout = draw_sheet(cells_, options, name, destination);
         if (layout.plot) report_plot(*layout.plot, shared_.page.speeds, shared_.page.pen_rules, made);
         if (layout.plot && format_ == PrintFormat::hpgl) {
-            report_hpgl(*layout.plot, shared_.page.page, options_.hpgl, made);
+            report_hpgl(*layout.plot, shared_.page, options_.hpgl, made);
         }
         report_drawings(layout, made);
         return made;
@@ -243,14 +244,18 @@ private:
             const DrawReport& report = layout.reports[i];
             has_fields = has_fields || report.fields > 0;
             const bool fills_page = cell.repeat && cell.repeat->fills;
+            const std::string missing = missing_letters({cell.title_line, cell.edition});
+            if (!missing.empty()) warn(letters_warning(missing), cell.title);
             if (layout.windows[i].clips && !fills_page) warn("larger than its place and cut off", cell.title);
             for (const std::string& text :
                  drawing_warnings(report, cell.style, settings_[i], layout.plot.has_value()))
                 warn(text, cell.title);
+            for (const FaintInk& ink : report.faint) warn(faint_text(ink), cell.title);
             for (const std::string& text : space_warnings(settings_[i], cell.grammar->is_spatial(), format_)) {
                 warn(text, cell.title);
             }
         }
+        warn_of_letters(layout.missing_letters, made);
         for (const auto& [text, titles] : warnings) made.warn(fmt::format("{}: {}", titles, text));
         if (layout.plot && shared_.page.hatch && layout.plot->fills == 0 && !has_fields) {
             made.warn("'hatch' has no effect: these drawings have no fills");

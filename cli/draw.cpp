@@ -62,7 +62,6 @@ void run(const DrawCommand& command, bool quiet) {
         return prints().plan(assigned.document, format, assigned.options);
     });
     make(*work, command.output, quiet);
-    report_compression(format, assigned.options, quiet);
 }
 
 }  // namespace

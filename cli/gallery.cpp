@@ -343,6 +343,7 @@ void run(Options& options, bool quiet) {
         tell("sikku: {}{} failed: {}\n", job.place.empty() ? "" : job.place + ": ", printable(job.file(), 2000),
              printable_lines(with_force(message), 2000));
     }
+    for (const std::string& warning : result.warnings) tell("sikku: warning: {}\n", printable(warning, 2000));
     for (const std::string& trouble : result.troubles)
         tell("sikku: {}\n", printable_lines(with_force(trouble), 2000));
     if (!result.failures.empty() || !result.troubles.empty()) throw CLI::RuntimeError(1);

@@ -93,6 +93,31 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
     return {random_states(grid, random), random.symmetry};
 }
 
+/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; looked for as
+/// long as that is quick.
+std::optional<std::uint64_t> same_seed(const KolamGridOptions& options, const DotGrid& grid, const MadeKolam& made) {
+    constexpr std::uint64_t most_seeds = 100;
+    constexpr std::size_t most_gaps = 1000;
+    constexpr int most_attempts = 20;
+    if (options.crossings || options.seed > most_seeds || grid.gaps().size() > most_gaps) return std::nullopt;
+    const GapStates canonical = canonical_states(grid, made.states);
+    RandomKolam random{.joined = options.joined, .symmetry = made.symmetry, .connects = !options.density};
+    random.density = options.density.value_or(random.density);
+    std::uint64_t steps = 5'000'000;
+    for (random.seed = 0; random.seed < options.seed; ++random.seed) {
+        GapStates states;
+        if (options.single_line) {
+            auto found = find_single_line(grid, random, most_attempts, stop_monitor(), &steps);
+            if (!found) continue;
+            states = std::move(found->states);
+        } else {
+            states = random_states(grid, random);
+        }
+        if (canonical_states(grid, states) == canonical) return random.seed;
+    }
+    return std::nullopt;
+}
+
 /// The second count, where it takes seconds at most.
 std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& states) {
     const std::vector<std::uint32_t> rows = grid.rows();
@@ -181,6 +206,12 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
         if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
         tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
                     pattern.description, note);
+    }
+    if (const auto same = same_seed(options, grid, made)) {
+        tell_unless(quiet,
+                    "sikku: note: seed {} gives the same kolam as seed {}; another --density or --symmetry gives "
+                    "others\n",
+                    options.seed, *same);
     }
 }
 
@@ -324,6 +355,8 @@ void kolam_radial(const KolamGridOptions& options, bool quiet) {
 
 void kolam_grid(const KolamGridOptions& options, bool quiet) {
     const DotGrid grid = of_option("--grid", [&] { return parse_dot_grid(text_of(options.grid)); });
+    const std::string note = dot_grid_note(text_of(options.grid));
+    if (!note.empty()) tell_unless(quiet, "sikku: note: {}\n", note);
     const std::optional<GridSymmetry> symmetry = of_option("--symmetry", [&]() -> std::optional<GridSymmetry> {
         if (!options.symmetry) return std::nullopt;
         const GridSymmetry wanted = parse_grid_symmetry(*options.symmetry);

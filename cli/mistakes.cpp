@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <system_error>
 
@@ -30,7 +31,20 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
     const std::string given = argument.substr(0, argument.find('='));
-    const std::string_view near = nearest(given, {names.begin(), names.end()});
+    std::string_view near = nearest(given, {names.begin(), names.end()});
+    // Other words for the same thing.
+    constexpr std::array<std::array<std::string_view, 2>, 9> words = {{{"--tile-overlap", "--overlap"},
+                                                                       {"--paper", "--size"},
+                                                                       {"--paper-size", "--size"},
+                                                                       {"--page", "--size"},
+                                                                       {"--page-size", "--size"},
+                                                                       {"--background", "--ground"},
+                                                                       {"--resolution", "--dpi"},
+                                                                       {"--output", "-o"},
+                                                                       {"--iterations", "-n"}}};
+    for (const auto& [word, name] : words) {
+        if (word == given && command.get_option_no_throw(std::string(name))) near = name;
+    }
     return fmt::format("unknown option '{}'{}", printable(given, 80),
                        near.empty() ? fmt::format("; `sikku {} --help` lists the options", command.get_name())
                                     : fmt::format("; did you mean '{}'?", near));

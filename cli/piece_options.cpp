@@ -7,6 +7,7 @@
 #include "art/plot_remarks.h"
 #include "art/prints.h"
 #include "art/style/length.h"
+#include "engine/geometry/lettering.h"
 #include "engine/tiling/cut_list.h"
 
 #include <fmt/format.h>
@@ -120,6 +121,17 @@ void write_sheets(const PieceOptions& options, const PieceSource& source, const 
     fmt::print("{}", as_json ? cutting_json(source.title, cutting, plan, materials, files)
                              : cutting_text(source.title, cutting, plan, materials, files));
     report(options, reports, quiet);
+    constexpr double little = 0.3;
+    const bool has_colours = std::any_of(plan.sheets.begin(), plan.sheets.end(), [&](const CuttingSheet& sheet) {
+        return sheet.colour != plan.sheets.front().colour;
+    });
+    if (has_colours && plan.in_use < little && !quiet) {
+        tell(
+            "sikku: note: each colour has sheets of its own; --set 'tile colours=blank' lays all pieces on the "
+            "same\n");
+    }
+    const std::string missing = options.labels ? missing_letters({source.title}) : "";
+    if (!missing.empty() && !quiet) tell("sikku: warning: {}\n", letters_warning(missing));
 }
 
 /// Collects the colours of polygons in their order.
@@ -221,7 +233,12 @@ std::function<std::string(std::int32_t)> colour_as_drawn(const Document& documen
     DrawSettings settings;
     settings.budget = budget;
     Style style = read_print_style(document, settings);
-    if (style.tile_colours == TileColours::blank) style.tile_colours.reset();
+    TileSet& all = result.patch.tiles;
+    if (style.tile_colours == TileColours::blank) {
+        // Blank tiles are of one material.
+        std::fill(all.colour.begin(), all.colour.end(), 0);
+        return [](std::int32_t) { return std::string("blank"); };
+    }
     if (style.tile_colours) {
         DrawOptions options;
         static_cast<DrawingOptions&>(options) = drawing_options(settings, document);
@@ -235,13 +252,18 @@ std::function<std::string(std::int32_t)> colour_as_drawn(const Document& documen
         print.style = style;
         ColourReader reader;
         drawing->read(print, reader);
-        TileSet& tiles = result.patch.tiles;
+        TileSet& tiles = all;
         // Blades are polygons, but not tiles.
         if (reader.colours.size() == tiles.polygons) {
             for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
                 tiles.colour[tile] = reader.colours[tiles.number[tile] - 1];
             }
         }
+    }
+    // Indices of one colour are one material.
+    const std::vector<int> slots = style.fill_slots();
+    for (std::int32_t& colour : all.colour) {
+        colour = slots[static_cast<std::size_t>(style.index({.colour = colour}))];
     }
     return [style](std::int32_t colour) {
         return fmt::format("{} {}", colour, hex(style.fill_colour({.colour = colour})));

@@ -13,7 +13,7 @@ namespace {
 void print_profiles() {
     for (const BundledProfile& known : bundled_profiles()) {
         const PlotterProfile profile = bundled_profile(known.name).value();
-        fmt::print("{:<10}{:<8}{}\n", known.name, language_name(profile.language), profile.title);
+        fmt::print("{:<12}{:<8}{}\n", known.name, language_name(profile.language), profile.title);
     }
 }
 

@@ -14,7 +14,7 @@ studio_packages=(emscripten libfast-float-dev zopfli)
 browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth
-    timgm6mb-soundfont flac slurm-wlm munge)
+    timgm6mb-soundfont flac slurm-wlm munge librecad)
 command -v npm > /dev/null || studio_packages+=(npm)
 
 # Those of its arguments that are not installed, a line each.

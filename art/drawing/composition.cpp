@@ -1,10 +1,13 @@
 #include "art/drawing/composition.h"
 
+#include "art/drawing/faint_inks.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/point_tree.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -72,10 +75,16 @@ void Composition::add_colours() {
     if (work_) add_field_colours();
     if (style_.dots) {
         dot_pen_.colour = static_cast<int>(style_.palette.size());
-        style_.palette.push_back(style_.dots->colour.value_or(
-            options_.only_dots ? style_.ground.value_or(style_.line_colour({})) : style_.line_colour({})));
-        // To practise on, on white paper.
-        if (options_.only_dots) style_.ground = Colour{255, 255, 255, 255};
+        // To practise on, on white paper, in the colour of the ground that it replaces.
+        const Colour paper{255, 255, 255, 255};
+        Colour colour = style_.line_colour({});
+        if (options_.only_dots) {
+            if (style_.ground && style_.ground->alpha > 0 && !is_faint(*style_.ground, paper))
+                colour = *style_.ground;
+            if (is_faint(colour, paper)) colour = {0, 0, 0, 255};
+            style_.ground = paper;
+        }
+        style_.palette.push_back(style_.dots->colour.value_or(colour));
     }
 }
 
@@ -123,13 +132,21 @@ const DrawnExtent& Composition::seen() {
 }
 
 void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
-    NotedDiscs noted(sink, print.style);
-    PathSink& own = dots_.empty() ? sink : noted;
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
     if (work_ && !is_plot) work_->draw_fields(sink);
     if (work_ && is_plot && options_.plot && options_.plot->hatch) {
-        work_->hatch_fields(print, *options_.plot->hatch, options_.monitor, sink);
+        InkSink ink(print, options_.plot->pen_width);
+        read_lines_and_dots(print, window, ink);
+        PlotOptions plot = *options_.plot;
+        plot.monitor = options_.monitor;
+        work_->hatch_fields(print, plot, ink.ink, sink);
     }
+    read_lines_and_dots(print, window, sink);
+}
+
+void Composition::read_lines_and_dots(const Print& print, const Window& window, PathSink& sink) const {
+    NotedDiscs noted(sink, print.style);
+    PathSink& own = dots_.empty() ? sink : noted;
     if (work_ && work_->draws_lines()) {
         OnlyAreas areas(own);
         OldColours old(areas, drawn_);
@@ -143,6 +160,10 @@ void Composition::read(const Print& print, const Window& window, PathSink& sink)
         lines_->read(print, window, old);
     }
     read_dots(print, noted.places, sink);
+}
+
+std::vector<int> Composition::hatched_colours() const {
+    return work_ ? work_->field_colours() : std::vector<int>();
 }
 
 void Composition::read_parallel(const Print& print, PathSink& sink) const {
@@ -167,12 +188,29 @@ void Composition::read_dots(const Print& print, const std::vector<glm::dvec2>& d
     }
 }
 
+/// Distance from a dot that is alone to the ink around it, in steps.
+double Composition::room_of_dot(const Print& print) const {
+    constexpr double unlimited = 1e300;
+    if (dots_.size() != 1 || has_dots_on_lines_) return unlimited;
+    InkSink sink(print, 0);
+    lines_->read(print, whole_page(print.page), sink);
+    double least = unlimited;
+    for (const Obstacle& ink : sink.ink) {
+        const glm::dvec2 way = ink.to - ink.from;
+        const double square = glm::dot(way, way);
+        const double share =
+            square > 0 ? std::clamp(glm::dot(dots_.front() - ink.from, way) / square, 0.0, 1.0) : 0.0;
+        least = std::min(least, glm::distance(dots_.front(), ink.from + share * way) - ink.radius);
+    }
+    return least > 0 ? least : unlimited;
+}
+
 /// In steps.
 double Composition::dot_radius(const Print& print) const {
     if (!print.style.dots) return 0;
     const auto& size = print.style.dots->size;
     if (!size) {
-        const double usual = distance_ > 0 ? distance_ / 12 : 0.25;
+        const double usual = distance_ > 0 ? distance_ / 12 : std::min(0.25, room_of_dot(print) / 2);
         // A dot on a line has to stand out from it.
         const double line = print.style.line_width({}, print.placement.step) / print.placement.step;
         return has_dots_on_lines_ ? std::max(usual, line) : usual;
@@ -187,6 +225,11 @@ void Composition::report(DrawReport& report) const {
     if (work_ && style_.weave) report.woven = work_->crossings();
     if (work_ && work_->draws_lines()) report.strokes = work_->lines();
     report.parallel = parallel_;
+    const bool has_one_orbit = std::all_of(orbit_of_stroke_.begin(), orbit_of_stroke_.end(),
+                                           [&](std::uint32_t orbit) { return orbit == orbit_of_stroke_.front(); });
+    report.has_one_strand_colour =
+        options_.colours_strokes && has_one_orbit && !stroke_colours_.empty() &&
+        style_.palette[static_cast<std::size_t>(stroke_colours_.front())] == drawn_.line_colour({});
 }
 
 }  // namespace sikku

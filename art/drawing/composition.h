@@ -32,6 +32,7 @@ public:
     double dot_distance() const override { return distance_; }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
+    std::vector<int> hatched_colours() const override;
     void report(DrawReport& report) const override;
 
 private:
@@ -40,7 +41,9 @@ private:
     void add_colours();
     void add_stroke_colours();
     void add_field_colours();
+    void read_lines_and_dots(const Print& print, const Window& window, PathSink& sink) const;
     void read_parallel(const Print& print, PathSink& sink) const;
+    double room_of_dot(const Print& print) const;
     double dot_radius(const Print& print) const;
     void read_dots(const Print& print, const std::vector<glm::dvec2>& drawn, PathSink& sink) const;
 

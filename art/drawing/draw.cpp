@@ -1,6 +1,7 @@
 #include "art/drawing/draw.h"
 
 #include "art/drawing/drawing.h"
+#include "art/drawing/faint_inks.h"
 #include "art/drawing/picture.h"
 #include "art/drawing/press_inks.h"
 #include "art/drawing/tiled_print.h"
@@ -15,6 +16,7 @@
 #include "engine/base/output.h"
 #include "engine/derivation/forecast.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -36,6 +38,23 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     }
 }
 
+/// Hands on strokes in the colours of a palette in which the pens of a plot stand in the order in which they draw.
+class PensInOrder : public PathFilter {
+public:
+    PensInOrder(PathSink& sink, const std::vector<PlotPlan::PlottedPen>& pens) : Forwarding(sink) {
+        for (const PlotPlan::PlottedPen& pen : pens) places_.emplace(pen.pen.colour, places_.size());
+    }
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override { sink_.begin_stroke(start, placed(pen)); }
+    void change_pen(const Pen& pen) override { sink_.change_pen(placed(pen)); }
+    Pen placed(Pen pen) const {
+        pen.colour = static_cast<int>(places_.at(pen.colour));
+        return pen;
+    }
+
+private:
+    std::map<int, std::size_t> places_;
+};
+
 /// Forwards only polygons.
 class OnlyPolygons : public WithoutStrokes<PathFilter> {
 public:
@@ -51,6 +70,8 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     print.style = with_fill_pens(print.style);
     PlotOptions arranged = options.plot.value_or(PlotOptions{});
     arranged.monitor = options.monitor;
+    arranged.hatched = drawing.hatched_colours();
+    arranged.draws_circles = options.format == PrintFormat::dxf;
     if (options.format == PrintFormat::hpgl) {
         arranged.start = hpgl_origin(print.page, options.hpgl);
         arranged.home = arranged.start;
@@ -78,23 +99,29 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
         writer->finish();
         return;
     }
-    if (options.format == PrintFormat::svg && options.layer_codes.full_speed > 0) {
-        for (const auto& [pen, number, settings] : plan.pens()) {
-            plotted.layer_names[plotted.style.index(pen)] =
-                layer_name(number, plotted.style.line_colour(pen), settings, options.layer_codes);
+    const std::vector<PlotPlan::PlottedPen> pens = plan.pens();
+    std::vector<Colour> palette;
+    for (const auto& [pen, number, settings] : pens) {
+        const Colour colour = plotted.style.line_colour(pen);
+        if (options.format == PrintFormat::svg && options.layer_codes.full_speed > 0) {
+            plotted.layer_names[number - 1] = layer_name(number, colour, settings, options.layer_codes);
         }
+        palette.push_back(colour);
     }
     if (options.shows_travel) {
-        plotted.travel_colour = static_cast<int>(plotted.style.palette.size());
-        plotted.style.palette.push_back({0x88, 0x88, 0x88, 255});
+        plotted.travel_colour = static_cast<int>(palette.size());
+        palette.push_back({0x88, 0x88, 0x88, 255});
     }
+    plotted.style.stroke_colour.reset();
+    if (!palette.empty()) plotted.style.palette = palette;
     const auto writer = write_vectors(options.format, plotted, output);
+    PensInOrder ordered(*writer, pens);
     // A dip is a dot beside the drawing.
-    plan.draw(*writer, [&](glm::dvec2 place, const Pen& pen) {
+    plan.draw(ordered, [&](glm::dvec2 place, const Pen& pen) {
         const glm::dvec2 dot = plan.drawn_at(place);
-        writer->begin_stroke(dot, pen);
-        writer->lines(std::span(&dot, 1));
-        writer->end_stroke(false);
+        ordered.begin_stroke(dot, pen);
+        ordered.lines(std::span(&dot, 1));
+        ordered.end_stroke(false);
     });
     if (options.shows_travel) draw_travels(plan, plotted, *writer);
     writer->finish();
@@ -136,6 +163,7 @@ void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& 
         draw_plot(drawing, print, options, output, report);
     } else {
         draw_page(drawing, print, options, output, file, report);
+        report.faint = faint_inks(drawing, print);
     }
     drawing.report(report);
 }
@@ -153,6 +181,7 @@ DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_op
     DrawReport report = drawing->place(print);
     print.style = drawing->style();
     check_spots(print.press, print.style);
+    if (options.lists_contents) report.contents = contents_of(*drawing, print);
     if (options.relief) {
         report.relief = draw_relief(*drawing, print, options, file, destination);
         drawing->report(report);

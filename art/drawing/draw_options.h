@@ -21,6 +21,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -93,9 +94,10 @@ struct DrawOptions : DrawingOptions, PlotSetup {
     std::optional<ReliefOptions> relief;  ///< makes a relief in its format; `format` is that of the drawing, SVG
     /// Receives the pixels of a picture; the output file stays empty.
     std::function<void(Rendering& rendering, const PixelSize& size)> show_pixels;
-    int threads = 0;       ///< for raster formats; 0: all cores
-    int compression = 6;   ///< PNG compression, 1 (fast) to 9 (small)
-    Monitor monitor = {};  ///< polled in long stages that read no words
+    bool lists_contents = false;  ///< find the contents of the drawing for its report
+    int threads = 0;              ///< for raster formats; 0: all cores
+    int compression = 6;          ///< PNG compression, 1 (fast) to 9 (small)
+    Monitor monitor = {};         ///< polled in long stages that read no words
     /// Called once, before the word is read, with the number of passes. `watch` may have been called before.
     std::function<void(int passes)> begin;
     /// Called with the number of symbols read since the last call, and with 0 for each band of pixels; may throw to
@@ -120,12 +122,28 @@ struct ParallelReport {
     double width = 0.0;    ///< width of each line
 };
 
+/// A colour that is hardly visible on its ground.
+struct FaintInk {
+    enum class Kind : std::uint8_t { lines, discs, areas };
+    Kind kind = Kind::lines;
+    Colour ink, ground;
+};
+
+/// The kinds of shapes that a drawing has, and the palette indices they are drawn in.
+struct Contents {
+    bool has_polygons = false, has_areas = false, has_discs = false;
+    std::vector<int> lines, fills;  ///< sorted
+    bool has_fills() const { return has_polygons || has_areas || has_discs; }
+};
+
 /// Report about a finished drawing.
 struct DrawReport {
     double step = 0.0;                       ///< millimetres of one turtle step
     glm::dvec2 size{0.0};                    ///< size of the drawing with its pen, in millimetres
     glm::dvec2 room{0.0};                    ///< room on the page, within margins and border
     std::size_t dots = 0;                    ///< number of kolam dots drawn
+    double covered = 0;                      ///< share of a wallpaper that the copies cover, by their convex hulls
+    double covered_by_moves = 0;             ///< the same if the copies were only moved (p1)
     std::size_t copies = 0;                  ///< number of copies of a repeated drawing
     std::optional<std::size_t> strokes;      ///< number of lines of all copies, or of a weave before it is cut
     std::size_t fields = 0;                  ///< number of fields between lines, filled or not
@@ -142,10 +160,14 @@ struct DrawReport {
     bool lacks_worms = false;            ///< worms were asked for, and no tiles form any
     std::uint64_t replaced = 0;          ///< parts too small to be resolved, replaced by their appearance
     std::size_t cells = 0;               ///< number of cells of a map
-    bool crosses_itself = false;         ///< the outline of a map crosses itself
-    bool is_empty = false;               ///< the window contains no part of the drawing
-    bool is_blank = false;               ///< the ink of a picture is too thin to be visible
-    bool leaves_pattern_out = false;     ///< the pattern's text is too long for the format
+    std::optional<Contents> contents;    ///< if DrawOptions::lists_contents
+    bool has_one_strand_colour =
+        false;                        ///< colours by strand are those of the drawing: there is one strand, or orbit
+    std::vector<FaintInk> faint;      ///< inks that are hardly visible; not of plots
+    bool crosses_itself = false;      ///< the outline of a map crosses itself
+    bool is_empty = false;            ///< the window contains no part of the drawing
+    bool is_blank = false;            ///< the ink of a picture is too thin to be visible
+    bool leaves_pattern_out = false;  ///< the pattern's text is too long for the format
 };
 
 }  // namespace sikku

@@ -82,6 +82,9 @@ public:
         return rendering(print, whole_page(print.page));
     }
 
+    /// Palette indices of the fields between lines, which plots hatch before they draw anything else; -1 for none.
+    virtual std::vector<int> hatched_colours() const { return {}; }
+
     /// Adds the findings of read() and the renderings so far to a report.
     virtual void report(DrawReport&) const {}
 

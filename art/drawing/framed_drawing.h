@@ -26,6 +26,7 @@ public:
     double foot_space(const Page& page) const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
+    std::vector<int> hatched_colours() const override { return inner_->hatched_colours(); }
     void report(DrawReport& report) const override { inner_->report(report); }
 
 private:

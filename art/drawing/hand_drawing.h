@@ -36,6 +36,7 @@ public:
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     using Drawing::rendering;
     std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
+    std::vector<int> hatched_colours() const override { return drawing_->hatched_colours(); }
     void report(DrawReport& report) const override { drawing_->report(report); }
 
     /// The strokes of a placed print. Fills pass on to a sink. @param steps  if not null, receives those of a lesson

@@ -1,6 +1,14 @@
 #include "art/drawing/line_work.h"
 
+#include "art/kolam/segment_grid.h"
+#include "art/plotter/shading.h"
+
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace sikku {
@@ -14,6 +22,59 @@ std::vector<std::size_t> colours_of_class(std::uint32_t number, FieldsBy by, std
         if (!has_parity || count < 2 || i % 2 == number % 2) fitting.push_back(i);
     }
     return fitting;
+}
+
+/// Finds the ink near a field.
+class ObstacleGrid {
+public:
+    /// @param more  added to the radius of each
+    ObstacleGrid(const std::vector<Obstacle>& ink, double more, const Monitor& monitor) : ink_(ink), more_(more) {
+        if (ink.empty()) return;
+        glm::dvec2 low = ink.front().from, high = low;
+        double widest = 0;
+        for (const Obstacle& one : ink) {
+            low = glm::min(low, glm::min(one.from, one.to));
+            high = glm::max(high, glm::max(one.from, one.to));
+            widest = std::max(widest, one.radius);
+        }
+        const glm::dvec2 size = high - low;
+        const double cell = std::max(size.x, size.y) / (1 + std::sqrt(static_cast<double>(ink.size())));
+        grid_.emplace(low, high, cell, widest + more);
+        for (std::uint32_t i = 0; i < ink.size(); ++i) grid_->add(i, ink[i].from, ink[i].to);
+        grid_->sort(monitor);
+    }
+
+    std::vector<Obstacle> beside(std::span<const glm::dvec2> outline) const {
+        std::vector<std::uint32_t> found;
+        if (grid_) grid_->visit(outline, [&](std::uint32_t item) { found.push_back(item); });
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        std::vector<Obstacle> obstacles;
+        for (const std::uint32_t i : found) obstacles.push_back({ink_[i].from, ink_[i].to, ink_[i].radius + more_});
+        return obstacles;
+    }
+
+private:
+    const std::vector<Obstacle>& ink_;
+    double more_;
+    std::optional<kolam_plane::SegmentGrid> grid_;
+};
+
+/// The edges of an outline without those that lead to its holes and back.
+std::vector<std::pair<glm::dvec2, glm::dvec2>> edges_without_ways(std::span<const glm::dvec2> outline) {
+    using Edge = std::array<double, 4>;
+    std::vector<Edge> edges;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const glm::dvec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+        edges.push_back({from.x, from.y, to.x, to.y});
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> kept;
+    for (const auto& [x0, y0, x1, y1] : edges) {
+        if (std::binary_search(edges.begin(), edges.end(), Edge{x1, y1, x0, y0})) continue;
+        kept.emplace_back(glm::dvec2(x0, y0), glm::dvec2(x1, y1));
+    }
+    return kept;
 }
 
 }  // namespace
@@ -80,16 +141,22 @@ void LineWork::draw_fields(PathSink& sink) const {
     }
 }
 
-void LineWork::hatch_fields(const Print& print, const Hatch& hatch, const Monitor& monitor, PathSink& sink) const {
+void LineWork::hatch_fields(const Print& print, const PlotOptions& plot, const std::vector<Obstacle>& ink,
+                            PathSink& sink) const {
     const double step = print.placement.step;
-    const double width = print.style.line_width({}, step) / step;
-    const double band = bands_ ? bands_->look(print).band() : width;
-    const double spacing = hatch.spacing > 0 ? hatch.spacing / step : width;
-    const double inset = band / 2 + std::min(spacing, width) / 2;
+    const Hatch& hatch = *plot.hatch;
+    const double line = print.style.line_width({}, step);
+    // Without a pen of a given width, a stroke has a pen of its own width, which the spacing limits here.
+    const double wanted = hatch.spacing > 0 ? hatch.spacing : plot.pen_width > 0 ? plot.pen_width : line;
+    const double pen = plot.pen_width > 0 ? plot.pen_width : std::min(wanted, line);
+    const StrokeWidth& unit = print.style.stroke;
+    const double width = pen / (unit.in_steps ? step : 1.0) / unit.unit;
+    const double around = ((bands_ ? bands_->look(print).band() : 0.0) + pen / step) / 2;
     constexpr double tolerance = 0.01;  // millimetres
+    const ObstacleGrid near(ink, pen / step / 2, plot.monitor);
     std::vector<glm::dvec2> outline;
     for (const std::size_t i : fields_by_colour()) {
-        monitor.check();
+        plot.monitor.check();
         const std::vector<glm::dvec2>& curves = fields_[i].outline;
         outline.clear();
         for (std::size_t k = 0; k + 3 < curves.size(); k += 3) {
@@ -98,14 +165,47 @@ void LineWork::hatch_fields(const Print& print, const Hatch& hatch, const Monito
                     [&](glm::dvec2 at) { outline.push_back(at); });
             outline.pop_back();
         }
+        std::vector<Obstacle> obstacles = near.beside(outline);
+        for (const auto& [from, to] : edges_without_ways(outline)) obstacles.push_back({from, to, around});
         for (const glm::dvec2 along : hatch_directions(hatch, print.placement)) {
-            for (const auto& line : hatch_lines(outline, along, spacing, inset, monitor)) {
-                sink.begin_stroke(line.front(), Pen{.colour = colours_[i]});
-                sink.lines(std::span(line).subspan(1));
+            for (const auto& way :
+                 clear_hatch_lines(outline, obstacles, along, wanted / step, tolerance / step, plot.monitor)) {
+                sink.begin_stroke(way.front(), Pen{width, true, colours_[i]});
+                sink.lines(std::span(way).subspan(1));
                 sink.end_stroke(false);
             }
         }
     }
+}
+
+void InkSink::begin_stroke(glm::dvec2 start, const Pen& pen) {
+    at_ = start;
+    change_pen(pen);
+}
+void InkSink::change_pen(const Pen& pen) {
+    const double step = print_.placement.step;
+    radius_ = print_.style.draws(pen) ? std::max(print_.style.line_width(pen, step), pen_) / step / 2 : 0.0;
+}
+void InkSink::lines(std::span<const glm::dvec2> ends) {
+    for (const glm::dvec2 end : ends) {
+        if (radius_ > 0) ink.push_back({at_, end, radius_});
+        at_ = end;
+    }
+}
+void InkSink::curves(std::span<const glm::dvec2> controls) {
+    constexpr double tolerance = 0.01;  // millimetres
+    for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+        flatten(at_, controls[i], controls[i + 1], controls[i + 2], tolerance / print_.placement.step,
+                [&](glm::dvec2 end) {
+                    lines({&end, 1});
+                });
+    }
+}
+void InkSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
+    const double step = print_.placement.step;
+    if (print_.style.fill_colour(pen).alpha == 0) return;
+    const double wide = print_.style.disc_radius(radius, pen, step);
+    ink.push_back({centre, centre, spiral_reach(wide, pen_ > 0 ? pen_ : print_.style.line_width(pen, step)) / step});
 }
 
 double LineWork::parallel_width() const {

@@ -5,7 +5,8 @@
 #include "art/drawing/word_drawing.h"
 #include "art/kolam/fields.h"
 #include "art/kolam/kolam.h"
-#include "art/plotter/shading.h"
+#include "art/plotter/clear_hatch.h"
+#include "art/plotter/plot.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,9 +45,13 @@ public:
     void add_colours(std::vector<Colour>& palette, std::span<const Colour> others);
     /// Fills the fields, with colours of that palette.
     void draw_fields(PathSink& sink) const;
-    /// Fills the fields for a plotter: with lines that keep clear of the drawing's lines, without outlines, which
-    /// would run along them. @param print  placed
-    void hatch_fields(const Print& print, const Hatch& hatch, const Monitor& monitor, PathSink& sink) const;
+    /// Fills the fields for a plotter: with lines of one pen that end where the ink of lines and dots begins, without
+    /// outlines, which would run along the lines. @param print  placed @param plot  with a hatch
+    /// @param ink  lines and discs that are drawn over the fields, in steps, each with half its own width
+    void hatch_fields(const Print& print, const PlotOptions& plot, const std::vector<Obstacle>& ink,
+                      PathSink& sink) const;
+    /// Palette indices of the fields that are filled.
+    const std::vector<int>& field_colours() const { return colours_; }
     /// @param colours  palette indices of the orbits of lines, repeated from the end; empty: of the pens
     void draw_lines(const Print& print, std::span<const int> colours, PathSink& sink) const;
     /// Maximum width that a band of parallel lines adds to its pen, in the unit of the style's stroke.
@@ -64,6 +69,29 @@ private:
     std::vector<std::uint32_t> classes_;
     std::vector<int> colours_;  ///< palette index of each field, or -1
     std::unique_ptr<LineBands> bands_;
+};
+
+/// Collects the ink of lines and discs, in steps, as a plotter draws it.
+class InkSink : public PathSink {
+public:
+    /// @param pen  width of the plotter's pen in millimetres; 0: each line has a pen of its own width
+    InkSink(const Print& print, double pen) : print_(print), pen_(pen) {}
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override;
+    void lines(std::span<const glm::dvec2> ends) override;
+    void curves(std::span<const glm::dvec2> controls) override;
+    void change_pen(const Pen& pen) override;
+    void end_stroke(bool) override {}
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
+
+    std::vector<Obstacle> ink;
+
+private:
+    const Print& print_;
+    double pen_;
+    glm::dvec2 at_{0.0};
+    double radius_ = 0;  ///< of the line that is drawn; 0: it is invisible
 };
 
 /// Hands on polygons, discs and labels only.

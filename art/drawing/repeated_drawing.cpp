@@ -43,6 +43,12 @@ RepeatedDrawing::RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawOptio
     centre_ = shape.centre();
     strokes_ = shape.strokes();
     const double ink = print.style.stroke.in_steps ? one.widest : 0.0;
+    if (options_.repeat->group != "ring") {
+        Repeat moves = *options_.repeat;
+        moves.group = "p1";
+        covered_ = covered_share(*options_.repeat, hull_, ink);
+        covered_by_moves_ = covered_share(moves, hull_, ink);
+    }
     if (options_.repeat->fills) {
         measure_cells(ink);
         return;
@@ -114,6 +120,8 @@ void RepeatedDrawing::report(DrawReport& report) const {
     report.dots *= drawn_;
     report.copies = drawn_;
     report.strokes = report.strokes.value_or(strokes_) * drawn_;
+    report.covered = covered_;
+    report.covered_by_moves = covered_by_moves_;
 }
 
 }  // namespace sikku

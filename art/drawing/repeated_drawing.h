@@ -31,6 +31,7 @@ public:
     Balance balance() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
+    std::vector<int> hatched_colours() const override { return inner_->hatched_colours(); }
     void report(DrawReport& report) const override;
 
 private:
@@ -46,6 +47,8 @@ private:
     DrawnExtent extent_;
     std::vector<glm::dvec2> hull_;  ///< of one copy
     glm::dvec2 centre_{0.0};        ///< of its mass
+    double covered_ = 0;            ///< see DrawReport
+    double covered_by_moves_ = 0;
     std::size_t strokes_ = 0;       ///< of one copy
 };
 

@@ -39,6 +39,7 @@ public:
     /// once more for a decoration.
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
+    std::vector<int> hatched_colours() const override { return drawing_->hatched_colours(); }
     void report(DrawReport& report) const override;
 
 private:

@@ -1,5 +1,6 @@
 #include "art/drawing/tiled_print.h"
 
+#include "art/drawing/faint_inks.h"
 #include "art/drawing/picture.h"
 #include "art/print/clip.h"
 #include "art/print/tiles.h"
@@ -258,6 +259,7 @@ DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options,
     }
     for (const auto& output : outputs) output->commit();
     drawing.report(report);
+    report.faint = faint_inks(drawing, print);
     report.leaves_pattern_out =
         !is_vector(options.format) && !keeps_text(info(options.format).extension, print.pattern);
     report.overflows = false;

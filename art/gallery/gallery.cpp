@@ -6,6 +6,7 @@
 #include "art/prints.h"
 #include "engine/base/text.h"
 #include "engine/base/threads.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -60,30 +61,32 @@ public:
         }
     }
 
-    /// @param order     gets what is there in the end
-    /// @param troubles  why others are not
-    void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order,
-              std::vector<std::string>& troubles) {
+    /// @param order   gets what is there in the end
+    /// @param result  gets warnings, and why others are not
+    void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order, GalleryResult& result) {
         const auto draw = [&](bool posters) {
             for (const SheetRequest& sheet : sheets_of(request, options_.threads, memory)) {
                 if (sheet.is_poster != posters) continue;
                 for (const std::string& file : sheet_files(sheet)) {
-                    make(file, sheet.size, order, troubles, [&](const std::filesystem::path& path) {
-                        draw_gallery_sheet(jobs_, sheet, path, monitor_);
-                    });
+                    make(file, sheet.size, order, result,
+                         [&](const std::filesystem::path& path, FinishedJob& finished) {
+                             const std::string missing = draw_gallery_sheet(jobs_, sheet, path, monitor_);
+                             if (!missing.empty()) finished.warnings.push_back(letters_warning(missing));
+                         });
                 }
             }
         };
         draw(false);
-        make("index.html", request.title, order, troubles,
-             [&](const std::filesystem::path& path) { write_gallery_index(jobs_, request.title, path, monitor_); });
+        make("index.html", request.title, order, result, [&](const std::filesystem::path& path, FinishedJob&) {
+            write_gallery_index(jobs_, request.title, path, monitor_);
+        });
         draw(true);
     }
 
 private:
     template <typename Make>
     void make(const std::string& name, const std::string& setting, std::vector<FinishedJob>& order,
-              std::vector<std::string>& troubles, const Make& make_it) {
+              GalleryResult& result, const Make& make_it) {
         FinishedJob file;
         file.file = name;
         TextHash hash = held_;
@@ -102,13 +105,15 @@ private:
         try {
             const bool is_ours =
                 name == "index.html" ? is_gallery_page(folder_.read(name, 4096)) : record_.is_ours(name);
-            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours,
-                                              [&](const std::filesystem::path& path, auto&) { make_it(path); }));
+            order.push_back(make_gallery_file(record_, folder_, std::move(file), options_.force || is_ours, make_it));
+            for (const std::string& text : order.back().warnings) {
+                result.warnings.push_back(fmt::format("{}: {}", name, text));
+            }
         } catch (const Stopped&) {
             listener_.end();
             throw;
         } catch (const std::exception& error) {
-            troubles.push_back(fmt::format("{} failed: {}", name, error.what()));
+            result.troubles.push_back(fmt::format("{} failed: {}", name, error.what()));
         }
         listener_.end();
     }
@@ -250,7 +255,7 @@ GalleryResult Gallery::make(GalleryListener& listener) {
         (result.failures.empty() || options_.keep_going)) {
         try {
             Summaries summaries(jobs_, result.finished, folder, record, options_, listener, monitor_);
-            summaries.make(request_, memory_, order, result.troubles);
+            summaries.make(request_, memory_, order, result);
         } catch (const Stopped&) {
         }
     }

@@ -32,6 +32,7 @@ struct GalleryResult {
     std::map<std::size_t, FinishedJob> finished;  ///< all selected jobs that are finished, by number
     std::vector<std::size_t> made;                ///< numbers of the jobs made by this run
     std::vector<Failure> failures;
+    std::vector<std::string> warnings;  ///< about the sheets made, with their names
     std::vector<std::string> troubles;  ///< why sheets, the page or the record could not be written
     std::size_t left = 0;               ///< jobs that were not begun
     std::string record;                 ///< name of the record file, for messages

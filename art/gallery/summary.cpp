@@ -237,14 +237,14 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 
 }  // namespace
 
-void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Monitor& monitor) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
     if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
     options.monitor = monitor;
     options.watch = [monitor](std::uint64_t) { monitor.check(); };
-    draw_sheet(cells, options, file);
+    return draw_sheet(cells, options, file).missing_letters;
 }
 
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

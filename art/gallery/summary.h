@@ -34,8 +34,9 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's ending tells the format. Where patterns
 /// have several derivation lengths, each has rows of its own.
+/// @return the characters of its texts that the lettering does not have, as a list
 /// @throws GalleryError if no job is a print, and everything that draw_sheet() throws
-void draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
+std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                         const std::filesystem::path& file, const Monitor& monitor);
 
 /// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws

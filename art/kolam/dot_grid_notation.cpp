@@ -340,4 +340,23 @@ DotGrid parse_dot_grid(std::string_view given) {
     return Notation(given, std::move(items), sort).grid();
 }
 
+std::string dot_grid_note(std::string_view given) {
+    const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
+    if (is_shape(text)) return "";
+    const auto [items, sort] = NotationReader(given).read();
+    const auto is_number = [](const Item& item) { return item.rows == 0 && item.separator != 't'; };
+    if (!std::all_of(items.begin(), items.end(), is_number)) return "";
+    const DotGrid grid = parse_dot_grid(given);
+    const std::vector<std::uint32_t> rows = grid.rows();
+    if (rows.size() == 1 && rows[0] > 2) {
+        const std::uint32_t least = rows[0] % 2 == 0 ? 2 : 1;
+        return fmt::format("one row of {} dots; for rows from {} up to {} and back write {}-{}", rows[0], least, rows[0],
+                           rows[0], least);
+    }
+    // A jump of more than two dots.
+    if (rows.size() != 3 || rows[0] != rows[2] || rows[1] <= rows[0] + 2) return "";
+    return fmt::format("three rows of {}, {} and {} dots; for {} up to {} and back write {}-{}", rows[0], rows[1], rows[2],
+                       rows[0], rows[1], rows[1], rows[0]);
+}
+
 }  // namespace sikku

@@ -192,7 +192,7 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
         walker.move(place, 'f');
         walker.put(dot_symbol);
     };
-    if (options.dot_symbols) mark({0.0, 0.0});
+    mark({0.0, 0.0});
     for (std::uint32_t arm = 0; arm < kolam.arms; ++arm) {
         for (std::uint32_t dot = 1; dot <= kolam.dots(); ++dot) {
             pattern.dots.push_back(place_of(kolam, arm, dot));

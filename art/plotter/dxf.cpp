@@ -1,14 +1,18 @@
 #include "art/plotter/dxf.h"
 
+#include "art/plotter/arc_follower.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +20,8 @@
 namespace sikku {
 namespace {
 
-constexpr double chord_tolerance = 0.0099;  // millimetres; the rest is for rounding
+/// Arcs of one circle have centres and radii that differ by less, in millimetres.
+constexpr double circle_tolerance = 0.002;
 
 /// The number of the nearest standard colour, from 1. Number 7 is black on white, and white on black.
 int standard_colour(Colour colour) {
@@ -44,52 +49,108 @@ std::string place(glm::dvec2 at, int first_code = 10) {
     return fmt::format("{}\n{}\n{}\n{}\n", first_code, decimal(at.x, 4), first_code + 10, decimal(at.y, 4));
 }
 
+/// A vertex of a polyline and the bulge of what leads on from it: the tangent of a quarter of an arc's angle, above 0
+/// for anticlockwise, 0 for a line.
+struct Vertex {
+    glm::dvec2 at{0.0};
+    double bulge = 0;
+};
+
+/// The tangent of a quarter of the angle of an arc between two points.
+double bulge_of(const PlotArc& arc, glm::dvec2 from, glm::dvec2 to) {
+    const glm::dvec2 a = from - arc.centre, b = to - arc.centre;
+    double sweep = std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+    if (arc.is_left && sweep < 0) sweep += 2 * std::numbers::pi;
+    if (!arc.is_left && sweep > 0) sweep -= 2 * std::numbers::pi;
+    return std::tan(sweep / 4);
+}
+
+struct Circle {
+    glm::dvec2 centre{0.0};
+    double radius = 0;
+};
+
+/// The circle on which all arcs of a closed polyline lie, if there is one.
+std::optional<Circle> circle_of(const std::vector<Vertex>& vertices) {
+    std::optional<Circle> circle;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::dvec2 from = vertices[i].at, to = vertices[(i + 1) % vertices.size()].at;
+        const double bulge = vertices[i].bulge;
+        if (bulge == 0) return std::nullopt;
+        const glm::dvec2 chord = to - from;
+        const glm::dvec2 left(-chord.y, chord.x);
+        const glm::dvec2 centre = (from + to) / 2.0 + (1 - bulge * bulge) / (4 * bulge) * left;
+        const double radius = glm::distance(centre, from);
+        if (!circle) circle = Circle{centre, radius};
+        if (glm::distance(circle->centre, centre) > circle_tolerance ||
+            std::fabs(circle->radius - radius) > circle_tolerance || (bulge > 0) != (vertices.front().bulge > 0)) {
+            return std::nullopt;
+        }
+    }
+    return circle;
+}
+
 class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, Output& file, std::vector<TileKind> kinds)
-        : PlotWriter(print), file_(file), kinds_(std::move(kinds)) {
+        : PlotWriter(print),
+          file_(file),
+          kinds_(std::move(kinds)),
+          follower_(
+              true, 0.0, [this](glm::dvec2 end) { to(end); },
+              [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {
         file_.write("999\nSikku, millimetres\n");
         for (const std::string& piece : recipe_comments(print.pattern, print.made))
             file_.write("999\n" + piece + "\n");
-        file_.write(
-            fmt::format("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$EXTMIN\n{}9\n$EXTMAX\n{}0\nENDSEC\n",
-                        place({0, 0}), place({print.page.width, print.page.height})));
+        file_.write(fmt::format(
+            "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n9\n$MEASUREMENT\n70\n1\n9\n"
+            "$EXTMIN\n{}9\n$EXTMAX\n{}0\nENDSEC\n",
+            place({0, 0}), place({print.page.width, print.page.height})));
     }
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         begin_entities();
         here_ = start;
         pen_ = number(pen);
-        points_.clear();
+        vertices_.clear();
     }
     void lines(std::span<const glm::dvec2> ends) override {
         start();
+        follower_.finish();
         for (const glm::dvec2 end : ends) to(on_page(here_ = end));
+        follower_.begin(on_page(here_));
     }
     void curves(std::span<const glm::dvec2> controls) override {
         start();
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
             const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
                                    on_page(controls[i + 2])};
-            const int count = chords(bezier, chord_tolerance);
-            for (int k = 1; k < count; ++k) to(at(bezier, static_cast<double>(k) / count));
-            to(bezier[3]);
+            // Also enough of them for an arc of a small circle.
+            const int count = std::max(4, chords(bezier, ArcFollower::chord));
+            for (int k = 1; k < count; ++k) follower_.add(at(bezier, static_cast<double>(k) / count));
+            follower_.add(bezier[3]);
             here_ = controls[i + 2];
         }
     }
     void end_stroke(bool closed) override {
-        if (points_.empty()) return;
-        closed = closed && points_.size() > 3 && points_.front() == points_.back();
-        if (closed) points_.pop_back();
-        if (points_.size() == 1) {
-            file_.write(fmt::format("0\nPOINT\n8\n{}\n{}", layer_of(pen_), place(points_.front())));
-        } else if (points_.size() == 2) {
-            file_.write(fmt::format("0\nLINE\n8\n{}\n{}{}", layer_of(pen_), place(points_.front()),
-                                    place(points_.back(), 11)));
+        if (vertices_.empty()) return;
+        follower_.finish();
+        const bool is_there_and_back = vertices_.size() < 4 && vertices_.front().bulge == 0;
+        closed = closed && !is_there_and_back && vertices_.front().at == vertices_.back().at;
+        if (closed) vertices_.pop_back();
+        const std::string name = layer_of(pen_);
+        if (vertices_.size() == 1) {
+            file_.write(fmt::format("0\nPOINT\n8\n{}\n{}", name, place(vertices_.front().at)));
+        } else if (const auto circle = closed ? circle_of(vertices_) : std::nullopt) {
+            file_.write(
+                fmt::format("0\nCIRCLE\n8\n{}\n{}40\n{}\n", name, place(circle->centre), decimal(circle->radius, 4)));
+        } else if (vertices_.size() == 2 && !closed && vertices_.front().bulge == 0) {
+            file_.write(fmt::format("0\nLINE\n8\n{}\n{}{}", name, place(vertices_.front().at),
+                                    place(vertices_.back().at, 11)));
         } else {
-            write_polyline(layer_of(pen_), closed);
+            write_polyline(name, closed);
         }
-        points_.clear();
+        vertices_.clear();
     }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         const Colour colour = print_.style.fill_colour(pen);
@@ -97,11 +158,11 @@ public:
         begin_entities();
         put(on_page(vertices.front()));
         for (const glm::dvec2 vertex : vertices.subspan(1)) to(on_page(vertex));
-        if (points_.size() > 1 && points_.front() == points_.back()) points_.pop_back();
+        if (vertices_.size() > 1 && vertices_.front().at == vertices_.back().at) vertices_.pop_back();
         const TileKind& kind = kinds_.at(numbers_of_kinds_.kind_of(vertices, colour));
         // Rounding leaves little of tiny tiles.
-        if (points_.size() > 2) write_polyline(kind.layer(), true);
-        points_.clear();
+        if (vertices_.size() > 2) write_polyline(kind.layer(), true);
+        vertices_.clear();
     }
     /// A file for machines without pens has nothing to dip.
     void dip(glm::dvec2, const Pen&) override {}
@@ -143,28 +204,40 @@ private:
 
     /// Only when something is drawn: a stroke may change its pen before.
     void start() {
-        if (points_.empty()) put(on_page(here_));
+        if (!vertices_.empty()) return;
+        put(on_page(here_));
+        follower_.begin(on_page(here_));
     }
     void to(glm::dvec2 millimetres) {
-        if (rounded(millimetres) != points_.back()) put(millimetres);
+        if (rounded(millimetres) != vertices_.back().at) put(millimetres);
+    }
+    void arc_to(const PlotArc& arc, glm::dvec2 end) {
+        const glm::dvec2 next = rounded(end);
+        if (next == vertices_.back().at) return;
+        vertices_.back().bulge = bulge_of(arc, vertices_.back().at, next);
+        put(end);
     }
     void put(glm::dvec2 millimetres) {
         require_on_page(millimetres);
-        points_.push_back(rounded(millimetres));
+        vertices_.push_back({rounded(millimetres)});
     }
 
     void write_polyline(const std::string& name, bool closed) {
         file_.write(fmt::format("0\nPOLYLINE\n8\n{}\n66\n1\n{}70\n{}\n", name, place({0, 0}), closed ? 1 : 0));
-        for (const glm::dvec2 point : points_) file_.write(fmt::format("0\nVERTEX\n8\n{}\n{}", name, place(point)));
+        for (const Vertex& vertex : vertices_) {
+            file_.write(fmt::format("0\nVERTEX\n8\n{}\n{}", name, place(vertex.at)));
+            if (vertex.bulge != 0) file_.write(fmt::format("42\n{}\n", decimal(vertex.bulge, 9)));
+        }
         file_.write(fmt::format("0\nSEQEND\n8\n{}\n", name));
     }
 
     Output& file_;
-    bool begun_ = false;
-    int pen_ = 0;
-    std::vector<glm::dvec2> points_;  // of the stroke, in millimetres of the page
     std::vector<TileKind> kinds_;
     TileKinds numbers_of_kinds_;
+    bool begun_ = false;
+    int pen_ = 0;
+    std::vector<Vertex> vertices_;  // of the stroke, in millimetres of the page
+    ArcFollower follower_;          // of its curves
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "art/plotter/gcode.h"
 
+#include "art/plotter/arc_follower.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 #include "engine/base/decimal.h"
@@ -18,88 +19,11 @@
 namespace sikku {
 namespace {
 
-// A curve may be off by 0.01 mm. Chords between its points are off by `chord`, an arc is off its chords by at most
-// twice as much, and the points are off the fitted arc by `fit` (all in mm). The rest is for rounding ends and
-// centres to 0.001 mm.
-constexpr double chord = 0.0005;
-constexpr double fit = 0.0065;
-constexpr double largest_radius = 1000.0;    // controllers count in single precision
-constexpr double largest_sweep = 4.7;        // radians; an arc's ends must not fall together
 constexpr double farthest = 10'000;          // millimetres from the origin to a place
-constexpr std::size_t most_points = 8192;    // that wait for what comes next
 constexpr std::size_t longest_comment = 60;  // grbl takes lines of 80 bytes
 
 glm::dvec2 rounded(glm::dvec2 point) {
     return {std::round(point.x * 1000) / 1000, std::round(point.y * 1000) / 1000};
-}
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-/// An arc from one point to another around a centre, anticlockwise if `left`.
-struct Arc {
-    glm::dvec2 centre{0.0};
-    bool left = false;
-};
-
-/// The circle through three points; nullopt if they lie too straight.
-std::optional<Arc> arc_through(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-    const glm::dvec2 to_b = b - a;
-    const glm::dvec2 to_c = c - a;
-    const double twice = 2 * cross(to_b, to_c);
-    const glm::dvec2 offset =
-        (glm::dvec2(to_c.y, -to_c.x) * glm::dot(to_b, to_b) + glm::dvec2(-to_b.y, to_b.x) * glm::dot(to_c, to_c)) /
-        twice;
-    // False for NaN.
-    if (!(glm::length(offset) <= largest_radius)) return std::nullopt;
-    return Arc{a + offset, twice > 0};
-}
-
-bool line_fits(std::span<const glm::dvec2> points) {
-    const glm::dvec2 whole = points.back() - points.front();
-    const double length = glm::length(whole);
-    if (length == 0) return points.size() <= 2;
-    double reached = 0;
-    for (const glm::dvec2 point : points) {
-        const glm::dvec2 way = point - points.front();
-        const double along = glm::dot(way, whole) / length;
-        if (std::fabs(cross(way, whole)) > fit * length || along < reached - fit) return false;
-        reached = std::max(reached, along);
-    }
-    return reached <= length + fit;
-}
-
-std::optional<Arc> fitting_arc(std::span<const glm::dvec2> points) {
-    if (points.size() < 3) return std::nullopt;
-    const auto arc = arc_through(points.front(), points[points.size() / 2], points.back());
-    if (!arc) return std::nullopt;
-    const double radius = glm::distance(arc->centre, points.front());
-    double sweep = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const glm::dvec2 from = points[i - 1] - arc->centre;
-        const glm::dvec2 to = points[i] - arc->centre;
-        const glm::dvec2 way = to - from;
-        sweep += cross(from, to) / (radius * radius) * (arc->left ? 1 : -1);
-        if (std::fabs(glm::length(to) - radius) > fit || glm::dot(way, way) > 16 * chord * radius ||
-            (cross(from, to) > 0) != arc->left) {
-            return std::nullopt;
-        }
-    }
-    return sweep <= largest_sweep ? arc : std::nullopt;
-}
-
-/// The last of `count` points up to which fits(last) holds, searched for in doubling steps from `known`.
-template <class Fits>
-std::size_t longest(std::size_t known, std::size_t count, std::size_t step, const Fits& fits) {
-    const auto extend = [&] {
-        const bool more = known + step < count && fits(known + step);
-        if (more) known += step;
-        return more;
-    };
-    while (extend()) step *= 2;
-    for (; step > 0; step /= 2) extend();
-    return known;
 }
 
 void require(bool holds, const char* what) {
@@ -130,7 +54,12 @@ void for_each_word(std::string_view lines, const Visit& visit) {
 class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const GcodeOptions& options, Output& file)
-        : PlotWriter(print), options_(options), file_(file) {
+        : PlotWriter(print),
+          options_(options),
+          file_(file),
+          follower_(
+              options.arcs, options.least_arc, [this](glm::dvec2 end) { line_to(end); },
+              [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {
         for (const double feed : {options.drawing_feed, options.travel_feed}) {
             require(std::isfinite(feed) && feed > 0, "feeds must be finite and above 0 mm/min");
         }
@@ -155,12 +84,12 @@ public:
     }
     void lines(std::span<const glm::dvec2> ends) override {
         start();
-        follow(true);
+        follower_.finish();
         for (const glm::dvec2 end : ends) {
             here_ = end;
-            points_ = {on_page(end)};
-            line_to(points_.front());
+            line_to(on_page(end));
         }
+        follower_.begin(on_page(here_));
     }
     void curves(std::span<const glm::dvec2> controls) override {
         start();
@@ -168,18 +97,18 @@ public:
             const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
                                    on_page(controls[i + 2])};
             // Also enough of them for an arc of a small circle.
-            const int count = std::max(4, chords(bezier, chord));
+            const int count = std::max(4, chords(bezier, ArcFollower::chord));
             for (int k = 1; k <= count; ++k) {
-                points_.push_back(k < count ? at(bezier, static_cast<double>(k) / count) : bezier[3]);
-                require_on_page(points_.back());
-                if (points_.size() >= most_points) follow(false);
+                const glm::dvec2 point = k < count ? at(bezier, static_cast<double>(k) / count) : bezier[3];
+                require_on_page(point);
+                follower_.add(point);
             }
             here_ = controls[i + 2];
         }
     }
     void end_stroke(bool) override {
         if (!started_) return;
-        follow(true);
+        follower_.finish();
         started_ = false;
         lift();
     }
@@ -196,15 +125,19 @@ private:
     void start() {
         if (started_) return;
         started_ = true;
-        points_ = {on_page(here_)};
-        require_on_page(points_.front());
-        travel(points_.front());
+        const glm::dvec2 from = on_page(here_);
+        require_on_page(from);
+        follower_.begin(from);
+        travel(from);
         lower();
         feed_ = fmt::format(" F{}", decimal(settings_.speed ? 60 * *settings_.speed : options_.drawing_feed, 3));
     }
 
+    /// Moves the raised pen, unless it is there already.
     void travel(glm::dvec2 place) {
+        if (is_placed_ && at_ == rounded(place)) return;
         at_ = rounded(place);
+        is_placed_ = true;
         file_.write(
             fmt::format("G0 X{} Y{} F{}\n", decimal(at_.x, 3), decimal(at_.y, 3), decimal(options_.travel_feed, 3)));
     }
@@ -217,7 +150,10 @@ private:
         const bool is_first = pen_ == 0;
         pen_ = next;
         settings_ = pen_settings(options_.rules, next, colour);
-        if (!is_first) write_text(fill(options_.pen_change));
+        if (!is_first) {
+            write_text(fill(options_.pen_change));
+            is_placed_ = false;  // people move machines that wait
+        }
         // A brush may have to be lifted higher than the pen before it.
         if (settings_.lift.value_or(options_.lift) != lifted_to_) lift();
     }
@@ -269,49 +205,14 @@ private:
         file_.write(gcode_comment(label, text, options_.comment) + "\n");
     }
 
-    /// Lines and arcs along the points that wait; the last of them is kept if more may come.
-    void follow(bool is_all) {
-        const std::span<const glm::dvec2> all(points_);
-        std::size_t done = 0;
-        while (done + 1 < all.size()) {
-            const auto rest = all.subspan(done);
-            const std::size_t line =
-                longest(1, rest.size(), 1, [&](std::size_t last) { return line_fits(rest.first(last + 1)); });
-            // Where it is almost straight no short arc fits.
-            const std::size_t last =
-                !options_.arcs ? line : longest(line, rest.size(), (line + 1) / 2, [&](std::size_t end) {
-                    return fitting_arc(rest.first(end + 1)).has_value();
-                });
-            if (!is_all && done > 0 && last + 1 == rest.size()) break;
-            if (last > line && !is_short(rest.first(last + 1))) {
-                arc_to(*fitting_arc(rest.first(last + 1)), rest[last]);
-            } else {
-                line_to(rest[line]);
-                done += line;
-                continue;
-            }
-            done += last;
-        }
-        points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(done));
-    }
-
-    /// True for arcs that are to become lines.
-    bool is_short(std::span<const glm::dvec2> points) const {
-        double length = 0;
-        for (std::size_t i = 1; i < points.size() && length < options_.least_arc; ++i) {
-            length += glm::distance(points[i - 1], points[i]);
-        }
-        return length < options_.least_arc;
-    }
-
     void line_to(glm::dvec2 end) {
         require_on_page(end);
         put("G1", end, "");
     }
 
-    void arc_to(const Arc& arc, glm::dvec2 end) {
+    void arc_to(const PlotArc& arc, glm::dvec2 end) {
         const glm::dvec2 centre = arc.centre - at_;
-        put(arc.left ? "G3" : "G2", end, fmt::format(" I{} J{}", decimal(centre.x, 3), decimal(centre.y, 3)));
+        put(arc.is_left ? "G3" : "G2", end, fmt::format(" I{} J{}", decimal(centre.x, 3), decimal(centre.y, 3)));
     }
 
     void put(std::string_view command, glm::dvec2 end, std::string_view more) {
@@ -323,8 +224,12 @@ private:
         feed_.clear();
     }
 
+    /// Writes commands of the machine, which may move it.
     void write_text(const std::string& text) {
         if (text.empty()) return;
+        for_each_word(text, [&](char letter, double, std::string_view) {
+            if (letter == 'X' || letter == 'Y') is_placed_ = false;
+        });
         file_.write(text);
         if (text.back() != '\n') file_.write("\n");
     }
@@ -333,12 +238,13 @@ private:
     Output& file_;
     int pen_ = 0;
     Colour colour_;
-    PenSettings settings_;            // of the pen in hand
-    double lifted_to_ = 0;            // height of the raised pen
-    bool started_ = false;            // the pen is down
-    glm::dvec2 at_{0.0};              // where it is, as it was written
-    std::vector<glm::dvec2> points_;  // of curves, from the last command's end
-    std::string feed_;                // to be sent with the next command
+    PenSettings settings_;    // of the pen in hand
+    double lifted_to_ = 0;    // height of the raised pen
+    bool started_ = false;    // the pen is down
+    glm::dvec2 at_{0.0};      // where it is, as it was written
+    bool is_placed_ = false;  // commands of the machine have not moved it since
+    std::string feed_;        // to be sent with the next command
+    ArcFollower follower_;    // of curves, from the last command's end
 };
 
 }  // namespace

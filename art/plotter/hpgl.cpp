@@ -12,15 +12,15 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace sikku {
 namespace {
 
-constexpr double units_of_millimetre = 40.0;
 /// Rounding moves a point by up to 0.71 units: this much is left for chords.
-constexpr double chord_tolerance = 0.28 / units_of_millimetre;
+constexpr double chord_units = 0.28;
 /// Plotters keep an instruction in a small memory.
 constexpr std::size_t longest_instruction = 200;
 
@@ -79,7 +79,7 @@ public:
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
             const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
                                    on_page(controls[i + 2])};
-            const int count = chords(bezier, chord_tolerance);
+            const int count = chords(bezier, chord_units * options_.unit);
             for (int k = 1; k < count; ++k) to(at(bezier, static_cast<double>(k) / count));
             to(bezier[3]);
             here_ = controls[i + 2];
@@ -88,10 +88,11 @@ public:
     void dip(glm::dvec2 place, const Pen& pen) override {
         if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
         file_.write(fmt::format("{}PD;PU;\n", move("refilling", place)));
+        at_.reset();
     }
     void end_stroke(bool) override {
         if (!started_) return;
-        if (!moved_) put(at_);  // a dot
+        if (!moved_) put(*at_);  // a dot
         end_instruction();
         started_ = false;
     }
@@ -108,6 +109,7 @@ private:
         const bool parks = options_.park && pen_ != 0;
         file_.write(fmt::format("{}SP{};\n", parks ? "PU;" + move("parking", *options_.park) : "PU;", next));
         pen_ = next;
+        at_.reset();  // the plotter went to the stalls
         if (!has_speeds_) return;
         const double speed = pen_settings(options_.rules, next, colour).speed.value_or(options_.speed);
         file_.write(fmt::format("VS{};\n", decimal(speed / 10, 2)));
@@ -135,8 +137,9 @@ private:
         if (started_) return;
         started_ = true;
         moved_ = false;
-        at_ = rounded(on_page(here_));
-        file_.write(fmt::format("PU{},{};\n", at_.x, at_.y));
+        const Units from = rounded(on_page(here_));
+        file_.write(at_ == from ? "PU;\n" : fmt::format("PU{},{};\n", from.x, from.y));
+        at_ = from;
     }
 
     Units rounded(glm::dvec2 millimetres) const {
@@ -146,9 +149,7 @@ private:
         return to_units(at);
     }
 
-    static Units to_units(glm::dvec2 at) {
-        return {to_whole(at.x * units_of_millimetre), to_whole(at.y * units_of_millimetre)};
-    }
+    Units to_units(glm::dvec2 at) const { return {to_whole(at.x / options_.unit), to_whole(at.y / options_.unit)}; }
 
     bool is_in_reach(glm::dvec2 at) const {
         if (!options_.paper) return true;
@@ -165,15 +166,10 @@ private:
     [[noreturn]] void refuse_drawing() const {
         const HpglPaper& paper = *options_.paper;
         const glm::dvec2 reach = paper.high - paper.low;
-        // The centred area that fits in both orientations: equally far from the middle of the sheet on both sides.
-        const glm::dvec2 free = glm::min(paper.high - paper.centre, paper.centre - paper.low);
-        const glm::dvec2 half = 0.5 * glm::dvec2(std::max(print_.page.width, print_.page.height),
-                                                 std::min(print_.page.width, print_.page.height));
-        const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
         throw std::runtime_error(fmt::format(
             "the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm keeps it "
             "inside",
-            reach.x, reach.y, sheet_name(), std::ceil(10 * margin - 1e-6) / 10));
+            reach.x, reach.y, sheet_name(), hpgl_margin(paper, print_.page)));
     }
 
     void to(glm::dvec2 millimetres) {
@@ -200,9 +196,9 @@ private:
     Output& file_;
     bool has_speeds_ = false;
     int pen_ = 0;
-    bool started_ = false;  // the pen is down
-    bool moved_ = false;    // and has drawn something
-    Units at_{0};           // where the pen is
+    bool started_ = false;     // the pen is down
+    bool moved_ = false;       // and has drawn something
+    std::optional<Units> at_;  // where the pen is, if that is known
     std::string instruction_;
 };
 
@@ -218,8 +214,8 @@ std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi) {
     if (!size || !(size->x >= 1 && size->y >= 1 && size->x <= 1e5 && size->y <= 1e5)) return std::nullopt;
     for (const Sheet& sheet : sheets) {
         if (is_centred || lower_case(paper.name) != sheet.name) continue;
-        paper.high = sheet.limits / units_of_millimetre;
-        paper.centre = 0.5 * (sheet.first + sheet.second) / units_of_millimetre;
+        paper.high = sheet.limits * hpgl_unit;
+        paper.centre = 0.5 * (sheet.first + sheet.second) * hpgl_unit;
         paper.is_hp7475a = true;
         return paper;
     }
@@ -245,6 +241,21 @@ HpglPaper paper_for(const HpglPaper& paper, const Page& page) {
         }
     }
     return paper;
+}
+
+HpglPaper with_unit(const HpglPaper& paper, double unit) {
+    HpglPaper result = paper;
+    if (!paper.is_hp7475a) return result;
+    for (glm::dvec2* place : {&result.low, &result.high, &result.centre}) *place *= unit / hpgl_unit;
+    return result;
+}
+
+double hpgl_margin(const HpglPaper& paper, const Page& page) {
+    // The centred area that fits in both orientations: equally far from the middle of the sheet on both sides.
+    const glm::dvec2 free = glm::min(paper.high - paper.centre, paper.centre - paper.low);
+    const glm::dvec2 half = 0.5 * glm::dvec2(std::max(page.width, page.height), std::min(page.width, page.height));
+    const double margin = std::max({half.x - free.x, half.y - free.y, 0.0});
+    return std::ceil(10 * margin - 1e-6) / 10;
 }
 
 glm::dvec2 hpgl_origin(const Page& page, const HpglOptions& options) {

@@ -14,6 +14,9 @@
 
 namespace sikku {
 
+/// The usual plotter unit in millimetres.
+constexpr double hpgl_unit = 0.025;
+
 /// The area of a sheet that a plotter reaches. Coordinates are millimetres from the plotter's origin, x along the
 /// long side.
 struct HpglPaper {
@@ -25,22 +28,31 @@ struct HpglPaper {
 };
 
 /// A4, A3, letter and tabloid: the sheets of the HP 7475A, whose origin lies inside the bottom left corner of the
-/// sheet and whose limits are 276 x 193 mm on A4 and 404 x 276 mm on A3. Any other size that parse_size() reads gives
-/// the limits themselves, in either orientation, with the origin in their bottom left corner. With `,centre`, as for
-/// large drafting plotters (HP 7585, DraftMaster), every size gives the limits, with the origin in the middle.
-/// Nullopt for anything else.
-/// Source: Hewlett-Packard, HP 7475A Interfacing and Programming Manual, 1983: hard-clip limits; the frame of the
-/// scaling points P1 and P2, which is centred on the sheet.
+/// sheet and whose limits are 11,040 x 7,721 units on A4 (276 x 193 mm) and 16,158 x 11,040 units on A3. Any other
+/// size that parse_size() reads gives the limits themselves, in either orientation, with the origin in their bottom
+/// left corner. With `,centre`, as for large drafting plotters (HP 7585, DraftMaster), every size gives the limits,
+/// with the origin in the middle. Nullopt for anything else. Source: Hewlett-Packard, HP 7475A Interfacing and
+/// Programming Manual, 1983: hard-clip limits; the frame of the scaling points P1 and P2, which is centred on the
+/// sheet.
 std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi);
 
 /// The sheet of the HP 7475A that has the size of the page, if `paper` is one of its sheets; else `paper`.
 HpglPaper paper_for(const HpglPaper& paper, const Page& page);
+
+/// A sheet of the HP 7475A, whose limits are counted in units, on a machine with a unit of another length; other
+/// papers are unchanged.
+HpglPaper with_unit(const HpglPaper& paper, double unit);
+
+/// The margin of the page, in whole tenths of a millimetre, within which the plotter reaches everything in either
+/// orientation.
+double hpgl_margin(const HpglPaper& paper, const Page& page);
 
 struct HpglOptions {
     std::optional<HpglPaper> paper;    ///< absent: the page itself, with the origin in its corner
     std::optional<glm::dvec2> park{};  ///< place of the pen before it is changed, in mm of the page, y up
     std::vector<PenRule> rules{};      ///< speeds of single pens
     double speed = 40.0;               ///< mm/s of the pens without a rule, if any pen has one
+    double unit = hpgl_unit;           ///< millimetres of a plotter unit
 };
 
 /// Initial position of the pen: the plotter's origin, in millimetres from the bottom left corner of the page, y up.
@@ -49,7 +61,7 @@ glm::dvec2 hpgl_origin(const Page& page, const HpglOptions& options);
 /// Describes origin and orientation in a sentence.
 std::string describe_hpgl(const Page& page, const HpglOptions& options);
 
-/// Begins the file. Absolute coordinates in plotter units of 0.025 mm; curves are flattened to lines that stay within
+/// Begins the file. Absolute coordinates in plotter units; curves are flattened to lines that stay within
 /// one unit of the exact curve. Pen n of the plotter is the style's n-th colour.
 ///
 /// The x axis of plotters lies along the long side of their sheet. A portrait page is therefore turned by 90 degrees

@@ -75,6 +75,9 @@ struct PlotPlan::Gathered {
         }
         points.insert(points.end(), other.points.begin(), other.points.end());
         runs.insert(runs.end(), other.runs.begin(), other.runs.end());
+        has_lines |= other.has_lines;
+        has_discs |= other.has_discs;
+        has_hatch |= other.has_hatch;
     }
     std::size_t segments() const {
         std::size_t count = 0;
@@ -88,6 +91,9 @@ struct PlotPlan::Gathered {
     Box box;
     std::vector<glm::dvec2> points;
     std::vector<Run> runs;
+    bool has_lines = false;  ///< draws lines
+    bool has_discs = false;  ///< fills discs
+    bool has_hatch = false;
 };
 
 namespace {
@@ -166,6 +172,7 @@ void PlotPlan::read_layer(Gathered& from, double tolerance, glm::dvec2& at, Plot
         const Index end = table.at(next.back());
         PlotSegment segment{here, end};
         if (next.size() == 3) {
+            ++report_.curves;
             segment.first = table.at(next[0]);
             segment.second = table.at(next[1]);
             report_.before.drawn += millimetres * bezier_length({begin, next[0], next[1], next[2]});
@@ -290,6 +297,11 @@ PlotPlan::Gathered& PlotPlan::gathered(const Pen& pen, bool fills) {
     return *found;
 }
 
+bool PlotPlan::is_hatching(const Pen& pen) const {
+    const std::vector<int>& hatched = options_.hatched;
+    return std::find(hatched.begin(), hatched.end(), print_.style.index(pen)) != hatched.end();
+}
+
 /// The width of a pen that fills, in steps.
 double PlotPlan::pen_steps(const Pen& pen) const {
     const double step = print_.placement.step;
@@ -319,6 +331,7 @@ void PlotPlan::change_pen(const Pen& pen) {
     draw_wide(false);
     is_whole_ = false;
     Gathered* const into = print_.style.draws(pen) ? &gathered(pen) : nullptr;
+    if (into) (is_hatching(pen) ? into->has_hatch : into->has_lines) = true;
     down_ = down_ && into == into_;
     into_ = into;
     pen_ = pen;
@@ -429,6 +442,7 @@ void PlotPlan::hatch(std::span<const glm::dvec2> vertices, const Pen& pen) {
     // A stroke may be going on with this very pen.
     down_ = false;
     Gathered& into = gathered(pen, true);
+    into.has_hatch = true;
     for (const glm::dvec2 along : hatch_directions(*options_.hatch, print_.placement)) {
         for (const auto& line : hatch_lines(vertices, along, spacing, width / 2, options_.monitor)) {
             into.add(Gathered::Kind::start, std::span(line).first(1));
@@ -443,8 +457,10 @@ void PlotPlan::disc(glm::dvec2 centre, double radius, const Pen& pen) {
     if (print_.style.fill_colour(pen).alpha == 0 || !(wide > 0.0)) return;
     down_ = false;
     ++report_.fills;
-    const std::vector<glm::dvec2> path = spiral(centre, wide, pen_steps(pen));
+    const bool is_circle = options_.draws_circles && !(options_.pen_width > 0);
+    const std::vector<glm::dvec2> path = spiral(centre, wide, is_circle ? 0.0 : pen_steps(pen));
     Gathered& into = gathered(pen, true);
+    into.has_discs = true;
     into.add(Gathered::Kind::start, std::span(path).first(1));
     into.add(Gathered::Kind::curves, std::span(path).subspan(1));
 }
@@ -514,6 +530,18 @@ void PlotPlan::add_outlines(double tolerance) {
     covered_.reset();
 }
 
+/// Slots of the pens in the order in which they draw.
+std::vector<int> PlotPlan::slots_in_order() const {
+    const auto layer = [](const Gathered& pen) {
+        return pen.has_lines || pen.has_hatch == pen.has_discs ? 1 : pen.has_hatch ? 0 : 2;
+    };
+    std::vector<int> slots;
+    for (const auto& [slot, pen] : gathered_) slots.push_back(slot);
+    std::stable_sort(slots.begin(), slots.end(),
+                     [&](int a, int b) { return layer(*gathered_.at(a)) < layer(*gathered_.at(b)); });
+    return slots;
+}
+
 /// Merges colours until there are at most as many as pens.
 void PlotPlan::merge_colours() {
     std::erase_if(gathered_, [](const auto& entry) { return entry.second->runs.empty(); });
@@ -541,8 +569,9 @@ void PlotPlan::merge_colours() {
         if (pens[i] != i) gathered_.erase(slots[i]);
     }
     // Numbers the pens as PlotWriter does.
+    const std::vector<int> order = slots_in_order();
     for (MergedPen& merged : report_.merged) {
-        merged.number = 1 + static_cast<int>(std::distance(gathered_.begin(), gathered_.find(merged.number)));
+        merged.number = 1 + static_cast<int>(std::find(order.begin(), order.end(), merged.number) - order.begin());
     }
 }
 
@@ -554,7 +583,8 @@ void PlotPlan::arrange() {
     const glm::dvec2 start = drawn_at(options_.start);
     glm::dvec2 last = start;
     glm::dvec2 at = start;
-    for (auto& [slot, pen] : gathered_) {
+    for (const int slot : slots_in_order()) {
+        const std::unique_ptr<Gathered>& pen = gathered_.at(slot);
         if (!layers_.empty() && options_.park) {
             const glm::dvec2 park = drawn_at(*options_.park);
             report_.before.travelled += step * glm::distance(last, park);
@@ -580,10 +610,13 @@ void PlotPlan::arrange() {
     tally_as_drawn();
     for (const auto& layer : layers_) layer->as_drawn = {};
     report_.after = tally(course(), report_.pens);
-    if (options_.resume > 0 && report_.after.lifts == 0 && !layers_.empty()) {
+    if (options_.resume > 0 && !layers_.empty()) {
         std::vector<PenTally> pens;
+        const double whole = tally({.step = step}, pens).drawn;
+        report_.skipped = whole - report_.after.drawn;
+        if (report_.after.lifts > 0) return;
         refuse_option("resume", fmt::format("{:g}m", options_.resume / 1000),
-                      fmt::format("the whole plot draws only {:.2f} m", tally({.step = step}, pens).drawn / 1000));
+                      fmt::format("the whole plot draws only {:.2f} m", whole / 1000));
     }
 }
 

@@ -36,8 +36,10 @@ struct PlotOptions {
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
     bool leaves_tiles =
-        false;              ///< polygons are counted but not drawn; draw_plot() passes them to the writer of the file
-    int pens = 0;           ///< maximum number of pens, to which colours are merged; 0: one for each colour
+        false;  ///< polygons are counted but not drawn; draw_plot() passes them to the writer of the file
+    std::vector<int> hatched{};  ///< palette indices whose lines are hatching, which is drawn before other lines
+    bool draws_circles = false;  ///< discs are circles of their own size, not spirals, unless the pen has a width
+    int pens = 0;                ///< maximum number of pens, to which colours are merged; 0: one for each colour
     glm::dvec2 start{0.0};  ///< position of the pen, in millimetres from the bottom left corner of the page, y up
     std::optional<glm::dvec2> home = {};  ///< position of the pen after the last stroke, in the same coordinates
     PlotSpeeds speeds = {};               ///< by which arrangements are compared
@@ -81,6 +83,8 @@ struct PlotReport {
     PlotTally before;  ///< pen after pen and refilled like the plot, but every stroke as it was drawn
     PlotTally after;
     std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
+    std::uint64_t curves = 0;             ///< number of Béziers among them
+    double skipped = 0;                   ///< millimetres that a plot that resumes leaves out
     std::uint64_t duplicates = 0;         ///< drawn lines and curves left out because they lay on another one
     std::uint64_t fills = 0;              ///< number of polygons, areas and discs drawn
     std::uint64_t tiles = 0;              ///< number of polygons passed to the writer of the file
@@ -113,6 +117,8 @@ std::vector<int> fill_pens(const Style& style);
 ///   shortens pen-up travel.
 /// - With a `pen_width`, wider strokes are drawn in several passes (see pen_passes()). Without, a pen is as wide as
 ///   its strokes; in SVG, PDF and EPS, as wide as its first stroke.
+/// - Pens that only hatch draw first, then those that draw lines, then those that only fill discs; otherwise in the
+///   order of the palette.
 /// - Fills hide nothing, except in drawings in space (see plot_scene()).
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal
@@ -179,6 +185,8 @@ private:
 
     int slot_of(const Pen& pen, bool fills) const;
     Gathered& gathered(const Pen& pen, bool fills = false);
+    std::vector<int> slots_in_order() const;
+    bool is_hatching(const Pen& pen) const;
     Gathered& outlines(const Pen& pen);
     void add(std::span<const glm::dvec2> points, bool curves);
     double pen_steps(const Pen& pen) const;

@@ -21,8 +21,9 @@ namespace {
 constexpr std::size_t most_bytes = 65536;
 constexpr double dpi = 96;  // of lengths in px
 
-const std::array<BundledProfile, 6> bundled = {{{"axidraw", axidraw_plotter},
+const std::array<BundledProfile, 7> bundled = {{{"axidraw", axidraw_plotter},
                                                 {"grbl", grbl_plotter},
+                                                {"grbl-laser", grbl_laser_plotter},
                                                 {"hp7475a", hp7475a_plotter},
                                                 {"marlin", marlin_plotter},
                                                 {"marlin-z", marlin_z_plotter},
@@ -58,7 +59,7 @@ struct ProfileKey {
     bool is_list = false;  ///< may be repeated
 };
 
-const std::array<ProfileKey, 24> profile_keys = {{
+const std::array<ProfileKey, 25> profile_keys = {{
     {"title", "ghs", [](P& p, Text t) { p.title = t; }},
     {"language", "ghs",
      [](P& p, Text t) {
@@ -86,6 +87,11 @@ const std::array<ProfileKey, 24> profile_keys = {{
      [](P& p, Text t) {
          p.paper = parse_hpgl_paper(t, dpi);
          if (!p.paper) fail("expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
+     }},
+    {"unit", "h",
+     [](P& p, Text t) {
+         p.unit = length_of(t);
+         if (!(p.unit >= 0.001 && p.unit <= 1)) fail("expected the length of a plotter unit, 0.001mm to 1mm");
      }},
     {"full speed", "s", [](P& p, Text t) { p.layers.full_speed = parse_speed(t); }},
     {"pause between pens", "s", [](P& p, Text t) { p.layers.pauses = is_yes(t); }},

@@ -28,6 +28,7 @@ struct PlotterProfile {
     PlotSpeeds speeds{};
     GcodeOptions gcode{};              ///< commands and heights; only G-code
     std::optional<HpglPaper> paper{};  ///< only HP-GL
+    double unit = hpgl_unit;           ///< millimetres of a plotter unit; only HP-GL
     int pens = 0;                      ///< number of pens it holds; 0: any
     std::vector<PenRule> rules{};
     std::optional<glm::dvec2> park{};  ///< place of the pen while it is changed

@@ -182,10 +182,23 @@ std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> ver
     return Hatcher(vertices, along, spacing, inset, monitor).lines();
 }
 
+namespace {
+
+/// Radius of the circle that a pen draws at the edge of a disc.
+double edge_of(double radius, double pen) {
+    return std::max(radius - pen / 2, radius / 4);
+}
+
+}  // namespace
+
+double spiral_reach(double radius, double pen) {
+    return edge_of(radius, pen) + pen / 2;
+}
+
 std::vector<glm::dvec2> spiral(glm::dvec2 centre, double radius, double pen) {
     constexpr std::size_t eighths = 8;
     const double handle = 4.0 / 3.0 * std::tan(std::numbers::pi / 16);
-    const double edge = std::max(radius - pen / 2, radius / 4);
+    const double edge = edge_of(radius, pen);
     std::vector<glm::dvec2> path = {centre + edge * unit_vector(0.0)};
     // Adds an eighth of a turn with shrinking radius.
     const auto turn = [&](std::size_t i, double outer, double inner) {

@@ -36,5 +36,7 @@ std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> ver
 /// @param radius  above 0, in the same unit as `pen`
 /// @return the start, then three control points for each Bézier, within 0.01 percent of the radius
 std::vector<glm::dvec2> spiral(glm::dvec2 centre, double radius, double pen);
+/// Radius of the ink of such a spiral: that of the disc, or more if the pen is wider.
+double spiral_reach(double radius, double pen);
 
 }  // namespace sikku

@@ -313,8 +313,11 @@ void draw_lotus(Sides sides, double d, BorderInk& ink) {
             const bool is_last = k + 2 == row.size();
             const Point foot = is_last ? corner : side.at({base + static_cast<double>(k + 1) * p, base});
             const Point up = is_last ? -high * turn.inwards : -high * side.inwards;
-            draw_back_petal(row[k], row[k + 1], foot + 0.78 * up, line, ink);
-            ink.disc(foot + 1.0 * up, 0.035 * d, flour);
+            // Beside the petal of the corner, halfway between its direction and that of the row.
+            const bool is_corner = k + 3 >= row.size();
+            const Point lean = is_corner ? high * glm::normalize(up / high + glm::normalize(diagonal)) : up;
+            draw_back_petal(row[k], row[k + 1], foot + (is_corner ? 0.92 : 0.78) * lean, line, ink);
+            ink.disc(foot + (is_corner ? 1.14 : 1.0) * lean, 0.035 * d, flour);
         }
     }
 }

@@ -229,8 +229,13 @@ bool read_count(std::string_view text, int& value) {
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= most_copies;
 }
 
-/// Parses `3x4`, `fill` or `3xfill`; of a frieze or a ring, `3`.
+/// Parses `3x4`, `fill` or `3xfill`; of a frieze, `3` or `fill`; of a ring, `3`.
 bool read_cells(std::string_view text, bool is_row, Repeat& repeat) {
+    if (is_row && repeat.group != ring && text == "fill") {
+        repeat.columns = 1;
+        repeat.fills = true;
+        return true;
+    }
     if (is_row) return read_count(text, repeat.columns);
     const std::size_t x = std::min(text.find('x'), text.size());
     repeat.fills = text == "fill" || (x < text.size() && text.substr(x + 1) == "fill");
@@ -294,6 +299,7 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
     const double gap = ink + repeat.gap * (repeat.gap_is_in_steps ? 1.0 : std::max(size.x, size.y));
     const Group& group = *find_group(repeat.group);
     Wallpaper wallpaper;
+    wallpaper.is_row = group.is_frieze;
     glm::dvec2 a, b, shift;
     if (group.lattice == Lattice::rectangular) {
         // Copies may overlap, but cells go on in their direction.
@@ -347,6 +353,18 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
     return copies;
 }
 
+double covered_share(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink) {
+    const Wallpaper wallpaper = wallpaper_of(repeat, hull, ink);
+    const glm::dvec2 a = wallpaper.across, b = wallpaper.up;
+    const double cell = std::fabs(a.x * b.y - a.y * b.x);
+    double twice = 0;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const glm::dvec2 from = hull[i], to = hull[(i + 1) % hull.size()];
+        twice += from.x * to.y - from.y * to.x;
+    }
+    return std::min(1.0, std::fabs(twice) / 2 * static_cast<double>(wallpaper.cell.size()) / cell);
+}
+
 std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box& box, const Box& area) {
     std::vector<Box> one;  // of each copy of the cell
     Box cell;
@@ -367,7 +385,8 @@ std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box&
         }
     }
     constexpr double slack = 1e-9;
-    const glm::dvec2 low = glm::ceil(range.low - slack), high = glm::floor(range.high + slack);
+    glm::dvec2 low = glm::ceil(range.low - slack), high = glm::floor(range.high + slack);
+    if (wallpaper.is_row) low.y = high.y = 0;
     const auto refuse = [] {
         throw std::runtime_error(fmt::format(
             "the page would be filled with more than {} copies: a longer step or fewer columns are needed",

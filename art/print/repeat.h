@@ -33,7 +33,7 @@ constexpr int most_copies = 10'000;
 /// Parses `GROUP[:COUNT][,gap=GAP]`. The group is a wallpaper group by its name (p1 p2 pm pg cm pmm pmg pgg cmm p4
 /// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3), or `fill` or `COLUMNSxfill` to cover the page; a
 /// frieze group: frieze (translations alone), frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells
-/// (5); or ring with a number of copies (8). The gap is in steps, or in percent of the drawing's larger side (8%).
+/// (5), or `fill` for a row from edge to edge of the page; or ring with a number of copies (8). The gap is in steps, or in percent of the drawing's larger side (8%).
 /// Nullopt for anything else and for more than most_copies.
 std::optional<Repeat> parse_repeat(std::string_view text);
 
@@ -52,9 +52,13 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
 struct Wallpaper {
     std::vector<glm::dmat3x2> cell;
     glm::dvec2 across{0.0}, up{0.0};
+    bool is_row = false;  ///< a frieze, which goes on across only
 };
-/// The wallpaper of a group, with copies as in copies_of(). @param repeat  neither a frieze nor a ring
+/// The wallpaper of a group, with copies as in copies_of(). @param repeat  not a ring
 Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
+
+/// Share of a wallpaper or frieze that the convex hulls of its copies cover, 0 to 1. @param repeat  not a ring
+double covered_share(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
 
 /// The copies of a wallpaper that may reach into an area, row by row from the top.
 /// @param box   of the drawing that is copied @param area  in the coordinates of the copies

@@ -239,10 +239,16 @@ void draw_tile_overview(const Tiling& tiling, const Page& page, const Window& pl
         draw_mark({high.x, low.y}, high, ink_width, sink);
         draw_mark(high, {low.x, high.y}, ink_width, sink);
         draw_mark({low.x, high.y}, low, ink_width, sink);
+        // In a corner of the sheet, on a ground of its own, so that lines of the drawing do not run through it.
         const std::string number = fmt::format("{}-{}", tile.row, tile.column);
-        const double height = 0.16 * std::min(high.y - low.y, high.x - low.x);
-        const glm::dvec2 middle = (low + high) / 2.0;
-        write_mark(number, {middle.x - text_width(number, height) / 2, middle.y + height / 2}, height, false, sink);
+        const double height = 0.11 * std::min(high.y - low.y, high.x - low.x);
+        const glm::dvec2 from = low + glm::dvec2(0.6 * height);
+        const glm::dvec2 size(text_width(number, height) + 0.8 * height, 1.8 * height);
+        const std::array<glm::dvec2, 4> corners = {glm::dvec2(from.x, -from.y), glm::dvec2(from.x + size.x, -from.y),
+                                                   glm::dvec2(from.x + size.x, -from.y - size.y),
+                                                   glm::dvec2(from.x, -from.y - size.y)};
+        sink.polygon(corners, Pen{.colour = 0});
+        write_mark(number, from + glm::dvec2(0.4, 1.4) * height, height, false, sink);
     }
 }
 

@@ -1,10 +1,10 @@
 #include "art/sheet/sheet.h"
 
 #include "art/drawing/drawing.h"
+#include "art/drawing/faint_inks.h"
 #include "art/drawing/picture.h"
 #include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
-#include "engine/geometry/lettering.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet_pixels.h"
 #include "art/sheet/sheet_plot.h"
@@ -15,6 +15,7 @@
 #include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -157,8 +158,18 @@ public:
     const Plan& arrange();
     std::vector<DrawReport> reports() const {
         std::vector<DrawReport> all(subjects_.size());
-        for (std::size_t i = 0; i < all.size(); ++i) subjects_[i].drawing->report(all[i]);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            subjects_[i].drawing->report(all[i]);
+            // Lessons draw over pale lines.
+            const bool is_seen = !options_.plot && !is_for_plotters(options_.format) && !cells_[i].lesson_step;
+            if (is_seen) all[i].faint = faint_inks(*subjects_[i].drawing, plan_.cells[i].print);
+        }
         return all;
+    }
+    std::string missing() const {
+        std::vector<std::string> texts;
+        for (const TextLine& line : plan_.texts) texts.push_back(line.text);
+        return missing_letters(texts);
     }
     void write_vectors(PrintWriter& writer) const;
     DrawReport write_plot(Output& output) const;
@@ -795,6 +806,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         }
         output.commit();
         layout.reports = sheet.reports();
+        layout.missing_letters = sheet.missing();
         return layout;
     });
 }

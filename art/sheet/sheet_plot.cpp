@@ -67,6 +67,16 @@ SheetDrawing::SheetDrawing(std::vector<PlacedDrawing> drawings, const Print& she
     extent_.box.add({sheet.page.width, -sheet.page.height});
 }
 
+std::vector<int> SheetDrawing::hatched_colours() const {
+    std::vector<int> colours;
+    for (std::size_t i = 0; i < drawings_.size(); ++i) {
+        for (const int colour : drawings_[i].drawing->hatched_colours()) {
+            if (colour >= 0) colours.push_back(lines_[i][static_cast<std::size_t>(colour)]);
+        }
+    }
+    return colours;
+}
+
 void SheetDrawing::read(const Print&, const Window&, PathSink& sink) const {
     texts_(sink);
     for (std::size_t i = 0; i < drawings_.size(); ++i) {

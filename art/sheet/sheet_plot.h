@@ -25,6 +25,7 @@ public:
     const DrawnExtent& seen() override { return extent_; }
     const Style& style() const override { return style_; }
     double scale() const override { return 1.0; }
+    std::vector<int> hatched_colours() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
 

@@ -1,5 +1,6 @@
 #include "art/style/colour.h"
 
+#include "art/style/contrast.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -242,11 +243,25 @@ const std::vector<std::string_view>& colour_names() {
 
 namespace {
 
-glm::dvec3 oklab(Colour colour) {
-    const auto linear = [](std::uint8_t channel) {
-        const double value = channel / 255.0;
-        return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+double linear(std::uint8_t channel) {
+    const double value = channel / 255.0;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+/// CIE L*a*b* relative to the white of sRGB.
+glm::dvec3 cielab(Colour colour) {
+    const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
+    const auto share = [](double value) {
+        constexpr double knee = 6.0 / 29;
+        return value > knee * knee * knee ? std::cbrt(value) : value / (3 * knee * knee) + 4.0 / 29;
     };
+    const double x = share((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+    const double y = share(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+    const double z = share((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+glm::dvec3 oklab(Colour colour) {
     const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
     const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
     const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
@@ -264,6 +279,17 @@ double lightness(Colour colour) {
 
 double colour_distance(Colour a, Colour b) {
     return glm::length(oklab(a) - oklab(b));
+}
+
+double colour_difference(Colour a, Colour b) {
+    return glm::length(cielab(a) - cielab(b));
+}
+
+Colour laid_over(Colour colour, Colour ground) {
+    const auto mixed = [&](int above, int below) {
+        return static_cast<std::uint8_t>((above * colour.alpha + below * (255 - colour.alpha) + 127) / 255);
+    };
+    return {mixed(colour.red, ground.red), mixed(colour.green, ground.green), mixed(colour.blue, ground.blue), 255};
 }
 
 }  // namespace sikku

@@ -201,8 +201,8 @@ private:
             fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
                         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" xmlns:sikku=\"{}\"\n"
-                        "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\">\n",
-                        svg_name_space, width, height, width, height));
+                        "     width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\"{}>\n",
+                        svg_name_space, width, height, width, height, shown_ground()));
         file_.write(fmt::format("<title>{}</title>\n<desc>", xml_escaped(print_.title)));
         file_.write(xml_escaped(print_.pattern));
         file_.write(fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(print_.made)));
@@ -210,16 +210,24 @@ private:
             file_.write(fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(print_.pattern)));
         }
         file_.write("</metadata>\n");
-        write_ground(print_.style.ground, fmt::format("width=\"{}\" height=\"{}\"", width, height));
+        if (!print_.is_plot) {
+            write_ground(print_.style.ground, fmt::format("width=\"{}\" height=\"{}\"", width, height));
+        }
+    }
+
+    /// The ground of a plot is only shown: software of plotters would draw the outline of a rectangle.
+    std::string shown_ground() const {
+        const std::optional<Colour>& ground = print_.style.ground;
+        if (!print_.is_plot || !ground || ground->alpha == 0) return "";
+        return fmt::format(" style=\"background:{}\"", hex(*ground));
     }
 
     void write_ground(const std::optional<Colour>& ground, std::string_view box) {
         if (!ground || ground->alpha == 0) return;
-        // AxiDraw's software passes over layers that begin with a percent sign.
         file_.write(
-            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}ground\">\n"
+            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"ground\">\n"
                         "<rect {} fill=\"{}\"{}/>\n</g>\n",
-                        print_.is_plot ? "% " : "", box, hex(*ground), opacity("fill-opacity", *ground)));
+                        box, hex(*ground), opacity("fill-opacity", *ground)));
     }
 
     /// Paths know when they begin and how long they are, in millimetres; the pace is told here, when all are known.

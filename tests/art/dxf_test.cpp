@@ -23,35 +23,73 @@ struct Dxf {
     struct Line {
         std::string layer;
         std::vector<glm::dvec2> points;
+        std::vector<double> bulges{};  ///< of what leads on from each point
         bool is_closed = false;
+        double radius = 0;  ///< of a circle around its only point
+
+        /// Points along it, arcs included.
+        std::vector<glm::dvec2> samples(double spacing) const {
+            Samples along(spacing);
+            if (radius > 0) {
+                along.start(points[0] + glm::dvec2(radius, 0));
+                along.arc(points[0], points[0] - glm::dvec2(radius, 0), true);
+                along.arc(points[0], points[0] + glm::dvec2(radius, 0), true);
+                return along.points;
+            }
+            along.start(points[0]);
+            const std::size_t count = points.size() - (is_closed ? 0 : 1);
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::dvec2 from = points[i], to = points[(i + 1) % points.size()];
+                const double bulge = bulges[i];
+                if (bulge == 0) {
+                    along.line(to);
+                    continue;
+                }
+                // The middle of the arc is a sagitta to the right of the middle of its chord.
+                const glm::dvec2 right(to.y - from.y, from.x - to.x);
+                const glm::dvec2 middle = (from + to) / 2.0 + bulge / 2 * right;
+                const glm::dvec2 a = middle - from, b = to - from;
+                const double twice = 2 * (a.x * b.y - a.y * b.x);
+                const glm::dvec2 centre =
+                    from + (glm::dvec2(b.y, -b.x) * glm::dot(a, a) + glm::dvec2(-a.y, a.x) * glm::dot(b, b)) / twice;
+                along.arc(centre, to, bulge > 0);
+            }
+            return along.points;
+        }
     };
     std::vector<Line> lines;
     std::map<std::string, int> layers;  ///< colour numbers
     std::set<std::string> entities;
+    std::map<std::string, std::string> header;
 };
 
 Dxf read_dxf(const std::string& text) {
     std::istringstream in(text);
     Dxf drawing;
-    std::string code, value, section, entity, name;
+    std::string code, value, section, entity, name, variable;
     Dxf::Line* line = nullptr;
     while (std::getline(in, code) && std::getline(in, value)) {
         if (code == "999") continue;
         if (code == "0") {
             entity = value;
             if (section == "ENTITIES") drawing.entities.insert(value);
-            if (value == "POLYLINE" || value == "LINE" || value == "POINT") {
+            if (value == "POLYLINE" || value == "LINE" || value == "POINT" || value == "CIRCLE") {
                 line = &drawing.lines.emplace_back();
                 if (value != "POLYLINE") line->points.emplace_back();
                 if (value == "LINE") line->points.emplace_back();
+                line->bulges.resize(line->points.size());
             } else if (value == "VERTEX") {
                 line->points.emplace_back();
+                line->bulges.push_back(0);
             }
             continue;
         }
         if (code == "2") (entity == "SECTION" ? section : name) = value;
         if (entity == "LAYER" && code == "62") drawing.layers[name] = std::stoi(value);
+        if (section == "HEADER") (code == "9" ? variable : drawing.header[variable]) = value;
         if (section != "ENTITIES") continue;
+        if (entity == "VERTEX" && code == "42") line->bulges.back() = std::stod(value);
+        if (entity == "CIRCLE" && code == "40") line->radius = std::stod(value);
         const auto coordinate = [&](std::size_t back) -> glm::dvec2& {
             return line->points.at(line->points.size() - back);
         };
@@ -159,13 +197,42 @@ TEST(Dxf, CurvesStayWithinAHundredthOfAMillimetre) {
         const auto lines = true_lines(*plan, print, spacing);
         ASSERT_EQ(drawing.lines.size(), lines.size());
         for (std::size_t i = 0; i < lines.size(); ++i) {
-            Samples samples(spacing);
-            samples.start(drawing.lines[i].points[0]);
-            for (const glm::dvec2 corner : std::span(drawing.lines[i].points).subspan(1)) samples.line(corner);
-            if (drawing.lines[i].is_closed) samples.line(drawing.lines[i].points[0]);
-            EXPECT_LE(hausdorff(samples.points, lines[i]), 0.0105 + spacing / 2) << i;
+            EXPECT_LE(hausdorff(drawing.lines[i].samples(spacing), lines[i]), 0.0105 + spacing / 2) << i;
+        }
+        std::size_t arcs = 0, vertices = 0;
+        for (const Dxf::Line& line : drawing.lines) {
+            vertices += line.points.size();
+            arcs += static_cast<std::size_t>(
+                std::count_if(line.bulges.begin(), line.bulges.end(), [](double bulge) { return bulge != 0; }));
+        }
+        EXPECT_GT(arcs, 0u);
+        // Chords would take several times as many.
+        if (is_kolam) {
+            EXPECT_LT(vertices, plan->report().segments * 3);
         }
     }
+}
+
+TEST(Dxf, StatesMillimetres) {
+    const Dxf drawing = read_dxf(dxf_of("tilings/chair"));
+    EXPECT_EQ(drawing.header.at("$ACADVER"), "AC1009");
+    EXPECT_EQ(drawing.header.at("$INSUNITS"), "4");
+    EXPECT_EQ(drawing.header.at("$MEASUREMENT"), "1");
+}
+
+TEST(Dxf, DotsAreCirclesOfTheirSize) {
+    const Dxf drawing = read_dxf(dxf_of("kolams/snake-kolam", {{"dots", "1.5mm #0000ff"}, {"size", "200x200mm"}}));
+    std::size_t circles = 0;
+    for (const Dxf::Line& line : drawing.lines) {
+        if (line.radius == 0) continue;
+        ++circles;
+        EXPECT_NEAR(line.radius, 0.75, 0.0002);
+    }
+    EXPECT_EQ(circles, 341u);
+    // A pen of a given width fills them.
+    const Dxf filled = read_dxf(
+        dxf_of("kolams/snake-kolam", {{"dots", "1.5mm #0000ff"}, {"pen-width", "0.3mm"}, {"size", "200x200mm"}}));
+    EXPECT_FALSE(filled.entities.contains("CIRCLE"));
 }
 
 TEST(Dxf, PensHaveLayersAndDotsAreDrawn) {
@@ -206,6 +273,8 @@ auditor = document.audit()
 assert not auditor.errors, auditor.errors
 assert not auditor.fixes, auditor.fixes
 assert document.dxfversion == 'AC1009'
+assert document.units == ezdxf.units.MM and document.header['$MEASUREMENT'] == 1
+assert len(document.modelspace().query('CIRCLE')) == 345  # with those of the corners
 space = document.modelspace()
 low = [1e9, 1e9]
 high = [-1e9, -1e9]

@@ -1,7 +1,7 @@
 #include "art/plotter/gcode.h"
 
 #include "art/plotter/profile.h"
-
+#include "art/prints.h"
 #include "tests/plot_tools.h"
 
 #include <charconv>
@@ -261,6 +261,53 @@ TEST_F(Gcode, OptionsAreChecked) {
     const auto outside = arranged(print, [](PathSink& sink) { sink.disc({50, 30}, 33, Pen{}); });
     EXPECT_THROW(text(*outside, print), std::runtime_error);
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
+}
+
+/// The lines of a document's G-code without comments.
+std::vector<std::string> commands_of(const Document& document, const OptionValues& values) {
+    std::istringstream text(draw(document, "gcode", values));
+    std::vector<std::string> commands;
+    for (std::string line; std::getline(text, line);) {
+        if (!line.starts_with('(')) commands.push_back(line);
+    }
+    return commands;
+}
+
+TEST_F(Gcode, NothingMovesToWhereItIs) {
+    for (const char* name : {"plants/lily-of-the-valley", "kolams/snake-kolam", "tilings/penrose-rhombs"}) {
+        std::string at;
+        for (const std::string& line : commands_of(load(bundled(name)), {})) {
+            const std::size_t x = line.find('X'), y = line.find(' ', line.find('Y'));
+            if (line.starts_with("M0")) at.clear();
+            if (x == std::string::npos) continue;
+            const std::string place = line.substr(x, y - x);
+            EXPECT_NE(place, at) << name << ": " << line;
+            at = place;
+        }
+    }
+}
+
+TEST_F(Gcode, ALaserIsOffUnlessItMovesAndNeverWaits) {
+    const Document kolam = load(bundled("kolams/snake-kolam"));
+    bool is_on = false;
+    std::size_t cuts = 0;
+    const auto commands = commands_of(kolam, {{"profile", "grbl-laser"}, {"border", "kaavi"}, {"dots", "2mm"}});
+    for (const std::string& line : commands) {
+        EXPECT_FALSE(line.starts_with("G4") || line.starts_with("M3")) << line;
+        EXPECT_FALSE(is_on && (line.starts_with("G0") || line.starts_with("M0"))) << line;
+        if (line.starts_with("M4")) {
+            EXPECT_EQ(line, "M4 S500");
+        }
+        is_on = line.starts_with("M4") || (is_on && !line.starts_with("M5"));
+        if (line.size() > 2 && line[0] == 'G' && line[1] >= '1' && line[1] <= '3' && line[2] == ' ') {
+            EXPECT_TRUE(is_on) << line;
+            ++cuts;
+        }
+    }
+    EXPECT_GT(cuts, 100u);
+    EXPECT_FALSE(is_on);
+    ASSERT_GE(commands.size(), 3u);
+    EXPECT_EQ(commands[commands.size() - 3], "M5");
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "art/plotter/hpgl.h"
 
+#include "art/prints.h"
+#include "engine/base/output.h"
 #include "tests/plot_tools.h"
 
 #include <charconv>
+#include <cstdio>
+#include <sstream>
 
 namespace sikku {
 namespace {
@@ -237,6 +241,67 @@ TEST_F(Hpgl, WhatLiesOffThePageIsRefused) {
         EXPECT_THROW(text(*plan, print), std::runtime_error);
     }
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
+}
+
+/// What an HP-GL plot of a document and its report say.
+std::pair<std::string, std::string> plotted(const Document& document, const OptionValues& values) {
+    MemoryDestination memory;
+    const Made made = prints().plan(document, "hpgl", values, {})->make(memory, "plot.hpgl", {}, 1);
+    std::string report;
+    for (const Remark& remark : made.remarks) report += remark.text + "\n";
+    return {memory.outputs().begin()->second, report};
+}
+
+TEST_F(Hpgl, TheUnitIsThatOfTheMachine) {
+    const Document line = parse("line.lsys", "axiom: F\nheading: 0\n");
+    const auto units = [&](const OptionValues& values) {
+        const std::string text = plotted(line, values).first;
+        int from = 0, to = 0, y = 0;
+        EXPECT_EQ(std::sscanf(text.c_str() + text.find("PU", text.find("SP1")), "PU%d,%d;\nPD%d,", &from, &y, &to),
+                  3);
+        return to - from;
+    };
+    const OptionValues common = {{"step", "100mm"}, {"hpgl-paper", "A4"}, {"landscape", "true"}};
+    EXPECT_EQ(units(common), 4000);
+    OptionValues profile = common;
+    profile.push_back({"profile", "hp7475a"});
+    // 1,021 units to the inch.
+    EXPECT_NEAR(units(profile), 100 / 25.4 * 1021, 1.5);
+}
+
+TEST_F(Hpgl, AProfileWidensTheMarginThatItNeeds) {
+    const Document kolam = load(bundled("kolams/snake-kolam"));
+    for (const char* size : {"A4", "A3", "letter", "tabloid"}) {
+        SCOPED_TRACE(size);
+        const auto [text, report] = plotted(kolam, {{"profile", "hp7475a"}, {"size", size}});
+        EXPECT_NE(report.find("the margin is 1"), std::string::npos) << report;
+        EXPECT_THROW(plotted(kolam, {{"profile", "hp7475a"}, {"size", size}, {"margin", "5mm"}}), std::runtime_error);
+    }
+    // A margin that suffices stays.
+    const auto [text, report] = plotted(kolam, {{"profile", "hp7475a"}, {"margin", "30mm"}});
+    EXPECT_EQ(report.find("the margin is"), std::string::npos) << report;
+    const ScratchFolder folder;
+    const std::string own = folder.write("own.plotter", "title: small\nlanguage: HP-GL\npaper: 260x180mm\n");
+    EXPECT_NE(plotted(kolam, {{"profile", own}}).second.find("the margin is 18.5 mm"), std::string::npos);
+    EXPECT_EQ(plotted(kolam, {}).second.find("the margin is"), std::string::npos);
+}
+
+TEST_F(Hpgl, APenThatIsThereDoesNotMove) {
+    for (const char* name : {"plants/lily-of-the-valley", "kolams/snake-kolam", "tilings/penrose-rhombs"}) {
+        const std::string text = plotted(load(bundled(name)), {{"tile-edges", "each"}}).first;
+        std::string at;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("SP") || line.starts_with("PU;SP")) at.clear();
+            if (line.starts_with("PU") && line.size() > 3 && !line.starts_with("PU;")) {
+                EXPECT_NE(line.substr(2), at) << name;
+            }
+            if (!line.starts_with("PD")) continue;
+            // The last place of the instruction.
+            const std::size_t comma = line.rfind(',', line.rfind(',') - 1);
+            at = comma == std::string::npos ? line.substr(2) : line.substr(comma + 1);
+        }
+    }
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ protected:
                                             OptionValues values = {}) const {
         values.push_back({"lesson", "3"});
         values.push_back({"size", "120x120mm"});
-        values.push_back({"dpi", "60"});
+        if (format == "png" || format == "gif") values.push_back({"dpi", "60"});
         MemoryDestination memory;
         const Document document = parse("lesson.lsys", pattern);
         remarks_ = prints().plan(document, format, values)->make(memory, "lesson." + format, {}).remarks;

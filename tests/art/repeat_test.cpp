@@ -388,10 +388,51 @@ TEST(Repeat, FillsThePage) {
     }
     EXPECT_EQ(parse_repeat("p4m:fill")->columns, 3);
     EXPECT_EQ(parse_repeat("p4m:5xFILL")->columns, 5);
-    for (const char* bad : {"frieze:fill", "ring:fill", "p4m:fillx3", "p4m:0xfill", "p4m:fill4"}) {
+    for (const char* bad : {"frieze:5xfill", "ring:fill", "p4m:fillx3", "p4m:0xfill", "p4m:fill4"}) {
         EXPECT_FALSE(parse_repeat(bad)) << bad;
     }
     EXPECT_ANY_THROW(draw(document, "svg", {{"repeat", "p4m:fill"}, {"step", "0.1mm"}, {"size", "A0"}}));
+}
+
+/// A frieze goes on from edge to edge, as high as the page within its margins.
+TEST(Repeat, AFriezeFillsItsRow) {
+    const Document document = parse("hook.lsys", hook);
+    for (const char* group : {"frieze", "frieze-p2mg", "frieze-p1m1"}) {
+        SCOPED_TRACE(group);
+        Box box;
+        const OptionValues values = {{"repeat", std::string(group) + ":fill"}, {"size", "500x60mm"}};
+        for (const Points& path : paths_of(draw(document, "svg", values))) {
+            for (const glm::dvec2 point : path) box.add(point);
+        }
+        EXPECT_NEAR(box.low.x, 0, 30);
+        EXPECT_NEAR(box.high.x, 500, 30);
+        EXPECT_GE(box.low.y, 10 - close);
+        EXPECT_LE(box.high.y, 50 + close);
+        EXPECT_GT(box.high.y - box.low.y, 25);
+    }
+}
+
+TEST(Repeat, CopiesInUnitsOfAnotherShapeAreReported) {
+    const Document square = parse("square.lsys", "axiom: F+F+F+F\nangle increment: 90\n");
+    const auto report = [&](const char* repeat) {
+        MemoryDestination memory;
+        std::string text;
+        const Made made = prints().plan(square, "svg", {{"repeat", repeat}}, {})->make(memory, "s.svg", {}, 1);
+        for (const Remark& remark : made.remarks) text += remark.text + "\n";
+        return text;
+    };
+    for (const char* repeat : {"p4m:3x4", "p4m:fill", "p6m:2x2"}) {
+        EXPECT_NE(report(repeat).find("; p1 covers 86 %"), std::string::npos) << report(repeat);
+    }
+    for (const char* repeat : {"p1:3x4", "pmm:2x2", "p4:2x2", "frieze:3", "ring:5"}) {
+        EXPECT_EQ(report(repeat).find("p1 covers"), std::string::npos) << report(repeat);
+    }
+    const std::vector<glm::dvec2> unit = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    Repeat repeat = *parse_repeat("p1:1x1,gap=0");
+    EXPECT_NEAR(covered_share(repeat, unit), 1.0, 1e-9);
+    repeat.gap = 1;
+    repeat.gap_is_in_steps = true;
+    EXPECT_NEAR(covered_share(repeat, unit), 0.25, 1e-9);
 }
 
 /// Fills are cut, too; a stroke that leaves the area and returns becomes two.

@@ -37,6 +37,39 @@ TEST_F(KolamGrid, MakesEveryKindOfGrid) {
     EXPECT_TRUE(has(kolam({"shape.lsys"}).output, "a single line (anthathi), 20 dots"));
 }
 
+TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
+    const auto note = [&](const char* grid) { return kolam({"--grid", grid, "-o", "a.lsys"}).errors; };
+    EXPECT_TRUE(has(note("1-15-1"), "three rows of 1, 15 and 1 dots; for 1 up to 15 and back write 15-1"));
+    EXPECT_TRUE(has(note("15 dots"), "one row of 15 dots; for rows from 1 up to 15 and back write 15-1"));
+    EXPECT_TRUE(has(note("8"), "write 8-2"));
+    for (const char* grid :
+         {"7x7", "15-1", "1-3-5-3-1", "3-5-3", "4-9-9-4", "7 to 1", "15-8 idukku pulli", "oo/oo"}) {
+        EXPECT_FALSE(has(note(grid), "note:")) << grid;
+    }
+}
+
+/// The files of two seeds are the same but for the seed where the program says so.
+TEST_F(KolamGrid, SeedsOfOneKolamAreNoted) {
+    const auto drawing = [&](const std::string& seed, const char* grid) {
+        const Outcome made = kolam({"--grid", grid, "--seed", seed, "-o", "a.lsys"});
+        const std::string text = contents(folder_ / "a.lsys");
+        return std::pair(text.substr(text.find("axiom:")), made.errors);
+    };
+    for (const char* grid : {"1-3-5-3-1", "5x5", "7x3 to 3"}) {
+        std::size_t same = 0;
+        for (int seed = 0; seed < 8; ++seed) {
+            const auto [text, errors] = drawing(std::to_string(seed), grid);
+            const std::size_t at = errors.find("gives the same kolam as seed ");
+            if (at == std::string::npos) continue;
+            ++same;
+            const std::string other = std::to_string(std::stoi(errors.substr(at + 29)));
+            EXPECT_EQ(drawing(other, grid).first.size(), text.size()) << grid << seed;
+        }
+        EXPECT_GT(same, std::string(grid) == "1-3-5-3-1" ? 6u : 0u) << grid;
+    }
+    EXPECT_FALSE(has(drawing("3", "15-1").second, "gives the same kolam"));
+}
+
 TEST_F(KolamGrid, TheUsualSymmetryIsTheLargestThatIsPossible) {
     EXPECT_TRUE(has(kolam({"--grid", "7x7", "-o", "a.lsys"}).errors, "symmetry D4"));
     EXPECT_TRUE(has(kolam({"--grid", "7x7", "--single-line", "-o", "a.lsys"}).errors, "symmetry C4"));

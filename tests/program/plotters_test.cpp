@@ -13,7 +13,7 @@ namespace {
 TEST(Plotters, AreListedAndPrinted) {
     const Outcome list = run({"plotters"});
     EXPECT_EQ(list.status, 0);
-    for (const char* name : {"axidraw ", "grbl ", "hp7475a ", "marlin ", "marlin-z ", "z "}) {
+    for (const char* name : {"axidraw ", "grbl ", "grbl-laser ", "hp7475a ", "marlin ", "marlin-z ", "z "}) {
         EXPECT_TRUE(has(list.output, std::string("\n") + name) || list.output.starts_with(name)) << name;
     }
     const Outcome one = run({"plotters", "marlin"});

@@ -221,7 +221,7 @@ TEST_F(PrintOptions, PlotsDrawNothingTwice) {
     pugi::xml_document document;
     ASSERT_TRUE(document.load_file((folder_ / "plot.svg").c_str()));
     const auto labels = layers(document);
-    EXPECT_EQ(std::count(labels.begin(), labels.end(), "% ground"), 1);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), "% ground"), 0);
     EXPECT_EQ(std::count(labels.begin(), labels.end(), "% travel"), 1);
     for (const std::string& label : labels) {
         EXPECT_TRUE(label.starts_with('%') || std::isdigit(static_cast<unsigned char>(label.front()))) << label;

@@ -1,0 +1,37 @@
+// art/unused_options.h: options that a print accepts and that change nothing.
+#pragma once
+
+#include "art/draw_settings.h"
+#include "art/drawing/draw_options.h"
+#include "engine/base/option.h"
+#include "engine/language/grammar.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace sikku {
+
+/// A print and the options that were given for it.
+struct GivenOptions {
+    std::set<std::string, std::less<>> names;
+    bool has_pixels = false;  ///< a length in the options or in the pattern is in px
+    bool has(std::string_view name) const { return names.contains(name); }
+};
+
+/// @param pattern  the text of the pattern
+GivenOptions given_options(const OptionValues& values, const std::string& pattern);
+
+/// True if unused_options() needs the contents of the drawing.
+bool needs_contents(const GivenOptions& given);
+
+/// The contents of a drawing in space, whose facets have shades of all colours: by the symbols that may occur.
+Contents contents_in_space(const Grammar& grammar);
+
+/// A warning for each option that has no effect on this print: `'arcs' has no effect: the drawing has no curves`.
+/// Effects that other warnings report are left out.
+/// @param report  of the drawing, if one was made; a default one otherwise
+std::vector<std::string> unused_options(const GivenOptions& given, const DrawSettings& settings, const Style& style,
+                                        PrintFormat format, bool is_spatial, const DrawReport& report);
+
+}  // namespace sikku
