@@ -92,7 +92,21 @@ std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, c
     return text;
 }
 
-std::string json_of(const ReadKolam& kolam, const Certificate& certificate) {
+/// What a photograph shows beside the kolam that was read, as members of a JSON object.
+std::string photograph_json(const Photograph& photograph) {
+    const auto places = [&](const std::vector<GridDot>& list) {
+        std::string text = "[";
+        for (const GridDot place : list) {
+            const glm::dvec2 at = photograph.in_file(place);
+            text += fmt::format("{}{{\"x\": {:.1f}, \"y\": {:.1f}}}", text.size() > 1 ? ", " : "", at.x, at.y);
+        }
+        return text + "]";
+    };
+    return fmt::format("\"kolams\": {}, \"open_ends\": {}, \"missing\": {}, ", photograph.kolams,
+                       places(photograph.open_ends), places(photograph.missing));
+}
+
+std::string json_of(const ReadKolam& kolam, const Certificate& certificate, const Photograph* photograph) {
     const std::vector<GapPlace> places = gap_places(kolam.grid);
     const auto gaps = [&](const std::vector<std::uint32_t>& list) {
         std::string text = "[";
@@ -108,11 +122,12 @@ std::string json_of(const ReadKolam& kolam, const Certificate& certificate) {
     for (const std::string& note : kolam.notes) notes += (notes.size() > 1 ? ", " : "") + json_string(note);
     return fmt::format(
         "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, \"symmetry\": "
-        "{}, \"doubtful\": {}, \"repaired\": {}, \"notes\": {}], \"crossings\": {}}}\n",
+        "{}, \"doubtful\": {}, \"repaired\": {}, {}\"notes\": {}], \"crossings\": {}}}\n",
         json_string(kolam.grid.text()), kolam.grid.dots().size(), kolam.states.size(),
         std::count(kolam.states.begin(), kolam.states.end(), GapState::crossed),
         std::count(kolam.states.begin(), kolam.states.end(), GapState::joined), certificate.lines,
-        json_string(grid_symmetry_name(certificate.symmetry)), gaps(kolam.doubtful()), gaps(kolam.repaired), notes,
+        json_string(grid_symmetry_name(certificate.symmetry)), gaps(kolam.doubtful()), gaps(kolam.repaired),
+        photograph != nullptr ? photograph_json(*photograph) : "", notes,
         json_string(gap_states_text(kolam.grid, kolam.states)));
 }
 
@@ -134,6 +149,24 @@ void report(const ReadKolam& kolam, const Certificate& certificate, const std::s
     if (doubts.size() > most_listed) tell_unless(quiet, "  and {} more\n", doubts.size() - most_listed);
 }
 
+/// Where dots may be lost, and how to read other kolams.
+void report_places(const Photograph& photograph, bool quiet) {
+    const auto list = [&](const std::vector<GridDot>& places, std::string_view what) {
+        if (places.empty()) return;
+        std::string text;
+        for (std::size_t i = 0; i < std::min(places.size(), most_listed); ++i) {
+            const glm::dvec2 at = photograph.in_file(places[i]);
+            text += fmt::format("{} {:.0f},{:.0f}", i > 0 ? ";" : "", at.x, at.y);
+        }
+        if (places.size() > most_listed) text += fmt::format("; and {} more", places.size() - most_listed);
+        tell_unless(quiet, "sikku: warning: {}, at pixels{}\n", what, text);
+    };
+    list(photograph.open_ends, "open ends, where lines leave the kolam");
+    list(photograph.missing, "places that may have a dot that was not seen");
+    if (photograph.kolams > 1)
+        tell_unless(quiet, "sikku: --number 1 to {} reads another kolam\n", photograph.readable);
+}
+
 /// The kolam of a file, and the photograph if it is one.
 struct FoundKolam {
     ReadKolam kolam;
@@ -151,10 +184,22 @@ FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
     std::string start;
     if (std::filesystem::is_regular_file(path, error)) start = InputFile(path).read(0, 64);
     if (is_picture(start)) {
-        Photograph photograph =
-            read_photograph(path, {.lattice = lattice, .repair = !options.no_repair}, progress.monitor());
-        ReadKolam kolam = photograph.kolam;
-        return {std::move(kolam), std::move(photograph)};
+        PhotographOptions picture;
+        picture.lattice = lattice;
+        picture.repair = !options.no_repair;
+        picture.number = options.number;
+        try {
+            Photograph photograph = read_photograph(path, picture, progress.monitor());
+            ReadKolam kolam = photograph.kolam;
+            return {std::move(kolam), std::move(photograph)};
+        } catch (const NoKolam& refused) {
+            if (!options.overlay.empty()) {
+                OutputFile file(options.overlay);
+                write_overlay(refused.picture(), file.temporary());
+                file.commit();
+            }
+            throw;
+        }
     }
     const std::string text = read_file(path, options.file, most_text, progress.monitor());
     if (text.size() > most_text) {
@@ -227,7 +272,9 @@ void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
                                  "of one-stroke kolams, an SVG, gestures, or a pattern")
                      ->type_name("FILE")
                      ->group(read_heading);
-    command.add_option("--number", options.number, "number of the kolam in a CSV, from 1 (1)")
+    command
+        .add_option("--number", options.number,
+                    "number of the kolam in a CSV, a list of .kolam.json or a photograph, from 1 (1)")
         ->type_name("N")
         ->check(whole_number(1, 1'000'000))
         ->needs(read)
@@ -251,7 +298,7 @@ void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
         .add_option(
             "--overlay", options.overlay,
             "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
-            "doubtful ones ringed")
+            "doubtful ones ringed; lost dots in red rings; also if the photograph is refused")
         ->type_name("FILE")
         ->needs(read)
         ->group(read_heading);
@@ -297,8 +344,11 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
         write_overlay(*found.photograph, file.temporary());
         file.commit();
     }
-    if (options.as_json) fmt::print("{}", json_of(found.kolam, certificate));
-    if (!options.as_json) report(found.kolam, certificate, source, quiet);
+    const Photograph* photograph = found.photograph ? &*found.photograph : nullptr;
+    if (options.as_json) fmt::print("{}", json_of(found.kolam, certificate, photograph));
+    if (options.as_json) return;
+    report(found.kolam, certificate, source, quiet);
+    if (photograph != nullptr) report_places(*photograph, quiet);
 }
 
 void kolam_convert(const Document& document, const std::string& output, double budget, bool quiet) {

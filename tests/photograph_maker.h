@@ -15,6 +15,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -30,6 +31,13 @@ struct Distortion {
     double wobble = 1;  ///< of the hand
 };
 
+/// A kolam beside the others of a picture.
+struct OtherKolam {
+    DotGrid grid;
+    GapStates states;
+    glm::dvec2 at{0.0};  ///< its middle, in spacings from that of the first
+};
+
 struct MadePhotograph {
     DotGrid grid;
     GapStates states;
@@ -41,6 +49,12 @@ struct MadePhotograph {
     double turn = 0;  ///< degrees
     std::uint32_t seed = 1;
     Distortion distortion = {};
+    std::vector<std::uint32_t> lost = {};                        ///< dots that are not drawn
+    std::vector<std::uint32_t> large = {};                       ///< dots as flowers, which nearly fill their loops
+    std::vector<std::pair<glm::dvec2, glm::dvec2>> petals = {};  ///< leaves without dots, from tip to tip
+    double bend = 0;                                             ///< of rows and columns, in spacings
+    glm::dvec2 beside{0.0};  ///< dots from the middles of their loops, in spacings
+    std::vector<OtherKolam> others = {};
 };
 
 /// Numbers that are the same with every standard library.
@@ -93,56 +107,112 @@ struct FlatKolam {
     }
 };
 
-inline FlatKolam draw_flat(const MadePhotograph& made, PictureChance& chance) {
-    FlatKolam flat;
-    const DotLattice lattice = made.grid.lattice();
-    flat.low = flat.high = lattice_point(lattice, made.grid.dots()[0]);
-    for (const GridDot dot : made.grid.dots()) {
-        flat.low = glm::min(flat.low, lattice_point(lattice, dot));
-        flat.high = glm::max(flat.high, lattice_point(lattice, dot));
+/// A disc that moves along a line, whose width varies, and which fails here and there, as powder does.
+class FlatPen {
+public:
+    FlatPen(FlatKolam& flat, const MadePhotograph& made, PictureChance& chance)
+        : flat_(flat),
+          made_(made),
+          chance_(chance),
+          until_break_(chance.uniform(1, 6)),
+          phase_(chance.uniform(0, 6.28), chance.uniform(0, 6.28)) {}
+    void move(glm::dvec2 place, double step) {
+        along_ += step;
+        place += 0.015 * made_.distortion.wobble *
+                 glm::dvec2(std::sin(2.3 * along_ + phase_.x) + std::sin(5.1 * along_),
+                            std::sin(2.9 * along_ + phase_.y) + std::sin(4.3 * along_));
+        until_break_ -= step;
+        if (until_break_ < 0) {
+            in_break_ = made_.distortion.breaks * chance_.uniform(0.03, 0.14);
+            until_break_ = chance_.uniform(2, 8);
+        }
+        in_break_ -= step;
+        const double width = made_.line_width * (1 + 0.18 * std::sin(3.7 * along_));
+        if (in_break_ <= 0) flat_.disc(bent(made_, place), width / 2, 1);
     }
-    flat.low -= flat.margin;
-    flat.high += flat.margin;
-    flat.width = static_cast<int>((flat.high.x - flat.low.x) * flat.scale) + 1;
-    flat.height = static_cast<int>((flat.high.y - flat.low.y) * flat.scale) + 1;
-    flat.ink.resize(static_cast<std::size_t>(flat.width) * static_cast<std::size_t>(flat.height));
-    for (const GridDot dot : made.grid.dots()) {
-        const glm::dvec2 off(chance.normal(), chance.normal());
-        flat.disc(lattice_point(lattice, dot) + 0.012 * made.distortion.wobble * off,
-                  made.dot_radius * chance.uniform(0.85, 1.15), 1);
+    /// Where a place comes to lie in rows that are bent.
+    static glm::dvec2 bent(const MadePhotograph& made, glm::dvec2 place) {
+        return place + made.bend * glm::dvec2(std::sin(1.1 * place.y + 1), std::sin(0.9 * place.x));
     }
-    for (const ClosedLine& line : lines_of_kolam(made.grid, made.states, 0.0)) {
-        // A uniform cubic B-spline along the sides of dots, with a hand's wobble; the powder fails here and there.
+
+private:
+    FlatKolam& flat_;
+    const MadePhotograph& made_;
+    PictureChance& chance_;
+    double until_break_;
+    double in_break_ = 0;
+    double along_ = 0;
+    glm::dvec2 phase_;
+};
+
+inline void draw_lines(FlatKolam& flat, const MadePhotograph& made, const DotGrid& grid, const GapStates& states,
+                       glm::dvec2 at, PictureChance& chance) {
+    for (const ClosedLine& line : lines_of_kolam(grid, states, 0.0)) {
+        // A uniform cubic B-spline along the sides of dots.
         const std::size_t count = line.size();
         const auto control = [&](std::size_t i) {
             const glm::dvec2 p = line[i % count];
-            return glm::dvec2(0.5 * p.x, (lattice == DotLattice::square ? 0.5 : std::numbers::sqrt3 / 4) * p.y);
+            return at + glm::dvec2(0.5 * p.x, lattice_point(grid.lattice(), {0, 1}).y * p.y);
         };
-        double until_break = chance.uniform(1, 6);
-        double in_break = 0;
-        const double phase_x = chance.uniform(0, 6.28);
-        const double phase_y = chance.uniform(0, 6.28);
-        double along = 0;
+        FlatPen pen(flat, made, chance);
         for (std::size_t i = 0; i < count; ++i) {
             constexpr int pieces = 24;
             for (int k = 0; k < pieces; ++k) {
                 const double t = static_cast<double>(k) / pieces;
                 const double s = 1 - t;
-                glm::dvec2 place = (s * s * s * control(i) + (3 * t * t * t - 6 * t * t + 4) * control(i + 1) +
-                                    (3 * s * s * s - 6 * s * s + 4) * control(i + 2) + t * t * t * control(i + 3)) /
-                                   6.0;
-                along += 0.7 / pieces;
-                place += 0.015 * made.distortion.wobble *
-                         glm::dvec2(std::sin(2.3 * along + phase_x) + std::sin(5.1 * along),
-                                    std::sin(2.9 * along + phase_y) + std::sin(4.3 * along));
-                until_break -= 0.7 / pieces;
-                if (until_break < 0) {
-                    in_break = made.distortion.breaks * chance.uniform(0.03, 0.14);
-                    until_break = chance.uniform(2, 8);
-                }
-                in_break -= 0.7 / pieces;
-                const double width = made.line_width * (1 + 0.18 * std::sin(3.7 * along));
-                if (in_break <= 0) flat.disc(place, width / 2, 1);
+                pen.move((s * s * s * control(i) + (3 * t * t * t - 6 * t * t + 4) * control(i + 1) +
+                          (3 * s * s * s - 6 * s * s + 4) * control(i + 2) + t * t * t * control(i + 3)) /
+                             6.0,
+                         0.7 / pieces);
+            }
+        }
+    }
+}
+
+inline FlatKolam draw_flat(const MadePhotograph& made, PictureChance& chance) {
+    FlatKolam flat;
+    const DotLattice lattice = made.grid.lattice();
+    flat.low = flat.high = lattice_point(lattice, made.grid.dots()[0]);
+    const auto include = [&](glm::dvec2 place) {
+        flat.low = glm::min(flat.low, place);
+        flat.high = glm::max(flat.high, place);
+    };
+    for (const GridDot dot : made.grid.dots()) include(lattice_point(lattice, dot));
+    for (const OtherKolam& other : made.others) {
+        for (const GridDot dot : other.grid.dots()) include(other.at + lattice_point(other.grid.lattice(), dot));
+    }
+    for (const auto& petal : made.petals) include(petal.second);
+    flat.low -= flat.margin;
+    flat.high += flat.margin;
+    flat.width = static_cast<int>((flat.high.x - flat.low.x) * flat.scale) + 1;
+    flat.height = static_cast<int>((flat.high.y - flat.low.y) * flat.scale) + 1;
+    flat.ink.resize(static_cast<std::size_t>(flat.width) * static_cast<std::size_t>(flat.height));
+    const auto draw_dot = [&](glm::dvec2 place, double radius) {
+        const glm::dvec2 off(chance.normal(), chance.normal());
+        flat.disc(FlatPen::bent(made, place + made.beside + 0.012 * made.distortion.wobble * off),
+                  radius * chance.uniform(0.85, 1.15), 1);
+    };
+    for (std::uint32_t i = 0; i < made.grid.dots().size(); ++i) {
+        if (std::count(made.lost.begin(), made.lost.end(), i) > 0) continue;
+        const bool is_large = std::count(made.large.begin(), made.large.end(), i) > 0;
+        draw_dot(lattice_point(lattice, made.grid.dots()[i]), is_large ? 0.19 : made.dot_radius);
+    }
+    draw_lines(flat, made, made.grid, made.states, glm::dvec2(0.0), chance);
+    for (const OtherKolam& other : made.others) {
+        for (const GridDot dot : other.grid.dots()) {
+            draw_dot(other.at + lattice_point(other.grid.lattice(), dot), made.dot_radius);
+        }
+        draw_lines(flat, made, other.grid, other.states, other.at, chance);
+    }
+    for (const auto& [from, to] : made.petals) {
+        const glm::dvec2 way = to - from;
+        const glm::dvec2 aside(-way.y, way.x);
+        for (const double sign : {-1.0, 1.0}) {
+            FlatPen pen(flat, made, chance);
+            for (int k = 0; k <= 60; ++k) {
+                const double t = k / 60.0;
+                pen.move(from + t * way + sign * 0.28 * std::sin(std::numbers::pi * t) * aside,
+                         glm::length(way) / 60);
             }
         }
     }

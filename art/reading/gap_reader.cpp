@@ -12,6 +12,9 @@ namespace {
 
 using Curve = std::vector<glm::dvec2>;
 
+/// Half the widths of lines, in spacings.
+constexpr std::array<double, 7> half_widths = {0.026, 0.036, 0.046, 0.058, 0.072, 0.09, 0.11};
+
 /// Places around the middle of a gap: x along the gap, y to its side, in spacings.
 struct Window {
     std::vector<glm::dvec2> places;
@@ -116,29 +119,59 @@ struct Template {
     std::vector<float> values;
 };
 
-/// Values of a shape at the places of a window.
-std::vector<float> drawn_values(const Shape& shape, const Window& window, double half_width, glm::dvec2 shift) {
+/// A shape that is displaced a little, as distances of the places of a window from its strands.
+struct Placed {
+    GapState state;
+    double apart;
+    bool is_central;  ///< not displaced
+    std::vector<float> distances;
+};
+
+std::vector<Placed> placed_shapes(const std::vector<Shape>& shapes, const Window& window) {
+    std::vector<Placed> all;
+    for (const Shape& shape : shapes) {
+        const double along = shape.state == GapState::turned ? 0.012 : 0.035;
+        const double aside = shape.state == GapState::joined ? 0.012 : 0.035;
+        for (const double dy : {-aside, 0.0, aside}) {
+            for (const double dx : {-along, 0.0, along}) {
+                Placed placed{shape.state, shape.apart, dx == 0 && dy == 0, {}};
+                placed.distances.reserve(window.places.size());
+                for (const glm::dvec2 place : window.places) {
+                    double least = 1e300;
+                    for (const Curve& strand : shape.strands) {
+                        least = std::min(least, distance_to(strand, place - glm::dvec2(dx, dy)));
+                    }
+                    placed.distances.push_back(static_cast<float>(least));
+                }
+                all.push_back(std::move(placed));
+            }
+        }
+    }
+    return all;
+}
+
+/// Ink at the places of a window.
+std::vector<float> drawn_values(const Placed& shape, double half_width) {
     std::vector<float> values;
-    values.reserve(window.places.size());
-    for (const glm::dvec2 place : window.places) {
-        double least = 1e300;
-        for (const Curve& strand : shape.strands) least = std::min(least, distance_to(strand, place - shift));
-        const double off = least / half_width;
-        values.push_back(static_cast<float>(std::exp(-0.7 * off * off)));
+    values.reserve(shape.distances.size());
+    for (const float distance : shape.distances) {
+        const auto off = distance / static_cast<float>(half_width);
+        values.push_back(off > 4 ? 0.0F : std::exp(-0.7F * off * off));
     }
     return values;
 }
 
 /// Information about the state in each place of a window: the variance between the means of the states. The root, for
 /// both sides of a product. Without it the strands that all states share would decide.
-std::vector<float> weights_of(const std::vector<Shape>& shapes, const Window& window, double half_width) {
-    const std::size_t count = window.places.size();
+std::vector<float> weights_of(const std::vector<Placed>& shapes, double half_width) {
+    const std::size_t count = shapes[0].distances.size();
     std::array<std::vector<double>, 3> means;
     std::array<double, 3> shapes_of_state{};
     for (auto& mean : means) mean.resize(count);
-    for (const Shape& shape : shapes) {
+    for (const Placed& shape : shapes) {
+        if (!shape.is_central) continue;
         const auto state = static_cast<std::size_t>(shape.state);
-        const std::vector<float> values = drawn_values(shape, window, half_width, glm::dvec2(0.0));
+        const std::vector<float> values = drawn_values(shape, half_width);
         for (std::size_t i = 0; i < count; ++i) means[state][i] += values[i];
         ++shapes_of_state[state];
     }
@@ -176,74 +209,91 @@ void normalise(std::vector<float>& values, const std::vector<float>& weights) {
     for (float& value : values) value *= factor;
 }
 
-/// Shapes of one width, displaced a little.
+/// Displacements of a shape, the fifth of which is none.
+constexpr std::size_t displacements = 9;
+
+/// Shapes of one width, each with its displacements in turn.
 struct TemplateSet {
     std::vector<float> weights;
     std::vector<Template> templates;
 };
 
-TemplateSet templates_of(const std::vector<Shape>& shapes, const Window& window, double least_apart,
-                         double half_width) {
-    TemplateSet set{weights_of(shapes, window, half_width), {}};
-    for (const Shape& shape : shapes) {
+TemplateSet templates_of(const std::vector<Placed>& shapes, double least_apart, double half_width) {
+    TemplateSet set{weights_of(shapes, half_width), {}};
+    for (const Placed& shape : shapes) {
         // Strands that do not cross leave ground between them.
         if (shape.apart < least_apart * half_width) continue;
-        const double along = shape.state == GapState::turned ? 0.012 : 0.035;
-        const double aside = shape.state == GapState::joined ? 0.012 : 0.035;
-        for (const double dy : {-aside, 0.0, aside}) {
-            for (const double dx : {-along, 0.0, along}) {
-                Template drawn{shape.state, drawn_values(shape, window, half_width, {dx, dy})};
-                normalise(drawn.values, set.weights);
-                set.templates.push_back(std::move(drawn));
-            }
-        }
+        Template drawn{shape.state, drawn_values(shape, half_width)};
+        normalise(drawn.values, set.weights);
+        set.templates.push_back(std::move(drawn));
     }
     return set;
 }
 
-/// The ink at the places of a window around a gap.
-class Patches {
-public:
-    Patches(const GreyPicture& ink, const DotGrid& grid, const Homography& map, const Window& window)
-        : ink_(ink), grid_(grid), map_(map), window_(window) {}
-    std::vector<float> patch(const GridGap& gap) const {
-        const glm::dvec2 from = lattice_point(grid_.lattice(), grid_.dots()[gap.from]);
-        const glm::dvec2 to = lattice_point(grid_.lattice(), grid_.dots()[gap.to]);
-        const glm::dvec2 along = to - from;
-        const glm::dvec2 aside(-along.y, along.x);
-        const glm::dvec2 middle = 0.5 * (from + to);
-        std::vector<float> values;
-        values.reserve(window_.places.size());
-        for (const glm::dvec2 place : window_.places) {
-            const float value = ink_.at(map_(middle + place.x * along + place.y * aside));
-            values.push_back(std::clamp(value, -1.5F, 2.5F));
-        }
-        return values;
+/// The ink at the places of a window around a gap. Deviations of the lattice are those of its corners.
+std::vector<float> patch(const GreyPicture& ink, const LatticeMap& map, const Window& window, glm::dvec2 from,
+                         glm::dvec2 to) {
+    const glm::dvec2 along = to - from;
+    const glm::dvec2 aside(-along.y, along.x);
+    const glm::dvec2 middle = 0.5 * (from + to);
+    // Within a spacing, the map is nearly linear on each side of the middle.
+    const glm::dvec2 here = map(middle);
+    const glm::dvec2 before = 2.0 * (map(from) - here);
+    const glm::dvec2 after = 2.0 * (map(to) - here);
+    const glm::dvec2 below = (map(middle - window.height * aside) - here) / window.height;
+    const glm::dvec2 above = (map(middle + window.height * aside) - here) / window.height;
+    std::vector<float> values;
+    values.reserve(window.places.size());
+    for (const glm::dvec2 place : window.places) {
+        const glm::dvec2 at = here + std::fabs(place.x) * (place.x < 0 ? before : after) +
+                              std::fabs(place.y) * (place.y < 0 ? below : above);
+        values.push_back(std::clamp(ink.at(at), -1.5F, 2.5F));
     }
+    return values;
+}
 
-private:
-    const GreyPicture& ink_;
-    const DotGrid& grid_;
-    const Homography& map_;
-    const Window& window_;
-};
+/// The sum of products; several at a time, which the compiler turns into vectors.
+double product(const std::vector<float>& a, const std::vector<float>& b) {
+    std::array<float, 8> sums{};
+    std::size_t i = 0;
+    for (; i + 8 <= a.size(); i += 8) {
+        for (std::size_t k = 0; k < 8; ++k) sums[k] += a[i + k] * b[i + k];
+    }
+    float sum = 0;
+    for (const float part : sums) sum += part;
+    for (; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
 
 GapEvidence compare(std::vector<float> patch, const TemplateSet& set) {
     normalise(patch, set.weights);
     GapEvidence evidence;
     evidence.agreement.fill(-1);
-    for (const Template& drawn : set.templates) {
-        // Several sums at a time, which the compiler turns into vectors.
-        std::array<float, 8> sums{};
-        std::size_t i = 0;
-        for (; i + 8 <= patch.size(); i += 8) {
-            for (std::size_t k = 0; k < 8; ++k) sums[k] += patch[i + k] * drawn.values[i + k];
+    // The best two shapes of each state where they are; then these displaced.
+    struct Best {
+        double sum = -1;
+        std::size_t shape = 0;
+    };
+    std::array<std::array<Best, 2>, 3> best;
+    for (std::size_t shape = 0; shape < set.templates.size(); shape += displacements) {
+        const Template& central = set.templates[shape + displacements / 2];
+        const double sum = product(patch, central.values);
+        auto& [first, second] = best[static_cast<std::size_t>(central.state)];
+        if (sum > first.sum) {
+            second = first;
+            first = {sum, shape};
+        } else if (sum > second.sum) {
+            second = {sum, shape};
         }
-        float sum = 0;
-        for (const float part : sums) sum += part;
-        for (; i < patch.size(); ++i) sum += patch[i] * drawn.values[i];
-        double& best = evidence.agreement[static_cast<std::size_t>(drawn.state)];
-        best = std::max(best, static_cast<double>(sum));
+    }
+    for (std::size_t state = 0; state < 3; ++state) {
+        for (const Best& each : best[state]) {
+            if (each.sum <= -1) continue;
+            for (std::size_t i = 0; i < displacements; ++i) {
+                const double sum = product(patch, set.templates[each.shape + i].values);
+                evidence.agreement[state] = std::max(evidence.agreement[state], sum);
+            }
+        }
     }
     return evidence;
 }
@@ -260,37 +310,59 @@ double GapEvidence::margin() const {
     return sorted[2] - sorted[1];
 }
 
-std::vector<GapEvidence> read_gap_evidence(const GreyPicture& ink, const DotGrid& grid, const Homography& map,
-                                           double dot_radius, const Monitor& monitor) {
-    std::vector<GapEvidence> evidence(grid.gaps().size());
-    if (evidence.empty()) return evidence;
-    const Window window(grid.lattice(), std::clamp(1.5 * dot_radius, 0.08, 0.2));
-    const std::vector<Shape> shapes = shapes_of(grid.lattice(), window.height);
-    const Patches patches(ink, grid, map, window);
-    // Interlaced dots leave less room.
-    const double least_apart = grid.lattice() == DotLattice::square ? 1.5 : 1.25;
-    // Width of the lines: the one that fits best over some of the gaps.
-    TemplateSet best;
-    double most = -1e300;
+struct GapTemplates::Set {
+    Window window;
+    std::array<TemplateSet, half_widths.size()> widths;
+
+    Set(DotLattice lattice, double radius, const Monitor& monitor) : window(lattice, radius) {
+        const std::vector<Placed> shapes = placed_shapes(shapes_of(lattice, window.height), window);
+        // Interlaced dots leave less room.
+        const double least_apart = lattice == DotLattice::square ? 1.5 : 1.25;
+        for (std::size_t i = 0; i < half_widths.size(); ++i) {
+            monitor.check();
+            widths[i] = templates_of(shapes, least_apart, half_widths[i]);
+        }
+    }
+};
+
+GapTemplates::GapTemplates() = default;
+GapTemplates::~GapTemplates() = default;
+
+GapReader::GapReader(const GreyPicture& ink, const DotGrid& grid, const LatticeMap& map, double dot_radius,
+                     GapTemplates& templates, const Monitor& monitor)
+    : ink_(ink), set_([&]() -> const GapTemplates::Set& {
+          const int radius = static_cast<int>(std::lround(75 * std::clamp(dot_radius, 0.053, 0.133))) * 2;
+          auto& set = templates.sets_[{grid.lattice(), radius}];
+          if (!set) set = std::make_unique<GapTemplates::Set>(grid.lattice(), 0.01 * radius, monitor);
+          return *set;
+      }()) {
     const std::size_t stride = std::max<std::size_t>(1, grid.gaps().size() / 60);
-    for (const double half_width : {0.026, 0.036, 0.046, 0.058, 0.072}) {
+    std::vector<std::vector<float>> patches;
+    for (std::size_t i = 0; i < grid.gaps().size(); i += stride) {
+        const GridGap& gap = grid.gaps()[i];
+        patches.push_back(patch(ink, map, set_.window, lattice_point(grid.lattice(), grid.dots()[gap.from]),
+                                lattice_point(grid.lattice(), grid.dots()[gap.to])));
+    }
+    double most = -1e300;
+    for (std::size_t i = 0; i < half_widths.size(); ++i) {
         monitor.check();
-        TemplateSet templates = templates_of(shapes, window, least_apart, half_width);
         double sum = 0;
-        for (std::size_t i = 0; i < grid.gaps().size(); i += stride) {
-            const GapEvidence found = compare(patches.patch(grid.gaps()[i]), templates);
+        for (const std::vector<float>& seen : patches) {
+            const GapEvidence found = compare(seen, set_.widths[i]);
             sum += found.agreement[static_cast<std::size_t>(found.best())];
         }
         if (sum > most) {
             most = sum;
-            best = std::move(templates);
+            width_ = i;
         }
     }
-    for (std::size_t i = 0; i < evidence.size(); ++i) {
-        monitor.check();
-        evidence[i] = compare(patches.patch(grid.gaps()[i]), best);
-    }
-    return evidence;
+}
+
+GapEvidence GapReader::read(const LatticeMap& map, GridDot from, GridDot to, glm::dvec2 offset) const {
+    const DotLattice lattice = map.lattice();
+    return compare(
+        patch(ink_, map, set_.window, lattice_point(lattice, from) + offset, lattice_point(lattice, to) + offset),
+        set_.widths[width_]);
 }
 
 }  // namespace sikku

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "art/kolam/dot_grid_lines.h"
-#include "art/reading/lattice.h"
+#include "art/reading/lattice_map.h"
 #include "art/reading/picture.h"
 
 #include <array>
-#include <vector>
+#include <cstddef>
+#include <map>
+#include <memory>
 
 namespace sikku {
 
@@ -18,12 +20,46 @@ struct GapEvidence {
     double margin() const;
 };
 
+/// Drawn strands of all states, for lines of each of several widths. They are made as they are needed, and kept.
+class GapTemplates {
+public:
+    GapTemplates();
+    ~GapTemplates();
+
+private:
+    friend class GapReader;
+    struct Set;
+    struct Key {
+        DotLattice lattice;
+        int radius;  ///< of what is left out around the dots, in hundredths of a spacing
+        bool operator<(const Key& other) const {
+            return lattice != other.lattice ? lattice < other.lattice : radius < other.radius;
+        }
+    };
+    std::map<Key, std::unique_ptr<Set>> sets_;
+};
+
 /// Compares the ink between two dots, straightened, with the strands that each state would have: correlation with
 /// drawn ones of several widths and bends, a little displaced.
-/// @param map         from the plane of the lattice to the picture
-/// @param dot_radius  in spacings; the dots themselves are left out
-/// Cost: about 60 us a gap.
-std::vector<GapEvidence> read_gap_evidence(const GreyPicture& ink, const DotGrid& grid, const Homography& map,
-                                           double dot_radius, const Monitor& monitor);
+class GapReader {
+public:
+    /// Chooses the width of lines that fits best over some of the gaps.
+    /// @param ink         is kept by reference, as `templates` are
+    /// @param map         from the plane of the lattice to the picture
+    /// @param dot_radius  in spacings; the dots themselves are left out
+    /// Cost: about 0.05 s, without templates 5 ms.
+    GapReader(const GreyPicture& ink, const DotGrid& grid, const LatticeMap& map, double dot_radius,
+              GapTemplates& templates, const Monitor& monitor);
+
+    /// The gap between two places of the lattice, with or without dots.
+    /// @param offset  of the strands, in spacings
+    /// Cost: about 60 us.
+    GapEvidence read(const LatticeMap& map, GridDot from, GridDot to, glm::dvec2 offset = glm::dvec2(0.0)) const;
+
+private:
+    const GreyPicture& ink_;
+    const GapTemplates::Set& set_;
+    std::size_t width_ = 0;
+};
 
 }  // namespace sikku

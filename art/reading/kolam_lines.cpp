@@ -396,7 +396,8 @@ ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::
         const std::array<glm::dvec2, 3> from = {{{0, 0}, {1, 0}, {0, 1}}};
         const std::array<glm::dvec2, 3> to = {
             {dots[0], dots[0] + glm::dvec2(2 * reach, 0), dots[0] + glm::dvec2(0, 2 * up * reach)}};
-        fit = LatticeFit{lattice.value_or(DotLattice::square), *Homography::fit(from, to), {GridDot{}}, 1, 90};
+        fit =
+            LatticeFit{lattice.value_or(DotLattice::square), *Homography::fit(from, to), {GridDot{}}, 1, 90, {}, {}};
     }
     if (!fit) throw std::runtime_error("no lattice fits the dots");
     std::vector<GridDot> places;

@@ -1,5 +1,7 @@
 #include "art/reading/lattice.h"
 
+#include "art/reading/point_grid.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -14,6 +16,12 @@ namespace sikku {
 namespace {
 
 using Place = std::pair<std::int32_t, std::int32_t>;  // steps along the two vectors of a basis
+
+/// Converts a whole number to an integer, limited to ±10^8: wrong fits can reach infinity, where there are no points.
+std::int32_t whole(double number) {
+    constexpr double farthest = 1e8;
+    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
+}
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -63,69 +71,6 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
     return result;
 }
 
-/// Converts a whole number to an integer, limited to ±10^8: wrong fits can reach infinity, where there are no points.
-std::int32_t whole(double number) {
-    constexpr double farthest = 1e8;
-    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
-}
-
-/// Finds points by their place, in cells of a given size.
-class PointGrid {
-public:
-    PointGrid(const std::vector<glm::dvec2>& points, double size) : points_(points), size_(size) {
-        for (std::uint32_t i = 0; i < points.size(); ++i) cells_[cell(points[i])].push_back(i);
-    }
-    /// The nearest point within `reach` (up to the size of a cell), or -1.
-    std::int64_t nearest(glm::dvec2 at, double reach) const {
-        std::int64_t best = -1;
-        double least = reach;
-        visit(at, 1, [&](std::uint32_t i) {
-            const double distance = glm::distance(points_[i], at);
-            if (distance < least || (distance == least && best < 0)) {
-                least = distance;
-                best = i;
-            }
-        });
-        return best;
-    }
-    /// The nearest points to another one, nearest first.
-    std::vector<std::uint32_t> neighbours(std::uint32_t point, std::size_t most) const {
-        std::vector<std::uint32_t> found;
-        for (int rings = 1; rings <= 8 && found.size() < most + 1; rings *= 2) {
-            found.clear();
-            visit(points_[point], rings, [&](std::uint32_t i) { found.push_back(i); });
-        }
-        std::erase(found, point);
-        std::sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const double to_a = glm::distance(points_[a], points_[point]);
-            const double to_b = glm::distance(points_[b], points_[point]);
-            return to_a != to_b ? to_a < to_b : a < b;
-        });
-        if (found.size() > most) found.resize(most);
-        return found;
-    }
-
-private:
-    Place cell(glm::dvec2 point) const {
-        return {whole(std::floor(point.x / size_)), whole(std::floor(point.y / size_))};
-    }
-    template <class Visit>
-    void visit(glm::dvec2 at, int rings, Visit&& see) const {
-        const Place middle = cell(at);
-        for (int dy = -rings; dy <= rings; ++dy) {
-            for (int dx = -rings; dx <= rings; ++dx) {
-                const auto found = cells_.find({middle.first + dx, middle.second + dy});
-                if (found == cells_.end()) continue;
-                for (const std::uint32_t i : found->second) see(i);
-            }
-        }
-    }
-
-    const std::vector<glm::dvec2>& points_;
-    double size_;
-    std::map<Place, std::vector<std::uint32_t>> cells_;
-};
-
 /// Grows a patch of the lattice from a point.
 class Patch {
 public:
@@ -169,6 +114,30 @@ private:
     const std::vector<glm::dvec2>& points_;
     const PointGrid& index_;
 };
+
+/// Points between the places of a patch: many of them mean that its steps are multiples of those of the lattice.
+std::size_t points_between(const std::map<Place, std::uint32_t>& patch, const std::vector<glm::dvec2>& points,
+                           const PointGrid& index) {
+    std::vector<char> is_place(points.size());
+    for (const auto& [place, point] : patch) is_place[point] = 1;
+    std::size_t count = 0;
+    const auto look = [&](glm::dvec2 at, double reach) {
+        const std::int64_t found = index.nearest(at, reach);
+        if (found < 0 || is_place[static_cast<std::size_t>(found)] != 0) return;
+        is_place[static_cast<std::size_t>(found)] = 1;
+        ++count;
+    };
+    for (const auto& [place, point] : patch) {
+        const auto right = patch.find({place.first + 1, place.second});
+        const auto up = patch.find({place.first, place.second + 1});
+        for (const auto& next : {right, up}) {
+            if (next == patch.end()) continue;
+            const glm::dvec2 way = points[next->second] - points[point];
+            look(points[point] + 0.5 * way, 0.2 * glm::length(way));
+        }
+    }
+    return count;
+}
 
 /// The two shortest steps of the lattice that two steps span, 60 to 90 degrees apart (Gauss).
 void reduce(glm::dvec2& first, glm::dvec2& second) {
@@ -228,11 +197,13 @@ std::vector<std::uint32_t> seeds(const std::vector<glm::dvec2>& points) {
 }
 
 /// The largest patch that grows from any of the seeds.
-std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& points, const Monitor& monitor) {
+std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& points, std::optional<double> step,
+                                             const Monitor& monitor) {
     const double distance = typical_distance(points);
     const PointGrid index(points, 2 * distance);
     const Patch patch(points, index);
     std::map<Place, std::uint32_t> best;
+    std::size_t best_size = 0;
     double best_area = 0;
     for (const std::uint32_t seed : seeds(points)) {
         monitor.check();
@@ -243,11 +214,16 @@ std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& poin
                 const glm::dvec2 second = points[near[k]] - points[seed];
                 const double angle = angle_between(first, second);
                 if (angle < 45 || angle > 135 || glm::length(second) > 1.9 * glm::length(first)) continue;
+                if (step && (glm::length(first) < 0.7 * *step || glm::length(first) > 1.4 * *step)) continue;
                 auto places = patch.grow(seed, first, second);
                 // Among equal patches, the one with shorter steps leaves fewer places empty.
                 const double area = std::fabs(cross(first, second));
-                if (places.size() > best.size() || (places.size() == best.size() && area < 0.9 * best_area)) {
+                if (places.size() < best_size) continue;
+                const std::size_t between = points_between(places, points, index);
+                const std::size_t size = places.size() - std::min(places.size(), between);
+                if (size > best_size || (size == best_size && area < 0.9 * best_area)) {
                     best = std::move(places);
+                    best_size = size;
                     best_area = area;
                 }
             }
@@ -477,10 +453,11 @@ GridDot nearest_place(DotLattice lattice, glm::dvec2 point) {
 }
 
 std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, bool y_down,
-                                      std::optional<DotLattice> lattice, const Monitor& monitor) {
+                                      std::optional<DotLattice> lattice, const Monitor& monitor,
+                                      std::optional<double> step) {
     if (points.size() < 2) return std::nullopt;
-    auto patch = largest_patch(points, monitor);
-    if (patch.size() < 3) patch = row_of(points);
+    auto patch = largest_patch(points, step, monitor);
+    if (patch.size() < 3 && !step) patch = row_of(points);
     if (patch.size() < 2) return std::nullopt;
     const PatchSteps steps = steps_of(patch, points);
     const auto upright = [y_down](glm::dvec2 v) { return y_down ? glm::dvec2(v.x, -v.y) : v; };
@@ -508,6 +485,9 @@ std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, boo
     fit.lattice = axes.lattice;
     fit.angle = axes.angle;
     auto map = Homography::fit(from, to);
+    if (map) fit.patch_map = *map;
+    fit.patch.resize(points.size());
+    for (const auto& [place, point] : patch) fit.patch[point] = axes.place(place);
     for (int round = 0; round < 4 && map; ++round) {
         fit.map = *map;
         if (!assign_places(points, fit, from, to) || fit.fitted < 6 || steps.is_row) break;

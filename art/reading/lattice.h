@@ -42,6 +42,8 @@ struct LatticeFit {
     std::vector<std::optional<GridDot>> places;  ///< place of each point; absent if it lies off the lattice
     std::size_t fitted = 0;                      ///< points that have a place
     double angle = 90;                           ///< degrees between its two shortest steps, 60 to 90, in the middle
+    Homography patch_map;                        ///< fitted to the patch alone
+    std::vector<std::optional<GridDot>> patch;   ///< place of each point of the patch, which follows bent rows
 };
 
 /// Fits a lattice through most of the points; others may lie between its places, and places may be empty. Grows a
@@ -49,9 +51,11 @@ struct LatticeFit {
 /// Steps nearer to 60 than to 90 degrees make a triangular lattice.
 /// @param y_down   the points' y points down, as in pictures
 /// @param lattice  only this one
+/// @param step     length of its steps, if it is known
 /// @return nullopt for fewer than two points
 /// Cost: about 0.1 s for 2000 points.
 std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, bool y_down,
-                                      std::optional<DotLattice> lattice = std::nullopt, const Monitor& monitor = {});
+                                      std::optional<DotLattice> lattice = std::nullopt, const Monitor& monitor = {},
+                                      std::optional<double> step = std::nullopt);
 
 }  // namespace sikku

@@ -47,6 +47,18 @@ public:
             },
             colour);
     }
+    /// A ring of eight arcs.
+    void broken_ring(glm::dvec2 centre, double radius, double width, glm::dvec3 colour) {
+        constexpr int points = 48;
+        for (int i = 0; i < points; ++i) {
+            if (i % 6 > 2) continue;
+            const auto at = [&](int k) {
+                const double angle = 2 * std::numbers::pi * k / points;
+                return centre + radius * glm::dvec2(std::cos(angle), std::sin(angle));
+            };
+            line(at(i), at(i + 1), width, colour);
+        }
+    }
     /// Digits and a comma, 3 x 5 cells each, on a dark ground.
     void number(std::string_view text, glm::dvec2 at, double cell, glm::dvec3 colour) {
         static constexpr std::array<std::uint16_t, 10> digits = {075557, 026227, 071747, 071717, 055711,
@@ -121,23 +133,31 @@ std::array<std::array<glm::dvec2, 2>, 2> strands(GapState state, DotLattice latt
     return {{{at(-0.13, -0.18), at(-0.13, 0.18)}, {at(0.13, -0.18), at(0.13, 0.18)}}};
 }
 
-}  // namespace
+constexpr glm::dvec3 open_colour(255, 40, 40);
+constexpr glm::dvec3 other_colour(150, 150, 150);
 
-void write_overlay(const Photograph& photograph, const std::filesystem::path& path) {
-    DecodedPicture picture = photograph.picture;
-    // The picture is faded behind the drawing.
-    for (std::uint8_t& value : picture.pixels) value = static_cast<std::uint8_t>(40 + (value * 2U) / 3U);
-    Canvas canvas(picture);
+/// The picture, faded behind the drawing.
+DecodedPicture faded(const DecodedPicture& picture) {
+    DecodedPicture behind = picture;
+    for (std::uint8_t& value : behind.pixels) value = static_cast<std::uint8_t>(40 + (value * 2U) / 3U);
+    return behind;
+}
+
+void draw_kolam(Canvas& canvas, const Photograph& photograph) {
     const ReadKolam& kolam = photograph.kolam;
     const DotLattice lattice = kolam.grid.lattice();
-    const auto spacing_at = [&](glm::dvec2 place) {
-        const auto steps = photograph.map.derivatives(place);
-        return 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
-    };
+    const auto spacing_at = [&](GridDot place) { return photograph.map.spacing(lattice_point(lattice, place)); };
     for (const GridDot dot : kolam.grid.dots()) {
-        const glm::dvec2 place = lattice_point(lattice, dot);
+        const double spacing = spacing_at(dot);
+        canvas.ring(photograph.map.dot(dot), 0.1 * spacing, std::max(1.0, 0.03 * spacing), dot_colour);
+    }
+    for (const GridDot place : photograph.open_ends) {
         const double spacing = spacing_at(place);
-        canvas.ring(photograph.map(place), 0.1 * spacing, std::max(1.0, 0.03 * spacing), dot_colour);
+        canvas.ring(photograph.map.dot(place), 0.34 * spacing, std::max(2.0, 0.06 * spacing), open_colour);
+    }
+    for (const GridDot place : photograph.missing) {
+        const double spacing = spacing_at(place);
+        canvas.broken_ring(photograph.map.dot(place), 0.26 * spacing, std::max(2.0, 0.06 * spacing), open_colour);
     }
     const std::vector<GapPlace> places = gap_places(kolam.grid);
     for (std::uint32_t i = 0; i < kolam.states.size(); ++i) {
@@ -145,7 +165,7 @@ void write_overlay(const Photograph& photograph, const std::filesystem::path& pa
         const glm::dvec2 from = lattice_point(lattice, kolam.grid.dots()[gap.from]);
         const glm::dvec2 to = lattice_point(lattice, kolam.grid.dots()[gap.to]);
         const glm::dvec2 middle = 0.5 * (from + to);
-        const double spacing = spacing_at(middle);
+        const double spacing = photograph.map.spacing(middle);
         const double width = std::max(1.5, 0.05 * spacing);
         for (const auto& strand : strands(kolam.states[i], lattice, middle, to - from)) {
             canvas.line(photograph.map(strand[0]), photograph.map(strand[1]), width,
@@ -160,6 +180,12 @@ void write_overlay(const Photograph& photograph, const std::filesystem::path& pa
         canvas.number(fmt::format("{},{}", places[i].row, places[i].number),
                       at + glm::dvec2(0.24 * spacing, 0.18 * spacing), cell, colour);
     }
+    const double spacing = spacing_at(kolam.grid.dots().front());
+    for (const glm::dvec2 dot : photograph.others)
+        canvas.ring(dot, 0.1 * spacing, std::max(1.0, 0.03 * spacing), other_colour);
+}
+
+void write_png(const DecodedPicture& picture, const std::filesystem::path& path) {
     ImageSpec spec;
     spec.format = "png";
     spec.width = picture.width;
@@ -168,6 +194,25 @@ void write_overlay(const Photograph& photograph, const std::filesystem::path& pa
     const auto writer = open_image(path, spec);
     writer->rows(0, picture.height, picture.pixels);
     writer->close();
+}
+
+}  // namespace
+
+void write_overlay(const Photograph& photograph, const std::filesystem::path& path) {
+    DecodedPicture picture = faded(photograph.picture);
+    Canvas canvas(picture);
+    draw_kolam(canvas, photograph);
+    write_png(picture, path);
+}
+
+void write_overlay(const RefusedPicture& refused, const std::filesystem::path& path) {
+    DecodedPicture picture = faded(refused.picture);
+    Canvas canvas(picture);
+    for (const RefusedPicture::Spot& spot : refused.spots) {
+        canvas.ring(spot.at, spot.radius + 2, 1.5, other_colour);
+    }
+    if (refused.best) draw_kolam(canvas, *refused.best);
+    write_png(picture, path);
 }
 
 }  // namespace sikku

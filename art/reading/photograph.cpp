@@ -1,7 +1,6 @@
 #include "art/reading/photograph.h"
 
-#include "art/reading/gap_reader.h"
-#include "art/reading/kolam_lines.h"
+#include "art/reading/kolam_reader.h"
 #include "art/reading/picture.h"
 #include "art/reading/spots.h"
 #include "engine/base/text.h"
@@ -13,180 +12,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <map>
-#include <set>
-#include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace sikku {
 namespace {
 
-/// Most dots of a photograph: more would be a few pixels apart.
-constexpr std::size_t most_dots = 10'000;
 /// Dots closer than that are looked for once more in a larger picture.
 constexpr double least_spacing = 18;
-
-/// A lattice in a picture, and the appearance of its dots.
-struct FoundGrid {
-    PlacedGrid placed;
-    Homography map;  ///< from the plane of the grid to pixels
-    double spacing = 0;
-    double dot_radius = 0;  ///< in spacings
-    double strength = 0;    ///< strength of most dots
-    double angle = 90;
-    double score = 0;
-    std::size_t left_out = 0;
-};
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// The same map, from a grid that counts places from elsewhere.
-std::optional<Homography> moved(const Homography& map, DotLattice lattice, GridDot origin) {
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
-    const glm::dvec2 shift = lattice_point(lattice, origin);
-    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
-        from.push_back(corner);
-        to.push_back(map(corner + shift));
-    }
-    return Homography::fit(from, to);
-}
-
-/// Dots of the lattice: spots on it, and places beside them where a weaker spot is.
-std::optional<FoundGrid> grid_of(const std::vector<InkSpot>& spots, const LatticeFit& fit, const SpotFinder& finder,
-                                 const Monitor& monitor) {
-    using Key = std::pair<std::int32_t, std::int32_t>;
-    std::map<Key, InkSpot> dots;
-    for (std::size_t i = 0; i < spots.size(); ++i) {
-        if (fit.places[i]) dots[{fit.places[i]->x, fit.places[i]->y}] = spots[i];
-    }
-    if (dots.size() < 2 || dots.size() > most_dots) return std::nullopt;
-    std::vector<double> strengths;
-    std::vector<double> radii;
-    std::vector<double> spacings;
-    for (const auto& [place, spot] : dots) {
-        strengths.push_back(spot.strength);
-        const auto steps = fit.map.derivatives(lattice_point(fit.lattice, {place.first, place.second}));
-        const double spacing = 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
-        spacings.push_back(spacing);
-        radii.push_back(spot.radius / spacing);
-    }
-    FoundGrid found{{DotGrid(std::vector<std::uint32_t>{1}), {}},
-                    fit.map,
-                    median(spacings),
-                    median(radii),
-                    median(strengths),
-                    fit.angle,
-                    0,
-                    0};
-
-    // The map of a chance lattice may be degenerate.
-    if (!(found.spacing < finder.longer_side())) return std::nullopt;
-
-    const std::vector<GridDot> around =
-        fit.lattice == DotLattice::square ? std::vector<GridDot>{{2, 0}, {0, 2}, {-2, 0}, {0, -2}}
-                                          : std::vector<GridDot>{{2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}};
-    const auto neighbours = [&](Key place) {
-        std::size_t count = 0;
-        for (const GridDot way : around) count += dots.contains({place.first + way.x, place.second + way.y});
-        return count;
-    };
-    // Spots that are much weaker or larger than the others, or apart from them, are not dots.
-    std::erase_if(dots, [&](const auto& dot) { return dot.second.strength < 0.35 * found.strength; });
-    if (dots.size() > 4) {
-        std::vector<Key> lonely;
-        for (const auto& [place, spot] : dots) {
-            if (neighbours(place) == 0) lonely.push_back(place);
-        }
-        for (const Key& place : lonely) dots.erase(place);
-        found.left_out = lonely.size();
-    }
-    // Places beside dots, again and again, for a dot may be weak and yet be there.
-    std::set<Key> tried;
-    for (int round = 0; round < 8; ++round) {
-        std::map<Key, InkSpot> more;
-        for (const auto& [place, spot] : dots) {
-            monitor.check();
-            for (const GridDot way : around) {
-                const Key to{place.first + way.x, place.second + way.y};
-                if (dots.contains(to) || tried.contains(to)) continue;
-                if (neighbours(to) < (dots.size() < 6 ? 1U : 2U)) continue;
-                tried.insert(to);
-                const glm::dvec2 at = lattice_point(fit.lattice, {to.first, to.second});
-                const auto steps = fit.map.derivatives(at);
-                const double spacing = 0.5 * (glm::length(steps[0]) + glm::length(steps[1]));
-                const InkSpot near = finder.near(fit.map(at), found.dot_radius * spacing, 0.12 * spacing);
-                if (near.strength > 0.35 * found.strength) more[to] = near;
-            }
-        }
-        if (more.empty()) break;
-        dots.merge(more);
-    }
-    if (dots.size() < 2 || dots.size() > most_dots) return std::nullopt;
-
-    std::vector<GridDot> places;
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
-    double squares = 0;
-    for (const auto& [place, spot] : dots) {
-        places.push_back({place.first, place.second});
-        from.push_back(lattice_point(fit.lattice, places.back()));
-        to.push_back(spot.at);
-        const auto steps = fit.map.derivatives(from.back());
-        const double off = glm::distance(fit.map(from.back()), spot.at) / glm::length(steps[0]);
-        squares += off * off;
-    }
-    const double off = std::sqrt(squares / static_cast<double>(dots.size()));
-    if (dots.size() >= 9) {
-        if (const auto better = Homography::fit(from, to)) found.map = *better;
-    }
-    found.placed = place_grid(fit.lattice, std::move(places));
-    const auto map = moved(found.map, fit.lattice, found.placed.origin);
-    if (!map) return std::nullopt;
-    found.map = *map;
-    // Dots that touch no other are rare in kolams, and lattices with many holes are accidents.
-    const auto count = static_cast<double>(found.placed.grid.dots().size());
-    const auto gaps = static_cast<double>(found.placed.grid.gaps().size());
-    const double full = fit.lattice == DotLattice::square ? 2 : 3;
-    found.score = count * std::min(1.0, gaps / (full * std::max(1.0, count - 1.6 * std::sqrt(count)))) *
-                  std::min(1.0, found.strength) * std::max(0.05, 1 - off / 0.12);
-    return found;
-}
-
-/// The best lattice through the stronger spots.
-std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<InkSpot>& all,
-                                   std::optional<DotLattice> lattice, const Monitor& monitor) {
-    if (all.size() < 2) return std::nullopt;
-    const double high = all[all.size() / 20].strength;
-    std::optional<FoundGrid> best;
-    std::size_t before = 0;
-    for (const double part : {0.75, 0.55, 0.4, 0.28}) {
-        const auto end = std::partition_point(all.begin(), all.end(),
-                                              [&](const InkSpot& spot) { return spot.strength >= part * high; });
-        const auto count = std::min<std::size_t>(static_cast<std::size_t>(end - all.begin()), most_dots);
-        if (count == before || count < 2) continue;
-        before = count;
-        const std::vector<InkSpot> spots(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-        std::vector<glm::dvec2> points;
-        for (const InkSpot& spot : spots) points.push_back(spot.at);
-        const auto fit = fit_lattice(points, true, lattice, monitor);
-        if (!fit || fit->fitted < 2) continue;
-        auto found = grid_of(spots, *fit, finder, monitor);
-        if (!found) continue;
-        // Chance finds lattices among many spots, too.
-        const double share = static_cast<double>(fit->fitted) / static_cast<double>(count);
-        found->score *= 0.4 + 0.6 * share;
-        if (!best || found->score > best->score) best = std::move(found);
-    }
-    return best;
-}
+/// Smaller pictures are enlarged: spots of a pixel or two cannot be compared with rings around them.
+constexpr int least_side = 700;
+/// A kolam with fewer dots would be found by chance.
+constexpr std::size_t least_dots = 4;
 
 /// Share of gaps whose ink agrees badly with all states, as in a picture that is blurred or rough.
 double bad_share(const std::vector<GapEvidence>& evidence) {
@@ -205,239 +43,6 @@ float certainty(const GapEvidence& evidence, DotLattice lattice, double bad) {
     constexpr double sure_agreement = 0.60;
     return static_cast<float>(
         std::clamp(std::min(evidence.margin() / (2 * sure_margin), best / (2 * sure_agreement)), 0.0, 1.0));
-}
-
-struct Reading {
-    FoundGrid grid;
-    std::vector<GapEvidence> evidence;
-    double agreement = 0;         ///< mean of the gaps, with their margins
-    std::vector<GridDot> added;   ///< dots that were not seen, but have lines around them
-    std::vector<GridDot> unsure;  ///< places beside the grid that might be dots
-    bool reaches_edge = false;
-    bool has_border = false;  ///< around the kolam, left out
-};
-
-void rate(Reading& reading) {
-    reading.agreement = 0;
-    for (const GapEvidence& gap : reading.evidence) {
-        reading.agreement += gap.agreement[static_cast<std::size_t>(gap.best())] + gap.margin();
-    }
-    reading.agreement /= static_cast<double>(std::max<std::size_t>(1, reading.evidence.size()));
-}
-
-bool is_inside(const GreyPicture& picture, glm::dvec2 at) {
-    return at.x >= 0 && at.y >= 0 && at.x < static_cast<double>(picture.width) &&
-           at.y < static_cast<double>(picture.height);
-}
-
-/// True if the edge cuts the loop around a dot, or if there is ink where the way to the next place leaves the
-/// picture.
-class EdgeCheck {
-public:
-    EdgeCheck(const GreyPicture& ink, const FoundGrid& found) : ink_(ink), found_(found) {
-        std::vector<double> dots;
-        for (const GridDot dot : grid().dots())
-            dots.push_back(ink.at(found.map(lattice_point(grid().lattice(), dot))));
-        least_ = 0.5 * median(std::move(dots));
-    }
-    /// Whether the kolam seems to continue outside of the picture.
-    bool reaches_edge() const {
-        std::size_t ways = 0;
-        std::size_t lines = 0;
-        for (const GridDot dot : grid().dots()) {
-            const glm::dvec2 from = lattice_point(grid().lattice(), dot);
-            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const GridDot way = grid().step(side);
-                const GridDot to{dot.x + way.x, dot.y + way.y};
-                const glm::dvec2 along = lattice_point(grid().lattice(), way);
-                if (grid().dot_at(to) || is_inside(ink_, found_.map(from + along))) continue;
-                constexpr double loop = 0.35;
-                const double leaves = leaves_at(from, along);
-                if (leaves < loop) return true;
-                ++ways;
-                lines += has_line(from, along, leaves);
-            }
-        }
-        return lines > 0 && 6 * lines >= ways;
-    }
-
-private:
-    const DotGrid& grid() const { return found_.placed.grid; }
-    /// The part of the way that lies in the picture.
-    double leaves_at(glm::dvec2 from, glm::dvec2 along) const {
-        double part = 0;
-        while (part < 1 && is_inside(ink_, found_.map(from + part * along))) part += 0.02;
-        return part;
-    }
-    bool has_line(glm::dvec2 from, glm::dvec2 along, double leaves) const {
-        constexpr double beyond_loops = 0.56;
-        const glm::dvec2 aside(-along.y, along.x);
-        std::size_t inked = 0;
-        for (double part = std::max(beyond_loops, leaves - 0.12); part < leaves - 0.02; part += 0.02) {
-            for (double off = -0.4; off <= 0.4; off += 0.02) {
-                const glm::dvec2 at = found_.map(from + part * along + off * aside);
-                inked += is_inside(ink_, at) && ink_.at(at) > least_;
-            }
-        }
-        return inked > 3;
-    }
-    const GreyPicture& ink_;
-    const FoundGrid& found_;
-    double least_;
-};
-
-/// Removes places outside of the box of a grid if they lie on all of its sides, as the ornaments of a border do.
-/// @return whether there were any
-bool remove_border(const DotGrid& grid, std::vector<GridDot>& added, std::vector<GridDot>& unsure) {
-    const auto [left, right] =
-        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.x < b.x; });
-    const auto [below, above] =
-        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.y < b.y; });
-    const GridDot low{left->x, below->y};
-    const GridDot high{right->x, above->y};
-    std::array<bool, 4> sides{};
-    for (const auto* places : {&added, &unsure}) {
-        for (const GridDot place : *places) {
-            sides[0] = sides[0] || place.x < low.x;
-            sides[1] = sides[1] || place.x > high.x;
-            sides[2] = sides[2] || place.y < low.y;
-            sides[3] = sides[3] || place.y > high.y;
-        }
-    }
-    if (!std::all_of(sides.begin(), sides.end(), [](bool has) { return has; })) return false;
-    for (auto* places : {&added, &unsure}) {
-        std::erase_if(*places, [&](GridDot place) {
-            return place.x < low.x || place.x > high.x || place.y < low.y || place.y > high.y;
-        });
-    }
-    return true;
-}
-
-/// Adds places beside the grid that have lines around them although no dot was seen there: of all their gaps to dots,
-/// both strands are there. @return whether there were any
-bool add_encircled(const GreyPicture& smooth, Reading& reading, const Monitor& monitor) {
-    constexpr double sure = 0.84;
-    constexpr double sure_alone = 0.88;
-    const DotGrid& grid = reading.grid.placed.grid;
-    const DotLattice lattice = grid.lattice();
-    std::vector<GridDot> places = grid.dots();
-    for (const GridDot dot : grid.dots()) {
-        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
-            const GridDot way = grid.step(side);
-            const GridDot to{dot.x + way.x, dot.y + way.y};
-            if (!grid.dot_at(to) && is_inside(smooth, reading.grid.map(lattice_point(lattice, to))))
-                places.push_back(to);
-        }
-    }
-    if (places.size() == grid.dots().size()) return false;
-    const PlacedGrid wider = place_grid(lattice, std::move(places));
-    const auto map = moved(reading.grid.map, lattice, wider.origin);
-    if (!map) return false;
-    const auto evidence = read_gap_evidence(smooth, wider.grid, *map, reading.grid.dot_radius, monitor);
-    std::vector<GridDot> added;
-    reading.unsure.clear();
-    for (const GridDot place : wider.grid.dots()) {
-        const GridDot here{place.x + wider.origin.x, place.y + wider.origin.y};
-        if (grid.dot_at(here)) continue;
-        std::size_t gaps = 0;
-        std::size_t good = 0;
-        double least = 1;
-        double sum = 0;
-        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
-            const GridDot way = grid.step(side);
-            if (!grid.dot_at({here.x + way.x, here.y + way.y})) continue;
-            const std::int32_t gap = wider.grid.gap(*wider.grid.dot_at(place), side);
-            const GapEvidence& found = evidence[static_cast<std::size_t>(gap)];
-            const double agreement = found.agreement[static_cast<std::size_t>(found.best())];
-            ++gaps;
-            good += agreement >= sure;
-            least = std::min(least, agreement);
-            sum += agreement;
-        }
-        if (good == gaps && (gaps > 1 || least >= sure_alone)) {
-            added.push_back(here);
-        } else if (sum > 0.79 * static_cast<double>(gaps)) {
-            reading.unsure.push_back(here);
-        }
-    }
-    if (remove_border(grid, added, reading.unsure)) reading.has_border = true;
-    if (added.empty()) return false;
-    std::vector<GridDot> all = grid.dots();
-    all.insert(all.end(), added.begin(), added.end());
-    const PlacedGrid placed = place_grid(lattice, std::move(all));
-    const auto placed_map = moved(reading.grid.map, lattice, placed.origin);
-    if (!placed_map) return false;
-    for (GridDot& dot : reading.added) dot = {dot.x - placed.origin.x, dot.y - placed.origin.y};
-    for (const GridDot dot : added) reading.added.push_back({dot.x - placed.origin.x, dot.y - placed.origin.y});
-    reading.grid.placed = placed;
-    reading.grid.map = *placed_map;
-    return true;
-}
-
-/// Whether most gaps of the dots in an outer row or column agree with no state.
-bool is_bad_side(const Reading& reading, const std::function<bool(GridDot)>& is_outer) {
-    const DotGrid& grid = reading.grid.placed.grid;
-    std::size_t gaps = 0;
-    std::size_t bad = 0;
-    for (std::size_t i = 0; i < reading.evidence.size(); ++i) {
-        const GridGap& gap = grid.gaps()[i];
-        if (!is_outer(grid.dots()[gap.from]) && !is_outer(grid.dots()[gap.to])) continue;
-        const GapEvidence& found = reading.evidence[i];
-        ++gaps;
-        bad += found.agreement[static_cast<std::size_t>(found.best())] < 0.85;
-    }
-    return 5 * bad > 3 * gaps;
-}
-
-/// Takes off the outer rows and columns of a grid that agree with no kolam on three sides at least: ornaments of a
-/// border that look like dots. @return nothing if there are none
-std::optional<FoundGrid> without_border(const Reading& reading) {
-    const DotGrid& grid = reading.grid.placed.grid;
-    const auto [left, right] =
-        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.x < b.x; });
-    const auto [below, above] =
-        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.y < b.y; });
-    const std::array<std::function<bool(GridDot)>, 4> sides = {
-        [x = left->x](GridDot dot) { return dot.x == x; }, [x = right->x](GridDot dot) { return dot.x == x; },
-        [y = below->y](GridDot dot) { return dot.y == y; }, [y = above->y](GridDot dot) { return dot.y == y; }};
-    std::vector<const std::function<bool(GridDot)>*> bad;
-    for (const auto& side : sides) {
-        if (is_bad_side(reading, side)) bad.push_back(&side);
-    }
-    if (bad.size() < 3) return std::nullopt;
-    std::vector<GridDot> kept = grid.dots();
-    std::erase_if(kept, [&](GridDot dot) {
-        return std::any_of(bad.begin(), bad.end(), [&](const auto* side) { return (*side)(dot); });
-    });
-    if (kept.size() < 4) return std::nullopt;
-    FoundGrid inner = reading.grid;
-    inner.placed = place_grid(grid.lattice(), std::move(kept));
-    const auto map = moved(reading.grid.map, grid.lattice(), inner.placed.origin);
-    if (!map) return std::nullopt;
-    inner.map = *map;
-    return inner;
-}
-
-Reading read_states(const GreyPicture& ink, FoundGrid grid, const Monitor& monitor) {
-    const GreyPicture smooth = blurred(ink, 0.018 * grid.spacing);
-    Reading reading{std::move(grid), {}, 0, {}, {}, false, false};
-    for (int round = 0; round < 4 && add_encircled(smooth, reading, monitor); ++round) {
-    }
-    reading.evidence =
-        read_gap_evidence(smooth, reading.grid.placed.grid, reading.grid.map, reading.grid.dot_radius, monitor);
-    rate(reading);
-    for (int round = 0; round < 2; ++round) {
-        auto inner = without_border(reading);
-        if (!inner) break;
-        Reading within{std::move(*inner), {}, 0, {}, {}, false, true};
-        within.evidence =
-            read_gap_evidence(smooth, within.grid.placed.grid, within.grid.map, within.grid.dot_radius, monitor);
-        rate(within);
-        if (within.agreement <= reading.agreement) break;
-        reading = std::move(within);
-    }
-    reading.reaches_edge = EdgeCheck(smooth, reading.grid).reaches_edge();
-    return reading;
 }
 
 /// The ink of a picture and the spots in it.
@@ -461,85 +66,492 @@ struct InkSpots {
     bool is_rough() const { return spots.size() >= SpotFinder::most_spots; }
 };
 
-/// True for a lattice whose inside is empty, as of the dots of a border.
-bool is_hollow(const FoundGrid& found) {
-    const auto count = static_cast<double>(found.placed.grid.dots().size());
-    const auto gaps = static_cast<double>(found.placed.grid.gaps().size());
-    const double full = found.placed.grid.lattice() == DotLattice::square ? 2 : 3;
-    return count >= 16 && gaps < 0.75 * full * (count - 1.6 * std::sqrt(count));
+/// A part of a picture with dots on a lattice.
+struct Part {
+    Reading reading;
+    ReadKolam kolam;
+    std::string refusal;  ///< why it is not a kolam that can be read; empty for those that are
+    bool is_dark = true;
+    std::size_t beside = 0;  ///< dots between the places of the lattice
+    bool is_border = false;  ///< of the kolams within it
+
+    std::size_t dots() const { return kolam.grid.dots().size(); }
+    bool is_kolam() const { return refusal.empty(); }
+    /// Dots on a lattice and lines around them, even if most gaps cannot be read.
+    bool is_counted() const {
+        return is_kolam() || (!is_border && !is_narrow() && dots() >= 9 && reading.explained >= 0.5 &&
+                              2 * reading.joined >= dots());
+    }
+    /// Dots in single rows, as those of a border.
+    bool is_narrow() const { return 6 * kolam.states.size() < 7 * dots(); }
+};
+
+/// Why a reading is not a kolam, or cannot be read; empty if it can.
+std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
+    const std::size_t dots = kolam.grid.dots().size();
+    const std::size_t gaps = kolam.states.size();
+    const std::size_t doubts = kolam.doubtful().size();
+    if (dots < least_dots) return fmt::format("only {} of a lattice", counted(dots, "dot"));
+    if (2 * doubts > gaps) {
+        return fmt::format("{} on a lattice, but {} of {} between them cannot be read", counted(dots, "dot"), doubts,
+                           counted(gaps, "gap"));
+    }
+    if (reading.explained < 0.6) {
+        return fmt::format("{} on a lattice, but lines around them explain only {:.0f} % of the ink there",
+                           counted(dots, "dot"), 100 * reading.explained);
+    }
+    if (2 * reading.joined < dots) {
+        return fmt::format("{} on a lattice, but lines lead to only {} of them from another", counted(dots, "dot"),
+                           reading.joined);
+    }
+    return "";
 }
 
-/// Reads the kolam within a border of dots, if there is one that agrees better.
-std::optional<Reading> read_inside(const InkSpots& ink, const Reading& border, std::optional<DotLattice> lattice,
-                                   const Monitor& monitor) {
-    const FoundGrid& found = border.grid;
-    std::vector<glm::dvec2> dots;
-    glm::dvec2 low(1e300);
-    glm::dvec2 high(-1e300);
-    for (const GridDot dot : found.placed.grid.dots()) {
-        dots.push_back(found.map(lattice_point(found.placed.grid.lattice(), dot)));
-        low = glm::min(low, dots.back());
-        high = glm::max(high, dots.back());
+/// Makes the gaps of a place to dots doubtful.
+void doubt_around(ReadKolam& kolam, GridDot place) {
+    const auto doubt = [&](std::uint32_t dot) {
+        for (std::uint32_t side = 0; side < kolam.grid.sides(); ++side) {
+            const std::int32_t gap = kolam.grid.gap(dot, side);
+            if (gap < 0) continue;
+            float& certainty = kolam.certainty[static_cast<std::size_t>(gap)];
+            certainty = std::min(certainty, 0.9F * ReadKolam::doubtful_below);
+        }
+    };
+    if (const auto dot = kolam.grid.dot_at(place)) return doubt(*dot);
+    for (std::uint32_t side = 0; side < kolam.grid.sides(); ++side) {
+        const GridDot way = kolam.grid.step(side);
+        if (const auto dot = kolam.grid.dot_at({place.x + way.x, place.y + way.y})) doubt(*dot);
     }
-    std::vector<InkSpot> inside;
-    for (const InkSpot& spot : ink.spots) {
-        const bool is_in = spot.at.x > low.x && spot.at.y > low.y && spot.at.x < high.x && spot.at.y < high.y;
-        const bool is_of_border = std::any_of(dots.begin(), dots.end(), [&](glm::dvec2 dot) {
-            return glm::distance(dot, spot.at) < 0.6 * found.spacing;
-        });
-        if (is_in && !is_of_border) inside.push_back(spot);
-    }
-    auto again = find_grid(ink.finder, inside, lattice, monitor);
-    if (!again || again->placed.grid.dots().size() < 4) return std::nullopt;
-    Reading reading = read_states(ink.ink, std::move(*again), monitor);
-    if (reading.agreement <= border.agreement) return std::nullopt;
-    reading.has_border = true;
-    return reading;
 }
 
-/// Reads the ink; where the angle of the lattice does not decide, the one whose gaps agree better.
-std::optional<Reading> read_ink(const InkSpots& ink, std::optional<DotLattice> lattice, const Monitor& monitor) {
-    if (ink.is_rough()) return std::nullopt;
-    auto found = find_grid(ink.finder, ink.spots, lattice, monitor);
-    if (!found) return std::nullopt;
+Part part_of(Reading reading, bool is_dark) {
+    const DotGrid& grid = reading.grid.grid();
+    const std::size_t gaps = reading.evidence.size();
+    ReadKolam kolam{grid, GapStates(gaps), std::vector<float>(gaps)};
+    const double bad = bad_share(reading.evidence);
+    for (std::size_t i = 0; i < gaps; ++i) {
+        kolam.states[i] = reading.evidence[i].best();
+        kolam.certainty[i] = certainty(reading.evidence[i], grid.lattice(), bad);
+    }
+    std::string refusal = refusal_of(reading, kolam);
+    return {std::move(reading), std::move(kolam), std::move(refusal), is_dark};
+}
+
+double agreement_of(const std::vector<Reading>& readings) {
+    return readings.empty() ? -1 : readings[0].agreement;
+}
+std::size_t dots_of(const std::vector<Reading>& readings) {
+    std::size_t dots = 0;
+    for (const Reading& reading : readings) dots += reading.grid.grid().dots().size();
+    return dots;
+}
+
+/// Reads the kolams on a lattice through some of the spots; where the angle of the lattice does not decide, the one
+/// whose gaps agree better.
+std::vector<Reading> read_lattice(InkReader& reader, const SpotFinder& finder, const std::vector<InkSpot>& spots,
+                                  std::optional<DotLattice> lattice, std::optional<double> spacing,
+                                  const Monitor& monitor) {
+    auto found = find_grid(finder, spots, lattice, monitor, spacing);
+    if (!found || found->grid().dots().size() < 3) return {};
     const double angle = found->angle;
-    const DotLattice first = found->placed.grid.lattice();
-    Reading reading = read_states(ink.ink, std::move(*found), monitor);
-    if (is_hollow(reading.grid)) {
-        if (auto kolam = read_inside(ink, reading, lattice, monitor)) return kolam;
-    }
-    if (!lattice && angle > 64 && angle < 84) {
-        const DotLattice other = first == DotLattice::square ? DotLattice::triangular : DotLattice::square;
-        if (auto again = find_grid(ink.finder, ink.spots, other, monitor)) {
-            Reading second = read_states(ink.ink, std::move(*again), monitor);
-            if (second.agreement > reading.agreement + 0.3 &&
-                2 * second.grid.placed.grid.dots().size() > reading.grid.placed.grid.dots().size()) {
-                return second;
-            }
+    const DotLattice first = found->grid().lattice();
+    std::vector<Reading> readings = reader.read(std::move(*found), monitor);
+    if (lattice || angle <= 64 || angle >= 84) return readings;
+    const DotLattice other = first == DotLattice::square ? DotLattice::triangular : DotLattice::square;
+    if (auto again = find_grid(finder, spots, other, monitor, spacing)) {
+        std::vector<Reading> second = reader.read(std::move(*again), monitor);
+        if (agreement_of(second) > agreement_of(readings) + 0.3 && 2 * dots_of(second) > dots_of(readings)) {
+            return second;
         }
     }
-    return reading;
+    return readings;
 }
 
-/// Refuses a picture of something else: in kolams, even in bad pictures, most gaps are certain.
-void refuse_unreadable(const ReadKolam& kolam) {
-    const std::size_t doubts = kolam.doubtful().size();
-    if (5 * doubts <= 3 * kolam.states.size()) return;
-    throw std::runtime_error(fmt::format("no kolam found: {} of {} between the dots cannot be read", doubts,
-                                         counted(kolam.states.size(), "gap")));
-}
-
-/// Makes the gaps of a dot doubtful.
-void doubt_around(ReadKolam& kolam, std::uint32_t dot) {
-    for (std::uint32_t side = 0; side < kolam.grid.sides(); ++side) {
-        const std::int32_t gap = kolam.grid.gap(dot, side);
-        if (gap < 0) continue;
-        float& certainty = kolam.certainty[static_cast<std::size_t>(gap)];
-        certainty = std::min(certainty, 0.9F * ReadKolam::doubtful_below);
+/// The area around the dots of a reading.
+class Area {
+public:
+    explicit Area(const Reading& reading)
+        : grid_(reading.grid.grid()), map_(reading.grid.map), back_(map_.perspective().inverse()) {
+        for (const GridDot dot : grid_.dots()) {
+            low_ = glm::min(low_, map_.dot(dot));
+            high_ = glm::max(high_, map_.dot(dot));
+        }
     }
+    /// A place of the lattice, of any offset, from one of its dots.
+    glm::dvec2 from_first(glm::dvec2 pixel) const {
+        return (*back_)(pixel)-map_.shift() + map_.offset() - lattice_point(grid_.lattice(), grid_.dots().front());
+    }
+    bool is_regular() const { return back_.has_value(); }
+    /// Whether a pixel lies close to a dot, or between dots: not in a hole, as that of a frame.
+    bool contains(glm::dvec2 pixel) const {
+        if (!back_) return false;
+        constexpr double reach = 1.45;
+        const glm::dvec2 at = from_first(pixel);
+        if (!(std::fabs(at.x) < 1e6 && std::fabs(at.y) < 1e6)) return false;
+        const GridDot first = grid_.dots().front();
+        const GridDot near = nearest_place(grid_.lattice(), at);
+        for (std::int32_t y = -4; y <= 4; y += 2) {
+            for (std::int32_t x = -4; x <= 4; ++x) {
+                const GridDot place{near.x + x, near.y + y};
+                if (glm::distance(lattice_point(grid_.lattice(), place), at) > reach) continue;
+                if (grid_.dot_at({place.x + first.x, place.y + first.y})) return true;
+            }
+        }
+        return false;
+    }
+    /// Pixels of the box around the dots.
+    double box() const { return std::max(0.0, high_.x - low_.x) * std::max(0.0, high_.y - low_.y); }
+    bool surrounds(const Area& other) const {
+        return low_.x < other.low_.x && low_.y < other.low_.y && high_.x > other.high_.x && high_.y > other.high_.y;
+    }
+
+private:
+    DotGrid grid_;
+    LatticeMap map_;
+    std::optional<Homography> back_;
+    glm::dvec2 low_{1e300};
+    glm::dvec2 high_{-1e300};
+};
+
+/// Dots between the places of a lattice: spots like its dots, within it.
+std::size_t dots_beside(const Part& part, const std::vector<InkSpot>& spots) {
+    const FoundGrid& found = part.reading.grid;
+    const DotLattice lattice = found.grid().lattice();
+    const GridDot first = found.grid().dots().front();
+    const double radius = found.dot_radius * found.spacing;
+    const Area area(part.reading);
+    if (!area.is_regular()) return 0;
+    std::size_t count = 0;
+    for (const InkSpot& spot : spots) {
+        if (spot.strength < 0.7 * found.strength || spot.radius < 0.6 * radius || spot.radius > 1.6 * radius)
+            continue;
+        if (!area.contains(spot.at)) continue;
+        const glm::dvec2 at = area.from_first(spot.at);
+        const GridDot near = nearest_place(lattice, at);
+        if (glm::distance(lattice_point(lattice, near), at) < 0.4) continue;
+        // Two dots at least beside it.
+        std::size_t around = 0;
+        for (const GridDot dot : found.grid().dots()) {
+            const glm::dvec2 place = lattice_point(lattice, dot) - lattice_point(lattice, first);
+            around += glm::distance(place, at) < 0.95;
+        }
+        count += around >= 2;
+    }
+    return count;
+}
+
+/// Spots in which to look for a lattice: all of them, then those of similar sizes, the largest first. A border can
+/// have more ornaments than the kolam has dots.
+std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) {
+    constexpr double similar = 1.9;
+    constexpr std::size_t most_sizes = 3;
+    constexpr std::size_t least_spots = 9;
+    std::vector<std::vector<InkSpot>> subsets{spots};
+    std::vector<double> radii;
+    for (const InkSpot& spot : spots) radii.push_back(spot.radius);
+    std::sort(radii.begin(), radii.end());
+    // Ends of the sizes, from a radius that at least some spots have.
+    std::size_t end = radii.size();
+    while (end >= least_spots && subsets.size() <= most_sizes) {
+        const double high = radii[end - std::min<std::size_t>(end, 3)];
+        const double low = high / similar;
+        std::vector<InkSpot> same;
+        std::copy_if(spots.begin(), spots.end(), std::back_inserter(same),
+                     [&](const InkSpot& spot) { return spot.radius > low && spot.radius <= 1.1 * high; });
+        if (same.size() >= least_spots && 5 * same.size() < 4 * spots.size()) subsets.push_back(std::move(same));
+        end = static_cast<std::size_t>(std::upper_bound(radii.begin(), radii.end(), low) - radii.begin());
+    }
+    return subsets;
+}
+
+/// All parts of a picture with dots on a lattice, of lines in one sense.
+void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vector<Part>& parts,
+                const Monitor& monitor) {
+    if (ink.is_rough()) return;
+    InkReader reader(ink.ink);
+    std::vector<InkSpot> spots = ink.spots;
+    const auto remove_area = [&](const Reading& reading) {
+        const Area area(reading);
+        std::erase_if(spots, [&](const InkSpot& spot) { return area.contains(spot.at); });
+    };
+    for (const Part& part : parts) {
+        if (part.is_counted()) remove_area(part.reading);
+    }
+    constexpr std::size_t most_parts = 64;
+    // Kolams of a page are of one size, mostly.
+    std::optional<double> spacing;
+    // Adds the parts on the best lattice through some spots. Whether there is a kolam among them.
+    const auto read = [&](const std::vector<InkSpot>& some) {
+        std::vector<Reading> more = read_lattice(reader, ink.finder, some, lattice, spacing, monitor);
+        bool is_good = false;
+        std::optional<double> size;
+        for (Reading& reading : more) {
+            Part part = part_of(std::move(reading), ink.is_dark);
+            if (part.is_counted()) {
+                part.beside = dots_beside(part, ink.spots);
+                remove_area(part.reading);
+                const double strength = part.reading.grid.strength;
+                if (!spacing) {
+                    std::erase_if(spots, [&](const InkSpot& spot) { return spot.strength < 0.5 * strength; });
+                }
+                is_good = true;
+                size = part.reading.grid.spacing;
+            }
+            parts.push_back(std::move(part));
+        }
+        if (is_good) spacing = size;
+        return is_good;
+    };
+    // Chance finds lattices among the spots of textures, again and again.
+    const bool has_kolam =
+        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); });
+    int attempts = has_kolam ? 1 : 2;
+    for (; attempts > 0 && parts.size() < most_parts && spots.size() >= least_dots;) {
+        if (spacing) {
+            if (read(spots)) continue;
+            spacing.reset();
+        }
+        const std::size_t before = parts.size();
+        const bool is_further =
+            std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_kolam(); });
+        const std::vector<std::vector<InkSpot>> subsets =
+            is_further ? std::vector<std::vector<InkSpot>>{spots} : subsets_of(spots);
+        if (std::any_of(subsets.begin(), subsets.end(), read)) {
+            attempts = 1;
+            continue;
+        }
+        if (parts.size() == before) break;
+        --attempts;
+        remove_area(parts[before].reading);
+    }
+}
+
+/// What was found in a picture.
+struct Findings {
+    DecodedPicture picture;
+    std::vector<Part> parts = {};
+    std::vector<InkSpot> spots = {};  ///< in the sense of the best part
+    bool is_dark = true;              ///< that sense
+    bool is_rough = false;
+
+    std::size_t kolams() const {
+        return static_cast<std::size_t>(
+            std::count_if(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); }));
+    }
+    /// Share of the picture around which no kolam was found.
+    double free() const {
+        double covered = 0;
+        for (const Part& part : parts) covered += part.is_counted() ? Area(part.reading).box() : 0;
+        return 1 - covered / (static_cast<double>(picture.width) * static_cast<double>(picture.height));
+    }
+};
+
+/// Kolams that can be read first, those with most dots before the others, frames behind what they surround.
+void sort_parts(std::vector<Part>& parts) {
+    const auto rank = [](const Part& part) { return part.is_kolam() ? 0 : part.is_counted() ? 1 : 2; };
+    std::stable_sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
+        return rank(a) != rank(b) ? rank(a) < rank(b) : a.dots() > b.dots();
+    });
+    std::vector<Area> areas;
+    for (const Part& part : parts) areas.emplace_back(part.reading);
+    std::vector<char> is_frame(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
+            is_frame[i] = k != i && parts[i].is_counted() && parts[k].is_kolam() && areas[i].surrounds(areas[k]) &&
+                          10 * parts[k].dots() > parts[i].dots();
+        }
+    }
+    std::vector<Part> frames;
+    std::vector<Part> borders;
+    std::vector<Part> others;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        // A frame of single dots, or one that cannot be read, is an ornament around a kolam.
+        if (is_frame[i] != 0 && (!parts[i].is_kolam() || parts[i].is_narrow())) {
+            if (parts[i].is_kolam()) parts[i].refusal = "a border";
+            parts[i].is_border = true;
+        }
+        (parts[i].is_border ? borders : is_frame[i] != 0 ? frames : others).push_back(std::move(parts[i]));
+    }
+    const auto first_other =
+        std::find_if(others.begin(), others.end(), [](const Part& part) { return !part.is_kolam(); });
+    others.insert(first_other, std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()));
+    others.insert(others.end(), std::make_move_iterator(borders.begin()), std::make_move_iterator(borders.end()));
+    parts = std::move(others);
+}
+
+Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, const Monitor& monitor) {
+    Findings found{std::move(picture)};
+    InkSpots ink(find_ink(found.picture, monitor), monitor);
+    find_parts(ink, options.lattice, found.parts, monitor);
+    found.is_rough = ink.is_rough();
+    found.spots = ink.spots;
+    found.is_dark = ink.is_dark;
+    const std::size_t before = found.kolams();
+    // The other way round, as where the ground has a pattern, or beside the kolams found, another one is white on
+    // black.
+    if (before == 0 || found.free() > 0.4) {
+        ink.negate(monitor);
+        found.is_rough = found.is_rough && ink.is_rough();
+        find_parts(ink, options.lattice, found.parts, monitor);
+    }
+    sort_parts(found.parts);
+    if (!found.parts.empty() && found.parts[0].is_dark == ink.is_dark) {
+        found.spots = ink.spots;
+        found.is_dark = ink.is_dark;
+    }
+    return found;
+}
+
+DecodedPicture large_enough(DecodedPicture picture) {
+    if (std::min(picture.width, picture.height) < 16) throw std::runtime_error("the picture is too small");
+    const int longest = std::max(picture.width, picture.height);
+    const int times = std::min(4, (least_side + longest - 1) / longest);
+    return times > 1 ? enlarged(picture, times) : picture;
+}
+
+/// Pixels of the file for one of the picture as it was read.
+double file_scale(const DecodedPicture& picture) {
+    return static_cast<double>(picture.file_width) / std::max(1, picture.width);
+}
+
+std::string places_text(std::size_t count) {
+    return count == 1 ? "1 place was" : fmt::format("{} places were", count);
+}
+
+/// Spots that look like the dots of a kolam, but lie in none.
+std::size_t stray_dots(const Findings& found, const Part& part) {
+    const FoundGrid& grid = part.reading.grid;
+    const double radius = grid.dot_radius * grid.spacing;
+    std::vector<Area> areas;
+    for (const Part& each : found.parts) {
+        if (each.is_counted()) areas.emplace_back(each.reading);
+    }
+    std::vector<glm::dvec2> strays;
+    for (const InkSpot& spot : found.spots) {
+        if (spot.strength < 0.7 * grid.strength || spot.radius < 0.7 * radius || spot.radius > 1.4 * radius) continue;
+        if (std::any_of(areas.begin(), areas.end(), [&](const Area& area) { return area.contains(spot.at); }))
+            continue;
+        strays.push_back(spot.at);
+    }
+    // Beside each other, as on a lattice.
+    return static_cast<std::size_t>(std::count_if(strays.begin(), strays.end(), [&](glm::dvec2 at) {
+        return std::count_if(strays.begin(), strays.end(), [&](glm::dvec2 other) {
+                   return glm::distance(at, other) > 0.5 * grid.spacing &&
+                          glm::distance(at, other) < 1.6 * grid.spacing;
+               }) >= 2;
+    }));
+}
+
+void add_notes(Part& part, const Findings& found, const PhotographOptions& options) {
+    const Reading& reading = part.reading;
+    std::vector<std::string>& notes = part.kolam.notes;
+    if (const std::size_t kolams = found.kolams(); kolams > 1) {
+        notes.push_back(fmt::format("{} kolams in the picture: this is number {}", kolams, options.number));
+        const auto unread = std::count_if(found.parts.begin(), found.parts.end(),
+                                          [](const Part& each) { return each.is_counted() && !each.is_kolam(); });
+        if (unread > 0) notes.push_back(fmt::format("{} of the kolams cannot be read", unread));
+    }
+    if (const std::size_t stray = part.is_dark == found.is_dark ? stray_dots(found, part) : 0; stray >= least_dots) {
+        notes.push_back(fmt::format("{} like dots elsewhere in the picture: they may belong to another kolam",
+                                    counted(stray, "spot")));
+    }
+    if (reading.reaches_edge) {
+        notes.emplace_back("the kolam seems to continue outside of the picture: dots and lines there are missing");
+    }
+    if (std::any_of(found.parts.begin(), found.parts.end(), [](const Part& each) { return each.is_border; })) {
+        notes.emplace_back("a border around the kolam was left out");
+    }
+    if (reading.left_out > 0) {
+        notes.push_back(
+            fmt::format("{} beside the kolam that no line joins to it left out", counted(reading.left_out, "dot")));
+    }
+    if (part.beside > 0) {
+        notes.push_back(fmt::format("{} between the places of the grid left out", counted(part.beside, "dot")));
+    }
+    if (!reading.added.empty()) {
+        notes.push_back(fmt::format("{} without a visible dot taken for a dot, because lines run around it",
+                                    places_text(reading.added.size())));
+    }
+    if (!reading.open_ends.empty()) {
+        notes.push_back(fmt::format("{}: lines lead to {} beside the grid where no dot was seen",
+                                    counted(reading.open_ends.size(), "open end"),
+                                    counted(reading.open_ends.size(), "place")));
+    }
+    if (!reading.missing.empty()) {
+        notes.push_back(
+            fmt::format("{} may be missing: no dot was seen there, but there is ink, and the other dots ask for one",
+                        counted(reading.missing.size(), "dot")));
+    }
+    for (const auto* places : {&reading.added, &reading.open_ends, &reading.missing}) {
+        for (const GridDot place : *places) doubt_around(part.kolam, place);
+    }
+    notes.push_back(fmt::format("{} lines on {} ground, dots {:.0f} pixels apart in a picture of {} x {}",
+                                part.is_dark ? "dark" : "light", part.is_dark ? "light" : "dark",
+                                reading.grid.spacing * file_scale(found.picture), found.picture.file_width,
+                                found.picture.file_height));
+    if (const double angle = reading.grid.angle; angle > 66 && angle < 82 && !options.lattice) {
+        notes.push_back(fmt::format("rows of dots meet at {:.0f} degrees: the grid was read as {}", angle,
+                                    part.kolam.grid.lattice() == DotLattice::square ? "square" : "interlaced"));
+    }
+}
+
+Photograph photograph_of(const Part& part, const std::vector<Part>& parts) {
+    Photograph photograph{part.kolam, {}, part.reading.grid.map, part.reading.open_ends, part.reading.missing, {}, 1};
+    for (const Part& other : parts) {
+        if (&other == &part || !other.is_counted()) continue;
+        for (const GridDot dot : other.kolam.grid.dots())
+            photograph.others.push_back(other.reading.grid.map.dot(dot));
+    }
+    return photograph;
+}
+
+/// How far the distances from dots to their nearest neighbours vary: their standard deviation, of their mean.
+double variation(const std::vector<InkSpot>& spots) {
+    constexpr std::size_t most = 400;
+    const std::size_t count = std::min(most, spots.size());
+    double sum = 0;
+    double squares = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        double least = 1e300;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (k != i) least = std::min(least, glm::distance(spots[i].at, spots[k].at));
+        }
+        sum += least;
+        squares += least * least;
+    }
+    const double mean = sum / static_cast<double>(count);
+    return std::sqrt(std::max(0.0, squares / static_cast<double>(count) - mean * mean)) / std::max(mean, 1e-9);
+}
+
+[[noreturn]] void refuse(Findings found) {
+    const auto spots = [&] { return counted(found.spots.size(), "round spot"); };
+    std::string what = "no kolam found: ";
+    if (found.is_rough) {
+        what += "too many round spots to be the dots of a kolam";
+    } else if (found.spots.empty()) {
+        what += "no round spots, as dots are";
+    } else if (found.parts.empty() || found.parts[0].dots() < least_dots) {
+        what += spots() + ", no lattice";
+        if (found.spots.size() > 3)
+            what += fmt::format(": their distances vary by {:.0f} %", 100 * variation(found.spots));
+    } else {
+        what += spots() + ", " + found.parts[0].refusal;
+    }
+    RefusedPicture refused;
+    constexpr std::size_t most_shown = 2000;
+    for (const InkSpot& spot : found.spots) {
+        if (refused.spots.size() < most_shown) refused.spots.push_back({spot.at, spot.radius});
+    }
+    if (!found.parts.empty()) refused.best = photograph_of(found.parts[0], found.parts);
+    refused.picture = std::move(found.picture);
+    throw NoKolam(what, std::move(refused));
 }
 
 }  // namespace
+
+glm::dvec2 Photograph::in_file(GridDot place) const {
+    return file_scale(picture) * (map.dot(place) + 0.5) - 0.5;
+}
 
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options,
                            const Monitor& monitor) {
@@ -549,78 +561,28 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
 }
 
 Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions& options, const Monitor& monitor) {
-    std::optional<Reading> best;
-    DecodedPicture picture;
-    bool is_dark = true;
-    bool is_rough = false;
+    Findings found;
     for (const int side : {1500, 4000}) {
-        picture = decode(side);
-        if (std::min(picture.width, picture.height) < 16) throw std::runtime_error("the picture is too small");
-        InkSpots ink(find_ink(picture, monitor), monitor);
-        is_dark = ink.is_dark;
-        best = read_ink(ink, options.lattice, monitor);
-        is_rough = ink.is_rough();
-        if (!best || best->agreement < 0.85) {
-            // The other way round, as where the ground has a pattern.
-            ink.negate(monitor);
-            is_rough = is_rough && ink.is_rough();
-            auto other = read_ink(ink, options.lattice, monitor);
-            if (other && (!best || other->agreement > best->agreement + 0.1)) {
-                best = std::move(other);
-                is_dark = ink.is_dark;
-            }
-        }
-        const bool is_smaller = picture.width < picture.file_width;
-        if (!is_smaller || is_rough || (best && best->grid.spacing >= least_spacing)) break;
+        found = find_kolams(large_enough(decode(side)), options, monitor);
+        const bool is_smaller = found.picture.width < found.picture.file_width;
+        const bool is_fine = !found.parts.empty() && found.parts[0].reading.grid.spacing >= least_spacing;
+        if (!is_smaller || found.is_rough || is_fine) break;
     }
-    if (!best && is_rough) throw std::runtime_error("no kolam found: too many spots to be the dots of a kolam");
-    if (!best) throw std::runtime_error("no kolam found: the picture has no lattice of dots");
-    FoundGrid& grid = best->grid;
-    if (grid.placed.grid.dots().size() < 4 || (best->agreement < 0.75 && !best->evidence.empty())) {
-        throw std::runtime_error("no kolam found: too few dots, or no lines around them");
+    const auto readable = static_cast<std::size_t>(
+        std::count_if(found.parts.begin(), found.parts.end(), [](const Part& part) { return part.is_kolam(); }));
+    if (readable == 0) refuse(std::move(found));
+    if (options.number < 1 || options.number > readable) {
+        throw std::runtime_error(fmt::format("kolam {} does not exist: the picture has {} that can be read",
+                                             options.number, counted(readable, "kolam")));
     }
-
-    ReadKolam kolam{
-        grid.placed.grid, GapStates(best->evidence.size()), std::vector<float>(best->evidence.size()), {}, {}, {}};
-    const double bad = bad_share(best->evidence);
-    for (std::size_t i = 0; i < best->evidence.size(); ++i) {
-        kolam.states[i] = best->evidence[i].best();
-        kolam.certainty[i] = certainty(best->evidence[i], grid.placed.grid.lattice(), bad);
-    }
-    if (best->reaches_edge) {
-        kolam.notes.emplace_back(
-            "the kolam seems to continue outside of the picture: dots and lines there are missing");
-    }
-    if (best->has_border) kolam.notes.emplace_back("a border around the kolam was left out");
-    if (!best->added.empty()) {
-        kolam.notes.push_back(
-            fmt::format("{} without a visible dot taken for a dot, because lines run around it",
-                        best->added.size() == 1 ? "1 place was" : fmt::format("{} places were", best->added.size())));
-        for (const GridDot place : best->added) {
-            if (const auto dot = kolam.grid.dot_at(place)) doubt_around(kolam, *dot);
-        }
-    }
-    for (const GridDot place : best->unsure) {
-        for (std::uint32_t side = 0; side < kolam.grid.sides(); ++side) {
-            const GridDot way = kolam.grid.step(side);
-            if (const auto dot = kolam.grid.dot_at({place.x + way.x, place.y + way.y})) doubt_around(kolam, *dot);
-        }
-    }
-    if (!best->unsure.empty()) {
-        kolam.notes.push_back(fmt::format("{} beside the grid may have a dot that was not seen",
-                                          counted(best->unsure.size(), "place")));
-    }
-    kolam.notes.push_back(fmt::format("{} lines on {} ground, dots {:.0f} pixels apart in a picture of {} x {}",
-                                      is_dark ? "dark" : "light", is_dark ? "light" : "dark", grid.spacing,
-                                      picture.width, picture.height));
-    if (grid.angle > 66 && grid.angle < 82 && !options.lattice) {
-        kolam.notes.push_back(
-            fmt::format("rows of dots meet at {:.0f} degrees: the grid was read as {}", grid.angle,
-                        grid.placed.grid.lattice() == DotLattice::square ? "square" : "interlaced"));
-    }
-    refuse_unreadable(kolam);
-    if (options.repair) repair_by_symmetry(kolam);
-    return {std::move(kolam), std::move(picture), grid.map};
+    Part& part = found.parts[options.number - 1];
+    add_notes(part, found, options);
+    if (options.repair) repair_by_symmetry(part.kolam);
+    Photograph photograph = photograph_of(part, found.parts);
+    photograph.kolams = found.kolams();
+    photograph.readable = readable;
+    photograph.picture = std::move(found.picture);
+    return photograph;
 }
 
 }  // namespace sikku

@@ -2,14 +2,20 @@
 #pragma once
 
 #include "art/image/image_file.h"
-#include "art/reading/lattice.h"
+#include "art/reading/lattice_map.h"
 #include "art/reading/read_kolam.h"
 #include "engine/base/monitor.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -17,20 +23,55 @@ struct PhotographOptions {
     std::optional<DotLattice> lattice = {};  ///< only this one
     bool repair = true;                      ///< doubtful gaps by symmetry
     std::uint64_t most_pixels = 100'000'000;
+    std::size_t number = 1;  ///< which of several kolams; the one with most dots is the first
 };
 
 /// A kolam that was read, and where it lies in the picture.
 struct Photograph {
     ReadKolam kolam;
-    DecodedPicture picture;  ///< as it was read, about 1500 pixels wide
-    Homography map;  ///< from the plane of the grid, where dots lie at lattice_point(), to pixels of the picture
+    DecodedPicture picture;  ///< as it was read, about 700 to 1500 pixels wide
+    LatticeMap map;  ///< from the plane of the grid, where dots lie at lattice_point(), to pixels of the picture
+    std::vector<GridDot> open_ends = {};  ///< places beside the grid that lines lead to, where no dot was seen
+    std::vector<GridDot> missing =
+        {};  ///< places where the dots around, or symmetry, ask for a dot that was not seen
+    std::vector<glm::dvec2> others = {};  ///< dots of other kolams, and beside the lattice, in pixels
+    std::size_t kolams = 1;               ///< in the picture
+    std::size_t readable = 1;             ///< those of them that can be read
+
+    /// Where a place of the grid lies in the file, in pixels.
+    glm::dvec2 in_file(GridDot place) const;
 };
 
-/// Reads a kolam of dark lines on light ground or light ones on dark: finds the dots, fits a lattice through them in
-/// perspective, and compares the ink in each gap with what the three states would leave there. Gaps for which two
-/// states are nearly as likely, or none, are doubtful; those that the symmetry of the others decides are repaired
-/// and noted. Safe for untrusted files.
-/// @throws std::runtime_error if the file is no picture, or no lattice of dots is found in it
+/// What was found in a picture that was refused.
+struct RefusedPicture {
+    struct Spot {
+        glm::dvec2 at{0.0};
+        double radius = 0;
+    };
+    DecodedPicture picture;
+    std::vector<Spot> spots = {};                   ///< round spots, which could be dots
+    std::optional<Photograph> best = std::nullopt;  ///< the reading that comes nearest to a kolam; without picture
+};
+
+/// A picture has no kolam that can be read.
+class NoKolam : public std::runtime_error {
+public:
+    NoKolam(const std::string& what, RefusedPicture picture)
+        : std::runtime_error(what), picture_(std::make_shared<const RefusedPicture>(std::move(picture))) {}
+    const RefusedPicture& picture() const { return *picture_; }
+
+private:
+    std::shared_ptr<const RefusedPicture> picture_;
+};
+
+/// Reads a kolam of dark lines on light ground or light ones on dark: finds the dots, grows a lattice through them in
+/// perspective, along rows that a hand may have bent, and compares the ink in each gap with what the three states
+/// would leave there. Gaps for which two states are nearly as likely, or none, are doubtful; those that the symmetry
+/// of the others decides are repaired and noted. Lost dots are reported as open ends, where strands leave the kolam,
+/// and as missing, where the dots around or symmetry ask for one. Several kolams are counted. Safe for untrusted
+/// files.
+/// @throws NoKolam if most gaps are doubtful, if the lines explain little of the ink around the dots, or lead from
+///     few dots to others; std::runtime_error if the file is not a picture, or has fewer kolams than `number`
 /// Time: about 1.5 s for 12 megapixels.
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
@@ -43,8 +84,11 @@ Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions
 
 /// Draws the kolam that was read over the picture, as PNG: dots as rings, strands in the colour of their state
 /// (crossed green, turned blue, joined magenta), doubtful gaps in orange rings with their row and number, repaired
-/// ones in yellow.
+/// ones in yellow; open ends in red rings and missing dots in broken red rings; dots of other kolams in grey rings.
 /// @throws std::runtime_error if the file cannot be written
 void write_overlay(const Photograph& photograph, const std::filesystem::path& path);
+
+/// The same for a picture that was refused: its spots in grey rings, and the reading that comes nearest to a kolam.
+void write_overlay(const RefusedPicture& refused, const std::filesystem::path& path);
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace sikku {
@@ -39,21 +40,32 @@ void average_rows(const GreyPicture& from, GreyPicture& to, std::size_t r) {
     }
 }
 
-}  // namespace
-
-float GreyPicture::at(glm::dvec2 point) const {
-    const double x = std::clamp(point.x, 0.0, static_cast<double>(width - 1));
-    const double y = std::clamp(point.y, 0.0, static_cast<double>(height - 1));
-    const auto left = std::min(static_cast<std::size_t>(x), width - 1);
-    const auto top = std::min(static_cast<std::size_t>(y), height - 1);
-    const std::size_t right = std::min(left + 1, width - 1);
-    const std::size_t bottom = std::min(top + 1, height - 1);
-    const auto u = static_cast<float>(x - static_cast<double>(left));
-    const auto v = static_cast<float>(y - static_cast<double>(top));
-    const float above = values[top * width + left] * (1 - u) + values[top * width + right] * u;
-    const float below = values[bottom * width + left] * (1 - u) + values[bottom * width + right] * u;
-    return above * (1 - v) + below * v;
+/// Interpolates a line of pixels.
+/// @param apart  bytes from pixel to pixel, in both
+void stretch(const std::uint8_t* from, std::size_t length, std::size_t apart, std::uint8_t* to, std::size_t times) {
+    for (std::size_t phase = 0; phase < times; ++phase) {
+        const double at = (static_cast<double>(phase) + 0.5) / static_cast<double>(times) - 0.5;
+        const double t = at - std::floor(at);
+        const std::array<float, 4> weights = {
+            static_cast<float>(0.5 * t * (-1 + t * (2 - t))), static_cast<float>(0.5 * (2 + t * t * (3 * t - 5))),
+            static_cast<float>(0.5 * t * (1 + t * (4 - 3 * t))), static_cast<float>(0.5 * t * t * (t - 1))};
+        for (std::size_t i = 0; i < length; ++i) {
+            std::array<const std::uint8_t*, 4> pixels{};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::ptrdiff_t index = static_cast<std::ptrdiff_t>(i + k) - (at < 0 ? 2 : 1);
+                pixels[k] = from + apart * static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+                                               index, 0, static_cast<std::ptrdiff_t>(length) - 1));
+            }
+            for (std::size_t c = 0; c < 3; ++c) {
+                float sum = 0.5F;
+                for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * static_cast<float>(pixels[k][c]);
+                to[apart * (i * times + phase) + c] = static_cast<std::uint8_t>(std::clamp(sum, 0.0F, 255.0F));
+            }
+        }
+    }
 }
+
+}  // namespace
 
 GreyPicture blurred(GreyPicture picture, double radius) {
     if (picture.values.empty()) return picture;
@@ -71,6 +83,26 @@ GreyPicture blurred(GreyPicture picture, double radius) {
         average_rows(turned, picture, r);
     }
     return picture;
+}
+
+DecodedPicture enlarged(const DecodedPicture& picture, int times) {
+    DecodedPicture large = picture;
+    large.width = picture.width * times;
+    large.height = picture.height * times;
+    const auto width = static_cast<std::size_t>(picture.width);
+    const auto height = static_cast<std::size_t>(picture.height);
+    const auto factor = static_cast<std::size_t>(times);
+    // Rows first, then columns.
+    std::vector<std::uint8_t> wide(picture.pixels.size() * factor);
+    for (std::size_t y = 0; y < height; ++y) {
+        stretch(&picture.pixels[3 * width * y], width, 3, &wide[3 * width * factor * y], factor);
+    }
+    large.pixels.resize(wide.size() * factor);
+    const std::size_t row = 3 * width * factor;
+    for (std::size_t x = 0; x < width * factor; ++x) {
+        stretch(&wide[3 * x], height, row, &large.pixels[3 * x], factor);
+    }
+    return large;
 }
 
 Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {

@@ -4,6 +4,7 @@
 #include "art/image/image_file.h"
 #include "engine/base/monitor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -22,8 +23,25 @@ struct GreyPicture {
     float at(glm::dvec2 point) const;
 };
 
+inline float GreyPicture::at(glm::dvec2 point) const {
+    const double x = std::clamp(point.x, 0.0, static_cast<double>(width - 1));
+    const double y = std::clamp(point.y, 0.0, static_cast<double>(height - 1));
+    const auto left = std::min(static_cast<std::size_t>(x), width - 1);
+    const auto top = std::min(static_cast<std::size_t>(y), height - 1);
+    const std::size_t right = std::min(left + 1, width - 1);
+    const std::size_t bottom = std::min(top + 1, height - 1);
+    const auto u = static_cast<float>(x - static_cast<double>(left));
+    const auto v = static_cast<float>(y - static_cast<double>(top));
+    const float above = values[top * width + left] * (1 - u) + values[top * width + right] * u;
+    const float below = values[bottom * width + left] * (1 - u) + values[bottom * width + right] * u;
+    return above * (1 - v) + below * v;
+}
+
 /// Averages three times over squares: nearly a Gaussian of standard deviation `radius`, in pixels. Time: linear.
 GreyPicture blurred(GreyPicture picture, double radius);
+
+/// A picture made larger by a whole number, by cubic interpolation. Source: E. Catmull & R. Rom, 1974.
+DecodedPicture enlarged(const DecodedPicture& picture, int times);
 
 /// The logarithm of the brightness of a picture, less that of its surroundings, in units of its local deviation:
 /// uneven light drops out. Lines are above 0 in one sense of the picture (`dark` or light lines) and below in the

@@ -57,8 +57,90 @@ double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
     return middle - around[noise_points] - 1.5 * std::max(0.0, around[noise_points]);
 }
 
+void SpotFinder::find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor) const {
+    const GreyPicture& picture = blurred_[0];
+    const std::size_t w = picture.width;
+    const double largest = radii_.back();
+    const auto most_pixels = static_cast<std::size_t>(4 * largest * largest);
+    std::vector<std::uint8_t> is_seen(picture.values.size());
+    std::vector<std::size_t> piece;
+    std::uint8_t number = 0;
+    // A bright place of a line is a small piece at one level, and a part of the line at the next lower one.
+    constexpr std::uint8_t least_levels = 3;
+    std::vector<std::uint8_t> small_at(picture.values.size());
+    std::vector<std::uint8_t> small_for(picture.values.size());
+    for (const float level : {0.2F, 0.3F, 0.45F, 0.67F, 1.0F, 1.5F, 2.2F}) {
+        monitor.check();
+        ++number;
+        for (std::size_t first = 0; first < picture.values.size(); ++first) {
+            if (is_seen[first] == number || picture.values[first] < level) continue;
+            piece.assign(1, first);
+            is_seen[first] = number;
+            bool is_whole = true;  // not cut by the edge
+            for (std::size_t head = 0; head < piece.size(); ++head) {
+                const std::size_t at = piece[head];
+                const std::size_t x = at % w;
+                if (x == 0 || x + 1 == w || at < w || at + w >= picture.values.size()) {
+                    is_whole = false;
+                    continue;
+                }
+                for (const std::size_t next : {at - 1, at + 1, at - w, at + w}) {
+                    if (is_seen[next] == number || picture.values[next] < level) continue;
+                    is_seen[next] = number;
+                    piece.push_back(next);
+                }
+            }
+            if (!is_whole || piece.size() < 4 || piece.size() > most_pixels) continue;
+            // How many levels it has been small for, all of them up to this one.
+            const std::uint8_t levels =
+                small_at[first] + 1 == number ? static_cast<std::uint8_t>(small_for[first] + 1) : 1;
+            for (const std::size_t at : piece) {
+                small_at[at] = number;
+                small_for[at] = levels;
+            }
+            if (levels < least_levels) continue;
+            // The ellipse of the same moments.
+            glm::dvec2 sum(0.0);
+            double ink = 0;
+            for (const std::size_t at : piece) {
+                const double value = picture.values[at];
+                sum += value * glm::dvec2(at % w, at / w);
+                ink += value;
+            }
+            const glm::dvec2 middle = sum / ink;
+            double xx = 0;
+            double xy = 0;
+            double yy = 0;
+            for (const std::size_t at : piece) {
+                const glm::dvec2 off = glm::dvec2(at % w, at / w) - middle;
+                xx += off.x * off.x;
+                xy += off.x * off.y;
+                yy += off.y * off.y;
+            }
+            const auto count = static_cast<double>(piece.size());
+            const double half = 0.5 * (xx + yy) / count + 1.0 / 12;
+            const double apart = std::hypot(0.5 * (xx - yy), xy) / count;
+            const double longest = 2 * std::sqrt(half + apart);
+            const double shortest = 2 * std::sqrt(std::max(half - apart, 0.0));
+            if (longest > 2.4 * shortest) continue;
+            // Solid, not a ring or a bow.
+            if (std::numbers::pi * longest * shortest > 1.5 * count + 3) continue;
+            const double radius = std::max(std::sqrt(count / std::numbers::pi), least_radius);
+            std::array<double, ring_points> around{};
+            for (std::size_t i = 0; i < ring_points; ++i) {
+                const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_points;
+                around[i] = picture.at(middle + 1.8 * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+            }
+            std::nth_element(around.begin(), around.begin() + ring_points / 2, around.end());
+            const double found = ink / count - around[ring_points / 2];
+            if (found > 0.2) spots.push_back({middle, radius, found});
+        }
+    }
+}
+
 std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
     std::vector<InkSpot> all;
+    find_pieces(all, monitor);
     for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
         monitor.check();
         const GreyPicture& picture = blurred_[scale];
@@ -69,14 +151,14 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
             const float* below = row + w;
             for (std::size_t x = 1; x + 1 < w; ++x) {
                 const float value = row[x];
-                if (value < 0.6F || value <= row[x - 1] || value < row[x + 1] || value <= above[x] ||
+                if (value < 0.25F || value <= row[x - 1] || value < row[x + 1] || value <= above[x] ||
                     value < below[x] || value <= above[x - 1] || value < below[x + 1] || value <= above[x + 1] ||
                     value < below[x - 1]) {
                     continue;
                 }
                 const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
                 const double found = strength(scale, at);
-                if (found < 0.4) continue;
+                if (found < 0.2) continue;
                 // The top of a parabola through three values.
                 const auto offset = [](double before, double here, double after) {
                     const double bend = before - 2 * here + after;

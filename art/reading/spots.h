@@ -35,6 +35,8 @@ public:
 
 private:
     double strength(std::size_t scale, glm::dvec2 at) const;
+    /// Pieces of ink that are small and round, however near other ink is.
+    void find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor) const;
     std::vector<double> radii_;
     std::vector<GreyPicture> blurred_;
 };

@@ -1,0 +1,625 @@
+#include "art/reading/kolam_reader.h"
+
+#include "art/reading/dot_symmetry.h"
+#include "art/reading/ink_pieces.h"
+#include "art/reading/kolam_edge.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+/// Agreement of a gap that a kolam has.
+constexpr double good = 0.84;
+constexpr double fair = 0.79;
+constexpr double certain = 0.93;
+/// Lattices whose gaps agree less on average, before and after a displacement is looked for, are chance.
+constexpr double hopeless_here = 0.25;
+constexpr double hopeless = 0.45;
+/// Groups of so few dots are parts of what they lie beside: rings, tips.
+constexpr std::size_t most_loose = 3;
+
+double best_of(const GapEvidence& gap) {
+    return gap.agreement[static_cast<std::size_t>(gap.best())];
+}
+
+/// Completes and prunes the dots of a grid by the lines around them. Places are those of the grid it was given.
+class LineWork {
+public:
+    LineWork(const GreyPicture& smooth, FoundGrid found, const GapReader& reader)
+        : ink_(smooth), found_(std::move(found)), reader_(reader), level_(line_level(smooth, found_)) {
+        glm::dvec2 low(1e300);
+        glm::dvec2 high(-1e300);
+        for (const GridDot dot : grid().dots()) {
+            dots_.insert(key(dot));
+            low = glm::min(low, found_.at(dot) - 2 * found_.spacing);
+            high = glm::max(high, found_.at(dot) + 2 * found_.spacing);
+        }
+        pieces_.emplace(smooth, 0.4 * level_, low, high);
+        regular_ = found_.map;
+        regular_.forget();
+        exact_ = found_.map;
+        exact_.follow();
+    }
+
+    std::vector<Reading> read(const Monitor& monitor) {
+        find_offset(monitor);
+        for (int round = 0; round < 6 && !is_hopeless_ && add_encircled(monitor); ++round) {
+        }
+        std::vector<Reading> readings;
+        if (is_hopeless_) {
+            readings.push_back(read_part());
+            return readings;
+        }
+        std::vector<std::set<Key>> parts = kolams(monitor);
+        const std::set<Key> all = dots_;
+        for (std::set<Key>& part : parts) {
+            if (!readings.empty() && part.size() <= most_loose) {
+                readings.front().left_out += part.size();
+                continue;
+            }
+            dots_ = std::move(part);
+            readings.push_back(read_part());
+        }
+        return readings;
+    }
+
+private:
+    using Key = std::pair<std::int32_t, std::int32_t>;  // y, x
+
+    /// Where the lines lie that belong to the dots, if all dots lie on one side of the middles of their loops.
+    void find_offset(const Monitor& monitor) {
+        const std::vector<GridGap>& gaps = grid().gaps();
+        const std::size_t stride = std::max<std::size_t>(1, gaps.size() / 40);
+        const auto agreement = [&](glm::dvec2 offset) {
+            double sum = 0;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < gaps.size(); i += stride, ++count) {
+                sum +=
+                    best_of(reader_.read(found_.map, grid().dots()[gaps[i].from], grid().dots()[gaps[i].to], offset));
+            }
+            return count > 0 ? sum / static_cast<double>(count) : 1.0;
+        };
+        const double here = agreement({0, 0});
+        if (here > 0.9 || gaps.empty()) return;
+        is_hopeless_ = here < hopeless_here;
+        if (is_hopeless_) return;
+        glm::dvec2 best(0.0);
+        double most = here + 0.03;
+        for (const double size : {0.09, 0.045}) {
+            monitor.check();
+            const glm::dvec2 middle = best;
+            const int reach = size > 0.05 ? 2 : 1;
+            for (int y = -reach; y <= reach; ++y) {
+                for (int x = -reach; x <= reach; ++x) {
+                    const glm::dvec2 offset = middle + size * glm::dvec2(x, y);
+                    const double found = agreement(offset);
+                    if (found <= most) continue;
+                    most = found;
+                    best = offset;
+                }
+            }
+        }
+        for (LatticeMap* map : {&found_.map, &regular_, &exact_}) map->offset(best);
+        is_hopeless_ = most < hopeless;
+    }
+
+    Reading read_part() {
+        const std::vector<Key> missing = complete();
+        Reading reading{.grid = found_.with(list(dots_))};
+        const GridDot origin{reading.grid.placed.origin.x - found_.placed.origin.x,
+                             reading.grid.placed.origin.y - found_.placed.origin.y};
+        const auto moved = [&](GridDot dot) { return GridDot{dot.x - origin.x, dot.y - origin.y}; };
+        for (const Key& place : added_) {
+            if (dots_.contains(place)) reading.added.push_back(moved(dot(place)));
+        }
+        for (const GridGap& gap : reading.grid.grid().gaps()) {
+            const GridDot from = reading.grid.grid().dots()[gap.from];
+            reading.evidence.push_back(evidence({from.x + origin.x, from.y + origin.y}, gap.side));
+            reading.agreement += best_of(reading.evidence.back()) + reading.evidence.back().margin();
+        }
+        reading.agreement /= static_cast<double>(std::max<std::size_t>(1, reading.evidence.size()));
+        if (is_hopeless_) return reading;
+        for (const Key& place : open_ends()) reading.open_ends.push_back(moved(dot(place)));
+        for (const Key& place : missing) {
+            if (!dots_.contains(place)) reading.missing.push_back(moved(dot(place)));
+        }
+        reading.explained = explained(reading);
+        std::vector<char> is_joined(reading.grid.grid().dots().size());
+        for (std::size_t i = 0; i < reading.evidence.size(); ++i) {
+            if (reading.evidence[i].best() == GapState::turned) continue;
+            is_joined[reading.grid.grid().gaps()[i].from] = is_joined[reading.grid.grid().gaps()[i].to] = 1;
+        }
+        reading.joined = static_cast<std::size_t>(std::count(is_joined.begin(), is_joined.end(), 1));
+        reading.reaches_edge = sikku::reaches_edge(ink_, reading.grid, level_);
+        return reading;
+    }
+    static Key key(GridDot dot) { return {dot.y, dot.x}; }
+    static GridDot dot(Key place) { return {place.second, place.first}; }
+    static std::vector<GridDot> list(const std::set<Key>& places) {
+        std::vector<GridDot> dots;
+        for (const Key& place : places) dots.push_back(dot(place));
+        return dots;
+    }
+    const DotGrid& grid() const { return found_.grid(); }
+    GridDot next(GridDot from, std::uint32_t side) const {
+        const GridDot way = grid().step(side);
+        return {from.x + way.x, from.y + way.y};
+    }
+
+    /// Between a place and its neighbour, read once.
+    const GapEvidence& evidence(GridDot from, std::uint32_t side) {
+        // Read from the dot whose side is among the first half.
+        if (const std::uint32_t half = grid().sides() / 2; side >= half) {
+            return evidence(next(from, side), side - half);
+        }
+        const auto [found, is_new] = evidence_.try_emplace({from.y, from.x, side});
+        if (is_new) {
+            // Lines may follow each dot of a hand, its rows, or the lattice that it had in mind.
+            for (const LatticeMap* map : {&found_.map, &exact_, &regular_}) {
+                const GapEvidence seen = reader_.read(*map, from, next(from, side));
+                if (map == &found_.map || best_of(seen) > best_of(found->second)) found->second = seen;
+                if (best_of(seen) >= certain || is_hopeless_) break;
+            }
+            if (best_of(found->second) < 0.88 && !is_hopeless_) look_around(found->second, from, side);
+        }
+        return found->second;
+    }
+    /// The strands of a hand may pass beside the middle between two dots.
+    void look_around(GapEvidence& gap, GridDot from, std::uint32_t side) const {
+        constexpr double size = 0.09;
+        constexpr double penalty = 0.02;
+        for (int y = -1; y <= 1; ++y) {
+            for (int x = -1; x <= 1; ++x) {
+                if (x == 0 && y == 0) continue;
+                const GapEvidence seen = reader_.read(found_.map, from, next(from, side), size * glm::dvec2(x, y));
+                for (std::size_t i = 0; i < 3; ++i) {
+                    gap.agreement[i] = std::max(gap.agreement[i], seen.agreement[i] - penalty);
+                }
+            }
+        }
+    }
+    double ink_at(glm::dvec2 place) const { return ink_.at(found_.map(place)); }
+
+    /// True if there is a spot of ink at a place, of any size that fits into a loop.
+    bool has_blob(GridDot place) const {
+        const glm::dvec2 at = found_.map(lattice_point(grid().lattice(), place));
+        const double spacing = found_.map.spacing(lattice_point(grid().lattice(), place));
+        for (double dy = -0.12; dy <= 0.121; dy += 0.06) {
+            for (double dx = -0.12; dx <= 0.121; dx += 0.06) {
+                const glm::dvec2 middle = at + spacing * glm::dvec2(dx, dy);
+                double inside = 0;
+                double around = 0;
+                for (int k = 0; k < 12; ++k) {
+                    const double angle = 2 * std::numbers::pi * k / 12;
+                    const glm::dvec2 way(std::cos(angle), std::sin(angle));
+                    inside += static_cast<double>(ink_.at(middle + 0.05 * spacing * way)) / 12;
+                    around += static_cast<double>(ink_.at(middle + 0.17 * spacing * way)) / 12;
+                }
+                if (inside > 0.5 * level_ || (inside > 0.2 * level_ && inside - around > 0.3 * level_)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// True if two strands lead from a dot over the gap to a place and diverge, or run side by side, beyond it.
+    bool strands_lead(GridDot from, std::uint32_t side) const {
+        const DotLattice lattice = grid().lattice();
+        const glm::dvec2 start = lattice_point(lattice, from);
+        const glm::dvec2 along = lattice_point(lattice, next(from, side)) - start;
+        const glm::dvec2 aside(-along.y, along.x);
+        const double wide = lattice == DotLattice::square ? 0.46 : 0.27;
+        for (const double part : {0.68, 0.78}) {
+            std::array<double, 2> most{};
+            std::array<double, 2> where{};
+            for (std::size_t k = 0; k < 2; ++k) {
+                const double sign = k == 0 ? 1 : -1;
+                for (double off = 0.04; off <= wide; off += 0.02) {
+                    const double ink = ink_at(start + part * along + sign * off * aside);
+                    if (ink > most[k]) {
+                        most[k] = ink;
+                        where[k] = off;
+                    }
+                }
+            }
+            if (std::min(most[0], most[1]) < 0.45 * level_) return false;
+            if (where[0] + where[1] < (part < 0.7 ? 0.16 : 0.26)) return false;
+        }
+        return true;
+    }
+
+    /// Adds places beside the grid that have lines around them although no dot was seen there: of all their gaps to
+    /// dots, both strands are there, and some lead to them. @return whether there were any
+    bool add_encircled(const Monitor& monitor) {
+        std::set<Key> tried;
+        std::vector<Key> added;
+        for (const Key& place : dots_) {
+            monitor.check();
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                const GridDot to = next(dot(place), side);
+                if (dots_.contains(key(to)) || !tried.insert(key(to)).second) continue;
+                if (!is_inside(ink_, found_.at(to))) continue;
+                if (is_encircled(to)) added.push_back(key(to));
+            }
+        }
+        for (const Key& place : added) {
+            dots_.insert(place);
+            added_.insert(place);
+        }
+        return !added.empty();
+    }
+    bool is_encircled(GridDot place) {
+        std::size_t gaps = 0;
+        std::size_t joined = 0;
+        for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+            if (!dots_.contains(key(next(place, side)))) continue;
+            const GapEvidence& gap = evidence(place, side);
+            if (best_of(gap) < good) return false;
+            ++gaps;
+            joined += gap.best() != GapState::turned;
+        }
+        if (gaps == grid().sides()) return true;
+        return gaps > 0 && joined > 0 && has_blob(place);
+    }
+
+    /// Adds dots that the symmetry of the others asks for where the lines agree. @return places where they do not,
+    /// but where ink is, and places within the kolam that have ink
+    std::vector<Key> complete() {
+        if (is_hopeless_) return {};
+        std::set<Key> asked;
+        for (int round = 0; round < 3; ++round) {
+            const FoundGrid now = found_.with(list(dots_));
+            const GridDot origin{now.placed.origin.x - found_.placed.origin.x,
+                                 now.placed.origin.y - found_.placed.origin.y};
+            std::size_t added = 0;
+            for (const GridDot place : places_by_symmetry(now.grid())) {
+                const GridDot here{place.x + origin.x, place.y + origin.y};
+                if (!is_inside(ink_, found_.at(here))) continue;
+                if (!is_likely(here)) {
+                    asked.insert(key(here));
+                    continue;
+                }
+                added += dots_.insert(key(here)).second;
+                added_.insert(key(here));
+            }
+            if (added == 0) break;
+        }
+        for (const Key& place : dots_) {
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                const GridDot to = next(dot(place), side);
+                if (!dots_.contains(key(to)) && neighbours(to) > grid().sides() / 2) asked.insert(key(to));
+            }
+        }
+        std::vector<Key> missing;
+        for (const Key& place : asked) {
+            if (!dots_.contains(place) && has_ink(dot(place))) missing.push_back(place);
+        }
+        return missing;
+    }
+    std::size_t neighbours(GridDot place) const {
+        std::size_t count = 0;
+        for (std::uint32_t side = 0; side < grid().sides(); ++side) count += dots_.contains(key(next(place, side)));
+        return count;
+    }
+    /// Lines lead to a place, or around it and a spot, less clearly than is_encircled() asks for.
+    bool is_likely(GridDot place) {
+        std::size_t gaps = 0;
+        bool leads = has_blob(place);
+        for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+            if (!dots_.contains(key(next(place, side)))) continue;
+            const GapEvidence& gap = evidence(place, side);
+            if (best_of(gap) < 0.7) return false;
+            ++gaps;
+            leads = leads || gap.best() != GapState::turned;
+        }
+        return gaps > 0 && leads && has_ink(place);
+    }
+    bool has_ink(GridDot place) const {
+        const glm::dvec2 middle = lattice_point(grid().lattice(), place);
+        for (const double radius : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+            for (int k = 0; k < 16; ++k) {
+                const double angle = 2 * std::numbers::pi * k / 16;
+                if (ink_at(middle + radius * glm::dvec2(std::cos(angle), std::sin(angle))) > 0.5 * level_)
+                    return true;
+            }
+        }
+        return false;
+    }
+
+    /// True if a line leads over a gap, by its state or by ink that is connected.
+    bool is_link(GridDot from, std::uint32_t side) {
+        const GapEvidence& gap = evidence(from, side);
+        if (gap.best() != GapState::turned && best_of(gap) >= 0.75) return true;
+        const std::set<std::uint32_t> here = pieces_at(from, side);
+        const std::set<std::uint32_t> there =
+            pieces_at(next(from, side), (side + grid().sides() / 2) % grid().sides());
+        return std::any_of(here.begin(), here.end(), [&](std::uint32_t piece) { return there.contains(piece); });
+    }
+    /// Pieces of ink on both flanks of a dot's side, where its strands are.
+    std::set<std::uint32_t> pieces_at(GridDot from, std::uint32_t side) const {
+        const glm::dvec2 start = lattice_point(grid().lattice(), from);
+        const glm::dvec2 along = lattice_point(grid().lattice(), next(from, side)) - start;
+        const glm::dvec2 aside = glm::dvec2(-along.y, along.x) * (grid().lattice() == DotLattice::square ? 1.0 : 0.6);
+        std::set<std::uint32_t> pieces;
+        for (const double sign : {-1.0, 1.0}) {
+            for (int k = -8; k <= 8; ++k) {
+                const double off = 0.015 * k;
+                const glm::dvec2 place = start + (0.25 + off) * along + sign * (0.25 + off) * aside;
+                if (const std::uint32_t piece = pieces_->at(found_.map(place)); piece != 0) pieces.insert(piece);
+            }
+        }
+        return pieces;
+    }
+
+    /// Dots that lines lead between.
+    std::vector<std::vector<Key>> linked_groups(const Monitor& monitor) {
+        std::map<Key, std::size_t> group;
+        std::vector<std::vector<Key>> groups;
+        for (const Key& first : dots_) {
+            monitor.check();
+            if (group.contains(first)) continue;
+            groups.emplace_back();
+            std::vector<Key> stack{first};
+            group[first] = groups.size() - 1;
+            while (!stack.empty()) {
+                const Key at = stack.back();
+                stack.pop_back();
+                groups.back().push_back(at);
+                for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                    const Key to = key(next(dot(at), side));
+                    if (!dots_.contains(to) || group.contains(to) || !is_link(dot(at), side)) continue;
+                    group[to] = groups.size() - 1;
+                    stack.push_back(to);
+                }
+            }
+        }
+        return groups;
+    }
+
+    /// The kolams on the lattice: groups of dots that lines join, with those that lie close beside or within them. A
+    /// frame touches the kolam within it at few places, if at all.
+    std::vector<std::set<Key>> kolams(const Monitor& monitor) {
+        const std::vector<std::vector<Key>> groups = linked_groups(monitor);
+        std::map<Key, std::size_t> group_of;
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            for (const Key& place : groups[i]) group_of[place] = i;
+        }
+        std::vector<std::size_t> rim(groups.size());
+        struct Gaps {
+            std::size_t count = 0;
+            double sum = 0;  ///< of their agreement
+            double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
+        };
+        std::vector<Gaps> inner(groups.size());
+        std::map<std::pair<std::size_t, std::size_t>, Gaps> contacts;
+        for (const auto& [place, group] : group_of) {
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                const auto other = group_of.find(key(next(dot(place), side)));
+                const bool is_inner = other != group_of.end() && other->second == group;
+                rim[group] += !is_inner;
+                if (other == group_of.end() || other->second < group) continue;
+                Gaps& gaps = is_inner ? inner[group] : contacts[{group, other->second}];
+                ++gaps.count;
+                gaps.sum += best_of(evidence(dot(place), side));
+            }
+        }
+        std::vector<std::size_t> kolam(groups.size());
+        std::iota(kolam.begin(), kolam.end(), std::size_t{0});
+        const auto root = [&](std::size_t i) {
+            while (kolam[i] != i) i = kolam[i];
+            return i;
+        };
+        for (const auto& [pair, contact] : contacts) {
+            const auto [a, b] = pair;
+            const std::size_t small = std::min(groups[a].size(), groups[b].size());
+            // Ornaments on the lattice agree with no kolam, neither among themselves nor with their neighbours.
+            const double worse = std::min(inner[a].mean(), inner[b].mean());
+            const double better = std::max(inner[a].mean(), inner[b].mean());
+            bool touches = 8 * contact.count >= std::min(rim[a], rim[b]) && (worse >= 0.8 || better - worse < 0.12);
+            if (small <= most_loose) {
+                touches = contact.count > 2 || contact.mean() >= (contact.count > 1 ? 0.7 : good);
+                touches = touches && has_own_lines(groups[groups[a].size() == small ? a : b]);
+            }
+            if (touches) kolam[root(a)] = root(b);
+        }
+        std::map<std::size_t, std::set<Key>> all;
+        for (const auto& [place, group] : group_of) all[root(group)].insert(place);
+        std::vector<std::set<Key>> found;
+        for (auto& [number, places] : all) found.push_back(std::move(places));
+        // Frames come behind what they surround.
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.size() > b.size(); });
+        std::stable_partition(found.begin(), found.end(), [&](const std::set<Key>& places) {
+            return std::none_of(found.begin(), found.end(), [&](const std::set<Key>& other) {
+                return other.size() > most_loose && 10 * other.size() > places.size() && surrounds(places, other);
+            });
+        });
+        join_inner(found);
+        return found;
+    }
+    /// True if the lines around a few dots go no farther than around them, as those of a ring do, and those of a
+    /// border do not.
+    bool has_own_lines(const std::vector<Key>& group) const {
+        const double most = (static_cast<double>(group.size()) + 0.5) * found_.spacing;
+        return std::all_of(group.begin(), group.end(), [&](Key place) {
+            bool is_own = false;
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                for (const std::uint32_t piece : pieces_at(dot(place), side)) {
+                    is_own = is_own || pieces_->size(piece) < most;
+                }
+            }
+            return is_own;
+        });
+    }
+    /// True if the box of some places contains that of others, and leaves room on all sides.
+    static bool surrounds(const std::set<Key>& places, const std::set<Key>& others) {
+        const auto box = [](const std::set<Key>& list) {
+            std::array<std::int32_t, 4> sides{INT32_MAX, INT32_MIN, INT32_MAX, INT32_MIN};
+            for (const Key& place : list) {
+                sides = {std::min(sides[0], place.first), std::max(sides[1], place.first),
+                         std::min(sides[2], place.second), std::max(sides[3], place.second)};
+            }
+            return sides;
+        };
+        const auto outer = box(places);
+        const auto inner = box(others);
+        return outer[0] < inner[0] && outer[1] > inner[1] && outer[2] < inner[2] && outer[3] > inner[3];
+    }
+    /// Joins the few dots within a hole of a kolam to it.
+    static void join_inner(std::vector<std::set<Key>>& found) {
+        for (std::size_t i = 1; i < found.size(); ++i) {
+            for (std::size_t k = 0; k < found.size(); ++k) {
+                if (k == i || found[i].empty() || 10 * found[i].size() > found[k].size()) continue;
+                const bool is_within = std::all_of(found[i].begin(), found[i].end(), [&](Key place) {
+                    const auto row = [&](std::int32_t step) {
+                        for (std::int32_t n = 1; n < 64; ++n) {
+                            if (found[k].contains({place.first, place.second + 2 * n * step})) return true;
+                        }
+                        return false;
+                    };
+                    return row(1) && row(-1);
+                });
+                if (!is_within) continue;
+                found[k].merge(found[i]);
+                found[i].clear();
+            }
+        }
+        std::erase_if(found, [](const auto& places) { return places.empty(); });
+    }
+
+    std::vector<Key> open_ends() {
+        std::vector<Key> places;
+        for (const Key& place : dots_) {
+            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
+                const GridDot to = next(dot(place), side);
+                if (dots_.contains(key(to)) || !is_inside(ink_, found_.at(to))) continue;
+                const GapEvidence& gap = evidence(dot(place), side);
+                const bool leads =
+                    gap.best() != GapState::turned && best_of(gap) > 0.6 && strands_lead(dot(place), side);
+                if (leads) places.push_back(key(to));
+            }
+        }
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        return places;
+    }
+
+    /// Of the ink within a spacing of the dots, the share that lies around gaps that agree with a state, or around
+    /// dots, where loops turn.
+    double explained(const Reading& reading) const {
+        const DotGrid& dots = reading.grid.grid();
+        const DotLattice lattice = dots.lattice();
+        const auto back = reading.grid.map.perspective().inverse();
+        if (!back) return 0;
+        glm::dvec2 low(1e300);
+        glm::dvec2 high(-1e300);
+        for (const GridDot dot : dots.dots()) {
+            const glm::dvec2 at = reading.grid.at(dot);
+            const double reach = reading.grid.map.spacing(lattice_point(lattice, dot));
+            low = glm::min(low, at - reach);
+            high = glm::max(high, at + reach);
+        }
+        const double step = std::max(1.0, reading.grid.spacing / 24);
+        double all = 0;
+        double good_ink = 0;
+        const auto limit = [](double value, std::size_t size) {
+            return std::clamp(value, 0.0, static_cast<double>(size));
+        };
+        for (double y = limit(low.y, ink_.height); y < limit(high.y, ink_.height); y += step) {
+            for (double x = limit(low.x, ink_.width); x < limit(high.x, ink_.width); x += step) {
+                if (ink_.at({x, y}) < 0.5 * level_) continue;
+                const glm::dvec2 place = (*back)({x, y}) - reading.grid.map.shift();
+                // The nearest place, and whether it is a dot.
+                const GridDot near = nearest(place, dots);
+                const auto index = dots.dot_at(near);
+                if (!index) {
+                    if (is_near_dot(place, dots)) ++all;
+                    continue;
+                }
+                ++all;
+                const std::int32_t gap =
+                    dots.gap(*index, side_of(place - lattice_point(lattice, near), dots.sides()));
+                good_ink += gap < 0 || best_of(reading.evidence[static_cast<std::size_t>(gap)]) >= 0.7;
+            }
+        }
+        return all > 0 ? good_ink / all : 0;
+    }
+    /// The side of a dot that a direction leads to.
+    static std::uint32_t side_of(glm::dvec2 way, std::uint32_t sides) {
+        const double turns = std::atan2(way.y, way.x) / (2 * std::numbers::pi);
+        return static_cast<std::uint32_t>(std::lround(turns * sides) + sides) % sides;
+    }
+    /// The place of the lattice of a grid, whose dots may be at odd places, nearest to a point.
+    static GridDot nearest(glm::dvec2 point, const DotGrid& dots) {
+        const GridDot first = dots.dots().front();
+        const GridDot place = nearest_place(dots.lattice(), point - lattice_point(dots.lattice(), first));
+        return {place.x + first.x, place.y + first.y};
+    }
+    static bool is_near_dot(glm::dvec2 point, const DotGrid& dots) {
+        const GridDot near = nearest(point, dots);
+        for (std::uint32_t side = 0; side < dots.sides(); ++side) {
+            const GridDot way = dots.step(side);
+            const GridDot to{near.x + way.x, near.y + way.y};
+            if (dots.dot_at(to) && glm::distance(lattice_point(dots.lattice(), to), point) < 1) return true;
+        }
+        return false;
+    }
+
+    const GreyPicture& ink_;
+    FoundGrid found_;
+    LatticeMap regular_;  ///< without the hand's deviations
+    LatticeMap exact_;    ///< through the dots
+    const GapReader& reader_;
+    double level_;
+    std::optional<InkPieces> pieces_;
+    bool is_hopeless_ = false;  ///< hardly any gap agrees with a kolam
+    std::set<Key> dots_;
+    std::set<Key> added_;
+    std::map<std::tuple<std::int32_t, std::int32_t, std::uint32_t>, GapEvidence> evidence_;
+};
+
+}  // namespace
+
+struct InkReader::Store {
+    std::optional<std::pair<double, GreyPicture>> smooth;  ///< blurred by a distance
+    GapTemplates templates;
+};
+
+InkReader::InkReader(const GreyPicture& ink) : ink_(ink), store_(std::make_unique<Store>()) {}
+InkReader::~InkReader() = default;
+
+std::vector<Reading> InkReader::read(FoundGrid grid, const Monitor& monitor) {
+    // Pages have kolams of similar sizes.
+    const double blur = std::exp2(std::round(4 * std::log2(0.018 * grid.spacing)) / 4);
+    if (!store_->smooth || store_->smooth->first != blur) store_->smooth.emplace(blur, blurred(ink_, blur));
+    const GreyPicture& smooth = store_->smooth->second;
+    const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, store_->templates, monitor);
+    std::vector<Reading> readings = LineWork(smooth, grid, reader).read(monitor);
+    if (readings.size() == 1 && readings[0].left_out == 0) return readings;
+    // What does not belong to a kolam may have bent its lattice.
+    for (Reading& reading : readings) {
+        constexpr std::size_t least_dots = 9;
+        if (reading.grid.grid().dots().size() < least_dots) continue;
+        FoundGrid alone = reading.grid;
+        alone.map = reading.grid.map.fitted_to(alone.grid().dots());
+        std::vector<Reading> again = LineWork(smooth, std::move(alone), reader).read(monitor);
+        if (again[0].grid.grid().dots().size() < reading.grid.grid().dots().size()) continue;
+        again[0].left_out += reading.left_out;
+        reading = std::move(again[0]);
+    }
+    return readings;
+}
+
+}  // namespace sikku

@@ -1,0 +1,50 @@
+// art/reading/kolam_reader.h: reads the lines around the dots of a lattice from the ink of a picture.
+#pragma once
+
+#include "art/reading/dot_finder.h"
+#include "art/reading/gap_reader.h"
+#include "art/reading/picture.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace sikku {
+
+/// A kolam on a lattice of dots, as far as the ink agrees with one.
+struct Reading {
+    FoundGrid grid;
+    std::vector<GapEvidence> evidence = {};  ///< by gap
+    double agreement = 0;                    ///< mean of the gaps, with their margins
+    double explained = 0;             ///< share of the ink between and around the dots that agrees with the reading
+    std::vector<GridDot> added = {};  ///< dots that were not seen, but have lines around them
+    std::size_t joined = 0;           ///< dots that lines lead to from others
+    std::vector<GridDot> open_ends = {};  ///< places beside the grid that strands lead to, without a dot
+    std::vector<GridDot> missing = {};    ///< places that should have one, by the dots around them or by symmetry
+    std::size_t left_out = 0;             ///< a few dots on the lattice that no line joins to the others
+    bool reaches_edge = false;
+};
+
+/// Reads the kolams on the lattices of a picture.
+class InkReader {
+public:
+    /// @param ink  is kept by reference
+    explicit InkReader(const GreyPicture& ink);
+    ~InkReader();
+    InkReader(const InkReader&) = delete;
+    InkReader& operator=(const InkReader&) = delete;
+
+    /// Reads the gaps of a grid, adds dots that have lines around them, and finds strands that leave the kolam. Dots
+    /// that no line joins to it, and that are not close beside it, are another kolam: that within a frame comes
+    /// first, then the one with more dots.
+    /// @param grid  its map has to fit the picture
+    /// Cost: about 0.1 s for 200 dots.
+    std::vector<Reading> read(FoundGrid grid, const Monitor& monitor);
+
+private:
+    struct Store;
+    const GreyPicture& ink_;
+    std::unique_ptr<Store> store_;
+};
+
+}  // namespace sikku
