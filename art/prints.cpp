@@ -6,6 +6,7 @@
 #include "art/drawing/division_file.h"
 #include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
+#include "art/drawing/drawing_cost.h"
 #include "art/drawing/faint_inks.h"
 #include "art/drawing/growth.h"
 #include "art/drawing/lesson.h"
@@ -140,7 +141,6 @@ public:
     DrawnPixels make_pixels(const Monitor& monitor);
 
 private:
-    Cost forecast(const Grammar& grammar) const;
     bool is_relief() const { return sikku::is_relief(settings_, format_); }
     bool is_model() const { return info(format_).kind == FormatKind::model && !is_relief(); }
     bool is_growth() const { return (format_ == PrintFormat::gif && !settings_.lesson) || settings_.frames; }
@@ -283,6 +283,25 @@ private:
                        Made& made);
     void make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                     const std::vector<SheetCell>& cells, Made& made);
+    SheetOptions sheet_options() const;
+    GrowthOptions growth_options() const {
+        GrowthOptions growth;
+        std::tie(growth.first, growth.last) = *settings_.generations;
+        growth.seconds = settings_.frame_time.value_or(growth.seconds);
+        growth.hold = settings_.hold.value_or(growth.hold);
+        growth.fits_each = settings_.fit_frames;
+        growth.is_animation = format_ == PrintFormat::gif;
+        return growth;
+    }
+    DivisionOptions division_options() const {
+        DivisionOptions division;
+        std::tie(division.first, division.last) = divided_generations();
+        division.is_gif = format_ == PrintFormat::gif;
+        division.times.division = *settings_.division;
+        division.times.rest = settings_.frame_time.value_or(division.times.rest);
+        division.times.hold = settings_.hold.value_or(division.times.hold);
+        return division;
+    }
     std::vector<SheetCell> generation_cells() const;
     std::vector<SheetCell> lesson_cells(const DrawOptions& options) const;
     void make_lesson(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
@@ -318,12 +337,7 @@ void PrintWork::make_model(Destination& destination, const std::filesystem::path
 /// Makes an animation of several generations, or a file for each.
 void PrintWork::make_growth(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                             Made& made) {
-    GrowthOptions growth;
-    std::tie(growth.first, growth.last) = *settings_.generations;
-    growth.seconds = settings_.frame_time.value_or(growth.seconds);
-    growth.hold = settings_.hold.value_or(growth.hold);
-    growth.fits_each = settings_.fit_frames;
-    growth.is_animation = format_ == PrintFormat::gif;
+    GrowthOptions growth = growth_options();
     growth.made = [this](const Grammar& generation) { return made_with(generation); };
     const DrawReport report = draw_growth(document_.grammar(), print_, options, growth, name, destination);
     report_text(report, name, made);
@@ -335,15 +349,9 @@ void PrintWork::make_growth(Destination& destination, const std::filesystem::pat
 /// Makes an animation in which tiles divide.
 void PrintWork::make_division(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                               Made& made) {
-    DivisionOptions division;
-    std::tie(division.first, division.last) = divided_generations();
-    division.is_gif = format_ == PrintFormat::gif;
-    division.times.division = *settings_.division;
-    division.times.rest = settings_.frame_time.value_or(division.times.rest);
-    division.times.hold = settings_.hold.value_or(division.times.hold);
     DrawReport report;
     try {
-        report = draw_division(document_.grammar(), print_, options, division, name, destination);
+        report = draw_division(document_.grammar(), print_, options, division_options(), name, destination);
     } catch (const DivisionError& error) {
         refuse_option("divide", "", error.what());
     }
@@ -380,21 +388,8 @@ std::vector<SheetCell> PrintWork::lesson_cells(const DrawOptions& options) const
 void PrintWork::make_sheet(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                            const std::vector<SheetCell>& cells, Made& made) {
     if (!print_.press.cmyk.empty()) check_cmyk_profile(print_.press.cmyk);
-    SheetOptions sheet;
-    sheet.format = options.format;
-    sheet.page = print_.page;
-    sheet.dpi = print_.dpi;
-    sheet.title = print_.title;
-    sheet.animation = print_.animation;
-    sheet.names_tiles = print_.names_tiles;
-    sheet.press = print_.press;
-    // Captions are short, and are read from the same distance as the drawings.
-    sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
-    sheet.inset = 0.055;
-    sheet.pattern = print_.pattern;
-    sheet.made = print_.made;
+    SheetOptions sheet = sheet_options();
     sheet.threads = options.threads;
-    sheet.compression = options.compression;
     sheet.monitor = options.monitor;
     sheet.watch = options.watch;
     const SheetLayout layout = draw_sheet(cells, sheet, name, destination);
@@ -573,65 +568,32 @@ DrawnPixels PrintWork::make_pixels(const Monitor& monitor) {
     return pixels;
 }
 
-Cost PrintWork::forecast() const {
-    if (!settings_.generations && !settings_.division) return forecast(document_.grammar());
-    // The last generation is the most expensive.
-    const auto [first, last] = divided_generations();
-    const auto largest = document_.grammar().with_steps(last);
-    Cost result = forecast(largest ? *largest : document_.grammar());
-    constexpr double pictures_of_second = 25, bytes_of_moving_tile = 8;
-    double pictures = static_cast<double>(last - first + 1);
-    if (settings_.division && format_ == PrintFormat::gif) pictures *= pictures_of_second * *settings_.division;
-    if (settings_.division && format_ != PrintFormat::gif) result.bytes *= bytes_of_moving_tile;
-    result.seconds *= pictures;
-    result.bytes *= pictures;
-    return result;
+SheetOptions PrintWork::sheet_options() const {
+    SheetOptions sheet;
+    sheet.format = drawing_.format;
+    sheet.page = print_.page;
+    sheet.dpi = print_.dpi;
+    sheet.title = print_.title;
+    sheet.animation = print_.animation;
+    sheet.names_tiles = print_.names_tiles;
+    sheet.press = print_.press;
+    // Captions are short, and are read from the same distance as the drawings.
+    sheet.letters = std::clamp(std::min(print_.page.width, print_.page.height) * 0.016, 2.0, 12.0);
+    sheet.inset = 0.055;
+    sheet.pattern = print_.pattern;
+    sheet.made = print_.made;
+    sheet.compression = drawing_.compression;
+    return sheet;
 }
 
-Cost PrintWork::forecast(const Grammar& given) const {
-    Cost result;
-    const Grammar grammar = shorten(given);
-    const DrawingCost cost = drawing_cost(grammar, print_, drawing_);
-    const auto text = static_cast<double>(print_.pattern.size());
-    const bool spline = print_.style.line == Line::spline;
-    result.seconds = 0.001 + cost.nodes * (spline ? 3 : 1.5) * 8e-9 + matching_seconds(grammar, drawing_.budget);
-    result.memory = cost.memory + text;
-    if (is_relief()) {
-        // A line becomes about 12 triangles, a curve 100.
-        const double triangles = cost.lines * (spline ? 100 : 12);
-        result.seconds += triangles * 1.5e-6;
-        result.memory += triangles * 150;
-        result.bytes = 100 + triangles * 50;
-        return result;
-    }
-    switch (drawing_.format) {
-        case PrintFormat::svg:
-            result.seconds += cost.lines * (spline ? 60e-9 : 12e-9);
-            result.bytes = 700 + text + cost.lines * (spline ? 30 : 5);
-            return result;
-        case PrintFormat::eps:
-            result.seconds += cost.lines * (spline ? 60e-9 : 20e-9);
-            result.bytes = 1200 + text + cost.lines * (spline ? 45 : 15);
-            return result;
-        case PrintFormat::pdf:
-            result.seconds += 0.002 + cost.lines * (spline ? 250e-9 : 80e-9);
-            result.bytes = 2000 + text + cost.lines * (spline ? 12 : 3);
-            return result;
-        case PrintFormat::hpgl:
-        case PrintFormat::gcode:
-        case PrintFormat::dxf:
-            result.seconds += cost.lines * 3e-6;
-            result.bytes = 500 + cost.lines * (spline ? 60 : 12);
-            return result;
-        default:
-            break;
-    }
-    const PixelSize size = pixel_size(print_.page, print_.dpi);
-    const double pixels = static_cast<double>(size.width) * size.height;
-    result.seconds += 0.004 + pixels * 22e-9 + cost.lines * (spline ? 6 : 1) * 40e-9;
-    result.bytes = 1000 + text + std::min(pixels * 3, pixels * 0.03 + cost.lines * 4);
-    result.band = cost.thread_memory;
-    return result;
+Cost PrintWork::forecast() const {
+    const Grammar grammar = shorten(document_.grammar());
+    if (is_model() || is_relief()) return solid_cost(grammar, print_, drawing_, format_);
+    if (settings_.division) return division_cost(grammar, print_, drawing_, division_options());
+    if (is_growth()) return growth_cost(grammar, print_, drawing_, growth_options());
+    if (settings_.lesson) return lesson_cost(grammar, print_, drawing_, format_ == PrintFormat::gif);
+    if (settings_.generations) return sheet_cost(generation_cells(), sheet_options());
+    return print_cost(grammar, print_, drawing_);
 }
 
 /// Sets the window of the settings to a place of a tiling that covers the page. Returns the document with the

@@ -202,11 +202,7 @@ public:
         set_options(items);
     }
 
-    Cost forecast() const override {
-        Cost cost;
-        cost.memory = sheet_memory(cells_, options_);
-        return cost;
-    }
+    Cost forecast() const override { return sheet_cost(cells_, options_); }
 
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override {

@@ -106,7 +106,7 @@ bool print_problem(const std::string& file, const std::string& problem) {
 
 /// @returns false if a job or a sheet cannot be made
 bool print_forecast(Gallery& gallery) {
-    JobForecast sum;
+    Cost sum;
     std::size_t impossible = 0;
     std::vector<const GalleryJob*> possible;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
@@ -118,21 +118,22 @@ bool print_forecast(Gallery& gallery) {
             continue;
         }
         fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(gallery.jobs()[job].file(), 2000), each.symbols,
-                   time_text(each.seconds), bytes_text(each.bytes), bytes_text(each.memory));
+                   time_text(each.cost.seconds), bytes_text(each.cost.bytes), bytes_text(each.cost.memory));
         possible.push_back(&gallery.jobs()[job]);
-        sum.seconds += each.seconds;
-        sum.bytes += each.bytes;
-        sum.memory = std::max(sum.memory, each.memory);
+        sum.seconds += each.own_seconds();
+        sum.shared_seconds = std::max(sum.shared_seconds, each.cost.shared_seconds);
+        sum.bytes += each.cost.bytes;
+        sum.memory = std::max(sum.memory, each.cost.memory);
     }
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(gallery.chosen().size() - impossible, "job"), "",
-               time_text(sum.seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
+               time_text(sum.seconds + sum.shared_seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
     if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
     for (const auto& [file, forecast] : gallery.sheet_forecasts(possible)) {
         if (!forecast.problem.empty()) {
             impossible += print_problem(file, forecast.problem);
-        } else if (forecast.memory > 0) {
+        } else if (forecast.cost.memory > 0) {
             fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(file, 2000), "", "", "",
-                       bytes_text(forecast.memory));
+                       bytes_text(forecast.cost.memory));
         }
     }
     return impossible == 0;

@@ -1,6 +1,7 @@
 // engine/interpreter.h: the interface that turns a document into files: prints in art, scores in music.
 #pragma once
 
+#include "engine/base/cost.h"
 #include "engine/base/keys.h"
 #include "engine/base/monitor.h"
 #include "engine/base/option.h"
@@ -27,14 +28,6 @@ struct Made {
     std::vector<Remark> remarks;
     void fact(std::string text) { remarks.push_back({false, std::move(text)}); }
     void warn(std::string text) { remarks.push_back({true, std::move(text)}); }
-};
-
-/// Estimated cost of a work.
-struct Cost {
-    double seconds = 0;
-    double bytes = 0;   ///< size of the outputs
-    double memory = 0;  ///< peak memory in bytes
-    double band = 0;    ///< additional bytes for each thread that renders pixels
 };
 
 /// One file that can be made from a document. Planned once, made once.

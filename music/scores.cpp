@@ -6,6 +6,7 @@
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/word_size.h"
 #include "engine/geometry/lattice.h"
 #include "music/arrangement.h"
 #include "music/ensemble.h"
@@ -726,31 +727,55 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     return made;
 }
 
+namespace {
+
+/// Seconds of processor time, bytes and bytes of memory of a score in a format, and of each of its notes.
+struct ScoreFormatCost {
+    double seconds, bytes, memory;
+    double note_seconds, note_bytes, note_memory;
+};
+ScoreFormatCost cost_of(ScoreFormat format) {
+    switch (format) {
+        case ScoreFormat::midi:
+            return {0, 600, 1e6, 80e-9, 9, 0};
+        case ScoreFormat::wav:
+        case ScoreFormat::flac:
+            return {1, 600, 60e6, 2e-3, 44'100, 0};
+        case ScoreFormat::pdf:
+            return {2, 10'000, 120e6, 2e-3, 300, 20'000};
+        case ScoreFormat::mxl:
+            return {0.001, 1000, 2e6, 4e-6, 12, 300};
+        default:
+            return {0.001, 1000, 2e6, 1.2e-6, 120, 300};
+    }
+}
+
+}  // namespace
+
 Cost ScoreWork::forecast() const {
-    constexpr double unknown_symbols = 1e6;  // assumed for words of unknown length
+    constexpr double program_seconds = 0.003, program_memory = 7e6;
+    constexpr double node_seconds = 15e-9, player_memory = 0.5e6;
+    constexpr double nodes_read = 50'000;  // at most, of words whose length only deriving determines
+    const ScoreFormatCost each = cost_of(format_);
     Cost result;
+    result.seconds = result.shared_seconds = program_seconds;
+    result.memory = result.shared_memory = program_memory;
+    result.seconds += each.seconds;
+    result.bytes = each.bytes;
+    result.memory += each.memory;
     for (const Player& player : ensemble_.players) {
         const Grammar& grammar = player.document.grammar();
-        const auto known = estimate(grammar, true);
-        double nodes = std::min(known ? known->nodes : unknown_symbols, settings_.budget);
-        double notes = std::min(known ? drawn_symbols(grammar, *known) : nodes / 2, nodes);
+        const WordSize size = word_size(shorten(grammar), nodes_read);
+        double nodes = std::min(size.nodes, settings_.budget);
+        double notes = std::min(size.drawn, nodes);
         if (settings_.bars > 0 || settings_.seconds > 0) {
             nodes = notes = std::min(
                 notes, std::max(10'000.0, 64.0 * static_cast<double>(settings_.bars) + 32 * settings_.seconds));
         }
-        result.seconds += 0.0015 + nodes * 15e-9 + notes * 80e-9 + matching_seconds(grammar, settings_.budget);
-        result.bytes += 600 + notes * 9;
-        result.memory += 8e6;
-        if (format_ == ScoreFormat::wav || format_ == ScoreFormat::flac) {
-            result.seconds += 1 + notes * 0.002;
-            result.bytes += notes * 44'100;
-            result.memory += 60e6;
-        } else if (format_ != ScoreFormat::midi) {
-            if (format_ == ScoreFormat::pdf) result.seconds += 2 + notes * 0.002;
-            result.seconds += notes * 1e-6;
-            result.bytes += notes * 120;
-            result.memory += notes * 300;
-        }
+        result.seconds +=
+            nodes * node_seconds + notes * each.note_seconds + matching_seconds(grammar, settings_.budget);
+        result.bytes += notes * each.note_bytes;
+        result.memory += player_memory + notes * each.note_memory;
     }
     return result;
 }

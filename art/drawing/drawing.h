@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -105,12 +106,23 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
 
 /// Rough estimate of the cost of a drawing.
 struct DrawingCost {
-    double nodes = 0;          ///< derivation nodes visited in a pass
-    double lines = 0;          ///< lines, polygons and discs drawn in a pass
-    double memory = 0;         ///< bytes, on one thread
-    double thread_memory = 0;  ///< bytes for each further thread
-    double kept_memory = 0;    ///< bytes of `memory` that the drawing itself keeps
-    double lines_memory = 0;   ///< bytes of `memory` kept by a Raster when it has read the whole drawing
+    double nodes = 0;     ///< derivation nodes visited in a pass
+    double lines = 0;     ///< lines, polygons and discs drawn in a pass
+    double points = 0;    ///< ends of lines, corners of polygons and discs that a writer receives
+    double strokes = 0;   ///< lines without a lift
+    double polygons = 0;  ///< polygons, in space without those of patches
+    double patches = 0;   ///< patches of surfaces in space
+    std::vector<std::pair<double, double>> bent{};  ///< bends of patches in millimetres, and their numbers
+    double length = 0;                              ///< millimetres of lines
+    double ink = 0;                                 ///< square millimetres of lines, however often they cross
+    double area = 0;                                ///< square millimetres of polygons, discs and patches, likewise
+    glm::dvec2 size{0.0};                           ///< millimetres of the drawing
+    double reach = 0;                               ///< longest side in space, in millimetres
+    double seconds = 0;                             ///< processor time of making the drawing and reading it once
+    double memory = 0;                              ///< bytes, on one thread
+    double thread_memory = 0;                       ///< bytes for each further thread
+    double kept_memory = 0;                         ///< bytes of `memory` that the drawing itself keeps
+    double lines_memory = 0;  ///< bytes of `memory` kept by a Raster when it has read the whole drawing
 };
 
 /// Forecasts the cost of make_drawing() and one print. Uses the page, the style and the resolution of `print`.

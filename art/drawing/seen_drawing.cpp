@@ -1,6 +1,7 @@
 #include "art/drawing/seen_drawing.h"
 
 #include "art/drawing/composition.h"
+#include "art/drawing/drawing_cost.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/map_frames.h"
 #include "art/drawing/repeated_drawing.h"
@@ -38,26 +39,22 @@ constexpr double strip_chords = 4e6;  // about as many are kept at a time
 constexpr double strip_pixels = 4e6;
 constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses this many rows at a time
 
-// Measured: what memory takes.
-constexpr double line_bytes = 5;         // of a line in a raster
-constexpr double band_pixel_bytes = 10;  // of a band that is rendered
-constexpr double picture_bytes = 6e6;    // of the library, for a file
-constexpr double writer_bytes = 5e6;
-constexpr double map_edge_bytes = 250;
-constexpr double scene_line_bytes = 60;  // memory of a line in space
-constexpr double daylight_bytes = 120e6;
-constexpr double lit_line_bytes = 80;        // memory of a line in space that casts a shadow
-constexpr double worked_line_bytes = 900;    // memory of a line that is intersected for fields or a weave
-constexpr double ornament_line_bytes = 250;  // memory of a line that is examined for dots or strands
-constexpr double tile_edge_bytes = 500;      // memory of a line whose tiles are coloured or whose edges are united
-constexpr double hand_line_bytes = 3200;     // memory of a line that is drawn by hand
-constexpr double plot_line_bytes = 400;
-constexpr double clump_share = 0.6;  // of clumps, in the symbols that they hold
+constexpr double picture_bytes = 6e6;  // of the library, for a file
+constexpr double clump_share = 0.6;    // of clumps, in the symbols that they hold
 
 /// Takes blots for nothing: for writers of lines, to whom none is sent.
 class LinesOnly : public Forwarding<BlotSink> {
 public:
     using Forwarding::Forwarding;
+    std::size_t prepare(const Blot&, const Pen&) override { return 0; }
+    void blot(std::size_t, glm::dvec2) override {}
+};
+
+/// Takes nothing.
+class NothingSeen : public WithoutStrokes<BlotSink> {
+public:
+    void polygon(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
     std::size_t prepare(const Blot&, const Pen&) override { return 0; }
     void blot(std::size_t, glm::dvec2) override {}
 };
@@ -223,17 +220,6 @@ WalkCount count_walk(const Grammar& grammar, const Parts<double>& parts, double 
     return count;
 }
 
-/// Number of lines that approximate a piece of a spline whose step has this length in pixels.
-double curve_lines(double pixels) {
-    return std::clamp(1.6 * std::sqrt(pixels), 1.0, 100.0);
-}
-
-/// Bytes of a thread that renders lines, for each of the pixels of a band.
-double band_bytes(PixelSize size) {
-    const double rows = std::min({128.0, static_cast<double>(size.height), std::max(32.0, 4194304.0 / size.width)});
-    return size.width * rows * band_pixel_bytes;
-}
-
 /// The extent of the window, or of the whole drawing within its box.
 DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const DrawOptions& options) {
     glm::dvec2 low = whole.low, high = whole.high;
@@ -252,82 +238,6 @@ DrawnExtent extent_of(const DrawnPart<double>& whole, const Style& style, const 
     // The drawing in a window continues around it.
     seen.widest = options.window ? 0 : style.pen_width({});
     return seen;
-}
-
-/// Number of passes of a pen that is narrower than the lines.
-double plot_passes(const Print& print, const PlotOptions& plot) {
-    if (!(plot.pen_width > 0) || print.style.stroke.in_steps) return 1;
-    return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
-}
-
-/// Maps have no fixed numbers of symbols, so this one is derived.
-DrawingCost cost_of_map(const Grammar& grammar, const DrawOptions& options) {
-    const Map map = derive_map(grammar, map_limits(*grammar.map(), options.budget), options.monitor);
-    const auto edges = static_cast<double>(map.edges().size());
-    DrawingCost cost;
-    cost.nodes = 2 * edges;
-    cost.lines = edges + static_cast<double>(map.cells());
-    cost.kept_memory = edges * map_edge_bytes;
-    return cost;
-}
-
-DrawingCost cost_of_word(const Grammar& grammar, const DrawOptions& options) {
-    constexpr double unknown_symbols = 1e6;  // assumed for a word whose length is known only by deriving it
-    DrawingCost cost;
-    cost.nodes = std::min(unknown_symbols, options.budget);
-    cost.lines = cost.nodes / 2;
-    if (const auto known = estimate(grammar, true)) {
-        cost.nodes = std::min(known->nodes, options.budget);
-        cost.lines = std::min(drawn_symbols(grammar, *known), cost.nodes) + label_lines(grammar, *known);
-    }
-    if (grammar.is_spatial()) cost.kept_memory = cost.lines * scene_line_bytes;
-    return cost;
-}
-
-DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
-    DrawingCost cost = grammar.map() ? cost_of_map(grammar, options) : cost_of_word(grammar, options);
-    if (options.repeat) {
-        cost.nodes *= options.repeat->copies();
-        cost.lines *= options.repeat->copies();
-    }
-    double drawn = cost.kept_memory;
-    if (print.style.dots || options.colours_strokes) drawn += cost.lines * ornament_line_bytes;
-    if (print.style.hand > 0 || options.lesson_step) drawn += cost.lines * hand_line_bytes;
-    if (has_tile_work(print.style)) drawn += cost.lines * tile_edge_bytes;
-    if (has_line_work(print.style)) drawn += cost.lines * worked_line_bytes;
-    if (options.plot) drawn += cost.lines * plot_passes(print, *options.plot) * plot_line_bytes;
-    if (is_vector(options.format)) {
-        cost.memory = writer_bytes + drawn;
-        return cost;
-    }
-    const PixelSize size = pixel_size(print.page, print.dpi);
-    double pieces = cost.lines;
-    if (print.style.line == Line::spline) {
-        // The steps are taken to fill the page evenly.
-        const double step = std::sqrt(static_cast<double>(size.width) * size.height / std::max(cost.lines, 1.0));
-        pieces *= curve_lines(step);
-    }
-    cost.thread_memory = band_bytes(size);
-    cost.lines_memory = pieces * line_bytes;
-    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory + drawn;
-    if (grammar.is_spatial() && !print.style.light.is_flat) {
-        cost.memory += daylight_bytes * (std::max(size.width, size.height) > 2048 ? 4 : 1);
-        cost.memory += cost.lines * lit_line_bytes;
-    }
-    return cost;
-}
-
-/// The contents of a window are unknown before they are drawn: as many tiles as a page shows well.
-DrawingCost cost_of_window(const Print& print, const DrawOptions& options) {
-    DrawingCost cost;
-    cost.nodes = std::min(1e6, options.budget);
-    cost.lines = 1e5;
-    cost.memory = writer_bytes + (has_tile_work(print.style) ? cost.lines * tile_edge_bytes : 0);
-    if (is_vector(options.format)) return cost;
-    cost.thread_memory = band_bytes(pixel_size(print.page, print.dpi));
-    cost.lines_memory = cost.lines * line_bytes;
-    cost.memory += picture_bytes + cost.lines_memory + cost.thread_memory;
-    return cost;
 }
 
 /// True if the drawing can be drawn from its parts; otherwise `why` receives the reason if there is a window.
@@ -354,6 +264,11 @@ bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& 
 
 }  // namespace
 
+bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& options) {
+    std::string why;
+    return may_be_seen(grammar, style, options, why);
+}
+
 std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
                                         std::string& why) {
     if (!may_be_seen(grammar, style, options, why)) return std::nullopt;
@@ -376,57 +291,47 @@ void require_window(const Grammar& grammar, const DrawOptions& options, const st
     }
 }
 
-DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
-    if (given_grammar.map()) return cost_of_reading(given_grammar, given, options);
-    const Grammar grammar = shorten(given_grammar);
-    std::string why;
-    // One at a time, because galleries forecast on many threads and parts take much memory.
-    static std::mutex mutex;
-    std::unique_lock lock(mutex, std::defer_lock);
-    if (may_be_seen(grammar, given.style, options, why)) lock.lock();
-    const auto parts = seen_parts(grammar, given.style, options, why);
-    if (!parts) {
-        if (WindowDrawing::make(std::make_shared<const Grammar>(grammar), given.style, options, why)) {
-            return cost_of_window(given, options);
-        }
-        if (options.window) require_window(grammar, options, why);
-        make_one_copy(options, [&](const DrawOptions& one) { require_affordable(grammar, true, one.budget); });
-        return cost_of_reading(grammar, given, options);
-    }
+DrawingCost seen_cost(const Grammar& grammar, const Parts<double>& parts, const Print& given,
+                      const DrawOptions& options) {
     Print print = given;
-    const DrawnExtent seen = extent_of(parts->whole(), print.style, options);
-    place_seen(print, seen, grammar, options.placement);
+    place_seen(print, extent_of(parts.whole(), print.style, options), grammar, options.placement);
     const double step = print.placement.step;
     const double width = print.style.line_width({}, step);
     const bool has_pixels = !is_vector(options.format);
-    const double pixel = 25.4 / print.dpi;
+    const double pixel = has_pixels ? 25.4 / print.dpi : 0;
     const bool has_blots = has_pixels && width < pixel;
     const double longest = has_pixels ? longest_replaced(width, pixel) : width / 4;
     // The lines of a spline are examined at its steps.
     const bool reads_steps = print.style.line == Line::spline && longest_step(grammar) > longest / step;
-    const WalkCount walk = count_walk(grammar, *parts, reads_steps ? -1.0 : longest / step, has_blots);
+    const WalkCount walk = count_walk(grammar, parts, reads_steps ? -1.0 : longest / step, has_blots);
     const PixelSize size = pixel_size(print.page, print.dpi);
-    const double pixels = static_cast<double>(size.width) * size.height;
-    DrawingCost cost;
     const double allowed = has_pixels ? most_nodes(size, options.budget) : options.budget;
-    // The contents of a window are unknown before the walk.
-    const double most = options.window ? std::min(allowed, std::max(1e5, 8 * pixels)) : allowed;
-    cost.nodes = std::min(walk.nodes, most);
+    DrawingCost cost;
+    cost.nodes = walk.nodes;
+    if (options.window) {
+        const SeenDrawing drawing(std::make_shared<const Grammar>(grammar), parts, print.style, options);
+        cost.nodes = std::min(walk.nodes, drawing.expected_nodes(print, whole_page(print.page), pixel));
+    }
+    cost.nodes = std::min(cost.nodes, 2 * allowed);
     const double share = walk.nodes > 0 ? cost.nodes / walk.nodes : 0;
-    cost.lines = (walk.lines + walk.blots) * share;
-    const double parts_count = static_cast<double>(parts->all().size());
+    cost.lines = cost.points = (walk.lines + walk.blots) * share;
+    const double parts_count = static_cast<double>(parts.all().size());
     const double clumps = clump_share * walk.children;
     cost.kept_memory = parts_count * (options.window ? 320 : 224) + clumps * sizeof(Clump);
+    cost.seconds = parts_count * seconds_of_part + walk.children * seconds_of_child + cost.nodes * seconds_of_node;
     cost.memory = cost.kept_memory + picture_bytes;
     if (!has_pixels) return cost;
     const double rows = std::min(strip_rows(width, pixel, size), size.height);
     const double lines = walk.lines * share * (reads_steps ? curve_lines(longest_step(grammar) * step / pixel) : 1);
     const double strips = std::max(1.0, size.height / rows);
-    cost.lines_memory = lines * line_bytes;
+    cost.points = lines + walk.blots * share;
+    cost.lines_memory = lines * raster_line_bytes;
     cost.thread_memory = size.width * rows * (has_blots ? 7 : 3) + band_bytes({size.width, static_cast<int>(rows)}) +
-                         std::min(lines, 2 * lines / strips) * line_bytes;
+                         std::min(lines, 2 * lines / strips) * raster_line_bytes;
     if (has_blots) cost.thread_memory += (parts_count + clumps) * 8 + std::min(parts_count + clumps, walk.blots) * 64;
     cost.memory += cost.thread_memory;
+    // Each strip is walked into from above, and its pixels are drawn twice where there are blots.
+    if (has_blots) cost.seconds += walk.blots * share * seconds_of_blot;
     return cost;
 }
 
@@ -455,8 +360,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
     if (!view_) throw std::runtime_error("the drawing is too large to be drawn");
 }
 
-void SeenDrawing::read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
-                       const std::function<void(std::uint64_t)>& watch) const {
+Sight SeenDrawing::sight_of(const Print& print, const Window& window, double pixel) const {
     const double step = print.placement.step;
     const double width = print.style.line_width({}, step);
     const bool has_blots = width < pixel;
@@ -466,8 +370,53 @@ void SeenDrawing::read(const Print& print, const Window& window, double pixel, B
     // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
     // wide.
     sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
-    // Curves differ from the lines through their control points only where steps are visible.
-    if (!spline_ || longest_step_ <= std::max(sight.chord, sight.blot)) {
+    return sight;
+}
+
+/// Curves differ from the lines through their control points only where steps are visible.
+bool SeenDrawing::reads_steps(const Sight& sight) const {
+    return spline_ && longest_step_ > std::max(sight.chord, sight.blot);
+}
+
+double SeenDrawing::expected_nodes(const Print& print, const Window& window, double pixel) const {
+    constexpr double few = 1e6, coarser = 4;
+    constexpr int most_tries = 64;
+    Sight sight = sight_of(print, window, pixel);
+    const bool has_blots = sight.blot >= 0, by_steps = reads_steps(sight);
+    double& longest = has_blots ? sight.blot : sight.chord;
+    const auto of_all = [&](double replaced) {
+        return count_walk(*grammar_, view_->parts(), replaced, has_blots).nodes;
+    };
+    const double whole = of_all(by_steps ? -1.0 : longest);
+    if (whole <= few) return whole;
+    if (by_steps) {
+        sight.least = 0;
+        longest = longest_step_ / coarser;
+    }
+    const double fine = longest;
+    for (int tries = 0; tries < most_tries; ++tries, longest *= coarser) {
+        try {
+            NothingSeen nothing;
+            const auto seen = static_cast<double>(view_->read(sight, nothing, few, {}).visited);
+            // What is visible is as much more when it is looked at closely as the whole is.
+            const double more = whole / of_all(tries == 0 && by_steps ? -1.0 : longest);
+            return seen * (std::isfinite(more) ? more : (longest / fine) * (longest / fine));
+        } catch (const BudgetError&) {
+            // Less closely.
+        }
+    }
+    return whole;
+}
+
+void SeenDrawing::require_affordable(const Print& print, const Window& window, double pixel, double budget) const {
+    constexpr double certain = 1.5;  // the estimate is not exact
+    if (expected_nodes(print, window, pixel) > certain * budget) throw too_much(budget);
+}
+
+void SeenDrawing::read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
+                       const std::function<void(std::uint64_t)>& watch) const {
+    Sight sight = sight_of(print, window, pixel);
+    if (!reads_steps(sight)) {
         sight.ink = spline_ ? spline_share_ : 1;
         return add(view_->read(sight, sink, budget, watch));
     }
@@ -494,6 +443,7 @@ void SeenDrawing::report(DrawReport& report) const {
 }
 
 void SeenDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
+    require_affordable(print, window, 0, options_.budget);
     LinesOnly lines(sink);
     read(print, window, 0, lines, options_.budget, options_.watch);
 }
@@ -619,6 +569,8 @@ const Raster& StripRendering::whole() const {
 }  // namespace
 
 std::unique_ptr<Rendering> SeenDrawing::rendering(const Print& print, const Window& window) const {
+    require_affordable(print, window, 25.4 / print.dpi,
+                       most_nodes(pixel_size(print.page, print.dpi), options_.budget));
     return std::make_unique<StripRendering>(*this, print, window);
 }
 

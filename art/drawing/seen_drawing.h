@@ -22,6 +22,13 @@ constexpr double most_read_symbols = 4e6;
 std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
                                         std::string& why);
 
+/// False if seen_parts() returns nothing, whatever the grammar's parts are.
+bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& options);
+
+/// Forecasts the cost of a drawing through a view and one print. @param parts  seen_parts() of the grammar
+DrawingCost seen_cost(const Grammar& grammar, const Parts<double>& parts, const Print& print,
+                      const DrawOptions& options);
+
 /// Checks that the window of the options can be shown by reading the whole word.
 /// @throws std::runtime_error with the reason, for drawings in space and for words over the budget
 void require_window(const Grammar& grammar, const DrawOptions& options, const std::string& why);
@@ -51,8 +58,15 @@ public:
     void read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
               const std::function<void(std::uint64_t)>& watch) const;
     const DrawOptions& options() const { return options_; }
+    /// Estimates the nodes that a walk visits, by one that looks less closely. Exact up to a million of them.
+    double expected_nodes(const Print& print, const Window& window, double pixel) const;
 
 private:
+    /// How closely a window is looked at; the lines of a spline are examined at its steps if `reads_steps`.
+    Sight sight_of(const Print& print, const Window& window, double pixel) const;
+    bool reads_steps(const Sight& sight) const;
+    /// Refuses what would exceed the budget after seconds of walking. @throws BudgetError
+    void require_affordable(const Print& print, const Window& window, double pixel, double budget) const;
     void add(const ViewReport& report) const;
 
     std::shared_ptr<const Grammar> grammar_;

@@ -254,6 +254,8 @@ public:
           x_(x),
           y_(y) {}
 
+    const Parts<double>& parts() const override { return rough_; }
+
     ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                     const std::function<void(std::uint64_t)>& watch) const override {
         Drawer drawer(rough_, clumps_, brackets_, moves_draw_, sight, sink, budget, watch);

@@ -64,6 +64,8 @@ public:
     /// Cost: the visible parts; 20 ns a node or less.
     virtual ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                             const std::function<void(std::uint64_t)>& watch) const = 0;
+    /// The parts in doubles.
+    virtual const Parts<double>& parts() const = 0;
 };
 
 }  // namespace sikku

@@ -21,8 +21,8 @@ constexpr int most_picture_threads = 3;
 }  // namespace
 
 std::string too_much_memory(const JobForecast& forecast, double memory) {
-    if (forecast.memory <= memory) return "";
-    return fmt::format("it needs about {} of memory, more than is available ({})", bytes_text(forecast.memory),
+    if (forecast.own_memory() <= memory) return "";
+    return fmt::format("it needs about {} of memory, more than is available ({})", bytes_text(forecast.own_memory()),
                        bytes_text(memory));
 }
 
@@ -63,7 +63,7 @@ FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder
 void Batch::run(std::vector<Task> tasks, double memory) {
     const auto order = [&](const Task& task) {
         const bool is_begun = record_.is_begun(jobs_[task.job].file());
-        return std::pair(is_begun, is_begun ? task.forecast.seconds : -task.forecast.seconds);
+        return std::pair(is_begun, is_begun ? task.forecast.own_seconds() : -task.forecast.own_seconds());
     };
     std::vector<std::pair<std::pair<bool, double>, std::size_t>> places;
     for (std::size_t i = 0; i < tasks.size(); ++i) places.emplace_back(order(tasks[i]), i);
@@ -71,7 +71,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     double cost = 0;
     for (const auto& [place, task] : places) {
         waiting_.push_back(tasks[task]);
-        cost += tasks[task].forecast.seconds;
+        cost += tasks[task].forecast.own_seconds();
     }
     listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
@@ -90,17 +90,17 @@ std::optional<Batch::Turn> Batch::next() {
     while (true) {
         if (stopped_ || monitor_.stop_requested() || waiting_.empty()) return std::nullopt;
         for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
-            if (task->forecast.memory > free_ && under_way_ > 0) continue;
+            if (task->forecast.own_memory() > free_ && under_way_ > 0) continue;
             if (!record_.take(jobs_[task->job].file())) {
                 task->was_busy = true;
                 continue;
             }
-            Turn turn{*task, 1, task->forecast.memory};
+            Turn turn{*task, 1, task->forecast.own_memory()};
             // Towards the end there are fewer jobs than cores.
             const auto others = static_cast<int>(std::min<std::size_t>(waiting_.size() + under_way_, 1024));
             turn.threads = std::max(1, workers_ / std::max(1, others));
             if (others > 1) turn.threads = std::min(turn.threads, most_picture_threads);
-            const double more = task->forecast.memory + turn.threads * task->forecast.band;
+            const double more = task->forecast.own_memory() + turn.threads * task->forecast.cost.band;
             if (turn.threads > 1 && more <= free_) {
                 turn.memory = more;
             } else {
@@ -126,7 +126,7 @@ void Batch::work() {
             make(*turn);
             record_.release(jobs_[turn->task.job].file());
             changed_.notify_all();
-            listener_.finish(turn->task.forecast.seconds);
+            listener_.finish(turn->task.forecast.own_seconds());
         }
     } catch (...) {
         // After an error such as a failed lock, the other threads end, too.

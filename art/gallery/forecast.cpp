@@ -19,18 +19,14 @@ std::string length_of(const Grammar& grammar) {
 JobForecast forecast_job(const GalleryJob& job, bool exact) {
     JobForecast result;
     result.symbols = "?";
-    result.seconds = 0.0005;
+    result.cost.seconds = 0.0005;
     if (!job.pattern->text) {
         result.problem = job.pattern->problem;
         return result;
     }
     try {
         if (exact && !job.pattern->piece) result.symbols = length_of(job.document().grammar());
-        const Cost cost = job.work()->forecast();
-        result.seconds = cost.seconds;
-        result.bytes = cost.bytes;
-        result.memory = cost.memory;
-        result.band = cost.band;
+        result.cost = job.work()->forecast();
     } catch (const std::exception& error) {
         result.problem = error.what();
     }

@@ -2,19 +2,21 @@
 #pragma once
 
 #include "art/gallery/jobs.h"
+#include "engine/base/cost.h"
 
 #include <string>
 
 namespace sikku {
 
-/// Rough, and the same on every machine.
+/// The same on every machine.
 struct JobForecast {
     std::string symbols;  ///< of the word: digits, "about 10^k", or "?" where only deriving tells, and for pieces
-    double seconds = 0;   ///< on one core of a usual machine
-    double bytes = 0;     ///< of the file
-    double memory = 0;    ///< bytes while it is made on one thread, beside what the program takes
-    double band = 0;      ///< more for each further thread, if it is a picture
+    Cost cost;            ///< on one thread, in a program that makes nothing else
     std::string problem;  ///< why it cannot be made, as far as that is known already
+
+    /// What the job adds to a program that has made others.
+    double own_seconds() const { return cost.seconds - cost.shared_seconds; }
+    double own_memory() const { return cost.memory - cost.shared_memory; }
 };
 
 /// @param exact  the length of the word is told to the last digit

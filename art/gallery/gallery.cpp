@@ -160,7 +160,7 @@ void Gallery::select() {
     if (options_.shard.count > 1) {
         std::vector<double> costs;
         forecast_all(chosen_);
-        for (const auto& forecast : forecasts_) costs.push_back(forecast->seconds);
+        for (const auto& forecast : forecasts_) costs.push_back(forecast->own_seconds());
         const std::vector<std::size_t> shards = balance(costs, options_.shard.count);
         std::erase_if(chosen_, [&](std::size_t job) { return shards[job] + 1 != options_.shard.index; });
     }
@@ -187,7 +187,7 @@ std::vector<std::pair<std::string, JobForecast>> Gallery::sheet_forecasts(
         for (const std::string& file : sheet_files(sheet)) {
             JobForecast forecast;
             try {
-                forecast.memory = gallery_sheet_memory(jobs, sheet, file);
+                forecast.cost.memory = gallery_sheet_memory(jobs, sheet, file);
                 forecast.problem = too_much_memory(forecast, memory_);
             } catch (const std::exception& error) {
                 forecast.problem = error.what();

@@ -6,6 +6,7 @@
 #include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
 #include "art/raster/raster.h"
+#include "art/sheet/sheet_cells.h"
 #include "art/sheet/sheet_pixels.h"
 #include "art/sheet/sheet_plot.h"
 #include "art/vector/vector_formats.h"
@@ -25,7 +26,6 @@
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
-#include <typeinfo>
 #include <utility>
 
 namespace sikku {
@@ -86,43 +86,6 @@ struct Room {
     int readers = 1;  ///< drawings
     int rows = 0;     ///< rows of a strip; 0: all
 };
-
-/// Rethrows what a drawing throws with the name of its cell; exceptions of the caller pass as they are.
-template <class Work>
-auto named(const SheetCell& cell, Work&& work) {
-    const auto told = [&](const std::exception& error) { return fmt::format("'{}': {}", cell.title, error.what()); };
-    try {
-        return work();
-    } catch (const BudgetError& error) {
-        throw BudgetError(told(error));
-    } catch (const WordError& error) {
-        throw WordError(told(error));
-    } catch (const std::runtime_error& error) {
-        if (typeid(error) != typeid(std::runtime_error)) throw;
-        throw std::runtime_error(told(error));
-    }
-}
-
-DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
-    DrawOptions drawing;
-    static_cast<DrawingOptions&>(drawing) = cell;
-    drawing.format = options.format;
-    drawing.monitor = options.monitor;
-    drawing.placement.scale = 1.0;
-    drawing.dot_spacing = cell.dot_spacing;
-    drawing.plot = options.plot;
-    return drawing;
-}
-
-/// A print about as large as a cell among `count` will be.
-Print cell_print(const SheetCell& cell, const SheetOptions& options, std::size_t count) {
-    Print print;
-    print.style = cell.style;
-    print.dpi = options.dpi;
-    const double side = std::sqrt(static_cast<double>(count));
-    print.page = {std::max(options.page.width / side, 1.0), std::max(options.page.height / side, 1.0), 0.0};
-    return print;
-}
 
 class Sheet {
 public:
@@ -232,7 +195,7 @@ void Sheet::measure() {
     }
     oneapi::tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
         const SheetCell& cell = cells_[i];
-        named(cell, [&] {
+        named_cell(cell, [&] {
             DrawOptions drawing = cell_options(cell, options_);
             if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
             Subject& subject = subjects_[i];
@@ -561,7 +524,7 @@ void Sheet::place_drawings() {
     const std::vector<double> units = shared_units();
     std::vector<double> steps(cells_.size()), least;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-        named(cells_[i], [&] {
+        named_cell(cells_[i], [&] {
             const Window& window = plan_.cells[i].window;
             const std::optional<double> fixed = subjects_[i].drawing->fixed_step();
             steps[i] = fixed ? *fixed
@@ -634,8 +597,8 @@ void Sheet::write_vectors(PrintWriter& writer) const {
     write_texts(0.0, options_.page.height, writer);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         writer.begin_part(plan_.cells[i].print, plan_.cells[i].window);
-        named(cells_[i],
-              [&] { subjects_[i].drawing->read_visible(plan_.cells[i].print, plan_.cells[i].window, writer); });
+        named_cell(cells_[i],
+                   [&] { subjects_[i].drawing->read_visible(plan_.cells[i].print, plan_.cells[i].window, writer); });
     }
     writer.finish();
 }
@@ -726,7 +689,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
                 oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
                     const CellPicture& cell = strip.cells[i];
                     if (cell.bottom <= band.top || cell.top >= band.bottom) return;
-                    named(cells_[cell.cell], [&] {
+                    named_cell(cells_[cell.cell], [&] {
                         if (!rasters[i]) {
                             rasters[i] = subjects_[cell.cell].drawing->rendering(cell.print);
                             rasters[i]->watch([&] { watch(0); });
@@ -757,7 +720,7 @@ Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
     double memory = options_.memory;  // excluding the memory that drawings keep
     for (const Subject& subject : subjects_) memory -= subject.cost.kept_memory;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-        named(cells_[i], [&] {
+        named_cell(cells_[i], [&] {
             const DrawingCost& cost = subjects_[i].cost;
             if (cost.memory - cost.kept_memory > memory) refuse_memory(cost.memory, options_.memory);
         });
@@ -809,27 +772,6 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         layout.missing_letters = sheet.missing();
         return layout;
     });
-}
-
-double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options) {
-    double most = 0, lines = 0, kept = 0;
-    for (const SheetCell& cell : cells) {
-        named(cell, [&] {
-            const DrawingCost cost =
-                drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
-            most = std::max(most, cost.memory - cost.kept_memory);
-            lines += cost.lines_memory;
-            kept += cost.kept_memory;
-        });
-    }
-    if (is_vector(options.format)) return kept;
-    const PixelSize size = pixel_size(options.page, options.dpi);
-    const double stride = 3.0 * size.width;
-    const double shape = options.page.height / options.page.width;
-    const double rows = std::max(1.0, std::round(std::sqrt(static_cast<double>(cells.size()) * shape)));
-    const double whole = stride * size.height / rows + most + kept;
-    if (!(options.memory > 0) || whole <= options.memory) return whole;
-    return lines / rows + most + kept + 256 * stride;
 }
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 
 #include "art/drawing/draw.h"
 #include "art/print/print.h"
+#include "engine/base/cost.h"
 #include "engine/language/grammar.h"
 
 #include <cstdint>
@@ -87,6 +88,9 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 /// the options allow that, otherwise the minimum. For other formats, the memory of the drawings.
 /// @throws what draw_sheet() throws for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
+
+/// Forecasts the cost of draw_sheet(). @throws as sheet_memory()
+Cost sheet_cost(const std::vector<SheetCell>& cells, const SheetOptions& options);
 
 /// The caption of a pattern: title, derivation length, angle, and productions, which are quoted from the file if they
 /// have parameters, conditions or weights.

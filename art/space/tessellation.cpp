@@ -65,6 +65,18 @@ Shape shape_of(const Surface& surface) {
     return shape;
 }
 
+/// Factor of the lengths of a placed surface.
+double scale_of(const SceneSurface& surface) {
+    double scale = 0;
+    for (int axis = 0; axis < 3; ++axis) scale = std::max(scale, double(glm::length(surface.map[axis])));
+    return scale;
+}
+
+int divisions_from(double wanted) {
+    const auto* found = std::lower_bound(divisions.begin(), divisions.end(), wanted);
+    return found == divisions.end() ? divisions.back() : *found;
+}
+
 std::array<double, 4> weights(double t) {
     const double s = 1 - t;
     return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
@@ -208,14 +220,12 @@ private:
     int divisions_of(const SceneSurface& surface, double coarser) const {
         const Shape& shape = shapes_.at(surface.surface.get());
         if (!(shape.bend > 0)) return 1;
-        double scale = 0;
-        for (int axis = 0; axis < 3; ++axis) scale = std::max(scale, double(glm::length(surface.map[axis])));
+        const double scale = scale_of(surface);
         double wanted = coarser > 1 ? 1 : least_of_curved;
         const double deviation = std::max(fineness_.deviation, fineness_.share * shape.extent * scale) * coarser;
         if (deviation > 0) wanted = std::max(wanted, std::sqrt(shape.bend * scale / deviation));
         if (fineness_.side > 0) wanted = std::max(wanted, shape.extent * scale / (fineness_.side * coarser));
-        const auto* found = std::lower_bound(divisions.begin(), divisions.end(), wanted);
-        return found == divisions.end() ? divisions.back() : *found;
+        return divisions_from(wanted);
     }
 
     const std::vector<Grid>& grids(const Surface& surface, int n) {
@@ -281,6 +291,16 @@ private:
 
 Scene tessellated(const Scene& scene, const Fineness& fineness, const Monitor& monitor) {
     return Tessellation(scene, fineness, monitor).run();
+}
+
+double bend_of(const SceneSurface& surface) {
+    return shape_of(*surface.surface).bend * scale_of(surface);
+}
+
+double polygons_of_patch(double bend, double deviation) {
+    if (!(bend > 0)) return 1;
+    const double divided = divisions_from(std::max<double>(least_of_curved, std::sqrt(bend / deviation)));
+    return divided * divided;
 }
 
 }  // namespace sikku

@@ -19,4 +19,11 @@ struct Fineness {
 /// Source: de Casteljau's and Bernstein's form; deviation of a chord: Filip, Magedson and Markot 1986.
 Scene tessellated(const Scene& scene, const Fineness& fineness, const Monitor& monitor = {});
 
+/// Bound of the deviation of a surface's undivided patches from the polygons of their corners, in turtle steps; 0 if
+/// they are flat. Cost: linear in the patches.
+double bend_of(const SceneSurface& surface);
+
+/// The number of polygons into which a patch of that bend is divided. @param deviation  as Fineness has it, above 0
+double polygons_of_patch(double bend, double deviation);
+
 }  // namespace sikku

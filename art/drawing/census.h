@@ -1,0 +1,45 @@
+// art/drawing/census.h: counts what a word draws, for forecasts: by reading it, or a shorter one.
+#pragma once
+
+#include "art/print/page.h"
+#include "art/style/style.h"
+#include "engine/language/grammar.h"
+
+#include <glm/mat3x2.hpp>
+
+#include <vector>
+
+namespace sikku {
+
+/// Patches of surfaces that bend alike.
+struct BentPatches {
+    double bend = 0;  ///< see bend_of()
+    double count = 0;
+};
+
+/// What is drawn in one pass. Lengths are in turtle steps.
+struct DrawnCensus {
+    double nodes = 0;                 ///< of the derivation that are visited
+    double strokes = 0;               ///< lines without a lift
+    double lines = 0;                 ///< segments of strokes
+    double length = 0;                ///< of all lines
+    double polygons = 0;              ///< and areas
+    double corners = 0;               ///< of polygons
+    double discs = 0;                 ///< and spheres
+    double patches = 0;               ///< of surfaces in space
+    double area = 0;                  ///< of polygons, discs and patches
+    Box box;                          ///< of all points, after orientation(), or as they are seen in space
+    double widest = 0;                ///< widest pen, in the unit of the style's stroke
+    double mean_width = 0;            ///< of lines, by their length, in the same unit
+    double deepest = 0;               ///< extent along the line of sight, in space
+    std::vector<BentPatches> bent{};  ///< the patches, with bends that differ by less than a fifth together
+    bool is_read = false;             ///< the word itself was read, and not a shorter one
+};
+
+/// Reads at most about `most` nodes: of a longer word the largest shorter one whose cost is known to be less, from
+/// which the numbers of the longer one follow by its numbers of symbols or, where these are unknown, by its growth.
+/// Cost: 20 ns a node. @param grammar  has no map
+/// @throws WordError
+DrawnCensus drawn_census(const Grammar& grammar, const Style& style, const glm::dmat3x2& orientation, double most);
+
+}  // namespace sikku

@@ -1,0 +1,545 @@
+#include "art/drawing/drawing_cost.h"
+
+#include "art/drawing/census.h"
+#include "art/drawing/composition.h"
+#include "art/drawing/framed_drawing.h"
+#include "art/drawing/line_work.h"
+#include "art/drawing/map_frames.h"
+#include "art/drawing/repeated_drawing.h"
+#include "art/drawing/seen_drawing.h"
+#include "art/drawing/tile_drawing.h"
+#include "art/drawing/window_drawing.h"
+#include "art/space/tessellation.h"
+#include "engine/derivation/derivation.h"
+#include "engine/derivation/forecast.h"
+#include "engine/map/map_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace sikku {
+namespace {
+
+constexpr double nodes_read = 50'000;   // at most, of a word whose drawing is forecast: a millisecond
+constexpr double edges_made = 300'000;  // of maps likewise
+
+// Memory that is kept, in bytes.
+constexpr double picture_bytes = 6e6;  // of the library, for a file
+constexpr double writer_bytes = 1e6;
+constexpr double map_edge_bytes = 250;
+constexpr double scene_line_bytes = 60;
+constexpr double lit_line_bytes = 80;        // of a line in space that casts a shadow
+constexpr double worked_line_bytes = 900;    // of a line that is intersected for fields or a weave
+constexpr double ornament_line_bytes = 250;  // of a line that is examined for dots or strands
+constexpr double tile_edge_bytes = 500;      // of a line whose tiles are coloured or whose edges are united
+constexpr double hand_line_bytes = 3200;     // of a line that is drawn by hand
+constexpr double plot_line_bytes = 400;
+constexpr double band_pixel_bytes = 10;
+
+// Processor time, in seconds.
+constexpr double node_seconds = 6e-9;  // of a symbol that is read
+constexpr double point_seconds = 15e-9;
+constexpr double curve_seconds = 60e-9;
+constexpr double map_edge_seconds = 1.5e-6;
+constexpr double placed_edge_seconds = 5e-6;
+constexpr double ornament_line_seconds = 2e-6;
+constexpr double worked_line_seconds = 8e-6;
+constexpr double tile_edge_seconds = 3e-6;
+constexpr double hand_line_seconds = 30e-6;
+constexpr double frame_points = 2e4;
+
+double square(double value) {
+    return value * value;
+}
+
+/// Number of passes of a pen that is narrower than the lines.
+double plot_passes(const Print& print, const PlotOptions& plot) {
+    if (!(plot.pen_width > 0) || print.style.stroke.in_steps) return 1;
+    return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
+}
+
+/// Maps have no fixed numbers of symbols, so this one is derived, or as far as that is cheap.
+DrawingCost cost_of_map(const Grammar& grammar, const DrawOptions& options) {
+    MapDerivation derivation(grammar, map_limits(*grammar.map(), options.budget), options.monitor);
+    std::vector<double> edges(1, static_cast<double>(derivation.map().edges().size()));
+    double made = edges.back();
+    while (made < edges_made && derivation.next()) {
+        edges.push_back(static_cast<double>(derivation.map().edges().size()));
+        made += edges.back();
+    }
+    const auto left = static_cast<double>(grammar.steps() - derivation.steps());
+    const std::size_t before = edges.size() / 2;
+    double last = edges.back();
+    if (left > 0 && before + 1 < edges.size()) {
+        const double growth = std::pow(last / edges[before], 1 / static_cast<double>(edges.size() - 1 - before));
+        const double grown = last * std::pow(std::max(1.0, growth), left);
+        made += growth > 1.01 ? (grown - last) / (growth - 1) * growth : left * last;
+        last = grown;
+    } else {
+        made += left * last;
+    }
+    DrawingCost cost;
+    const double cells = last / 3;
+    cost.nodes = made;
+    cost.lines = last + cells;
+    cost.points = 2 * cost.lines;
+    cost.seconds = made * map_edge_seconds;
+    if (grammar.map()->placing != Placing::straight) cost.seconds += made * placed_edge_seconds;
+    cost.kept_memory = last * map_edge_bytes;
+    return cost;
+}
+
+/// The placement of a word on its page, from its census.
+double place(Print& print, const DrawnCensus& census, const Grammar& grammar, const DrawOptions& options) {
+    if (census.box.empty()) return 1;
+    PlacementOptions placement = options.placement;
+    placement.scale *= grammar.scale_percent() / 100;
+    try {
+        place_print(print, {census.box, census.widest}, print.style.stroke, placement);
+    } catch (const std::runtime_error&) {
+        return 1;  // make() reports it
+    }
+    return print.placement.step;
+}
+
+DrawingCost cost_of_word(const Grammar& grammar, Print print, const DrawOptions& options) {
+    const DrawnCensus census = drawn_census(grammar, print.style, orientation(options.placement), nodes_read);
+    DrawingCost cost;
+    const double step = place(print, census, grammar, options);
+    const double unit = print.style.stroke.in_steps ? step : 1;
+    cost.nodes = std::min(census.nodes, 2 * options.budget);
+    const double share = census.nodes > 0 ? cost.nodes / census.nodes : 1;
+    cost.lines = (census.lines + census.polygons + census.discs) * share;
+    cost.points = (census.lines + census.corners + census.discs + census.strokes) * share;
+    cost.strokes = census.strokes * share;
+    cost.length = census.length * share * step;
+    cost.ink = cost.length * census.mean_width * unit;
+    cost.area = census.area * share * square(step);
+    cost.patches = census.patches * share;
+    for (const BentPatches& patches : census.bent) cost.bent.emplace_back(patches.bend * step, patches.count * share);
+    cost.polygons = census.polygons * share;
+    cost.reach = census.deepest * step;
+    if (!census.box.empty()) cost.size = (census.box.high - census.box.low) * step;
+    const bool spline = print.style.line == Line::spline;
+    const double passes = spline ? 3 : 2;
+    cost.seconds = passes * (cost.nodes * node_seconds + cost.points * point_seconds);
+    if (spline) cost.seconds += 2 * census.lines * share * curve_seconds;
+    if (grammar.is_spatial()) cost.kept_memory = (cost.points + cost.patches) * scene_line_bytes;
+    return cost;
+}
+
+/// Adds what is done to the lines of a drawing in the plane before they are written.
+void add_work(const Print& print, const DrawOptions& options, DrawingCost& cost) {
+    if (options.repeat) {
+        const double copies = options.repeat->copies();
+        for (double* number : {&cost.nodes, &cost.lines, &cost.points, &cost.strokes, &cost.polygons, &cost.seconds})
+            *number *= copies;
+    }
+    const auto add = [&](bool is_done, double seconds, double bytes) {
+        if (!is_done) return;
+        cost.seconds += cost.points * seconds;
+        cost.kept_memory += cost.points * bytes;
+    };
+    add(print.style.dots || options.colours_strokes, ornament_line_seconds, ornament_line_bytes);
+    add(has_line_work(print.style), worked_line_seconds, worked_line_bytes);
+    add(has_tile_work(print.style), tile_edge_seconds, tile_edge_bytes);
+    add(print.style.hand > 0 || options.lesson_step.has_value(), hand_line_seconds, hand_line_bytes);
+    if (has_frame(print.style, options)) {
+        cost.points += frame_points;
+        cost.seconds += frame_points * curve_seconds;
+    }
+}
+
+DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const DrawOptions& options) {
+    DrawingCost cost = grammar.map() ? cost_of_map(grammar, options) : cost_of_word(grammar, print, options);
+    add_work(print, options, cost);
+    double drawn = cost.kept_memory;
+    if (options.plot) drawn += cost.points * plot_passes(print, *options.plot) * plot_line_bytes;
+    if (is_vector(options.format)) {
+        cost.memory = writer_bytes + drawn;
+        return cost;
+    }
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    double pieces = cost.points;
+    if (print.style.line == Line::spline) {
+        // The steps are taken to fill the page evenly.
+        const double step = std::sqrt(static_cast<double>(size.width) * size.height / std::max(cost.lines, 1.0));
+        pieces *= curve_lines(step);
+    }
+    cost.thread_memory = band_bytes(size);
+    cost.lines_memory = pieces * raster_line_bytes;
+    cost.memory = picture_bytes + cost.lines_memory + cost.thread_memory + drawn;
+    return cost;
+}
+
+/// The contents of a window are unknown before they are drawn: as many tiles as a page shows well.
+DrawingCost cost_of_window(const Print& print, const DrawOptions& options) {
+    DrawingCost cost;
+    cost.nodes = std::min(1e6, options.budget);
+    cost.lines = 1e5;
+    cost.points = 4e5;
+    cost.seconds = cost.nodes * node_seconds + cost.points * (has_tile_work(print.style) ? tile_edge_seconds : 0);
+    cost.memory = writer_bytes + (has_tile_work(print.style) ? cost.lines * tile_edge_bytes : 0);
+    if (is_vector(options.format)) return cost;
+    cost.thread_memory = band_bytes(pixel_size(print.page, print.dpi));
+    cost.lines_memory = cost.lines * raster_line_bytes;
+    cost.memory += picture_bytes + cost.lines_memory + cost.thread_memory;
+    return cost;
+}
+
+}  // namespace
+
+double curve_lines(double pixels) {
+    return std::clamp(1.6 * std::sqrt(pixels), 1.0, 100.0);
+}
+
+double band_bytes(PixelSize size) {
+    const double rows = std::min({128.0, static_cast<double>(size.height), std::max(32.0, 4194304.0 / size.width)});
+    return size.width * rows * band_pixel_bytes;
+}
+
+DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawOptions& options) {
+    if (given_grammar.map()) return cost_of_reading(given_grammar, given, options);
+    const Grammar grammar = shorten(given_grammar);
+    std::string why;
+    // One at a time, because galleries forecast on many threads and parts take much memory.
+    static std::mutex mutex;
+    std::unique_lock lock(mutex, std::defer_lock);
+    if (may_be_seen(grammar, given.style, options)) lock.lock();
+    if (const auto parts = seen_parts(grammar, given.style, options, why)) {
+        return seen_cost(grammar, *parts, given, options);
+    }
+    if (WindowDrawing::make(std::make_shared<const Grammar>(grammar), given.style, options, why)) {
+        return cost_of_window(given, options);
+    }
+    if (options.window) require_window(grammar, options, why);
+    make_one_copy(options, [&](const DrawOptions& one) { require_affordable(grammar, true, one.budget); });
+    return cost_of_reading(grammar, given, options);
+}
+
+namespace {
+
+// --- pictures of drawings in space
+
+constexpr double samples = 16;  // of a pixel
+
+/// Of all pixels of a drawing in space.
+constexpr double sampled_pixel_seconds = 40e-9;
+constexpr double lit_pixel_seconds = 100e-9;
+constexpr double question_seconds = 3e-9;  // whether light of one direction reaches a place
+constexpr double map_square_seconds = 5.5e-9;
+constexpr double shadowed_square_seconds = 6e-9;
+constexpr double ground_block_seconds = 1.45e-6;  // whether sun and sky reach the ground there
+constexpr double map_triangle_seconds = 20e-9;
+constexpr double triangle_seconds = 200e-9;
+constexpr double sample_seconds = 3e-9;
+constexpr double maps_of_sky = 64, maps_of_sun = 40;
+
+/// Polygons into which the patches of a drawing are divided. @param deviation  in millimetres
+double patch_polygons(const DrawingCost& drawing, double deviation) {
+    double sum = 0;
+    for (const auto& [bend, count] : drawing.bent) sum += count * polygons_of_patch(bend, deviation);
+    return sum;
+}
+
+/// Adds the pixels of a scene and their light.
+void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    const double fine = print.dpi / 25.4;
+    const double stems = drawing.lines - drawing.polygons;
+    // Of the two sides of surfaces one is seen, at all angles.
+    const double shown = (drawing.ink + 0.6 * drawing.area) * square(fine);
+    const double frame = std::max(1.0, drawing.size.x * drawing.size.y * square(fine));
+    const double covered = 0.7 * frame * (1 - std::exp(-shown / (0.7 * frame)));
+    const double pieces = 2 * patch_polygons(drawing, 0.2 / fine);
+    const double triangles = stems * 12 + drawing.points + pieces;
+    const bool is_lit = !print.style.light.is_flat;
+    cost.seconds += pixels * (is_lit ? lit_pixel_seconds : sampled_pixel_seconds) + triangles * triangle_seconds +
+                    shown * samples * sample_seconds;
+    cost.memory += samples * 12 * size.width * 32;
+    if (!is_lit) return;
+    const double reach = drawing.reach * fine;
+    const double side = reach < 512 ? 512 : reach <= 2048 ? 1024 : 2048;
+    const double shape = std::clamp(drawing.size.x / std::max(drawing.size.y, 1e-9), 0.1, 1.0);
+    const double squares = (maps_of_sky / 4 + maps_of_sun) * square(side) * std::max(0.35, shape);
+    const double casters = 2 * stems + drawing.points + 2 * patch_polygons(drawing, drawing.reach / side);
+    const double shadowed = shown * square(side / std::max(reach, 1.0));
+    cost.memory += 2 * squares + casters * lit_line_bytes;
+    const double block = print.dpi < 200 ? 1 : 2;
+    const double questions = covered / square(block) * 1.6 * 2 * (maps_of_sky + maps_of_sun);
+    const double ground = print.style.light.has_ground ? pixels / square(block) : 0;
+    // Small maps stay in the processor's cache.
+    const double distant = side > 512 ? 1 : 0.4;
+    cost.seconds += squares * map_square_seconds + casters * (maps_of_sky + maps_of_sun) * map_triangle_seconds +
+                    shadowed * (maps_of_sky / 4 + maps_of_sun) * shadowed_square_seconds +
+                    distant * (questions * question_seconds + ground * ground_block_seconds);
+}
+
+/// Seconds that a format takes for each pixel, and for each with ink.
+struct PictureSeconds {
+    double pixel, ink, bytes;
+};
+PictureSeconds seconds_of(PrintFormat format) {
+    switch (format) {
+        case PrintFormat::png:
+            return {9e-9, 60e-9, 0.01};
+        case PrintFormat::tiff:
+            return {14e-9, 40e-9, 0.01};
+        case PrintFormat::jpeg:
+            return {3e-9, 15e-9, 0.03};
+        case PrintFormat::exr:
+            return {34e-9, 40e-9, 0.01};
+        case PrintFormat::svg:
+        case PrintFormat::pdf:
+        case PrintFormat::eps:
+        case PrintFormat::gif:
+        case PrintFormat::hpgl:
+        case PrintFormat::gcode:
+        case PrintFormat::dxf:
+        case PrintFormat::obj:
+        case PrintFormat::glb:
+        case PrintFormat::stl:
+            break;
+    }
+    throw std::logic_error("the cost of a picture is forecast in the format of one");
+}
+
+void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& options, const DrawingCost& drawing,
+                 Cost& cost) {
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    const double fine = print.dpi / 25.4;
+    const PictureSeconds each = seconds_of(options.format);
+    // Pixels at the rims of lines and polygons are those that take time.
+    const double rims = std::min(pixels, drawing.length * fine * 3);
+    const double inked = std::min(pixels, drawing.ink * square(fine) + rims + drawing.area * square(fine) * 0.1);
+    cost.seconds += 0.004 + pixels * each.pixel + inked * each.ink;
+    cost.bytes += 1000 + pixels * each.bytes + inked * 1.0;
+    cost.band = drawing.thread_memory;
+    if (grammar.is_spatial()) return add_scene(print, drawing, cost);
+    cost.seconds +=
+        drawing.points * 60e-9 + drawing.length * fine * 4e-9 + (drawing.ink + drawing.area) * square(fine) * 2e-9;
+    if (print.style.hand > 0) cost.seconds += inked * 40e-9;
+}
+
+constexpr double plot_point_seconds = 1.2e-6;
+constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 400;
+
+/// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
+double shaded_polygons(const DrawingCost& drawing) {
+    constexpr double wide_stem = 0.8;  // millimetres
+    const double width = drawing.length > 0 ? drawing.ink / drawing.length : 0;
+    return (drawing.lines - drawing.polygons) * (width > wide_stem ? 8 : 2) + drawing.polygons +
+           patch_polygons(drawing, 0.1);
+}
+
+/// Seconds and bytes for each point of a straight line or, three for each step, of a curve, and for each polygon in a
+/// shade of its own; bytes of a file.
+struct WriterCost {
+    double line_seconds, curve_seconds, line_bytes, curve_bytes, shade_seconds, shade_bytes, bytes;
+};
+WriterCost writer_of(PrintFormat format) {
+    switch (format) {
+        case PrintFormat::svg:
+            return {20e-9, 80e-9, 5, 30, 3e-6, 90, 700};
+        case PrintFormat::pdf:
+            return {80e-9, 250e-9, 3, 12, 14e-6, 35, 2000};
+        case PrintFormat::eps:
+            return {40e-9, 120e-9, 15, 45, 5e-6, 110, 1200};
+        case PrintFormat::hpgl:
+            return {100e-9, 2e-6, 12, 60, 0, 0, 500};
+        case PrintFormat::gcode:
+            return {250e-9, 2e-6, 20, 60, 0, 0, 500};
+        case PrintFormat::dxf:
+            return {200e-9, 2e-6, 40, 400, 0, 0, 500};
+        case PrintFormat::png:
+        case PrintFormat::tiff:
+        case PrintFormat::jpeg:
+        case PrintFormat::exr:
+        case PrintFormat::gif:
+        case PrintFormat::obj:
+        case PrintFormat::glb:
+        case PrintFormat::stl:
+            break;
+    }
+    throw std::logic_error("the cost of lines is forecast in a format of lines");
+}
+
+}  // namespace
+
+Cost base_cost(bool pictures) {
+    Cost base;
+    base.seconds = base.shared_seconds = pictures ? 0.26 : 0.003;
+    base.memory = base.shared_memory = pictures ? 130e6 : 7e6;
+    return base;
+}
+
+Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& options) {
+    const DrawingCost drawing = drawing_cost(grammar, print, options);
+    const bool has_pixels = !is_vector(options.format);
+    Cost cost = base_cost(has_pixels);
+    cost.seconds += drawing.seconds + 0.001;
+    cost.memory += drawing.memory + static_cast<double>(print.pattern.size());
+    cost.bytes = static_cast<double>(print.pattern.size());
+    if (has_pixels) {
+        add_picture(grammar, print, options, drawing, cost);
+        return cost;
+    }
+    const bool spline = print.style.line == Line::spline;
+    const WriterCost writer = writer_of(options.format);
+    double points = drawing.points;
+    const bool is_plot = options.plot || is_for_plotters(options.format);
+    if (grammar.is_spatial() && !is_plot) {
+        const double shades = shaded_polygons(drawing);
+        cost.seconds += shades * writer.shade_seconds;
+        cost.bytes += shades * writer.shade_bytes;
+    }
+    if (is_plot) {
+        // Lines in space are drawn as far as nothing hides them.
+        if (grammar.is_spatial()) {
+            points += drawing.lines * 8 + patch_polygons(drawing, 0.1) * 2;
+            cost.memory += points * hidden_point_bytes;
+        }
+        points *= options.plot ? plot_passes(print, *options.plot) : 1;
+        cost.seconds += points * (grammar.is_spatial() ? hidden_point_seconds : plot_point_seconds);
+    }
+    cost.seconds += points * (spline ? writer.curve_seconds : writer.line_seconds);
+    cost.bytes += writer.bytes + points * (spline ? writer.curve_bytes : writer.line_bytes);
+    return cost;
+}
+
+namespace {
+
+constexpr double relief_triangle_seconds = 1.8e-6, relief_triangle_bytes = 140;
+constexpr double coloured_triangle_seconds = 4e-6, coloured_triangle_bytes = 400;
+constexpr double model_triangle_seconds = 0.25e-6;
+constexpr double written_triangle_seconds = 2.6e-6;  // of a text
+constexpr double frame_pixel_seconds = 8e-9;
+constexpr double frame_ink_seconds = 25e-9;
+
+/// A frame of an animated GIF: its pixels are drawn, compared, and what has changed is written.
+double frame_seconds(const Print& print, const DrawingCost& drawing) {
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    const double fine = print.dpi / 25.4;
+    const double inked = std::min(pixels, drawing.length * fine * 3 + drawing.ink * square(fine));
+    return 0.0005 + pixels * frame_pixel_seconds + inked * frame_ink_seconds;
+}
+
+}  // namespace
+
+Cost solid_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, PrintFormat format) {
+    const DrawingCost drawing = drawing_cost(grammar, print, options);
+    const bool spline = print.style.line == Line::spline;
+    Cost cost = base_cost(false);
+    cost.seconds += drawing.seconds + 0.001;
+    cost.memory += drawing.memory + static_cast<double>(print.pattern.size());
+    const double bytes = format == PrintFormat::stl ? 50 : format == PrintFormat::glb ? 30 : 80;
+    double triangles = 0;
+    if (options.relief) {
+        // The outlines of two lines that cross have four points in common; lines along polygons are left out.
+        constexpr double of_line = 16, of_curve = 120, of_corner = 4, of_crossing = 32;
+        const double page = std::max(drawing.size.x * drawing.size.y, 1.0);
+        triangles = drawing.points * (drawing.polygons > 0 ? of_corner
+                                      : spline             ? of_curve
+                                                           : of_line) +
+                    of_crossing * square(drawing.length) / (std::numbers::pi * page);
+        triangles = std::min(triangles, 2.0 * static_cast<double>(most_relief_triangles));
+        const bool is_stl = format == PrintFormat::stl;
+        cost.seconds += triangles * (is_stl ? relief_triangle_seconds : coloured_triangle_seconds);
+        cost.memory += triangles * (is_stl ? relief_triangle_bytes : coloured_triangle_bytes);
+    } else {
+        triangles = (drawing.lines - drawing.polygons) * 6 + drawing.points + drawing.patches * 200;
+        cost.seconds += triangles * (format == PrintFormat::obj ? written_triangle_seconds : model_triangle_seconds);
+        cost.memory += triangles * 110;
+    }
+    cost.bytes = static_cast<double>(print.pattern.size()) + 1000 + triangles * bytes;
+    return cost;
+}
+
+Cost growth_cost(const Grammar& grammar, const Print& print, const DrawOptions& options,
+                 const GrowthOptions& growth) {
+    constexpr std::int64_t most_looked_at = 8;
+    constexpr double motion_frames = 8;  // between generations of a map
+    Cost sum = base_cost(!growth.is_animation && !is_vector(options.format));
+    const std::int64_t count = growth.last - growth.first + 1;
+    const std::int64_t looked_at = std::min(count, most_looked_at);
+    const double each = static_cast<double>(count) / static_cast<double>(looked_at);
+    for (std::int64_t i = 0; i < looked_at; ++i) {
+        // The last one is the most expensive.
+        const std::int64_t n = growth.last - i * count / looked_at;
+        const auto generation = grammar.with_steps(n);
+        if (!generation) continue;
+        if (!growth.is_animation) {
+            const Cost own = print_cost(*generation, print, options);
+            sum.seconds += each * (own.seconds - own.shared_seconds);
+            sum.bytes += each * own.bytes;
+            sum.memory = std::max(sum.memory, own.memory);
+            sum.band = std::max(sum.band, own.band);
+            continue;
+        }
+        const DrawingCost drawing = drawing_cost(*generation, print, options);
+        Cost scene;
+        if (grammar.is_spatial()) add_scene(print, drawing, scene);
+        // All generations are read once more for the frame that they share.
+        const double frames = grammar.map() ? motion_frames : 1;
+        const double frame = frame_seconds(print, drawing) + scene.seconds;
+        sum.seconds += each * (2 * drawing.seconds + frames * frame);
+        sum.bytes += each * frames * frame_seconds(print, drawing) * 1e6;
+        sum.memory = std::max(sum.memory, base_cost(false).memory + drawing.memory + scene.memory);
+    }
+    return sum;
+}
+
+Cost division_cost(const Grammar& grammar, const Print& print, const DrawOptions& options,
+                   const DivisionOptions& division) {
+    constexpr double pictures_of_second = 25, bytes_of_moving_tile = 60;
+    Cost cost = base_cost(false);
+    const auto stages = static_cast<double>(division.last - division.first + 1);
+    const DrawingCost drawing = drawing_cost(grammar, print, options);
+    cost.seconds += 3 * drawing.seconds;
+    cost.memory += drawing.memory;
+    if (!division.is_gif) {
+        cost.seconds += drawing.points * 1e-6;
+        cost.bytes = drawing.points * bytes_of_moving_tile;
+        return cost;
+    }
+    const double frames = stages + (stages - 1) * division.times.division * pictures_of_second;
+    // Most of them have fewer tiles than the last.
+    cost.seconds += frames * (frame_seconds(print, drawing) + drawing.seconds / 2);
+    cost.bytes = frames * frame_seconds(print, drawing) * 1e6;
+    return cost;
+}
+
+Cost lesson_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, bool is_animation) {
+    constexpr double lines_of_step = 24, frames_of_step = 6, most_pages = 40, most_cells = 10;
+    DrawOptions drawn = options;
+    drawn.lesson_step = 0;
+    const DrawingCost drawing = drawing_cost(grammar, print, drawn);
+    const bool has_pixels = !is_vector(options.format);
+    const double steps =
+        std::clamp(drawing.lines / lines_of_step, 1.0, has_pixels && !is_animation ? most_cells : most_pages);
+    Cost cost = base_cost(has_pixels && !is_animation);
+    cost.memory += drawing.memory;
+    cost.seconds += drawing.seconds;
+    if (is_animation) {
+        cost.seconds += steps * frames_of_step * frame_seconds(print, drawing);
+        cost.bytes = steps * frames_of_step * 5000;
+    } else if (has_pixels) {
+        const Cost own = print_cost(grammar, print, options);
+        cost.seconds += own.seconds - own.shared_seconds + steps * drawing.seconds / 4;
+        cost.bytes = own.bytes;
+    } else {
+        const double points = steps * drawing.points * 14;
+        cost.seconds += points * 250e-9;
+        cost.bytes = points * 12;
+    }
+    return cost;
+}
+
+}  // namespace sikku

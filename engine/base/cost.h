@@ -1,0 +1,16 @@
+// engine/base/cost.h: estimated costs of works.
+#pragma once
+
+namespace sikku {
+
+/// Estimated cost of a work in a program that makes nothing else.
+struct Cost {
+    double seconds = 0;         ///< processor time on the machine of docs/performance.md
+    double bytes = 0;           ///< size of the outputs
+    double memory = 0;          ///< peak memory in bytes
+    double band = 0;            ///< additional bytes for each thread that renders pixels
+    double shared_seconds = 0;  ///< of `seconds`, what the works of one program take together only once
+    double shared_memory = 0;   ///< of `memory` likewise
+};
+
+}  // namespace sikku

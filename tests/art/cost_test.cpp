@@ -1,0 +1,115 @@
+// tests/art/cost_test.cpp: forecasts of prints: what they grow with, and that refusals come early.
+#include "art/print/format.h"
+#include "art/prints.h"
+#include "engine/derivation/derivation.h"
+#include "engine/language/pattern_library.h"
+#include "tests/files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace sikku {
+namespace {
+
+Document bundled_pattern(const std::string& name) {
+    const PatternFile file = find_pattern(name, PatternLibrary(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns"));
+    return parse(file.name, read_pattern(file));
+}
+
+Cost cost(const Document& document, const char* format, OptionValues values = {}) {
+    return prints().plan(document, format, values)->forecast();
+}
+
+double own(const Cost& cost) {
+    return cost.seconds - cost.shared_seconds;
+}
+
+TEST(PrintCost, LightTakesMostOfTheTimeOfAPictureInSpace) {
+    const Document plant = bundled_pattern("lilac");
+    const double flat = own(cost(plant, "png", {{"light", "flat"}, {"size", "A5"}}));
+    const double lit = own(cost(plant, "png", {{"size", "A5"}}));
+    EXPECT_GT(lit, 5 * flat);
+    EXPECT_GT(lit, 3);
+    // Light is asked for by pixels and not by lines.
+    const double large = own(cost(plant, "png", {{"size", "A3"}}));
+    EXPECT_GT(large, 2.5 * lit);
+    EXPECT_LT(large, 5 * lit);
+    EXPECT_GT(cost(plant, "png", {{"size", "A3"}}).memory, cost(plant, "png", {{"light", "flat"}}).memory + 100e6);
+}
+
+TEST(PrintCost, PicturesGrowWithTheirPixels) {
+    const Document snake = bundled_pattern("snake-kolam");
+    for (const char* format : {"png", "tif", "jpg", "exr"}) {
+        const double small = own(cost(snake, format, {{"size", "A4"}}));
+        EXPECT_NEAR(own(cost(snake, format, {{"size", "A2"}})) / small, 4, 0.7) << format;
+        EXPECT_NEAR(own(cost(snake, format, {{"size", "A4"}, {"dpi", "600"}})) / small, 4, 0.7) << format;
+    }
+    EXPECT_NEAR(cost(snake, "svg", {{"size", "A4"}}).seconds, cost(snake, "svg", {{"size", "A0"}}).seconds, 1e-3);
+}
+
+/// Parameters, chance and contexts: only deriving determines their lengths.
+TEST(PrintCost, WordsOfUnknownLengthAreDerived) {
+    const std::string drawn = "\nstroke: 0.2mm\n";
+    for (const std::string rules : {"axiom: A(1)\nA(x) : x > 0 --> F(x)A(x+1)A(x+2)",
+                                    "axiom: F\nF --> FF : 2\nF --> F+F : 1", "axiom: FFF\nF < F --> FF\nF --> FF"}) {
+        const auto at = [&](int n) {
+            return cost(parse("word.lsys", rules + drawn + "derivation length: " + std::to_string(n) + "\n"), "svg");
+        };
+        EXPECT_LT(at(4).seconds, 0.01) << rules;
+        EXPECT_LT(at(4).memory, 12e6) << rules;
+        // Twice as long with each step, whether they are read or extrapolated.
+        for (const int n : {10, 14, 18, 20}) {
+            const double growth = at(n + 1).bytes / at(n).bytes;
+            EXPECT_GT(growth, 1.4) << rules << ' ' << n;
+            EXPECT_LT(growth, 3) << rules << ' ' << n;
+        }
+    }
+}
+
+TEST(PrintCost, OfEveryFormatIsForecast) {
+    const Document dragon = bundled_pattern("dragon");
+    const Document bush = bundled_pattern("bush-3d");
+    for (const FormatInfo& row : print_formats()) {
+        OptionValues values;
+        if (row.kind == FormatKind::animation) values = {{"generations", "1:4"}};
+        if (row.format == PrintFormat::stl) values = {{"relief", ""}};
+        const Document& document = row.kind == FormatKind::model && row.format != PrintFormat::stl ? bush : dragon;
+        const Cost found = cost(document, std::string(row.extension).c_str(), values);
+        EXPECT_GT(found.seconds, found.shared_seconds) << row.extension;
+        EXPECT_LT(found.seconds, 30) << row.extension;
+        EXPECT_GT(found.memory, found.shared_memory) << row.extension;
+        EXPECT_GT(found.bytes, 100) << row.extension;
+        EXPECT_EQ(found.shared_seconds > 0.1, row.kind == FormatKind::pixels) << row.extension;
+    }
+}
+
+TEST(PrintCost, GenerationsAndLessonsAreMorePicturesThanOne) {
+    const Document dragon = bundled_pattern("dragon");
+    const OptionValues one = {{"generations", "8:8"}}, many = {{"generations", "1:8"}};
+    EXPECT_GT(own(cost(dragon, "gif", many)), 3 * own(cost(dragon, "gif", one)));
+    // On one page they share its pixels.
+    EXPECT_LT(own(cost(dragon, "png", many)), 2 * own(cost(dragon, "png")));
+    const Document snake = bundled_pattern("snake-kolam");
+    EXPECT_GT(own(cost(snake, "gif", {{"lesson", ""}})), 20 * own(cost(snake, "svg")));
+}
+
+std::uint64_t work_before_refusal(const Document& document, const char* format, const OptionValues& values) {
+    std::uint64_t units = 0;
+    const Monitor monitor(
+        nullptr, [](void* sum, std::uint64_t more) { *static_cast<std::uint64_t*>(sum) += more; }, &units);
+    EXPECT_THROW(draw(document, format, values, monitor), BudgetError);
+    return units;
+}
+
+TEST(Refusals, OfViewsComeBeforeTheWalk) {
+    const Document tree = parse("tree.lsys", "axiom: F\nderivation length: 25\nF --> FFF+F[F]F\nstroke: 0.2mm\n");
+    EXPECT_LT(work_before_refusal(tree, "png", {{"size", "A2"}}), 20'000'000u);
+    // The part in the window is a small one of the whole, and still too large.
+    EXPECT_LT(work_before_refusal(tree, "svg", {{"window", "0,0,100000,100000"}}), 20'000'000u);
+    EXPECT_NO_THROW(draw(tree, "png", {{"window", "0,0,40,30"}, {"size", "40x30mm"}}));
+}
+
+}  // namespace
+}  // namespace sikku
