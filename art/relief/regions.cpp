@@ -1,6 +1,10 @@
 #include "art/relief/regions.h"
 
 #include "art/relief/constrained_triangulation.h"
+#include "art/relief/crossings.h"
+#include "engine/derivation/derivation.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -91,6 +95,7 @@ public:
         points_.resize(places_.size());
         for (const auto& [along, i] : order) points_[i] = triangulation.add(places_[i]);
     }
+    std::size_t size() const { return places_.size(); }
     std::uint32_t operator[](Micrometres place) const {
         return points_[static_cast<std::size_t>(std::lower_bound(places_.begin(), places_.end(), place, is_before) -
                                                 places_.begin())];
@@ -110,6 +115,25 @@ void connect(const std::vector<Border>& borders, const Ends& ends, Windings& win
         }
         triangulation.connect(ends[borders[i].from], ends[borders[i].to], sum);
     }
+}
+
+/// Refuses borders with too many crossings before any is triangulated, which takes 3 us and more for each.
+void require_affordable(const std::vector<Border>& borders, std::size_t ends, double tolerance,
+                        const Monitor& monitor) {
+    constexpr std::size_t few = 5'000;  // whose crossings are found in less than a second, however many they are
+    constexpr std::size_t most = ConstrainedTriangulation::most_points;
+    if (borders.size() < few) return;
+    std::vector<OutlineEdge> segments;
+    segments.reserve(borders.size());
+    for (std::size_t i = 0; i < borders.size(); ++i) {
+        if (i == 0 || !borders[i].lies_with(borders[i - 1])) segments.push_back({borders[i].from, borders[i].to});
+    }
+    const std::size_t left = most - std::min(most, ends);
+    const std::size_t crossings = count_crossings(segments, tolerance, left, monitor);
+    if (crossings <= left) return;
+    throw BudgetError(fmt::format(
+        "with its crossings the relief has more than {} million points; choose a shorter derivation or a window",
+        most / 1'000'000));
 }
 
 /// The region of each triangle, from one of the frame inwards.
@@ -165,6 +189,7 @@ PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, co
     const std::vector<Border> borders = borders_of(edges, monitor);
     if (borders.empty()) return plane;
     Ends ends(borders, monitor);
+    require_affordable(borders, ends.size(), tolerance, monitor);
     Windings windings;
     const auto [low, high] = ends.frame();
     ConstrainedTriangulation triangulation(low, high, tolerance, windings, monitor);
