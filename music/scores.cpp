@@ -744,10 +744,18 @@ ScoreFormatCost cost_of(ScoreFormat format) {
         case ScoreFormat::pdf:
             return {2, 10'000, 120e6, 2e-3, 300, 20'000};
         case ScoreFormat::mxl:
-            return {0.001, 1000, 2e6, 4e-6, 12, 300};
-        default:
-            return {0.001, 1000, 2e6, 1.2e-6, 120, 300};
+            return {0.001, 1000, 2e6, 2.5e-6, 12, 110};
+        case ScoreFormat::musicxml:
+        case ScoreFormat::lilypond:
+        case ScoreFormat::abc:
+        case ScoreFormat::csd:
+        case ScoreFormat::sco:
+        case ScoreFormat::strudel:
+        case ScoreFormat::svg:
+        case ScoreFormat::html:
+            break;
     }
+    return {0.001, 1000, 2e6, 0.5e-6, 120, 110};
 }
 
 }  // namespace

@@ -225,7 +225,8 @@ namespace {
 
 // --- pictures of drawings in space
 
-constexpr double samples = 16;  // of a pixel
+constexpr double samples = 16;       // of a pixel
+constexpr double facet_bytes = 160;  // of a polygon of a divided surface
 
 /// Of all pixels of a drawing in space.
 constexpr double sampled_pixel_seconds = 40e-9;
@@ -261,7 +262,7 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
     const bool is_lit = !print.style.light.is_flat;
     cost.seconds += pixels * (is_lit ? lit_pixel_seconds : sampled_pixel_seconds) + triangles * triangle_seconds +
                     shown * samples * sample_seconds;
-    cost.memory += samples * 12 * size.width * 32;
+    cost.memory += samples * 12 * size.width * 32 + pieces * facet_bytes;
     if (!is_lit) return;
     const double reach = drawing.reach * fine;
     const double side = reach < 512 ? 512 : reach <= 2048 ? 1024 : 2048;
@@ -328,7 +329,7 @@ void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& 
 }
 
 constexpr double plot_point_seconds = 1.2e-6;
-constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 400;
+constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 200;
 
 /// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
 double shaded_polygons(const DrawingCost& drawing) {
@@ -397,6 +398,7 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
     if (grammar.is_spatial() && !is_plot) {
         const double shades = shaded_polygons(drawing);
         cost.seconds += shades * writer.shade_seconds;
+        cost.memory += shades * facet_bytes;
         cost.bytes += shades * writer.shade_bytes;
     }
     if (is_plot) {
