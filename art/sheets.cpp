@@ -265,7 +265,8 @@ private:
             add_cell(item, folder);
         } catch (const SettingError& error) {
             const std::string name = std::filesystem::path(item.document.source().name()).filename().string();
-            throw SettingError(error.option(), error.value(), fmt::format("{} (drawing '{}')", error.message(), name));
+            throw SettingError(error.option(), error.value(),
+                               fmt::format("{} (drawing '{}')", error.message(), name));
         }
     }
 

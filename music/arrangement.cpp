@@ -349,9 +349,9 @@ private:
             const Key* stated = document.pattern().find(key);
             if (!stated || stated->value.view() == one.setting.value) continue;
             // The track may set the key itself.
-            const bool is_own = std::any_of(track.settings.begin() + static_cast<std::ptrdiff_t>(shared_.size()),
-                                            track.settings.end(),
-                                            [&](const PlacedSetting& own) { return own.setting.key == key; });
+            const bool is_own =
+                std::any_of(track.settings.begin() + static_cast<std::ptrdiff_t>(shared_.size()),
+                            track.settings.end(), [&](const PlacedSetting& own) { return own.setting.key == key; });
             auto& keys = replaced_[track.pattern];
             if (!is_own && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
         }
@@ -360,10 +360,10 @@ private:
     void add_remarks() {
         for (const auto& [pattern, keys] : replaced_) {
             if (keys.empty()) continue;
-            result_.remarks.push_back(
-                fmt::format("'{}' states {} itself, but the piece's, above the tracks, {}; to keep its own, state it in "
-                            "the tracks instead",
-                            printable(pattern), fmt::join(keys, ", "), keys.size() == 1 ? "applies" : "apply"));
+            result_.remarks.push_back(fmt::format(
+                "'{}' states {} itself, but the piece's, above the tracks, {}; to keep its own, state it in "
+                "the tracks instead",
+                printable(pattern), fmt::join(keys, ", "), keys.size() == 1 ? "applies" : "apply"));
         }
     }
 

@@ -4,8 +4,8 @@
 #include "art/drawing/drawing.h"
 #include "art/drawing/united_lines.h"
 #include "art/image/image_file.h"
-#include "engine/geometry/lettering.h"
 #include "art/vector/pdf.h"
+#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 

@@ -10,8 +10,9 @@ namespace sikku {
 /// True for a visible ink whose colour differs by less than 15 from that of the ground (see colour_difference()).
 bool is_faint(Colour ink, Colour ground);
 
-/// The colours of lines, discs and areas that are faint on the ground, each once. Polygons with outlines are left out; so is everything on a transparent ground.
-/// Reads the drawing again, up to ten million points, only if its palette has such colours. @param print  placed
+/// The colours of lines, discs and areas that are faint on the ground, each once. Polygons with outlines are left
+/// out; so is everything on a transparent ground. Reads the drawing again, up to ten million points, only if its
+/// palette has such colours. @param print  placed
 /// @throws Stopped
 std::vector<FaintInk> faint_inks(const Drawing& drawing, const Print& print);
 

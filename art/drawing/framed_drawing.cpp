@@ -2,8 +2,8 @@
 
 #include "art/drawing/word_drawing.h"
 #include "art/print/border_ink.h"
-#include "engine/geometry/lettering.h"
 #include "art/print/ornaments.h"
+#include "engine/geometry/lettering.h"
 #include "engine/geometry/moved_path.h"
 
 #include <fmt/format.h>

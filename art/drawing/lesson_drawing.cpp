@@ -1,7 +1,7 @@
 #include "art/drawing/lesson_drawing.h"
 
-#include "engine/geometry/lettering.h"
 #include "art/print/ornaments.h"
+#include "engine/geometry/lettering.h"
 #include "engine/geometry/point_tree.h"
 
 #include <fmt/format.h>

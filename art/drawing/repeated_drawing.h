@@ -49,7 +49,7 @@ private:
     glm::dvec2 centre_{0.0};        ///< of its mass
     double covered_ = 0;            ///< see DrawReport
     double covered_by_moves_ = 0;
-    std::size_t strokes_ = 0;       ///< of one copy
+    std::size_t strokes_ = 0;  ///< of one copy
 };
 
 }  // namespace sikku

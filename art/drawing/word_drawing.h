@@ -65,7 +65,8 @@ Grammar resolved(const Grammar& given, const DrawOptions& options);
 /// Thrown if nothing is drawn.
 class NothingDrawn : public std::runtime_error {
 public:
-    NothingDrawn() : std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label") {}
+    NothingDrawn()
+        : std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label") {}
 };
 /// @throws NothingDrawn if the box is empty
 void require_ink(const Box& box);

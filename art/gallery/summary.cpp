@@ -238,7 +238,7 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 }  // namespace
 
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Monitor& monitor) {
+                               const std::filesystem::path& file, const Monitor& monitor) {
     const std::vector<SheetCell> cells = cells_of(jobs, request);
     if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);

@@ -37,7 +37,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 /// @return the characters of its texts that the lettering does not have, as a list
 /// @throws GalleryError if no job is a print, and everything that draw_sheet() throws
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
-                        const std::filesystem::path& file, const Monitor& monitor);
+                               const std::filesystem::path& file, const Monitor& monitor);
 
 /// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

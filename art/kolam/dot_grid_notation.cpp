@@ -350,13 +350,13 @@ std::string dot_grid_note(std::string_view given) {
     const std::vector<std::uint32_t> rows = grid.rows();
     if (rows.size() == 1 && rows[0] > 2) {
         const std::uint32_t least = rows[0] % 2 == 0 ? 2 : 1;
-        return fmt::format("one row of {} dots; for rows from {} up to {} and back write {}-{}", rows[0], least, rows[0],
-                           rows[0], least);
+        return fmt::format("one row of {} dots; for rows from {} up to {} and back write {}-{}", rows[0], least,
+                           rows[0], rows[0], least);
     }
     // A jump of more than two dots.
     if (rows.size() != 3 || rows[0] != rows[2] || rows[1] <= rows[0] + 2) return "";
-    return fmt::format("three rows of {}, {} and {} dots; for {} up to {} and back write {}-{}", rows[0], rows[1], rows[2],
-                       rows[0], rows[1], rows[1], rows[0]);
+    return fmt::format("three rows of {}, {} and {} dots; for {} up to {} and back write {}-{}", rows[0], rows[1],
+                       rows[2], rows[0], rows[1], rows[1], rows[0]);
 }
 
 }  // namespace sikku

@@ -33,8 +33,8 @@ constexpr int most_copies = 10'000;
 /// Parses `GROUP[:COUNT][,gap=GAP]`. The group is a wallpaper group by its name (p1 p2 pm pg cm pmm pmg pgg cmm p4
 /// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3), or `fill` or `COLUMNSxfill` to cover the page; a
 /// frieze group: frieze (translations alone), frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells
-/// (5), or `fill` for a row from edge to edge of the page; or ring with a number of copies (8). The gap is in steps, or in percent of the drawing's larger side (8%).
-/// Nullopt for anything else and for more than most_copies.
+/// (5), or `fill` for a row from edge to edge of the page; or ring with a number of copies (8). The gap is in steps,
+/// or in percent of the drawing's larger side (8%). Nullopt for anything else and for more than most_copies.
 std::optional<Repeat> parse_repeat(std::string_view text);
 
 /// All names of groups, in the order of parse_repeat().

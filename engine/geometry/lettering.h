@@ -12,8 +12,9 @@
 namespace sikku {
 
 /// Lengths are in the unit of the sink; `height` is that of a capital letter. Text is UTF-8: printable ASCII, Latin
-/// letters with their accents (also as combining marks), dashes, quotation marks, currencies, fractions and other signs
-/// of titles, and modern Tamil. Other characters, and bytes that are not UTF-8, become a box; a line break is a space.
+/// letters with their accents (also as combining marks), dashes, quotation marks, currencies, fractions and other
+/// signs of titles, and modern Tamil. Other characters, and bytes that are not UTF-8, become a box; a line break is a
+/// space.
 
 /// Height of accents above capital letters, and of descenders below the line, as parts of the height.
 constexpr double letter_ascent = 1.4;

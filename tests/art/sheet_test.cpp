@@ -1,8 +1,8 @@
 #include "art/sheet/sheet.h"
 
-#include "engine/geometry/lettering.h"
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
+#include "engine/geometry/lettering.h"
 #include "tests/print_tools.h"
 
 #include <algorithm>

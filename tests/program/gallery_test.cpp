@@ -341,10 +341,10 @@ TEST_F(GalleryTest, MakesAPageAndSheets) {
 }
 
 TEST_F(GalleryTest, PostersThatComeAlong) {
-    for (const char* name : {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-4.4",
-                             "figure-4.5", "figure-6.7", "figure-6.8", "figure-1.3", "figure-1.4", "figure-3.12",
-                             "figure-3.14", "csiro-figure-9", "csiro-figure-12", "csiro-figure-14", "csiro-figure-15",
-                             "csiro-figure-17"}) {
+    for (const char* name :
+         {"figure-2.2", "figure-2.5", "figure-3.5", "figure-3.9", "figure-3.10", "figure-4.4", "figure-4.5",
+          "figure-6.7", "figure-6.8", "figure-1.3", "figure-1.4", "figure-3.12", "figure-3.14", "csiro-figure-9",
+          "csiro-figure-12", "csiro-figure-14", "csiro-figure-15", "csiro-figure-17"}) {
         const Outcome outcome = gallery({"--file", name, "-o", name});
         ASSERT_EQ(outcome.status, 0) << outcome.errors;
         EXPECT_TRUE(tree(folder.file(name)).contains("poster.pdf"));
