@@ -50,7 +50,7 @@ auto blaming_link(const OptionValues& shared, const OptionValues& given, Work&& 
         return work();
     } catch (const SettingError& error) {
         if (!has_option(shared, error.option()) || has_option(given, error.option())) throw;
-        throw SettingError(error.option(), error.value(), std::string(error.what()) + " (the link sets this option)");
+        throw SettingError(error.option(), error.value(), error.message() + " (the link sets this option)");
     }
 }
 

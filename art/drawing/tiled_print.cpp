@@ -161,11 +161,12 @@ std::uint64_t write_vector_tile(const TileWork& work, const Tile& tile, Output& 
     writer->begin_part(part, shown);
     ClipSink clip(*writer, seen_box(part, shown, work.pen));
     work.drawing.read(part, moved(whole_page(work.print.page), corner), clip);
+    const std::uint64_t polygons = writer->polygons();  // without those of the marks
     const Print marks = mark_print(sheet.page, sheet.dpi, work.print.style.ground);
     writer->begin_part(marks, whole_page(marks.page));
     draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     writer->finish();
-    return writer->polygons();
+    return polygons;
 }
 
 void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, const std::filesystem::path& name) {
@@ -195,6 +196,7 @@ void write_picture_tile(const TileWork& work, const Tile& tile, Output& output, 
 std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
     const auto writer = write_pdf_pages(work.print, output);
     work.drawing.read(work.print, *writer);
+    const std::uint64_t polygons = writer->polygons();  // without those of the marks
     const Page& sheet = work.tiling.sheet;
     const Page& page = work.print.page;
     Print marks = mark_print(sheet, work.print.dpi, work.print.style.ground);
@@ -214,7 +216,7 @@ std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
         draw_tile_marks(work.tiling, tile, work.print.title, *writer);
     }
     writer->finish();
-    return writer->polygons();
+    return polygons;
 }
 
 /// Places the whole drawing. With a fixed step the page grows to the size of the drawing and its border, whose width

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/drawing/draw_options.h"
+#include "art/drawing/word_drawing.h"
 #include "art/sheet/sheet.h"
 #include "engine/derivation/derivation.h"
 
@@ -23,6 +24,8 @@ auto named_cell(const SheetCell& cell, Work&& work) {
         throw BudgetError(told(error));
     } catch (const WordError& error) {
         throw WordError(told(error));
+    } catch (const NothingDrawn& error) {
+        throw std::runtime_error(told(error));
     } catch (const std::runtime_error& error) {
         if (typeid(error) != typeid(std::runtime_error)) throw;
         throw std::runtime_error(told(error));

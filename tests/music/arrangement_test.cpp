@@ -290,7 +290,8 @@ TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
         return all;
     };
     const std::string drone =
-        "[[pattern]]\nname = \"drone\"\ntext = \"\"\"\naxiom: FF\nscale: major\ntonic: C3\nunit: 1/4\n\"\"\"\n";
+        "[[pattern]]\nname = \"drone\"\ntext = \"\"\"\nheading: 0\naxiom: FF\nscale: major\ntonic: C3\nunit: "
+        "1/4\n\"\"\"\n";
     const std::string head = "scale = \"dorian\"\ntonic = \"D4\"\n";
     const std::string told = facts(head + drone + track("", "drone") + track("start = 2\n", "drone"));
     EXPECT_NE(told.find("'drone' states scale, tonic itself, but the piece's, above the tracks, apply"),

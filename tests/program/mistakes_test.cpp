@@ -124,7 +124,7 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
         {{"kolam", "--grid", "3x3", "-o", "x.svg"}, "expected a pattern file, NAME.lsys; `sikku draw` makes"},
         {{"draw", "koch", "-o", "m.svg"}, "no file or pattern named 'koch'; did you mean 'koch-curve'"},
         {{"gallery", "kolam"}, "no file or pattern named 'kolam'; did you mean 'kolams'?"},
-        {{"gallery", "--file", "foo"}, "no file or bundled gallery file named 'foo'; there are figure-"},
+        {{"gallery", "--file", "foo"}, "no file or bundled gallery file named 'foo'; there are csiro-figure-"},
         {{"gallery", "--file", "bare.toml"}, "bare.toml:1:"},
         {{"gallery", "--file", "bare.toml"}, "text needs quotes"},
         {{"gallery", "mine.lsys", "-f", "gif"}, "`sikku draw` makes them"}};
@@ -152,9 +152,9 @@ TEST_F(Mistakes, OfPatterns) {
         folder_.write("bad.lsys", text);
         return run_here({"check", "bad.lsys"}).output;
     };
-    EXPECT_TRUE(has(said("axiom: F\nangle: 90\n"), "did you mean 'angle increment'?"));
-    EXPECT_TRUE(has(said("axiom: F\nn: 3\n"), "did you mean 'derivation length'?"));
-    EXPECT_TRUE(has(said("axiom: F\ncolour: red\n"), "did you mean 'stroke'?"));
+    EXPECT_TRUE(has(said("axiom: F\nangle: 90\n"), "write 'angle increment: 90'"));
+    EXPECT_TRUE(has(said("axiom: F\nn: 3\n"), "write 'derivation length: 3'"));
+    EXPECT_TRUE(has(said("axiom: F\ncolour: red\n"), "write 'stroke: red'"));
     EXPECT_TRUE(has(said("# a comment\naxiom: F\n"), "a comment begins with '//'"));
     expect_refused({{"check", "loose.lsys"}, "loose.lsys:1:8: symbol 2 of the word: ']' without '['"});
     // Errors of the file, of its variants, and those that several variants share.

@@ -67,7 +67,7 @@ TEST(Play, SaysWhyLilyPondFails) {
     const std::string program = folder.write("lilypond", "");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
     for (const auto& [script, reason] : std::vector<std::pair<std::string, std::string>>{
-             {"echo boom >&2; exit 3", "lilypond failed: it ended with status 3; its last messages:\nboom"},
+             {"echo boom >&2; exit 3", "lilypond failed: it ended with status 3; its last messages:\n  boom"},
              {"exit 0", "lilypond failed: it wrote no PDF"},
              {"kill -9 $$", "lilypond failed: signal 9 ended it"}}) {
         folder.write("lilypond", "#!/bin/sh\n" + script + "\n");

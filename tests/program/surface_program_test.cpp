@@ -86,16 +86,16 @@ TEST(SurfaceProgram, FilesAreFoundBesideThePattern) {
         run({"-q", "draw", "sub/leafy.lsys", "--variant", "big", "-o", "b.svg"}, {.folder = folder.path()}).status,
         0);
     EXPECT_NE(contents(folder / "a.svg"), contents(folder / "b.svg"));
-    // Else they are in the working directory: a pattern from a pipe or a link lies nowhere.
+    // Otherwise they are in the working directory: a pattern from a pipe or a trusted link has no folder.
     const std::filesystem::path sub = folder / "sub";
     EXPECT_EQ(run({"-q", "draw", "-", "-o", "c.svg"}, {.input = leafy, .folder = sub}).status, 0);
     SharedWork work;
     work.name = "leafy.lsys";
     work.text = leafy;
     const std::string link = "#" + link_of(work);
-    EXPECT_EQ(run({"-q", "draw", link, "-o", "d.svg"}, {.folder = sub}).status, 0);
+    EXPECT_EQ(run({"-q", "draw", link, "--trust-link", "-o", "d.svg"}, {.folder = sub}).status, 0);
     EXPECT_EQ(contents(sub / "d.svg"), contents(sub / "c.svg"));
-    const Outcome outcome = run({"-q", "draw", link, "-o", "e.svg"}, {.folder = folder.path()});
+    const Outcome outcome = run({"-q", "draw", link, "--trust-link", "-o", "e.svg"}, {.folder = folder.path()});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.errors.find("leafy.lsys:5:17: 'leaf.s' cannot be read: No such file"), std::string::npos)
         << outcome.errors;
