@@ -176,8 +176,7 @@ TEST(Lettering, MissingCharactersAreNamedOnce) {
     EXPECT_EQ(missing_letters({"Würzburg „Kolam“ €", "அன்பு & மீரா"}), "");
     EXPECT_EQ(missing_letters({"日本 日", "a日"}), "日 (U+65E5), 本 (U+672C)");
     EXPECT_EQ(missing_letters({"\xff", "\x01"}), "the byte 0xff, U+0001");
-    EXPECT_EQ(letters_warning("日 (U+65E5)"),
-              "the lettering does not have 日 (U+65E5); an empty box stands in place of each");
+    EXPECT_EQ(letters_warning("日 (U+65E5)"), "the lettering font lacks 日 (U+65E5); an empty box replaces each");
 }
 
 std::u32string u32(std::string_view utf8) {
