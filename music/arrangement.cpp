@@ -342,7 +342,7 @@ private:
             {std::move(document), std::move(track.pattern), track.section, std::move(track.name)});
     }
 
-    /// Notes the keys of a pattern of this file that keys above the tracks replace.
+    /// Records the keys of a pattern of this file that keys above the tracks replace.
     void note_replaced(const Document& document, const TrackKeys& track) {
         for (const PlacedSetting& one : shared_) {
             const std::string& key = one.setting.key;

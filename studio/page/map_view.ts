@@ -157,7 +157,7 @@ export class MapView {
     get waiting(): string {
         if (this.isCurrent || this.failure) return "";
         if (this.studio.hasErrors) {
-            return this.isForeign ? "The text has errors: this is the picture of the pattern before." : "";
+            return this.isForeign ? "The text has errors: this is the picture of the previous pattern." : "";
         }
         if (this.failed) return "";
         return performance.now() - this.since > patience ? drawing : "";

@@ -114,7 +114,7 @@ const tests = {
         const page = await open("curves/hilbert");
         await current(page);
         await paste(page, "title: Broken\naxiom: F\nnonsense here\n");
-        await page.locator(".map-problem:visible", { hasText: "picture of the pattern before" }).waitFor();
+        await page.locator(".map-problem:visible", { hasText: "picture of the previous pattern" }).waitFor();
         assert.ok(await isStale(page, "map"));
         await page.keyboard.press("Control+z");
         await current(page);

@@ -256,7 +256,7 @@ TEST(PhotographMarks, RefusalsSayWhatWasFound) {
     // Nothing but a bar.
     Sketch bar(800, 600);
     bar.line({100, 300}, {700, 310}, 20);
-    EXPECT_EQ(refusal_of(bar), "no kolam found: no round spots, as dots are");
+    EXPECT_EQ(refusal_of(bar), "no kolam found: no round spots that could be dots");
     // Spots anywhere.
     Sketch spots(800, 600);
     PictureChance chance(7);

@@ -264,7 +264,8 @@ TEST(PolygonSvg, CountsRulesThatAreNotRead) {
         return all;
     };
     EXPECT_EQ(notes(".a{fill:red} @font-face{font-family:x;src:url(a)} text:hover{stroke:red}"), "");
-    const std::string one = "1 style rule not read: only simple selectors are, outside of @media and the like\n";
+    const std::string one =
+        "1 style rule not read: only simple selectors outside of @media and similar rules are supported\n";
     for (const char* sheet : {"g .a{fill:red}", "g>rect{fill:red}", "rect[x]{fill:none}",
                               "rect:first-child{fill:red}", "@media print{.a{fill:red}}", "@import url(a.css);",
                               ".a\\:b{fill:red}", "@media print{.a{stroke:red} .b{stroke:none;fill:red}}"}) {

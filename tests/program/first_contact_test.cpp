@@ -119,7 +119,7 @@ TEST(FirstContact, AnImportThatDrawsNothingSaysSoLast) {
     const Outcome outcome = run({"import", file, "-o", folder.file("plant.lsys")});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(outcome.errors.ends_with(
-        "sikku: warning: the pattern draws nothing: what draws is among what is not supported\n"))
+        "sikku: warning: the pattern draws nothing: the features that draw are not supported\n"))
         << outcome.errors;
     EXPECT_TRUE(has(run({"import", file, "--list"}).output, "draws nothing"));
     EXPECT_TRUE(
