@@ -214,7 +214,7 @@ TEST(Tamil, EverySyllableIsOneGlyphWithinItsRoom) {
             EXPECT_LE(sink.box.high.x, text_width(syllable, 1.0)) << syllable;
             EXPECT_GE(sink.box.low.y, -letter_descent) << syllable;
             EXPECT_LE(sink.box.high.y, letter_ascent) << syllable;
-            // A sign changes what is written.
+            // A sign changes the glyph.
             const Written plain = written(consonant, 1.0);
             EXPECT_TRUE(sink.segments != plain.segments || sink.box.high != plain.box.high ||
                         sink.box.low != plain.box.low)

@@ -140,8 +140,8 @@ TEST(TileWorms, AreDrawnAsStraightStrokes) {
     EXPECT_EQ(strokes({{"decorate", "worms"}}) - strokes({}), std::lround(count));
 }
 
-/// Colours and lines without effect are warned of.
-TEST(TileWorms, AreMissed) {
+/// Colours and lines without effect cause warnings.
+TEST(TileWorms, MissingWormsAreReported) {
     const auto warnings = [](const char* name, const OptionValues& more) {
         OptionValues values = {{"derivation length", "3"}, {"size", "100x100mm"}};
         values.insert(values.end(), more.begin(), more.end());

@@ -298,7 +298,7 @@ TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
               std::string::npos)
         << told;
     EXPECT_EQ(told.find("'drone'"), told.rfind("'drone'")) << "once";
-    // The track decides for itself, or the piece says the same.
+    // The track sets the key itself, or the piece sets the same value.
     EXPECT_EQ(facts(head + drone + track("scale = \"minor\"\ntonic = \"C3\"\n", "drone")).find("'drone'"),
               std::string::npos);
     EXPECT_EQ(facts("scale = \"major\"\n" + drone + track("", "drone")).find("'drone'"), std::string::npos);
