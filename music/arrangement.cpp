@@ -361,9 +361,9 @@ private:
         for (const auto& [pattern, keys] : replaced_) {
             if (keys.empty()) continue;
             result_.remarks.push_back(fmt::format(
-                "'{}' states {} itself, but the piece's, above the tracks, {}; to keep its own, state it in "
-                "the tracks instead",
-                printable(pattern), fmt::join(keys, ", "), keys.size() == 1 ? "applies" : "apply"));
+                "'{}' states {} itself, but {}; to keep its own, state it in the tracks instead", printable(pattern),
+                fmt::join(keys, ", "),
+                keys.size() == 1 ? "the value above the tracks applies" : "the values above the tracks apply"));
         }
     }
 

@@ -162,7 +162,7 @@ public:
         const auto write_rules = [&](const std::vector<Rule>& rules) {
             for (const Rule& rule : rules) {
                 body += written(rule);
-                if (body.size() > most_import_bytes) break;  // as is told then
+                if (body.size() > most_import_bytes) break;  // reported by the caller
             }
         };
         write_rules(system_.rules);

@@ -74,7 +74,7 @@ void expect_no_silent_loss(const MadePhotograph& made) {
             << place.first << "," << place.second << " is lost";
     }
     for (const auto& place : dots)
-        EXPECT_TRUE(truth.contains(place)) << place.first << "," << place.second << " is no dot";
+        EXPECT_TRUE(truth.contains(place)) << place.first << "," << place.second << " is not a dot";
     // Certain gaps between dots that were read are right.
     for (std::uint32_t gap = 0; gap < read.kolam.states.size(); ++gap) {
         if (read.kolam.is_doubtful(gap)) continue;

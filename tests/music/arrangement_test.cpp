@@ -294,7 +294,7 @@ TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
         "1/4\n\"\"\"\n";
     const std::string head = "scale = \"dorian\"\ntonic = \"D4\"\n";
     const std::string told = facts(head + drone + track("", "drone") + track("start = 2\n", "drone"));
-    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the piece's, above the tracks, apply"),
+    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the values above the tracks apply"),
               std::string::npos)
         << told;
     EXPECT_EQ(told.find("'drone'"), told.rfind("'drone'")) << "once";
