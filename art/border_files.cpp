@@ -10,8 +10,7 @@
 namespace sikku {
 namespace {
 
-/// Finds a pattern: `folders` in their order for files. Other names are those of bundled patterns, and never of
-/// files.
+/// Finds a pattern. Files are sought in `folders`, in their order; all other names are those of bundled patterns.
 PatternFile find_border(const std::string& name, std::initializer_list<std::filesystem::path> folders) {
     if (!lower_case(name).ends_with(".lsys")) {
         const PatternLibrary& library = PatternLibrary::bundled();

@@ -118,7 +118,8 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
     if (report.lacks_worms) {
         warnings.emplace_back("no tiles form worms: only rhombs do, three around a vertex");
     } else if (report.tiles_are_alike) {
-        warnings.emplace_back("'tile colours' gives all tiles one colour: they do not differ in what it colours by");
+        warnings.emplace_back(
+            "'tile colours' gives all tiles one colour: all tiles agree in the property that sets the colour");
     }
     if (report.woven && *report.woven == 0) warnings.emplace_back("'weave' has no effect: the lines do not cross");
     if (report.parallel && style.parallel.is_spaced && report.parallel->spacing < 0.999 * report.parallel->wanted) {

@@ -19,7 +19,7 @@ namespace sikku {
 /// @param tiles  number of filled polygons
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made);
 
-/// Warns that a text has characters that the lettering lacks. @param missing  list of them; empty: none
+/// Warns that a text has characters that the lettering font lacks. @param missing  list of them; empty: none
 void warn_of_letters(const std::string& missing, Made& made);
 
 /// A warning that an ink is hardly visible.

@@ -494,7 +494,7 @@ void warn_of_letters(const Grammar& grammar, Made& made) {
                         [](const LabelText::Part& part) { return has_letters(part.text); })) {
             continue;
         }
-        made.warn(fmt::format("the label of '{}' has characters that the lettering lacks: boxes stand for them",
+        made.warn(fmt::format("the label of '{}' has characters that the lettering font lacks: boxes replace them",
                               label.letter));
     }
 }

@@ -55,7 +55,7 @@ std::vector<Unused> by_format(const GivenOptions& given, const DrawSettings& set
             {"lift-time", !is_plot, no_plot},
             {"gcode-start", format != PrintFormat::gcode, "it applies only to G-code"},
             {"gcode-end", format != PrintFormat::gcode, "it applies only to G-code"},
-            {"icc", !is_picture, "only pictures contain a profile of their colours"},
+            {"icc", !is_picture, "only pictures contain a colour profile"},
             {"dpi", !is_picture && !given.has_pixels, label + " has no pixels, and no length is in px"},
             {"compression", format != PrintFormat::png, "it applies only to PNG"},
             {"ground", is_model || (is_for_plotters(format) && !depends_on_ground(settings, style)),
@@ -84,7 +84,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
         for (const char* arcs : {"arcs", "min-arc"}) {
             list.push_back({arcs, format == PrintFormat::gcode && plot.curves == 0, "the drawing has no curves"});
         }
-        list.push_back({"resume", plot.skipped <= 0, "the line with which the plot begins is longer"});
+        list.push_back({"resume", plot.skipped <= 0, "the first line of the plot is longer"});
     }
     list.push_back({"ridge", report.relief && report.relief->ridges.empty(), "no line is higher than the rest"});
     if (!report.contents) return list;

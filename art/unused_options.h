@@ -1,4 +1,4 @@
-// art/unused_options.h: options that a print accepts and that change nothing.
+// art/unused_options.h: options that a print accepts but that have no effect.
 #pragma once
 
 #include "art/draw_settings.h"

@@ -165,7 +165,7 @@ void import_file(const ImportOptions& options, bool quiet) {
     }
     if (!to_folder && !first.pattern.empty() && !first.draws) {
         tell_unless(quiet, "sikku: warning: the pattern draws nothing{}\n",
-                    first.losses.empty() ? "" : ": what draws is among what is not supported");
+                    first.losses.empty() ? "" : ": the features that draw are not supported");
     }
     const bool all_good =
         std::none_of(indices.begin(), indices.end(), [&](std::size_t i) { return systems[i].pattern.empty(); });

@@ -93,8 +93,8 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
     return {random_states(grid, random), random.symmetry};
 }
 
-/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; looked for as
-/// long as that is quick.
+/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; sought only
+/// as long as that is quick.
 std::optional<std::uint64_t> same_seed(const KolamGridOptions& options, const DotGrid& grid, const MadeKolam& made) {
     constexpr std::uint64_t most_seeds = 100;
     constexpr std::size_t most_gaps = 1000;

@@ -92,7 +92,7 @@ std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, c
     return text;
 }
 
-/// What a photograph shows beside the kolam that was read, as members of a JSON object.
+/// Findings in a photograph beside the kolam that was read, as members of a JSON object.
 std::string photograph_json(const Photograph& photograph) {
     const auto places = [&](const std::vector<GridDot>& list) {
         std::string text = "[";
@@ -149,7 +149,7 @@ void report(const ReadKolam& kolam, const Certificate& certificate, const std::s
     if (doubts.size() > most_listed) tell_unless(quiet, "  and {} more\n", doubts.size() - most_listed);
 }
 
-/// Where dots may be lost, and how to read other kolams.
+/// Reports places of possibly lost dots, and how to read other kolams.
 void report_places(const Photograph& photograph, bool quiet) {
     const auto list = [&](const std::vector<GridDot>& places, std::string_view what) {
         if (places.empty()) return;
@@ -164,7 +164,7 @@ void report_places(const Photograph& photograph, bool quiet) {
     list(photograph.open_ends, "open ends, where lines leave the kolam");
     list(photograph.missing, "places that may have a dot that was not seen");
     if (photograph.kolams > 1)
-        tell_unless(quiet, "sikku: --number 1 to {} reads another kolam\n", photograph.readable);
+        tell_unless(quiet, "sikku: --number 1 to {} selects another kolam\n", photograph.readable);
 }
 
 /// The kolam of a file, and the photograph if it is one.

@@ -209,7 +209,7 @@ void check_piece_options(const CLI::App& command, const PieceOptions& options) {
 void cut_pieces(const PieceOptions& options, const PieceSource& source, const TilingResult& result, bool as_json,
                 const Monitor& monitor, bool quiet) {
     const double step = length_in("step", options.step, 0.001, 10'000);
-    // The list says so itself.
+    // The list contains this message itself.
     if (const std::string missing = missing_pieces(result.examination);
         !missing.empty() && (as_json || !options.lists)) {
         tell("sikku: warning: {}\n", missing);
@@ -235,7 +235,7 @@ std::function<std::string(std::int32_t)> colour_as_drawn(const Document& documen
     Style style = read_print_style(document, settings);
     TileSet& all = result.patch.tiles;
     if (style.tile_colours == TileColours::blank) {
-        // Blank tiles are of one material.
+        // Blank tiles have one material.
         std::fill(all.colour.begin(), all.colour.end(), 0);
         return [](std::int32_t) { return std::string("blank"); };
     }

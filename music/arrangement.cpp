@@ -342,7 +342,7 @@ private:
             {std::move(document), std::move(track.pattern), track.section, std::move(track.name)});
     }
 
-    /// Notes the keys of a pattern of this file that keys above the tracks replace.
+    /// Records the keys of a pattern of this file that keys above the tracks replace.
     void note_replaced(const Document& document, const TrackKeys& track) {
         for (const PlacedSetting& one : shared_) {
             const std::string& key = one.setting.key;
@@ -361,9 +361,9 @@ private:
         for (const auto& [pattern, keys] : replaced_) {
             if (keys.empty()) continue;
             result_.remarks.push_back(fmt::format(
-                "'{}' states {} itself, but the piece's, above the tracks, {}; to keep its own, state it in "
-                "the tracks instead",
-                printable(pattern), fmt::join(keys, ", "), keys.size() == 1 ? "applies" : "apply"));
+                "'{}' states {} itself, but {}; to keep its own, state it in the tracks instead", printable(pattern),
+                fmt::join(keys, ", "),
+                keys.size() == 1 ? "the value above the tracks applies" : "the values above the tracks apply"));
         }
     }
 

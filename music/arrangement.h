@@ -34,7 +34,7 @@ struct Arrangement {
     std::optional<Meter> meter;   ///< nullopt: that of the first track
     std::vector<FormSection> form;
     std::vector<Track> tracks;
-    std::vector<std::string> remarks{};  ///< for people: keys of the piece that replace those of patterns within it
+    std::vector<std::string> remarks{};  ///< for the user: keys of the piece that replace those of patterns within it
 };
 
 /// Largest number of tracks.

@@ -300,11 +300,11 @@ Json answer_affordable(const Json& request, const Monitor& monitor) {
     } else if (!document.map()) {
         try {
             while (fits < now && is_short(document, fits + 1, most, monitor)) ++fits;
-        } catch (const Stopped&) {  // those that were derived in time are known to fit
+        } catch (const Stopped&) {  // the lengths that were derived in time fit
         } catch (const std::runtime_error&) {
         }
     }
-    // The length itself takes too long although its word is short.
+    // The derivation takes too long although its word is short.
     if (fits >= now) fits = now - 1;
     return {{"n", fits < 0 ? "" : fmt::format("{}", fits)}};
 }

@@ -1,4 +1,4 @@
-// tests/damaged_pictures.h: small picture files whose headers promise something else than they hold.
+// tests/damaged_pictures.h: small picture files whose headers contradict their contents.
 #pragma once
 
 #include <algorithm>

@@ -130,7 +130,7 @@ public:
         const double width = made_.line_width * (1 + 0.18 * std::sin(3.7 * along_));
         if (in_break_ <= 0) flat_.disc(bent(made_, place), width / 2, 1);
     }
-    /// Where a place comes to lie in rows that are bent.
+    /// The position of a place in rows that are bent.
     static glm::dvec2 bent(const MadePhotograph& made, glm::dvec2 place) {
         return place + made.bend * glm::dvec2(std::sin(1.1 * place.y + 1), std::sin(0.9 * place.x));
     }

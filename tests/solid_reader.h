@@ -85,7 +85,7 @@ inline ReadMesh read_stl(const std::string& bytes) {
             if (is_new) mesh.points.emplace_back(point);
             triangle[k] = known->second;
         }
-        // The normal is that of the corners as the file has them, to the last bit of a float.
+        // The normal is computed from the corners in the file, to the last bit of a float.
         const glm::vec<3, long double> a(corners[0]), b(corners[1]), c(corners[2]);
         const auto across = glm::cross(b - a, c - a);
         const long double length = std::sqrt(glm::dot(across, across));

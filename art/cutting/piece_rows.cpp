@@ -26,8 +26,8 @@ std::size_t most_alignments(std::size_t corners) {
 }
 constexpr std::size_t most_units = 12;  ///< rows of each kind whose displacements are searched
 constexpr std::size_t most_kept = 12;   ///< arrangements of each direction
-/// Copies, or rows, whose extents one copy meets. Needles meet as many as they are longer than wide: their rows lie
-/// apart instead.
+/// Maximum number of copies, or rows, whose extents one copy overlaps. Needles overlap as many as they are longer
+/// than wide; beyond the maximum their rows lie apart instead.
 constexpr double most_met = 1'000;
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double near = 1e-9;  ///< relative difference of equal numbers

@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// How the channels of a decoded row lie.
+/// The order of the channels in a decoded row.
 struct PixelLayout {
     int channels = 3;                   ///< 1 to 5, of which the first is grey, or the first three are RGB
     int alpha = -1;                     ///< channel of the opacity; -1: opaque
@@ -22,7 +22,7 @@ public:
     Averager(int width, int height, PixelLayout layout, int longest_side);
     /// Adds the next row: `width` pixels of 8 bits a channel.
     void row(const std::uint8_t* pixels);
-    /// The picture, turned as its EXIF orientation (1 to 8) says. Call once, after the last row.
+    /// The picture, turned by its EXIF orientation (1 to 8). Call once, after the last row.
     DecodedPicture take(int orientation);
 
 private:

@@ -361,7 +361,7 @@ void check_bmp(const std::string& bytes, std::uint64_t most_pixels) {
         std::find(depths.begin(), depths.end(), bits) == depths.end()) {
         refuse("the picture is damaged: its header is wrong");
     }
-    if (compression > 3) refuse("this kind of BMP is not read");
+    if (compression > 3) refuse("this kind of BMP is not supported");
     check_size(width, height, most_pixels);
 }
 

@@ -1,4 +1,4 @@
-// art/decoder/bare_picture.h: strips picture files of what their decoders need not see.
+// art/decoder/bare_picture.h: strips picture files of data that their decoders do not need.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct BarePicture {
 
 /// Removes colour profiles, EXIF, comments and other metadata from JPEG, PNG, WebP and TIFF, whose readers parse them
 /// without sufficient checks, and checks the sizes that the file claims before a decoder reserves memory for them: a
-/// progressive JPEG holds all its coefficients, and each further scan passes over them. BMP and HEIF stay as they
+/// progressive JPEG holds all its coefficients, and each further scan visits them again. BMP and HEIF stay as they
 /// are; the header of BMP is checked. Cost: linear in the file.
 /// @throws std::runtime_error for other files, damaged headers, more than `most_pixels`, and too many scans
 BarePicture bare_picture(std::string bytes, std::uint64_t most_pixels);

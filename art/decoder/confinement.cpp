@@ -53,8 +53,8 @@ constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t architecture = 0;
 #endif
 
-/// System calls for memory, threads, clocks, and reading and writing what is open. None names a file, a process or an
-/// address of the network.
+/// System calls for memory, threads, clocks, and for reading and writing open files. None names a file, a process
+/// or a network address.
 constexpr auto permitted_calls = std::to_array<std::uint32_t>({SYS_read,
                                                                SYS_write,
                                                                SYS_readv,
@@ -108,7 +108,7 @@ bool filter_calls() {
     };
     constexpr auto answer = [](std::uint32_t value) { return sock_filter{BPF_RET | BPF_K, 0, 0, value}; };
     constexpr std::uint32_t refused = SECCOMP_RET_ERRNO | EPERM;
-    // Programs try the older call, whose flags can be seen.
+    // Programs fall back to the older call, whose flags a filter can read.
     constexpr std::uint32_t unknown = SECCOMP_RET_ERRNO | ENOSYS;
     constexpr std::uint32_t thread_flag = 0x00010000;  // CLONE_THREAD
     std::vector<sock_filter> program = {
@@ -156,12 +156,12 @@ void confine(const ConfinementLimits& limits, int parent) {
     limit(RLIMIT_FSIZE, 0, 0);
     // The first limit ends the process by a signal that names the reason, the second in any case.
     limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1);
-#ifndef SIKKU_SANITIZED  // which reserves terabytes, and opens files to report
+#ifndef SIKKU_SANITIZED  // sanitizers reserve terabytes and open files
     const std::uint64_t memory = used_memory() + limits.memory;
     limit(RLIMIT_AS, memory, memory);
     limit(RLIMIT_NOFILE, 3, 3);
 #endif
-    // Files, and dumps that the system hands to a program.
+    // Files, and dumps that the system pipes to a program.
     limit(RLIMIT_CORE, 0, 0);
     check(::prctl(PR_SET_DUMPABLE, 0) == 0);
 #ifndef SIKKU_SANITIZED

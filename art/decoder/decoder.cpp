@@ -1,4 +1,4 @@
-// art/decoder/decoder.cpp: the programs that decode pictures of strangers, in a process that can do nothing else.
+// art/decoder/decoder.cpp: the programs that decode untrusted pictures, in a process that can do nothing else.
 #include "art/decoder/decoder.h"
 
 #include "art/decoder/confinement.h"
@@ -91,8 +91,8 @@ Number number(const char* text) {
 }  // namespace sikku
 
 #if defined(__GLIBC__) && !defined(SIKKU_SANITIZED)
-// Decoders in C meet allocations that fail with everything from a message to a crash: here the first that fails is
-// the answer. These replace the functions of the C library in all libraries of the process.
+// C decoders react to failed allocations in any way from a message to a crash; here the first failure is reported.
+// These replace the functions of the C library in all libraries of the process.
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -151,6 +151,6 @@ int main(int count, char** arguments) {
     } catch (const std::exception&) {
         ::_exit(1);
     }
-    // Nothing of the libraries needs to be tidied up.
+    // The libraries need no cleanup.
     ::_exit(0);
 }

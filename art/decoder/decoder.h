@@ -1,5 +1,5 @@
-// art/decoder/decoder.h: what each of the two programs that decode pictures has of its own: picture_reader.cpp or
-// heif_reader.cpp.
+// art/decoder/decoder.h: the interface that each of the two programs that decode pictures implements:
+// picture_reader.cpp or heif_reader.cpp.
 #pragma once
 
 #include "art/image/image_file.h"
@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Loads all that the library needs from files, and keeps it from starting threads. Call first.
+/// Loads all files that the library needs, and prevents it from starting threads. Call first.
 void prepare_decoder();
 
 /// Decodes the first picture of a file.

@@ -43,8 +43,8 @@ void prepare_decoder() {
     heif_init(nullptr);
 }
 
-/// The primary picture, turned and cropped as the file says. Trusts the size of what was decoded, and not the size
-/// that the file states.
+/// The primary picture, turned and cropped as the file states. Trusts the size of the decoded picture, not the
+/// size that the file states.
 DecodedPicture decode(std::string file, int longest_side, std::uint64_t most_pixels) {
     const Context context(heif_context_alloc());
     if (!context) throw std::bad_alloc();

@@ -231,7 +231,7 @@ DrawnCensus by_growth(const Grammar& grammar, const Style& style, const glm::dma
         unknown.mean_width = unknown.widest = style.pen_width({});
         return unknown;
     }
-    // Productions may alternate: growth is that of several steps.
+    // Productions may alternate, so growth is measured over several steps.
     const std::int64_t before = std::max<std::int64_t>(0, steps - std::max<std::int64_t>(1, steps / 4));
     const auto shorter = grammar.with_steps(before);
     const auto first = shorter && before < steps ? read(*shorter, style, orientation, most) : std::nullopt;

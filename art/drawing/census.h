@@ -1,4 +1,5 @@
-// art/drawing/census.h: counts what a word draws, for forecasts: by reading it, or a shorter one.
+// art/drawing/census.h: counts the lines, polygons and surfaces of a word for forecasts, by reading it or a
+// shorter one.
 #pragma once
 
 #include "art/print/page.h"
@@ -11,13 +12,13 @@
 
 namespace sikku {
 
-/// Patches of surfaces that bend alike.
+/// Patches of surfaces with about the same bend.
 struct BentPatches {
     double bend = 0;  ///< see bend_of()
     double count = 0;
 };
 
-/// What is drawn in one pass. Lengths are in turtle steps.
+/// The shapes drawn in one pass. Lengths are in turtle steps.
 struct DrawnCensus {
     double nodes = 0;                 ///< of the derivation that are visited
     double strokes = 0;               ///< lines without a lift
@@ -36,8 +37,8 @@ struct DrawnCensus {
     bool is_read = false;             ///< the word itself was read, and not a shorter one
 };
 
-/// Reads at most about `most` nodes: of a longer word the largest shorter one whose cost is known to be less, from
-/// which the numbers of the longer one follow by its numbers of symbols or, where these are unknown, by its growth.
+/// Reads at most about `most` nodes. For a longer word it reads the largest shorter one that is known to cost
+/// less, and extrapolates by the numbers of symbols or, where these are unknown, by growth.
 /// Cost: 20 ns a node. @param grammar  has no map
 /// @throws WordError
 DrawnCensus drawn_census(const Grammar& grammar, const Style& style, const glm::dmat3x2& orientation, double most);

@@ -75,7 +75,7 @@ void Composition::add_colours() {
     if (work_) add_field_colours();
     if (style_.dots) {
         dot_pen_.colour = static_cast<int>(style_.palette.size());
-        // To practise on, on white paper, in the colour of the ground that it replaces.
+        // For practice on white paper, in the colour of the ground that it replaces.
         const Colour paper{255, 255, 255, 255};
         Colour colour = style_.line_colour({});
         if (options_.only_dots) {

@@ -38,7 +38,7 @@ void draw_travels(const PlotPlan& plan, const Print& print, PathSink& sink) {
     }
 }
 
-/// Hands on strokes in the colours of a palette in which the pens of a plot stand in the order in which they draw.
+/// Forwards strokes in the colours of a palette that lists the pens of a plot in the order in which they draw.
 class PensInOrder : public PathFilter {
 public:
     PensInOrder(PathSink& sink, const std::vector<PlotPlan::PlottedPen>& pens) : Forwarding(sink) {

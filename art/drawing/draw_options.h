@@ -156,8 +156,8 @@ struct DrawReport {
     std::optional<PlotReport> plot;  ///< report of a plot
     std::optional<ReliefReport> relief;  ///< report of a relief
     std::uint64_t polygons = 0;          ///< number of filled polygons that can be named (Print::names_tiles)
-    bool tiles_are_alike = false;        ///< `tile colours` gave one colour to all of several tiles
-    bool lacks_worms = false;            ///< worms were asked for, and no tiles form any
+    bool tiles_are_alike = false;        ///< `tile colours` gave all tiles, more than one, the same colour
+    bool lacks_worms = false;            ///< worms were requested, but no tiles form any
     std::uint64_t replaced = 0;          ///< parts too small to be resolved, replaced by their appearance
     std::size_t cells = 0;               ///< number of cells of a map
     std::optional<Contents> contents;    ///< if DrawOptions::lists_contents

@@ -62,7 +62,7 @@ double plot_passes(const Print& print, const PlotOptions& plot) {
     return std::max(1.0, print.style.pen_width({}) / plot.pen_width);
 }
 
-/// Maps have no fixed numbers of symbols, so this one is derived, or as far as that is cheap.
+/// The numbers of symbols of a map do not follow from its productions, so it is derived as far as that is cheap.
 DrawingCost cost_of_map(const Grammar& grammar, const DrawOptions& options) {
     MapDerivation derivation(grammar, map_limits(*grammar.map(), options.budget), options.monitor);
     std::vector<double> edges(1, static_cast<double>(derivation.map().edges().size()));
@@ -132,7 +132,7 @@ DrawingCost cost_of_word(const Grammar& grammar, Print print, const DrawOptions&
     return cost;
 }
 
-/// Adds what is done to the lines of a drawing in the plane before they are written.
+/// Adds the cost of processing the lines of a drawing in the plane before they are written.
 void add_work(const Print& print, const DrawOptions& options, DrawingCost& cost) {
     if (options.repeat) {
         const double copies = options.repeat->copies();
@@ -253,7 +253,7 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
     const double pixels = static_cast<double>(size.width) * size.height;
     const double fine = print.dpi / 25.4;
     const double stems = drawing.lines - drawing.polygons;
-    // Of the two sides of surfaces one is seen, at all angles.
+    // One of the two sides of a surface is visible, at all angles.
     const double shown = (drawing.ink + 0.6 * drawing.area) * square(fine);
     const double frame = std::max(1.0, drawing.size.x * drawing.size.y * square(fine));
     const double covered = 0.7 * frame * (1 - std::exp(-shown / (0.7 * frame)));
@@ -316,7 +316,7 @@ void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& 
     const double pixels = static_cast<double>(size.width) * size.height;
     const double fine = print.dpi / 25.4;
     const PictureSeconds each = seconds_of(options.format);
-    // Pixels at the rims of lines and polygons are those that take time.
+    // Most time is spent on pixels at the edges of lines and polygons.
     const double rims = std::min(pixels, drawing.length * fine * 3);
     const double inked = std::min(pixels, drawing.ink * square(fine) + rims + drawing.area * square(fine) * 0.1);
     cost.seconds += 0.004 + pixels * each.pixel + inked * each.ink;
@@ -402,7 +402,7 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
         cost.bytes += shades * writer.shade_bytes;
     }
     if (is_plot) {
-        // Lines in space are drawn as far as nothing hides them.
+        // Only visible parts of lines in space are drawn.
         if (grammar.is_spatial()) {
             points += drawing.lines * 8 + patch_polygons(drawing, 0.1) * 2;
             cost.memory += points * hidden_point_bytes;
@@ -424,7 +424,7 @@ constexpr double written_triangle_seconds = 2.6e-6;  // of a text
 constexpr double frame_pixel_seconds = 8e-9;
 constexpr double frame_ink_seconds = 25e-9;
 
-/// A frame of an animated GIF: its pixels are drawn, compared, and what has changed is written.
+/// A frame of an animated GIF: its pixels are drawn and compared, and changes are written.
 double frame_seconds(const Print& print, const DrawingCost& drawing) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixels = static_cast<double>(size.width) * size.height;

@@ -1,4 +1,4 @@
-// art/drawing/faint_inks.h: finds ink that is hardly visible on the ground, and what a drawing consists of.
+// art/drawing/faint_inks.h: finds ink that is hardly visible on the ground, and the kinds of shapes in a drawing.
 #pragma once
 
 #include "art/drawing/drawing.h"
@@ -10,13 +10,13 @@ namespace sikku {
 /// True for a visible ink whose colour differs by less than 15 from that of the ground (see colour_difference()).
 bool is_faint(Colour ink, Colour ground);
 
-/// The colours of lines, discs and areas that are faint on the ground, each once. Polygons with outlines are left
-/// out; so is everything on a transparent ground. Reads the drawing again, up to ten million points, only if its
-/// palette has such colours. @param print  placed
+/// The colours of lines, discs and areas that are faint on the ground, each once. Leaves out polygons with
+/// outlines, and everything on a transparent ground. Reads the drawing again, up to ten million points, only if
+/// its palette has such colours. @param print  placed
 /// @throws Stopped
 std::vector<FaintInk> faint_inks(const Drawing& drawing, const Print& print);
 
-/// What the drawing consists of, up to ten million points. @param print  placed
+/// The kinds of shapes in the drawing, up to ten million points. @param print  placed
 /// @throws Stopped
 Contents contents_of(const Drawing& drawing, const Print& print);
 

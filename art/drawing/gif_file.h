@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// The options for drawings of frames: reading them is not reported, only that the work goes on.
+/// The options for drawings of frames: reading them reports no progress, only activity.
 DrawOptions for_frames(DrawOptions options);
 
 /// Failures to write are std::runtime_error and name the file.

@@ -60,7 +60,7 @@ private:
     std::optional<kolam_plane::SegmentGrid> grid_;
 };
 
-/// The edges of an outline without those that lead to its holes and back.
+/// The edges of an outline, except those that lead to its holes and back.
 std::vector<std::pair<glm::dvec2, glm::dvec2>> edges_without_ways(std::span<const glm::dvec2> outline) {
     using Edge = std::array<double, 4>;
     std::vector<Edge> edges;
@@ -146,7 +146,7 @@ void LineWork::hatch_fields(const Print& print, const PlotOptions& plot, const s
     const double step = print.placement.step;
     const Hatch& hatch = *plot.hatch;
     const double line = print.style.line_width({}, step);
-    // Without a pen of a given width, a stroke has a pen of its own width, which the spacing limits here.
+    // If the pen width is not given, each stroke has a pen of its own width, which the spacing limits here.
     const double wanted = hatch.spacing > 0 ? hatch.spacing : plot.pen_width > 0 ? plot.pen_width : line;
     const double pen = plot.pen_width > 0 ? plot.pen_width : std::min(wanted, line);
     const StrokeWidth& unit = print.style.stroke;

@@ -94,7 +94,7 @@ private:
     double radius_ = 0;  ///< of the line that is drawn; 0: it is invisible
 };
 
-/// Hands on polygons, discs and labels only.
+/// Forwards only polygons, discs and labels.
 class OnlyAreas : public WithoutStrokes<PathFilter> {
 public:
     using WithoutStrokes::WithoutStrokes;

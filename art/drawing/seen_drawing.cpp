@@ -50,7 +50,7 @@ public:
     void blot(std::size_t, glm::dvec2) override {}
 };
 
-/// Takes nothing.
+/// Ignores everything.
 class NothingSeen : public WithoutStrokes<BlotSink> {
 public:
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
@@ -398,11 +398,11 @@ double SeenDrawing::expected_nodes(const Print& print, const Window& window, dou
         try {
             NothingSeen nothing;
             const auto seen = static_cast<double>(view_->read(sight, nothing, few, {}).visited);
-            // What is visible is as much more when it is looked at closely as the whole is.
+            // A closer look increases the visible part by the same factor as the whole.
             const double more = whole / of_all(tries == 0 && by_steps ? -1.0 : longest);
             return seen * (std::isfinite(more) ? more : (longest / fine) * (longest / fine));
         } catch (const BudgetError&) {
-            // Less closely.
+            // At a coarser level.
         }
     }
     return whole;

@@ -58,14 +58,14 @@ public:
     void read(const Print& print, const Window& window, double pixel, BlotSink& sink, double budget,
               const std::function<void(std::uint64_t)>& watch) const;
     const DrawOptions& options() const { return options_; }
-    /// Estimates the nodes that a walk visits, by one that looks less closely. Exact up to a million of them.
+    /// Estimates the nodes that a walk visits, by a walk at a coarser level. Exact up to a million nodes.
     double expected_nodes(const Print& print, const Window& window, double pixel) const;
 
 private:
-    /// How closely a window is looked at; the lines of a spline are examined at its steps if `reads_steps`.
+    /// The level of detail of a window; the lines of a spline are examined at its steps if `reads_steps`.
     Sight sight_of(const Print& print, const Window& window, double pixel) const;
     bool reads_steps(const Sight& sight) const;
-    /// Refuses what would exceed the budget after seconds of walking. @throws BudgetError
+    /// Refuses a walk that would exceed the budget after seconds of work. @throws BudgetError
     void require_affordable(const Print& print, const Window& window, double pixel, double budget) const;
     void add(const ViewReport& report) const;
 

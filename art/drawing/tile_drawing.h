@@ -56,7 +56,7 @@ private:
     Style style_;                   ///< with the colours of tiles added
     std::size_t first_colour_ = 0;  ///< index of the first of these
     std::size_t colours_ = 0;       ///< number of these
-    /// What the reads have found so far.
+    /// The findings of the reads so far.
     mutable std::atomic<bool> has_tiles_{false}, differs_{false}, has_worms_{false};
     std::optional<int> layers_;  ///< colour of inner edges in layers for cutting; that of the border is the next
 };

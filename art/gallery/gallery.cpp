@@ -61,8 +61,8 @@ public:
         }
     }
 
-    /// @param order   gets what is there in the end
-    /// @param result  gets warnings, and why others are not
+    /// @param order   receives the sheets that exist in the end
+    /// @param result  receives warnings, and errors of the other sheets
     void make(const GalleryRequest& request, double memory, std::vector<FinishedJob>& order, GalleryResult& result) {
         const auto draw = [&](bool posters) {
             for (const SheetRequest& sheet : sheets_of(request, options_.threads, memory)) {

@@ -97,7 +97,7 @@ private:
 struct Choice {
     GalleryItem::Axis axis;
     std::string target;        ///< the pattern's key, where it sets one
-    bool is_flag = false;      ///< false is as good as absent
+    bool is_flag = false;      ///< false is the same as absent
     bool has_default = false;  ///< true stands for the default value
 };
 

@@ -22,7 +22,7 @@ struct GalleryKey {
     bool overrides = false;  ///< true if it overrides a key of the pattern
     double least = -1e300;
     double most = 1e300;
-    bool is_option = true;            ///< the command line has it, too
+    bool is_option = true;            ///< it is also an option of the command line
     bool has_optional_value = false;  ///< `true` stands for its default
 };
 

@@ -82,7 +82,7 @@ GalleryLocks::Result GalleryLocks::lock(short type, std::int64_t byte, bool wait
     range.l_len = 1;
     while (::fcntl(file_.get(), waits ? F_OFD_SETLKW : F_OFD_SETLK, &range) != 0) {
         if (errno == EINTR) continue;
-        // EACCES means that locks are denied: Linux reports those of others as EAGAIN.
+        // EACCES means that locks are denied; Linux reports a lock of another process as EAGAIN.
         return errno == EAGAIN ? Result::busy : Result::unsupported;
     }
     return Result::locked;

@@ -1,4 +1,4 @@
-// art/image/decoder_answer.h: what art/image/picture_process.cpp and the programs of art/decoder say to each other.
+// art/image/decoder_answer.h: the protocol between art/image/picture_process.cpp and the programs of art/decoder.
 #pragma once
 
 #include "art/image/image_file.h"
@@ -16,8 +16,7 @@ constexpr const char* heif_decoder_name = "sikku_heif_decoder";
 
 /// Arguments of either: decoder_version(), the number of the process that starts it, the
 /// longest side, the largest number of pixels. Standard input is the file.
-///
-/// It answers on standard output with one of these bytes, and what belongs to it:
+/// It answers on standard output with one of these bytes and its data:
 enum class DecoderAnswer : char {
     ready = 'r',    ///< it is confined and begins; another answer follows
     version = 'v',  ///< it belongs to another version of the libraries

@@ -299,7 +299,7 @@ std::size_t GifWriter::index_diffused(std::span<const std::uint8_t> pixels, cons
         }
         return nearest[number];
     };
-    // What rounding adds to the pixels of this row and the next, in sixteenths.
+    // Rounding errors carried to the pixels of this row and the next, in sixteenths.
     const auto across = static_cast<std::size_t>(area.right - area.left);
     std::vector<std::array<int, 3>> errors(across + 2), below(across + 2);
     indices_.clear();

@@ -1,4 +1,4 @@
-// art/image/gif_writer.h: writes animated GIF, of each picture only what differs from the one before.
+// art/image/gif_writer.h: writes animated GIF; each frame stores only the difference from the previous picture.
 #pragma once
 
 #include "engine/base/output.h"
@@ -13,9 +13,9 @@
 
 namespace sikku {
 
-/// One picture after the other, over and over again. A frame holds the smallest rectangle with the pixels that have
-/// changed; pixels within it that have not are transparent. Up to 255 changed colours are exact; more are reduced to
-/// 255 (median cut) and diffused (Floyd & Steinberg 1976).
+/// Shows the pictures in turn, in an endless loop. A frame contains the smallest rectangle with the pixels that
+/// have changed; pixels within it that have not are transparent. Up to 255 changed colours are exact; more are
+/// reduced to 255 (median cut) and dithered (Floyd & Steinberg 1976).
 ///
 /// Cost: 1 ns for each pixel, 15 to 40 ns for each pixel of the rectangle. Memory: 7 bytes a pixel.
 /// Source: GIF89a specification, 1990.
@@ -51,7 +51,7 @@ private:
 
     Output& output_;
     int width_, height_;
-    std::vector<std::uint8_t> shown_;  ///< the picture before
+    std::vector<std::uint8_t> shown_;  ///< the previous picture
     bool is_begun_ = false;
     std::vector<Colour> palette_;        ///< of the frame
     std::vector<std::uint8_t> indices_;  ///< of the pixels of the rectangle

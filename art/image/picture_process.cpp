@@ -1,4 +1,4 @@
-// art/image/picture_process.cpp: read_picture(), which leaves the decoding to a process of its own.
+// art/image/picture_process.cpp: read_picture(), which decodes pictures in a separate process.
 #include "art/image/decoder_answer.h"
 #include "art/image/image_file.h"
 #include "art/image/module_folders.h"
@@ -27,10 +27,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// On a machine with other work a process waits longer than it computes.
+/// On a busy machine a process may wait longer than it computes.
 constexpr std::chrono::seconds longest_wait{10 * most_decoder_seconds};
 
-/// The program that decodes, at work on one file. It is ended with this object.
+/// A running decoder of one file. The process is ended with this object.
 class Decoder {
 public:
     Decoder(const std::filesystem::path& program, const InputFile& file, int longest_side,
@@ -50,7 +50,7 @@ public:
             .is_bare = true,
             .is_apart = true,
         };
-        // Where libraries are, and how sanitizers report.
+        // Search paths of libraries, and settings of sanitizers.
         for (const char* name : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"}) {
             if (const char* value = std::getenv(name)) start.environment.push_back(std::string(name) + "=" + value);
         }
@@ -91,7 +91,7 @@ private:
 
 [[noreturn]] void refuse_start(const std::filesystem::path& program, const char* reason) {
     throw std::runtime_error(
-        fmt::format("pictures are read by the program {}, which does not start: {}", program.string(), reason));
+        fmt::format("the program that decodes pictures, {}, does not start: {}", program.string(), reason));
 }
 
 std::filesystem::path find_decoder(const char* name) {
@@ -102,7 +102,7 @@ std::filesystem::path find_decoder(const char* name) {
         if (std::filesystem::is_regular_file(program, error)) return program;
         places += "\n  " + program.string();
     }
-    throw std::runtime_error("pictures are read by a program that was not found:" + places);
+    throw std::runtime_error("the program that decodes pictures was not found:" + places);
 }
 
 /// Explains an answer that ended too early.

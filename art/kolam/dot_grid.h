@@ -95,7 +95,7 @@ private:
 /// @throws std::runtime_error for anything else, and as DotGrid does
 DotGrid parse_dot_grid(std::string_view text);
 
-/// A note about a notation that people write for a diamond and that means a few rows here, such as `1-15-1` and `15
+/// A note about a notation that users write for a diamond and that means a few rows here, such as `1-15-1` and `15
 /// dots`; empty for others.
 std::string dot_grid_note(std::string_view text);
 

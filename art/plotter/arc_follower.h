@@ -1,4 +1,4 @@
-// art/plotter/arc_follower.h: follows curves by as few arcs and lines as a greedy search finds.
+// art/plotter/arc_follower.h: approximates curves by few arcs and lines, with a greedy search.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,7 +16,7 @@ struct PlotArc {
     bool is_left = false;
 };
 
-/// Takes dense points of curves and hands on lines and arcs that stay within 0.0075 mm of the curve, with radii up to
+/// Converts dense points of curves to lines and arcs that stay within 0.0075 mm of the curve, with radii up to
 /// 1 m and less than 270 degrees each. Lengths are millimetres.
 class ArcFollower {
 public:
@@ -33,7 +33,7 @@ public:
         points_.push_back(point);
         if (points_.size() >= most_points) follow(false);
     }
-    /// Hands on all that waits. A line or a curve may follow.
+    /// Passes on all pending points. A line or a curve may follow.
     void finish() { follow(true); }
 
     /// Deviation from the curve of the chords between the points that add() expects.
@@ -48,7 +48,7 @@ private:
     double least_;
     LineTo line_to_;
     ArcTo arc_to_;
-    std::vector<glm::dvec2> points_;  ///< from the end of what was handed on
+    std::vector<glm::dvec2> points_;  ///< from the end of the last line or arc passed on
 };
 
 }  // namespace sikku

@@ -157,7 +157,7 @@ private:
         for (std::size_t row = 0; row < rows_.size(); ++row) find_stretches(crossings[row], kept[row], rows_[row]);
     }
 
-    /// What lies inside the outline and outside all obstacles.
+    /// The stretches inside the outline and outside all obstacles.
     static void find_stretches(std::vector<std::pair<double, int>>& crossings, std::vector<Interval>& kept,
                                std::vector<Stretch>& stretches) {
         std::sort(crossings.begin(), crossings.end());
@@ -206,14 +206,14 @@ private:
         return points;
     }
 
-    /// The stretch of the next row that is reached from an end of another, by points that are added.
+    /// Finds the stretch of the next row that an end of another reaches, and adds the points of the way.
     Stretch* next(std::size_t row, const Stretch& stretch, int side, std::vector<glm::dvec2>& points) {
         constexpr std::size_t most_tried = 3;
         if (row + 1 == rows_.size()) return nullptr;
         const double from = stretch.end(side);
         std::vector<std::pair<double, Stretch*>> reachable;
         for (Stretch& other : rows_[row + 1]) {
-            // Those that lie above it; a join that runs farther along than a stretch is no shorter than lifting.
+            // Those above it; a join that runs farther along than a stretch is not shorter than lifting the pen.
             if (other.is_drawn || other.to < stretch.from || other.from > stretch.to) continue;
             reachable.emplace_back(std::fabs(other.end(side) - from), &other);
         }

@@ -49,8 +49,8 @@ std::string place(glm::dvec2 at, int first_code = 10) {
     return fmt::format("{}\n{}\n{}\n{}\n", first_code, decimal(at.x, 4), first_code + 10, decimal(at.y, 4));
 }
 
-/// A vertex of a polyline and the bulge of what leads on from it: the tangent of a quarter of an arc's angle, above 0
-/// for anticlockwise, 0 for a line.
+/// A vertex of a polyline and the bulge of the segment that follows it: the tangent of a quarter of an arc's
+/// angle, above 0 for anticlockwise, 0 for a line.
 struct Vertex {
     glm::dvec2 at{0.0};
     double bulge = 0;
@@ -125,7 +125,7 @@ public:
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
             const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
                                    on_page(controls[i + 2])};
-            // Also enough of them for an arc of a small circle.
+            // Enough of them also for an arc of a small circle.
             const int count = std::max(4, chords(bezier, ArcFollower::chord));
             for (int k = 1; k < count; ++k) follower_.add(at(bezier, static_cast<double>(k) / count));
             follower_.add(bezier[3]);

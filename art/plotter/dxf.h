@@ -15,10 +15,10 @@ namespace sikku {
 /// left corner of the page, y up; $INSUNITS and $MEASUREMENT, which later releases added, state the unit. A stroke is
 /// a LINE or a POLYLINE, closed where the stroke is; curves are followed within 0.01 mm by lines and by arcs, which
 /// are bulges of the polyline, and closed strokes around one centre are CIRCLEs. Pen n has the layer PEN-n, or that
-/// of Style::cut_layers. Polygons are closed POLYLINEs in the layers of their kinds (TileKind::layer()). Layers have
-/// the nearest of the seven standard colours, which other programs may show as they like. Widths are left out: a
-/// laser has its own. The recipe is stored in comments, which readers ignore. `print` and `file` are kept by
-/// reference. After finish() the file is complete, but not committed.
+/// of Style::cut_layers. Polygons are closed POLYLINEs in the layers of their kinds (TileKind::layer()). Layers
+/// have the nearest of the seven standard colours; other programs may show different ones. Widths are left out,
+/// because a laser has a fixed width. The recipe is stored in comments, which readers ignore. `print` and `file`
+/// are kept by reference. After finish() the file is complete, but not committed.
 /// @param kinds  kinds of all polygons that will be written, in the order in which TileKinds numbers them
 /// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and for
 /// what lies off the page

@@ -152,7 +152,7 @@ private:
         settings_ = pen_settings(options_.rules, next, colour);
         if (!is_first) {
             write_text(fill(options_.pen_change));
-            is_placed_ = false;  // people move machines that wait
+            is_placed_ = false;  // the user may move a paused machine
         }
         // A brush may have to be lifted higher than the pen before it.
         if (settings_.lift.value_or(options_.lift) != lifted_to_) lift();

@@ -84,7 +84,7 @@ struct PlotReport {
     PlotTally after;
     std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
     std::uint64_t curves = 0;             ///< number of Béziers among them
-    double skipped = 0;                   ///< millimetres that a plot that resumes leaves out
+    double skipped = 0;                   ///< millimetres that a resumed plot leaves out
     std::uint64_t duplicates = 0;         ///< drawn lines and curves left out because they lay on another one
     std::uint64_t fills = 0;              ///< number of polygons, areas and discs drawn
     std::uint64_t tiles = 0;              ///< number of polygons passed to the writer of the file

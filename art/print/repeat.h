@@ -52,7 +52,7 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
 struct Wallpaper {
     std::vector<glm::dmat3x2> cell;
     glm::dvec2 across{0.0}, up{0.0};
-    bool is_row = false;  ///< a frieze, which goes on across only
+    bool is_row = false;  ///< a frieze, which repeats across only
 };
 /// The wallpaper of a group, with copies as in copies_of(). @param repeat  not a ring
 Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);

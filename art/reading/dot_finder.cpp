@@ -13,11 +13,12 @@
 namespace sikku {
 namespace {
 
-/// A spot is the dot of a place this near to it, in spacings.
+/// Maximum distance of a dot from its place, in spacings.
 constexpr double dot_reach = 0.22;
-/// Weakest dot, of the strength of most.
+/// Least strength of a dot, relative to most dots.
 constexpr double weakest = 0.35;
-/// Farther from the place that the others suggest, and beyond an empty place, a spot has to be like most dots.
+/// Beyond this distance from the place that the others suggest, and beyond an empty place, a spot must resemble
+/// most dots.
 constexpr double far_reach = 0.32;
 constexpr double strong = 0.6;
 

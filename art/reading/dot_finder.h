@@ -32,7 +32,7 @@ struct FoundGrid {
 };
 
 /// The best lattice through the stronger spots, grown from dot to dot: rows may be bent, a few dots may be weak, and
-/// a place without a dot may be skipped, but spots apart from the lattice are left alone.
+/// a place without a dot may be skipped, but spots apart from the lattice are ignored.
 /// @param spots    the strongest first
 /// @param spacing  of the dots, if it is known
 std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<InkSpot>& spots,

@@ -1,4 +1,4 @@
-// art/reading/dot_symmetry.h: dots that the symmetry of the others asks for.
+// art/reading/dot_symmetry.h: dots that the symmetry of the others suggests.
 #pragma once
 
 #include "art/kolam/dot_grid.h"

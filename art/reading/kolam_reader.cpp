@@ -167,7 +167,7 @@ private:
         }
         const auto [found, is_new] = evidence_.try_emplace({from.y, from.x, side});
         if (is_new) {
-            // Lines may follow each dot of a hand, its rows, or the lattice that it had in mind.
+            // Lines may follow each dot as drawn by hand, its rows, or the intended lattice.
             for (const LatticeMap* map : {&found_.map, &exact_, &regular_}) {
                 const GapEvidence seen = reader_.read(*map, from, next(from, side));
                 if (map == &found_.map || best_of(seen) > best_of(found->second)) found->second = seen;
@@ -177,7 +177,7 @@ private:
         }
         return found->second;
     }
-    /// The strands of a hand may pass beside the middle between two dots.
+    /// Strands drawn by hand may pass beside the middle between two dots.
     void look_around(GapEvidence& gap, GridDot from, std::uint32_t side) const {
         constexpr double size = 0.09;
         constexpr double penalty = 0.02;
@@ -240,8 +240,8 @@ private:
         return true;
     }
 
-    /// Adds places beside the grid that have lines around them although no dot was seen there: of all their gaps to
-    /// dots, both strands are there, and some lead to them. @return whether there were any
+    /// Adds places beside the grid that have lines around them although no dot was seen there: all gaps between
+    /// them and dots have both strands, and some strands lead to them. @return whether there were any
     bool add_encircled(const Monitor& monitor) {
         std::set<Key> tried;
         std::vector<Key> added;
@@ -274,7 +274,7 @@ private:
         return gaps > 0 && joined > 0 && has_blob(place);
     }
 
-    /// Adds dots that the symmetry of the others asks for where the lines agree. @return places where they do not,
+    /// Adds dots that the symmetry of the others suggests where the lines agree. @return places where they do not,
     /// but where ink is, and places within the kolam that have ink
     std::vector<Key> complete() {
         if (is_hopeless_) return {};
@@ -313,7 +313,7 @@ private:
         for (std::uint32_t side = 0; side < grid().sides(); ++side) count += dots_.contains(key(next(place, side)));
         return count;
     }
-    /// Lines lead to a place, or around it and a spot, less clearly than is_encircled() asks for.
+    /// Lines lead to a place, or around it and a spot, less clearly than is_encircled() requires.
     bool is_likely(GridDot place) {
         std::size_t gaps = 0;
         bool leads = has_blob(place);
@@ -608,7 +608,7 @@ std::vector<Reading> InkReader::read(FoundGrid grid, const Monitor& monitor) {
     const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, store_->templates, monitor);
     std::vector<Reading> readings = LineWork(smooth, grid, reader).read(monitor);
     if (readings.size() == 1 && readings[0].left_out == 0) return readings;
-    // What does not belong to a kolam may have bent its lattice.
+    // Spots that do not belong to a kolam may have bent its lattice.
     for (Reading& reading : readings) {
         constexpr std::size_t least_dots = 9;
         if (reading.grid.grid().dots().size() < least_dots) continue;

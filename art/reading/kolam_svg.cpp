@@ -150,12 +150,12 @@ ReadKolam read_kolam_svg(std::string_view text, std::optional<DotLattice> lattic
     ReadKolam kolam = kolam_of_lines(reader.lines, std::move(reader.dots), true, lattice, monitor);
     if (reader.open > 0) kolam.notes.push_back(fmt::format("{} left out", counted(reader.open, "open line")));
     if (reader.copies > 0) {
-        kolam.notes.push_back(fmt::format("{} left out: lines and dots are read where they are drawn",
+        kolam.notes.push_back(fmt::format("{} left out: only original lines and dots are read",
                                           counted(reader.copies, "copied element")));
     }
     if (reader.unread_rules() > 0) {
-        kolam.notes.push_back(
-            fmt::format("{} not read: only simple selectors are", counted(reader.unread_rules(), "style rule")));
+        kolam.notes.push_back(fmt::format("{} not read: only simple selectors are supported",
+                                          counted(reader.unread_rules(), "style rule")));
     }
     const pugi::xml_node title = document.document_element().child("title");
     kolam.title = printable(title.text().get(), 200);

@@ -22,7 +22,7 @@ void LatticeMap::see(GridDot place, glm::dvec2 at) {
 glm::dvec2 LatticeMap::deviation(glm::dvec2 point, const GridDot* without) const {
     if (deviations_.empty()) return glm::dvec2(0.0);
     const double rows = lattice_point(lattice_, {0, 2}).y;
-    // Places far from all dots, which wrong fits can ask for, do not fit into integers.
+    // Places far from all dots, which wrong fits can produce, do not fit into integers.
     if (!(std::fabs(point.x) < 1e8 && std::fabs(point.y) < 1e8)) return glm::dvec2(0.0);
     glm::dvec2 sum(0.0);
     double weights = prior;

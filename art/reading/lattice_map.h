@@ -1,4 +1,4 @@
-// art/reading/lattice_map.h: from the plane of a grid to a picture of a hand's drawing.
+// art/reading/lattice_map.h: from the plane of a grid to a picture of a hand drawing.
 #pragma once
 
 #include "art/reading/lattice.h"
@@ -19,13 +19,14 @@ public:
     LatticeMap() = default;
     LatticeMap(DotLattice lattice, Homography perspective) : lattice_(lattice), perspective_(perspective) {}
 
-    /// States where the dot of a place was seen.
+    /// Sets where the dot of a place was seen.
     void see(GridDot place, glm::dvec2 at);
     /// Forgets all places.
     void forget() { deviations_.clear(); }
-    /// Goes through the dots that were seen from now on, rather than near them.
+    /// From now on the map passes exactly through the dots that were seen, not only near them.
     void follow() { smoothing_ = 0.3; }
-    /// Moves what the map leads to, in spacings: a hand may draw all dots beside the middles of their loops.
+    /// Moves the image of the map, in spacings: all dots of a hand drawing may lie beside the middles of their
+    /// loops.
     void offset(glm::dvec2 spacings) { offset_ += spacings; }
     glm::dvec2 offset() const { return offset_; }
     /// From the plane of the lattice to pixels.
@@ -45,9 +46,9 @@ public:
     double spacing(glm::dvec2 point) const;
     DotLattice lattice() const { return lattice_; }
     const Homography& perspective() const { return perspective_; }
-    /// What to add to a point of the plane before the perspective.
+    /// The displacement of a point of the plane before the perspective.
     glm::dvec2 shift() const { return shift_ + offset_; }
-    /// The same map, of places that are counted from another one.
+    /// The same map, with places counted from another origin.
     LatticeMap from(GridDot origin) const;
     /// A map that is fitted to the dots of some places alone, without offset.
     LatticeMap fitted_to(std::span<const GridDot> places) const;

@@ -302,7 +302,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
         if (is_good) spacing = size;
         return is_good;
     };
-    // Chance finds lattices among the spots of textures, again and again.
+    // Lattices are often found by chance among the spots of textures.
     const bool has_kolam =
         std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); });
     int attempts = has_kolam ? 1 : 2;
@@ -326,7 +326,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
     }
 }
 
-/// What was found in a picture.
+/// Findings in a picture.
 struct Findings {
     DecodedPicture picture;
     std::vector<Part> parts = {};
@@ -387,8 +387,7 @@ Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, c
     found.spots = ink.spots;
     found.is_dark = ink.is_dark;
     const std::size_t before = found.kolams();
-    // The other way round, as where the ground has a pattern, or beside the kolams found, another one is white on
-    // black.
+    // The opposite sense, for grounds with a pattern, and for white kolams on black beside the kolams found.
     if (before == 0 || found.free() > 0.4) {
         ink.negate(monitor);
         found.is_rough = found.is_rough && ink.is_rough();
@@ -469,7 +468,7 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
         notes.push_back(fmt::format("{} between the places of the grid left out", counted(part.beside, "dot")));
     }
     if (!reading.added.empty()) {
-        notes.push_back(fmt::format("{} without a visible dot taken for a dot, because lines run around it",
+        notes.push_back(fmt::format("{} without a visible dot counted as a dot, because lines run around it",
                                     places_text(reading.added.size())));
     }
     if (!reading.open_ends.empty()) {
@@ -479,7 +478,7 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
     }
     if (!reading.missing.empty()) {
         notes.push_back(
-            fmt::format("{} may be missing: no dot was seen there, but there is ink, and the other dots ask for one",
+            fmt::format("{} may be missing: no dot was seen there, but there is ink, and the other dots suggest one",
                         counted(reading.missing.size(), "dot")));
     }
     for (const auto* places : {&reading.added, &reading.open_ends, &reading.missing}) {
@@ -529,7 +528,7 @@ double variation(const std::vector<InkSpot>& spots) {
     if (found.is_rough) {
         what += "too many round spots to be the dots of a kolam";
     } else if (found.spots.empty()) {
-        what += "no round spots, as dots are";
+        what += "no round spots that could be dots";
     } else if (found.parts.empty() || found.parts[0].dots() < least_dots) {
         what += spots() + ", no lattice";
         if (found.spots.size() > 3)

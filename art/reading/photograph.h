@@ -33,7 +33,7 @@ struct Photograph {
     LatticeMap map;  ///< from the plane of the grid, where dots lie at lattice_point(), to pixels of the picture
     std::vector<GridDot> open_ends = {};  ///< places beside the grid that lines lead to, where no dot was seen
     std::vector<GridDot> missing =
-        {};  ///< places where the dots around, or symmetry, ask for a dot that was not seen
+        {};  ///< places where neighbouring dots, or symmetry, suggest a dot that was not seen
     std::vector<glm::dvec2> others = {};  ///< dots of other kolams, and beside the lattice, in pixels
     std::size_t kolams = 1;               ///< in the picture
     std::size_t readable = 1;             ///< those of them that can be read
@@ -42,7 +42,7 @@ struct Photograph {
     glm::dvec2 in_file(GridDot place) const;
 };
 
-/// What was found in a picture that was refused.
+/// Findings in a picture that was refused.
 struct RefusedPicture {
     struct Spot {
         glm::dvec2 at{0.0};
@@ -53,7 +53,7 @@ struct RefusedPicture {
     std::optional<Photograph> best = std::nullopt;  ///< the reading that comes nearest to a kolam; without picture
 };
 
-/// A picture has no kolam that can be read.
+/// Thrown if a picture has no kolam that can be read.
 class NoKolam : public std::runtime_error {
 public:
     NoKolam(const std::string& what, RefusedPicture picture)
@@ -68,7 +68,7 @@ private:
 /// perspective, along rows that a hand may have bent, and compares the ink in each gap with what the three states
 /// would leave there. Gaps for which two states are nearly as likely, or none, are doubtful; those that the symmetry
 /// of the others decides are repaired and noted. Lost dots are reported as open ends, where strands leave the kolam,
-/// and as missing, where the dots around or symmetry ask for one. Several kolams are counted. Safe for untrusted
+/// and as missing, where neighbouring dots or symmetry suggest one. Several kolams are counted. Safe for untrusted
 /// files.
 /// @throws NoKolam if most gaps are doubtful, if the lines explain little of the ink around the dots, or lead from
 ///     few dots to others; std::runtime_error if the file is not a picture, or has fewer kolams than `number`
@@ -78,7 +78,7 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
 
 /// Decodes a picture so that no side is longer than `longest_side`, as read_picture() does.
 using PictureDecoder = std::function<DecodedPicture(int longest_side)>;
-/// The same of a picture that comes from elsewhere. @param decode  called once or twice
+/// The same for a picture from another source. @param decode  called once or twice
 Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
 

@@ -172,8 +172,8 @@ private:
         }
         if (in() == In::top && key_ == "violations" && number > 0) {
             polygons_.notes.push_back(
-                fmt::format("its list was examined before with {:.0f} violations; polygons that are no tiles may be "
-                            "missing in it",
+                fmt::format("an earlier examination of its list found {:.0f} violations; polygons that are not tiles "
+                            "may be missing from it",
                             number));
         }
         return value("a number");

@@ -119,7 +119,8 @@ public:
         note(grounds_, "ground", "left out");
         note(others_, "text or picture", "left out");
         note(clips_, "clipped or masked element", "read as a whole");
-        note(style_.unread(), "style rule", "not read: only simple selectors are, outside of @media and the like");
+        note(style_.unread(), "style rule",
+             "not read: only simple selectors outside of @media and similar rules are supported");
         return result;
     }
 

@@ -91,7 +91,7 @@ void SpotFinder::find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor
                 }
             }
             if (!is_whole || piece.size() < 4 || piece.size() > most_pixels) continue;
-            // How many levels it has been small for, all of them up to this one.
+            // The number of consecutive levels, up to this one, at which it was small.
             const std::uint8_t levels =
                 small_at[first] + 1 == number ? static_cast<std::uint8_t>(small_for[first] + 1) : 1;
             for (const std::size_t at : piece) {

@@ -13,7 +13,7 @@
 
 namespace sikku {
 
-/// A property of an element, from its style or its attribute; empty if neither has it. Style sheets are not read.
+/// A property of an element, from its style or its attribute; empty if it has neither. Style sheets are not read.
 std::string svg_property(pugi::xml_node node, const char* name);
 
 /// The style sheets of an SVG: rules with simple selectors, `rect`, `.a`, `#b`, `rect.a`, `*`, and lists of them.
@@ -28,7 +28,7 @@ public:
     /// element, the most specific and then the last rule, the attribute. Empty if there is none.
     std::string property(pugi::xml_node node, const char* name) const;
 
-    /// Rules with other selectors, and those within `@media` and the like, that would set what polygons depend on.
+    /// Rules with other selectors, and those within `@media` and the like, that would set properties of polygons.
     std::size_t unread() const { return unread_; }
 
 private:

@@ -14,8 +14,8 @@ struct OutlineEdge {
 };
 
 /// A lower bound of the number of places, at least `apart` micrometres apart, where two segments cross within both.
-/// Exact unless there are more than `most`, where counting ends, or comparing segments takes longer than about half a
-/// second. Cost: some 50 ns for each segment and each crossing; memory: 16 bytes a segment, 8 a crossing.
+/// Exact unless there are more than `most`, where counting stops, or comparing segments takes longer than about
+/// half a second. Cost: some 50 ns for each segment and each crossing; memory: 16 bytes a segment, 8 a crossing.
 /// @throws Stopped
 std::size_t count_crossings(std::span<const OutlineEdge> segments, double apart, std::size_t most,
                             const Monitor& monitor);

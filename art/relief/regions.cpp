@@ -120,7 +120,7 @@ void connect(const std::vector<Border>& borders, const Ends& ends, Windings& win
 /// Refuses borders with too many crossings before any is triangulated, which takes 3 us and more for each.
 void require_affordable(const std::vector<Border>& borders, std::size_t ends, double tolerance,
                         const Monitor& monitor) {
-    constexpr std::size_t few = 5'000;  // whose crossings are found in less than a second, however many they are
+    constexpr std::size_t few = 5'000;  // segments whose crossings are always found in less than a second
     constexpr std::size_t most = ConstrainedTriangulation::most_points;
     if (borders.size() < few) return;
     std::vector<OutlineEdge> segments;

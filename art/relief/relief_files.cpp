@@ -40,7 +40,7 @@ public:
     void add(const SolidTriangle& triangle) {
         const std::array<glm::vec3, 3> corners = {millimetres(triangle[0]), millimetres(triangle[1]),
                                                   millimetres(triangle[2])};
-        // The normal is that of the corners as they are written.
+        // The normal is computed from the corners as written.
         const auto written = [&](std::size_t corner) {
             const glm::vec3& at = corners[corner];
             return glm::dvec3(widened(at.x), widened(at.y), widened(at.z));

@@ -69,7 +69,7 @@ struct SheetLayout {
     double letters = 0.0;         ///< height of a caption's capitals
     std::optional<PlotReport> plot;
     std::uint64_t polygons = 0;       ///< number of filled polygons that can be named
-    std::string missing_letters;      ///< characters of its texts that the lettering does not have, as a list
+    std::string missing_letters;      ///< list of characters in its texts that the lettering font lacks
     std::vector<DrawReport> reports;  ///< findings of the drawings, in their order; without places and plots
 };
 

@@ -215,7 +215,7 @@ private:
         }
     }
 
-    /// The ground of a plot is only shown: software of plotters would draw the outline of a rectangle.
+    /// The ground of a plot is only a background: plotter software would draw the outline of a rectangle.
     std::string shown_ground() const {
         const std::optional<Colour>& ground = print_.style.ground;
         if (!print_.is_plot || !ground || ground->alpha == 0) return "";

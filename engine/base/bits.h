@@ -15,7 +15,7 @@ constexpr To bit_cast(const From& value) {
 }
 
 /// The value of a float as a double, from its bits. Where a double was just rounded to that float, this keeps the
-/// rounding with every compiler: g++ 12 omits it at -O2 if neighbouring values are converted to float and back.
+/// rounding: g++ 12 omits it at -O2 if neighbouring values are converted to float and back.
 constexpr double widened(float value) {
     const auto bits = bit_cast<std::uint32_t>(value);
     const std::uint64_t sign = bits >> 31, exponent = bits >> 23 & 0xff, fraction = bits & 0x7fffff;

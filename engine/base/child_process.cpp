@@ -98,7 +98,7 @@ std::optional<int> Process::ended() {
     int status = 0;
     const int found = ::waitpid(process_, &status, WNOHANG);
     const bool is_running = found == 0 || (found < 0 && errno == EINTR);
-    if (!is_running) process_ = -1;  // also if someone else has waited for it
+    if (!is_running) process_ = -1;  // also if another thread has waited for it
     return found > 0 ? std::optional(status) : std::nullopt;
 }
 

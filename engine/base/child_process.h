@@ -31,12 +31,12 @@ private:
     int number_ = -1;
 };
 
-/// Another descriptor of the same file, above those that a child's are put on. @throws std::system_error
+/// Duplicates a descriptor above those that a child receives. @throws std::system_error
 Descriptor lifted_copy(int descriptor);
-/// The descriptor itself if it is above those, else such a copy in its place. @throws std::system_error
+/// Returns the descriptor itself if it is above those, otherwise such a duplicate. @throws std::system_error
 Descriptor lifted(Descriptor low);
 
-/// What a program is started with.
+/// How a program is started.
 struct ProcessStart {
     std::filesystem::path program;
     std::vector<std::string> arguments;
@@ -47,8 +47,8 @@ struct ProcessStart {
     bool is_apart = false;  ///< in a process group of its own: ctrl-C in a terminal does not reach it
 };
 
-/// A process that is ended and buried with this object. It blocks no signals, ends when nothing reads what it writes,
-/// and ignores what this program ignores (nohup).
+/// A process that is ended and reaped with this object. It blocks no signals, ends when its output has no reader,
+/// and ignores the signals that this program ignores (nohup).
 class Process {
 public:
     /// @throws std::runtime_error that names the program and the cause

@@ -9,8 +9,8 @@ struct Cost {
     double bytes = 0;           ///< size of the outputs
     double memory = 0;          ///< peak memory in bytes
     double band = 0;            ///< additional bytes for each thread that renders pixels
-    double shared_seconds = 0;  ///< of `seconds`, what the works of one program take together only once
-    double shared_memory = 0;   ///< of `memory` likewise
+    double shared_seconds = 0;  ///< part of `seconds` that all works of one program share
+    double shared_memory = 0;   ///< part of `memory`, likewise
 };
 
 }  // namespace sikku

@@ -252,7 +252,7 @@ std::size_t utf8_length(std::string_view text) {
 
 namespace {
 
-/// Replaces what a terminal obeys; ends of lines by `line_end`.
+/// Replaces control characters of terminals, and line breaks by `line_end`.
 std::string plain_text(std::string_view text, std::size_t most, char line_end) {
     std::string result;
     const auto append = [&](std::size_t begin, std::size_t end) {

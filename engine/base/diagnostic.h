@@ -117,17 +117,17 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 /// Bytes of the code point at the front of `text` (not empty), or 0 if it is no valid UTF-8.
 std::size_t utf8_length(std::string_view text);
 
-/// Returns `text` as one line for a message or a table: ends of lines (also U+2028 and U+2029) become blanks, other
+/// Returns `text` as one line for a message or a table: line breaks (also U+2028 and U+2029) become blanks, other
 /// control characters, direction overrides and invalid UTF-8 become '?', and at most `most` bytes are kept, omitting
 /// the middle.
 std::string printable(std::string_view text, std::size_t most = 240);
 
 /// The same for a text of several lines, such as a message with an excerpt: line feeds stay. All lines but the first
-/// are indented, so that no text in a message looks like a message of its own.
+/// are indented, so a text in a message cannot pass for a message of its own.
 std::string printable_lines(std::string_view text, std::size_t most = 240);
 
-/// Returns `text` for one line of a pattern file, such as its title or a comment: as printable(), with single blanks,
-/// and without what begins a comment of several lines or continues the line.
+/// Returns `text` for one line of a pattern file, such as its title or a comment: as printable(), with single
+/// blanks, and without characters that begin a block comment or continue the line.
 std::string pattern_line(std::string_view text, std::size_t most = 400);
 
 /// The whole of `text` as a finite decimal number in any locale, or false.

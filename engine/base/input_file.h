@@ -32,7 +32,7 @@ public:
     /// Reads into `bytes`; returns the number of bytes read.
     std::size_t read(std::uint64_t at, char* bytes, std::size_t count) const;
 
-    /// For another process. Stays open as long as this object.
+    /// A descriptor for another process; open as long as this object.
     int descriptor() const { return descriptor_; }
 
 private:

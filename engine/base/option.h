@@ -37,7 +37,7 @@ struct OptionInfo {
     /// True for values that name files of this machine; null: no value does.
     bool (*names_file)(std::string_view value) = nullptr;
 
-    /// True for what a link must not set unless its reader trusts it: it sets looks and sounds.
+    /// True for an option that a link must not set unless the user trusts it.
     bool is_local(std::string_view value_text) const {
         return moves_machine || (names_file && names_file(value_text));
     }
@@ -60,8 +60,8 @@ struct OptionValue {
 };
 using OptionValues = std::vector<OptionValue>;
 
-/// Reports an invalid value or an invalid combination of options. what() is `option value: message`; callers who name
-/// options in the notation of their users (`--size`) use the parts.
+/// Reports an invalid value or an invalid combination of options. what() is `option value: message`; callers that
+/// write options in another notation (`--size`) use the parts.
 class SettingError : public std::runtime_error {
 public:
     SettingError(std::string option, std::string value, std::string message);

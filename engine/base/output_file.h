@@ -66,7 +66,7 @@ private:
     std::uint64_t written_ = 0;
 };
 
-/// Many files of one folder: all of them appear, or none. They are synchronised together, so that thousands of small
+/// Many files of one folder: all of them appear, or none. They are synchronised together, so thousands of small
 /// files take hardly longer than one.
 class OutputFiles {
 public:

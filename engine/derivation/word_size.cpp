@@ -29,7 +29,7 @@ private:
     std::vector<char> draws_;
 };
 
-/// Nullopt above that many nodes.
+/// Nullopt above `most` nodes.
 std::optional<WordSize> derived_size(const Grammar& grammar, double most) {
     WordSize size;
     DerivationOptions options;
@@ -60,7 +60,7 @@ WordSize word_size(const Grammar& grammar, double most) {
         if (const auto shorter = grammar.with_steps(steps)) last = derived_size(*shorter, most);
     }
     if (!last) return {most, most / 2};
-    // Productions may alternate: growth is that of several steps.
+    // Productions may alternate, so growth is measured over several steps.
     const std::int64_t before = std::max<std::int64_t>(0, steps - std::max<std::int64_t>(1, steps / 4));
     const auto shorter = grammar.with_steps(before);
     const auto first = shorter && before < steps ? derived_size(*shorter, most) : std::nullopt;

@@ -313,7 +313,7 @@ std::pair<char32_t, std::size_t> first_character(std::string_view text) {
     return {code, length};
 }
 
-/// The glyph of the Tamil syllable with which a text begins, and the bytes it takes; 0 if it begins with none.
+/// The glyph of the Tamil syllable at the beginning of a text, and its length in bytes; 0 if there is none.
 std::size_t take_tamil(std::string_view text, Glyph& glyph) {
     constexpr std::size_t most = 6;  // of the longest syllable
     std::u32string characters;
@@ -479,7 +479,7 @@ std::string missing_letters(const std::vector<std::string>& texts) {
 }
 
 std::string letters_warning(const std::string& missing) {
-    return fmt::format("the lettering does not have {}; an empty box stands in place of each", missing);
+    return fmt::format("the lettering font lacks {}; an empty box replaces each", missing);
 }
 
 void write_text(std::string_view utf8, glm::dvec2 start, double height, const Pen& pen, PathSink& sink) {

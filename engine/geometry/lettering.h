@@ -26,11 +26,11 @@ double text_width(std::string_view utf8, double height);
 /// Does the font have every character of it?
 bool has_letters(std::string_view utf8);
 
-/// The characters of several texts that the font does not have, each once, as a list for messages: `日 (U+65E5)`;
-/// empty if it has all.
+/// Lists the characters of several texts that the font lacks, each once, for messages: `日 (U+65E5)`; empty if none
+/// is missing.
 std::string missing_letters(const std::vector<std::string>& texts);
 
-/// A warning about characters that are missing. @param missing  a list of them that is not empty
+/// Returns a warning about missing characters. @param missing  a list of them that is not empty
 std::string letters_warning(const std::string& missing);
 
 /// Writes from `start`, on the line that letters stand on, to the right, with y up: strokes of lines and curves.

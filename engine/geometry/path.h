@@ -45,8 +45,8 @@ public:
     virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
     /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;
-    /// A text whose middle is at `centre`, upright, whose capital letters are `height` steps high. Never within a
-    /// stroke. By default its strokes are drawn here: lines and curves.
+    /// An upright text with its middle at `centre`, whose capital letters are `height` steps high. Never called
+    /// within a stroke. By default, draws its strokes as lines and curves.
     virtual void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen);
     /// A part of the drawing ends: see Grammar::with_marks().
     virtual void mark() {}

@@ -89,7 +89,7 @@ LetterStroke::Piece piece_between(glm::dvec2 from, glm::dvec2 to, glm::dvec2 out
     const glm::dvec2 along = way / length;
     const auto none = [](glm::dvec2 one) { return one == glm::dvec2(0.0); };
     if (none(out) && none(in)) return {false, {}, {}, to};
-    // At an end the curve goes as at its other end: an arc.
+    // At an end of the stroke the curve is an arc.
     const auto mirrored = [&](glm::dvec2 one) { return 2.0 * glm::dot(one, along) * along - one; };
     if (none(out)) out = mirrored(in);
     if (none(in)) in = mirrored(out);
@@ -169,7 +169,7 @@ const std::string tail = "H10 -3.6L6.8 -3.6V1 -8.2";  // to the left, below
 const std::string from_left = "V1 4S5 15.8";          // up to the top on the left
 const std::string from_ring = "M1.5 9.6H5.2 8.6V9 12.2H5.8 16V1 5";
 
-/// A line that goes on below a letter to the left edge and back to the stem of the sign u, or of uu.
+/// A line that continues below a letter to the left edge and back to the stem of the sign u, or of uu.
 std::string swept(const std::string& letter, double left, double stem, bool is_long) {
     const std::string flat = stem > 36 ? fmt::format("H{:.2f} -8.2L{:.2f} -8.2", stem - 19, left + 8)
                                        : fmt::format("H{:.2f} -8.2", left + 9);
@@ -419,7 +419,7 @@ constexpr std::array<std::pair<std::u32string_view, char32_t>, 4> composed = {{{
                                                                                {U"\u0BC6\u0BD7", U'\u0BCC'},
                                                                                {U"\u0B92\u0BD7", U'\u0B94'}}};
 
-/// The character with which a text begins, and the number of characters that it takes.
+/// The first character of a text, and the number of code points that it takes.
 std::pair<char32_t, std::size_t> composed_character(std::u32string_view text) {
     for (const auto& [parts, whole] : composed) {
         if (text.starts_with(parts)) return {whole, parts.size()};

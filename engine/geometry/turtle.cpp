@@ -212,7 +212,7 @@ private:
         std::uint32_t arity;
     };
 
-    /// A label until the pen is lifted.
+    /// A label that waits until the pen is lifted.
     struct Waiting {
         std::string text;
         glm::dvec2 at;

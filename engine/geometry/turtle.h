@@ -45,9 +45,10 @@ public:
                           bool /*is_closed*/) {}
 };
 
-/// A turtle in the plane. Symbols of the third dimension are passed over. Labels are told when the pen is lifted:
-/// they do not break lines. Unbalanced brackets or braces in the word, steps that are not finite, and nesting over
-/// 2^20 are a WordError that names the symbol's position. Source: Prusinkiewicz & Hanan 1989, sections 2.1 and 3.1.
+/// A turtle in the plane. Symbols of the third dimension are skipped. Labels are reported when the pen is lifted,
+/// because they do not interrupt lines. Unbalanced brackets or braces in the word, steps that are not finite, and
+/// nesting over 2^20 are a WordError that names the symbol's position. Source: Prusinkiewicz & Hanan 1989,
+/// sections 2.1 and 3.1.
 class Turtle : public SymbolSink {
 public:
     /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a

@@ -52,8 +52,8 @@ public:
         formals_.clear();
         locals_.clear();
     }
-    /// Puts the value where the name stands from now on, in place of a parameter of that name. A value without text
-    /// is not available.
+    /// Replaces later occurrences of the name by the value, instead of a parameter of that name. A value without
+    /// text is not available.
     void set_local(const std::string& name, Value value) { locals_[name] = std::move(value); }
     /// Adds a parameter of the production; false if it exists already.
     bool add_formal(const std::string& name) { return formals_.insert(name).second; }

@@ -99,7 +99,7 @@ std::set<std::string> letters_of(const std::string& word) {
 }
 
 /// Rounds of a decomposition after which no production applies, at most `depth`: as many as letters derive one
-/// another in a chain. A letter that derives itself may go on as long as conditions allow.
+/// another in a chain. A letter that derives itself may continue as long as its conditions allow.
 long long rounds_of(const std::vector<Rule>& rules, long long depth) {
     std::map<std::string, std::set<std::string>> derived;
     for (const Rule& rule : rules) derived[rule.predecessor.front().letter].merge(letters_of(rule.successor));
@@ -162,7 +162,7 @@ public:
         const auto write_rules = [&](const std::vector<Rule>& rules) {
             for (const Rule& rule : rules) {
                 body += written(rule);
-                if (body.size() > most_import_bytes) break;  // as is told then
+                if (body.size() > most_import_bytes) break;  // reported by the caller
             }
         };
         write_rules(system_.rules);

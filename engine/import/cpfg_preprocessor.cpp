@@ -15,7 +15,7 @@ bool is_comment(const std::string& text, std::size_t slashes) {
     return before < slashes && (slashes + 2 == text.size() || is_blank(text[slashes + 2]));
 }
 
-/// The value of an expression of C with whole numbers, whose defines are expanded; what is not defined is 0.
+/// The value of an integer expression of C with its defines expanded; undefined names are 0.
 bool holds(const std::string& text, std::size_t at) {
     const Source source("", text);
     Diagnostics diagnostics;
@@ -107,7 +107,7 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
     if (what == "if" || what == "ifdef" || what == "ifndef") {
         if (conditions_.size() >= most_defines_deep) mistake(begin, "conditions nest more than 200 deep");
         const bool was_active = is_active();
-        // First of all, so that its #else and #endif are matched whatever the condition is.
+        // First, so #else and #endif are matched even if the condition is invalid.
         conditions_.push_back({begin, false, was_active});
         if (was_active) conditions_.back().holds = conditions_.back().has_held = condition(what, at, end);
     } else if (what == "elif" || what == "else" || what == "endif") {
@@ -143,7 +143,7 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
     }
 }
 
-/// The value of what stands behind #if, #ifdef or #ifndef.
+/// The value of the condition after #if, #ifdef or #ifndef.
 bool Preprocessor::condition(std::string_view what, std::size_t at, std::size_t end) const {
     const std::size_t place = std::min(at, text_.size() - 1);
     if (what != "if") {
@@ -153,7 +153,7 @@ bool Preprocessor::condition(std::string_view what, std::size_t at, std::size_t 
         return defines_.macros.contains(name) == (what == "ifdef");
     }
     if (is_empty(at, end)) mistake(place, "expected a condition");
-    // `defined NAME` asks before defines are expanded.
+    // `defined NAME` is evaluated before defines are expanded.
     std::string text;
     while (at < end) {
         if (!begins_identifier(text_[at]) || (at > 0 && continues_identifier(text_[at - 1]))) {

@@ -55,7 +55,7 @@ private:
         while (at < text_.size() && text_[at] != '\n' && is_blank(text_[at])) ++at;
         return at;
     }
-    /// True for a line of the preprocessor. After a tab, `#(0.1)` goes on with the production before.
+    /// True for a line of the preprocessor. After a tab, `#(0.1)` continues the previous production.
     bool is_directive(std::size_t at) const {
         const std::size_t first = first_of_line(at);
         if (first >= text_.size() || text_[first] != '#') return false;
@@ -176,7 +176,7 @@ private:
             system_.homomorphism_depth = expressions_.whole_number(reader);
             if (system_.homomorphism_depth > 1) system_.homomorphism_depth_at = begin;
         } else if ((section_ == Section::homomorphism || section_ == Section::decomposition) && keyword == "seed:") {
-            return;  // of choices that a homomorphism does not make, and that one seed makes here
+            return;  // of random choices, which a homomorphism does not make and which have one seed here
         } else {
             production(whole, begin);
         }
@@ -227,7 +227,8 @@ private:
         }
     }
 
-    /// Remembers every name in the statements before the axiom: productions that set them have effects on others.
+    /// Collects the names in the statements before the axiom: a production that sets one affects other
+    /// productions.
     void note_globals(std::string_view text) {
         for (std::size_t at = 0; at < text.size();) {
             const std::size_t begin = at;
@@ -324,8 +325,8 @@ private:
         keep(std::move(rule));
     }
 
-    /// The statements of a production: assignments to names that no other production sees are put in where the names
-    /// stand. Others are lost, and so is what depends on them.
+    /// Reads the statements of a production. Values assigned to names that no other production uses replace the
+    /// names. Other statements are lost, and so is everything that depends on them.
     void block(Reader& reader) {
         if (expressions_.next(reader) != '{') return;
         const std::size_t at = reader.where();
@@ -371,7 +372,7 @@ private:
         return false;
     }
 
-    /// Skips the rest of a block; what it sets has no value.
+    /// Skips the rest of a block; variables that it sets have no value.
     void skip_block(Reader& reader, std::size_t at) {
         std::size_t depth = 1;
         while (const char byte = expressions_.next(reader)) {

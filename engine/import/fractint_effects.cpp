@@ -119,7 +119,7 @@ void Effects::compose() {
                 digits += 0.5 * static_cast<double>(effect.halves[i]) * std::log10(entry_.factors.values[i]);
                 if (std::abs(effect.halves[i]) > largest_exponent) is_small = false;
             }
-            // Lengths may become 0, as they do there.
+            // Lengths may become 0, as in Fractint.
             if (!(digits < most_digits)) is_small = false;
         }
         is_settled_ = next == levels_.back();
@@ -149,7 +149,7 @@ void apply(const Token& token, const Entry& entry, const std::map<char, Effect>&
             add(effect.steps, token.letter == '+' ? side : -side, entry.angle);
             break;
         case '|':
-            // As far as whole turns go, clockwise.
+            // Modulo whole turns, clockwise.
             add(effect.around, -(entry.angle / 2), entry.angle);
             break;
         case '\\':

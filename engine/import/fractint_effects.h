@@ -10,8 +10,8 @@
 
 namespace sikku::fractint {
 
-/// What going through a symbol leaves behind: the step length multiplied by powers of the factors, in halves, left
-/// and right exchanged, and the heading of D and M turned against that of F and G.
+/// The effect of a symbol on the turtle after it: the step length multiplied by powers of the factors, in halves;
+/// left and right exchanged; and the heading of D and M turned against that of F and G.
 struct Effect {
     std::vector<std::int64_t> halves;
     bool flips = false;

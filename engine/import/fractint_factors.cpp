@@ -71,7 +71,7 @@ int take_root(Fraction& fraction) {
     return 1;
 }
 
-/// How often `factor` divides `number`, which is divided by it.
+/// Divides `number` by `factor` as often as possible, and returns how often.
 std::int32_t divide_out(std::uint64_t& number, std::uint64_t factor) {
     std::int32_t times = 0;
     while (number % factor == 0) {
@@ -81,7 +81,7 @@ std::int32_t divide_out(std::uint64_t& number, std::uint64_t factor) {
     return times;
 }
 
-/// Whole numbers above 1, pairwise coprime, of whose powers all numerators and denominators are products.
+/// Pairwise coprime whole numbers above 1; all numerators and denominators are products of their powers.
 std::vector<std::uint64_t> coprime_base(const std::vector<Fraction>& fractions) {
     std::vector<std::uint64_t> base;
     std::vector<std::uint64_t> pending;
@@ -122,8 +122,8 @@ std::vector<std::int32_t> exponents_of(Fraction fraction, const std::vector<std:
     return exponents;
 }
 
-/// True if none of the rows is a combination of others. Long double pivots would do, but a modulus leaves no doubt
-/// that rows found independent are.
+/// True if none of the rows is a combination of others. Long double pivots would suffice, but a modulus proves
+/// that rows found independent are independent.
 bool are_independent(const std::vector<std::vector<std::int32_t>>& rows) {
     constexpr std::int64_t modulus = 2'147'483'647;  // a prime number
     const auto inverse_of = [](std::int64_t number) {
@@ -195,7 +195,7 @@ Factors find_factors(const std::vector<std::string>& numbers) {
     std::vector<std::vector<std::int32_t>> of_roots(roots.size());  // exponents of each root
     if (are_independent(rows)) {
         for (std::size_t k = 0; k < roots.size(); ++k) {
-            // A number that alone has this root stands for it.
+            // The only number with this root represents it.
             std::size_t users = 0;
             std::size_t user = 0;
             for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -15,13 +15,13 @@ struct Factors {
 };
 
 /// Finds factors of decimal numbers above 0, such as `.5`. A number stays a factor itself unless it is a power, a
-/// root or a product of others. Numbers of more than 18 digits are taken as independent of all others. Cost:
+/// root or a product of others. Numbers of more than 18 digits count as independent of all others. Cost:
 /// quadratic in the numbers. Source: Bernstein, Factoring into coprimes in essentially linear time, 2005, for the
 /// coprime base.
 Factors find_factors(const std::vector<std::string>& numbers);
 
-/// Product of powers with exponents in halves, for products whose powers leave the range of doubles but which do not
-/// themselves; 0 or infinity if they do. The result is the same on every machine.
+/// Product of powers with exponents in halves, for products whose powers leave the range of doubles although they
+/// themselves do not; 0 or infinity if they do. The result is the same on every machine.
 double product_of_powers(const std::vector<double>& values, const std::vector<std::int64_t>& halves);
 
 }  // namespace sikku::fractint

@@ -16,11 +16,11 @@ enum class ImportFormat { cpfg, fractint };
 
 /// A system that was found in a file, and the pattern made of it.
 struct ImportedSystem {
-    std::string name;     ///< as the file calls it
+    std::string name;     ///< in the file
     int line = 1;         ///< where it begins
     std::string pattern;  ///< text of a pattern file; empty if the system has mistakes
     std::vector<std::string>
-        losses;         ///< what the pattern lacks of it, each with its line; the pattern states it, too
+        losses;         ///< features that the pattern lacks, each with its line; the pattern lists them, too
     bool draws = true;  ///< false if the pattern draws nothing, at any derivation length
 };
 

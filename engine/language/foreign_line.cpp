@@ -15,7 +15,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_advised = 4096;  // bytes of a line; longer ones are not looked at
+constexpr std::size_t most_advised = 4096;  // bytes of a line; longer ones are not examined
 constexpr int most_levels = 8;              // of brackets and lists within lists
 constexpr std::size_t nothing = std::string_view::npos;
 
@@ -78,7 +78,7 @@ constexpr std::array other_names = {
     OtherName{"author", "source"},
     OtherName{"comment", "description"},
 };
-/// Lists that patterns do without, and headings.
+/// Lists that patterns do not need, and headings.
 constexpr std::array<std::string_view, 18> needless_names = {
     "variables", "variable",    "vars",      "constants",   "constant", "consts",
     "alphabet",  "config",      "terminals", "lsystem",     "l-system", "step size",
@@ -151,7 +151,7 @@ std::string plain(std::string_view text) {
 /// The depth of brackets and quotes, byte by byte.
 class Nesting {
 public:
-    /// True if the byte stands outside of all brackets and quotes. A quotation mark needs its twin to count.
+    /// True if the byte stands outside of all brackets and quotes. Unpaired quotation marks do not count.
     bool is_outside(std::string_view text, std::size_t at) {
         const char byte = text[at];
         if (quote_ != 0) {
@@ -227,7 +227,7 @@ std::string_view without_quotes(std::string_view text) {
     return text;
 }
 
-/// Without what programs put around a line: list marks, declarations, separators at the end.
+/// Strips list marks, declarations and separators at the end, as programs write them around a line.
 std::string_view bare(std::string_view line) {
     line = trimmed(line);
     while (line.ends_with(',') || line.ends_with(';') || is_blank(line.empty() ? 'x' : line.back())) {
@@ -551,7 +551,7 @@ bool is_label(std::string_view name, std::string_view after_colon) {
     if (letters == 0 || letters == name.size()) return false;
     const std::string_view number = trimmed(name.substr(letters));
     if (number.empty() || !std::all_of(number.begin(), number.end(), is_digit)) return false;
-    // What follows is a predecessor: a condition of its own, or single symbols with contexts.
+    // A predecessor follows: with a condition of its own, or single symbols with contexts.
     after_colon = trimmed(after_colon);
     if (find_top(after_colon, ":") != nothing) return true;
     const bool has_number = std::any_of(after_colon.begin(), after_colon.end(), is_digit);

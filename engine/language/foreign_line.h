@@ -8,12 +8,12 @@
 
 namespace sikku {
 
-/// What a line would be in a pattern.
+/// The equivalent of a line in a pattern.
 struct LineAdvice {
     std::vector<std::string> lines;  ///< as a pattern states it: `axiom: F`, `X --> F+X`
     std::string axiom;               ///< the word, if one of the lines states the axiom
     bool is_needless = false;        ///< it lists variables or constants, or is a heading
-    std::string_view reason{};       ///< what a pattern does instead of a line that is not needed; may be empty
+    std::string_view reason{};       ///< how a pattern does without a line that is not needed; may be empty
     bool is_understood() const { return is_needless || !lines.empty(); }
     /// `write 'X --> F+X'`; `leave this line out` if it is not needed.
     std::string text() const;
@@ -28,11 +28,11 @@ LineAdvice advice_for_line(std::string_view line, bool has_axiom);
 /// `--&gt;`; a view into `line`, empty if there is none.
 std::string_view foreign_arrow(std::string_view line);
 
-/// The key that is meant by a name of other programs, the literature or everyday English, such as `iterations`, `δ`
+/// The key for a name of other programs, the literature or everyday English, such as `iterations`, `δ`
 /// or `colour`; empty if there is none. @param name  folded
 std::string_view key_of_other_name(std::string_view name);
 
-/// The nearest key, or that of the nearest other name; empty if none is near. @param name  folded
+/// The key whose name, or one of whose other names, is nearest; empty if none is near. @param name  folded
 std::string_view nearest_key(std::string_view name);
 
 /// The ASCII sign that a typographic character stands for, such as `-` for U+2212; `" "` for the blanks of Unicode;

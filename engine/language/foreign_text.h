@@ -6,7 +6,7 @@
 
 namespace sikku {
 
-/// What a text that is not a pattern was written for.
+/// The program that a text that is not a pattern was written for.
 enum class ForeignKind : std::uint8_t { none, fractint, cpfg, lpfg, lpy, html };
 
 /// Recognises systems by their first lines: `Lsystem:` of cpfg, entries `NAME {` with an axiom of Fractint, modules

@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Reads the labels of one pattern: first their texts, then, when all symbols are known, whether these have the
+/// Reads the labels of one pattern: first their texts; when all symbols are known, checks that these have the
 /// parameters that the texts show.
 class LabelReader {
 public:

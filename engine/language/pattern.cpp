@@ -110,8 +110,8 @@ public:
 private:
     enum class Section { common, table, interpret };
 
-    /// Reports the lines that are neither in the pattern language nor in another notation: all in one message, if
-    /// nothing else stands in the text.
+    /// Reports the lines that are neither in the pattern language nor in another notation; in one message if the
+    /// text contains nothing else.
     void finish() {
         find_axiom();
         std::size_t strange = unknown_.size() + repeated_;  // lines
@@ -139,8 +139,8 @@ private:
         }
     }
 
-    /// Without an axiom, `start: X` is meant to state it. What states it in another notation was reported: that there
-    /// is none would be said twice.
+    /// Without an axiom, `start: X` is meant to state it. If another notation states it, that was reported, and a
+    /// missing axiom is not an additional error.
     void find_axiom() {
         if (pattern_.find("axiom")) return;
         for (Key& key : pattern_.keys) {
@@ -251,7 +251,7 @@ private:
         }
     }
 
-    /// ` # ` before a word in a word is a symbol, but was perhaps meant as a comment; so are the marks of other
+    /// ` # ` before a word in a word is a symbol that may be meant as a comment; so are the comment marks of other
     /// languages.
     void warn_of_remark(const Span& whole) {
         const std::size_t at =

@@ -20,7 +20,7 @@ bool is_ink(Action action) {
 /// What a letter does in a grammar.
 struct LetterFacts {
     bool is_skipped = true;       ///< by a turtle, in all its forms
-    bool is_reached = false;      ///< words of the system hold it
+    bool is_reached = false;      ///< words of the system contain it
     bool has_rule = false;        ///< by itself
     bool is_context = false;      ///< of a production, or ignored as one
     bool draws = false;           ///< makes a step that draws
@@ -50,7 +50,7 @@ public:
         for (const Table& table : grammar.tables()) {
             for (const Production& production : table.productions()) read(production);
         }
-        // What is drawn in its place is what counts.
+        // Only what is drawn in its place counts.
         if (!grammar.interpretation()) return;
         for (const Production& production : grammar.interpretation()->productions()) {
             facts_[letter_of(production.predecessor.front())].is_skipped = false;
@@ -102,7 +102,7 @@ bool is_candidate(const LetterFacts& letter) {
     return letter.is_skipped && letter.is_reached && letter.has_rule;
 }
 
-/// The pattern states what draws, or its symbols are notes.
+/// True if the pattern states which symbols draw, or its symbols are notes.
 bool states_meaning(const Pattern& pattern) {
     const Key* mapping = pattern.find("mapping");
     if (pattern.find("forward") || (mapping && mapping->value.view() == "symbols")) return true;

@@ -11,8 +11,8 @@ namespace sikku {
 
 /// Letters that can only be meant as steps, in order: the dragon curve in F and G,
 /// Sierpinski's triangle in F and G, the arrowhead curve in A and B, pasted without `forward: F G`. None if the
-/// pattern has the key `forward`, is a map, or its symbols are notes. A letter is listed if a turtle skips it, if it
-/// is no context, and if
+/// pattern has the key `forward`, is a map, or its symbols are notes. A letter is listed if a turtle skips it, if
+/// it is not a context, and if
 /// - nothing in the system draws or moves, although its words turn, and the letter has productions; or
 /// - its productions consist of the letter alone, several times, as in `G --> GG`; or
 /// - a step's productions contain it, and its own productions contain it, both outside of brackets, as in
@@ -20,10 +20,10 @@ namespace sikku {
 /// Cost: linear in the grammar.
 std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& grammar);
 
-/// Warns of them at the first production of the first one.
+/// Warns of these letters at the first production of the first one.
 void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
 
-/// True if a word of the system, of any derivation length, may hold a symbol that draws. Cost: linear.
+/// True if a word of the system, of any derivation length, may contain a symbol that draws. Cost: linear.
 bool can_draw(const Grammar& grammar);
 
 /// For a word that draws nothing: names the letters with productions that a turtle skips, as

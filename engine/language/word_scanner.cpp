@@ -124,7 +124,7 @@ std::string_view WordScanner::letter(bool blank_before) {
     const std::string_view point = text_.substr(at_, length);
     if (const char* ascii = ascii_of(point)) {
         if (*ascii == 0) return wrong(fmt::format("U+{:04X} is not a symbol: leave it out", code_point(point)));
-        if (*ascii == ' ') return wrong("this blank is not one of ASCII: write a plain blank");
+        if (*ascii == ' ') return wrong("this is not an ASCII blank: write a plain blank");
         return wrong(fmt::format("'{}' is not a symbol: write '{}'", point, ascii));
     }
     // C1 controls are control characters too.

@@ -245,7 +245,7 @@ MapDerivation::MapDerivation(const Grammar& grammar, const MapLimits& limits, Mo
 /// counted without the walls between them, which can only add to them.
 void MapDerivation::require_least_edges() {
     constexpr double cheap_edges = 3e6;   // that take a fraction of a second
-    constexpr std::int64_t far = 10'000;  // steps that are looked ahead
+    constexpr std::int64_t far = 10'000;  // maximum number of steps forecast
     const auto now = static_cast<double>(map_.edges().size());
     if (limits_.edges - edges_made_ <= cheap_edges || !std::isfinite(limits_.edges) || now < 2 * looked_ahead_at_)
         return;

@@ -69,7 +69,7 @@ private:
     Map map_;
     MapOrigins origins_;
     double edges_made_ = 0;
-    double looked_ahead_at_ = 0;  ///< edges of the map whose growth was last looked at
+    double looked_ahead_at_ = 0;  ///< edges of the map whose growth was last forecast
     std::int64_t step_ = 0;
     std::size_t run_ = 0;  // of the schedule
     std::int64_t step_of_run_ = 0;

@@ -27,7 +27,8 @@ struct CutKind {
 /// against each other by other angles than 180 degrees are of different kinds
 std::vector<CutKind> cut_list(const TilingResult& result, double step, bool keeps_direction = false);
 
-/// What the pieces of an examination lack, as one line; empty if all polygons are tiles that do not overlap.
+/// Describes polygons that are left out or overlap, as one line; empty if all polygons are tiles that do not
+/// overlap.
 std::string missing_pieces(const TilingExamination& examination);
 
 /// A table with one line for each kind, and the sums. @param title  title of the pattern  @param n  derivation

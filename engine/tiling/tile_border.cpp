@@ -322,7 +322,7 @@ private:
         }
         return gap;
     }
-    /// Where a level, moved up or down by nothing, crosses loops: the gap between them lies between pairs.
+    /// Where a level, moved up or down infinitesimally, crosses loops: the gap lies between pairs of crossings.
     std::vector<double> crossings_at(const std::vector<std::uint32_t>& loops, double y, bool up) {
         std::vector<double> crossings;
         const auto is_above = [&](glm::dvec2 at) { return up ? at.y > y : at.y >= y; };

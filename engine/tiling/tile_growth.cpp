@@ -133,7 +133,7 @@ private:
     static bool changes_colour(const Command& command) {
         return command.action == Action::colour_set || command.action == Action::colour_step;
     }
-    /// Whether any word changes the colour.
+    /// True if any word changes the colour.
     bool has_colours() const {
         return std::any_of(symbols_.begin(), symbols_.end(), [&](Symbol symbol) {
             const Word word = interpreted(symbol);
@@ -287,7 +287,7 @@ private:
 
     using Rows = std::vector<std::map<std::size_t, double>>;
 
-    /// Groups of kinds whose shares are asked for: shapes, reflected tiles of a shape, colours, and each kind.
+    /// Groups of kinds whose shares are computed: shapes, reflected tiles of a shape, colours, and each kind.
     struct Groups {
         std::vector<std::vector<std::size_t>> of_kind;  ///< groups of each of kinds_
         std::size_t count = 0;

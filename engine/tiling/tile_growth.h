@@ -15,7 +15,7 @@ namespace sikku {
 struct TileKindCount {
     std::uint32_t shape = 0;    ///< index into TileGrowth::shapes
     bool is_reflected = false;  ///< of the other hand than the first of its shape
-    std::optional<int> colour;  ///< absent if the symbols around those that draw the tile decide on it
+    std::optional<int> colour;  ///< absent if it depends on the symbols around those that draw the tile
     std::string letters;        ///< the symbols that draw it
     Integer count = 0;
     std::optional<double> share;  ///< of all tiles, in the limit; absent if it has none

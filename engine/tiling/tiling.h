@@ -54,7 +54,7 @@ struct TilingExamination {
     std::uint64_t polygons = 0;
     std::uint64_t tiles = 0;
     TileViolations violations;
-    /// False if tiles overlap: then nothing from `regions` to `loops` is known.
+    /// False if tiles overlap: then all members from `regions` to `loops` are unknown.
     bool has_border = false;
     std::uint64_t regions = 0;     ///< groups of tiles that are joined by pieces
     std::uint64_t components = 0;  ///< groups of tiles that are joined by pieces or at corners

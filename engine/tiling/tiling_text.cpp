@@ -194,8 +194,8 @@ std::string with_closed_form(double value, const std::string& unit) {
     return number(value) + unit + (form.empty() || is_plain ? "" : ", " + form);
 }
 
-/// `0.381966 rhombs 36 144; 0.618034 rhombs 72 108`, with those of the other hand, and colours where shapes do not
-/// decide on them.
+/// `0.381966 rhombs 36 144; 0.618034 rhombs 72 108`, with tiles of the other hand, and with colours where shapes
+/// do not determine them.
 std::string shares_text(const TileGrowth& growth) {
     std::vector<std::string> parts;
     const std::size_t shapes = growth.shapes.size();
@@ -213,7 +213,7 @@ std::string shares_text(const TileGrowth& growth) {
     } else if (shapes == 1 && !reflected(0).empty()) {
         parts.push_back(reflected(0));
     }
-    // Colours that tell shapes apart say nothing new.
+    // Colours that shapes determine add no information.
     std::map<std::uint32_t, std::set<std::optional<int>>> colours;
     for (const TileKindCount& each : growth.counts) {
         if (!each.share || !is_none(*each.share)) colours[each.shape].insert(each.colour);

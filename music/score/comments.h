@@ -16,7 +16,7 @@ std::string single_line(std::string_view text);
 /// returns and with blanks for tabs.
 std::string head_comments(const ScoreHead& head, std::string_view sign);
 
-/// False if such comments hold the text with blanks or `?` for some of its characters, other than tabs.
+/// False if such comments contain blanks or `?` instead of some characters of the text, other than tabs.
 bool comments_keep(std::string_view text);
 
 }  // namespace sikku

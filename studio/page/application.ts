@@ -38,7 +38,7 @@ export class Application implements Studio {
     /// True while the text has errors: the facts are those of an earlier text.
     hasErrors = false;
 
-    // What was said about the pattern before does not hold for another one.
+    // Messages about the previous pattern do not apply to another one.
     private forget(): void {
         this.say("");
         byId("facts").textContent = "";

@@ -163,7 +163,7 @@ class Export {
         this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
     }
 
-    // The formats depend on the pattern: those of the one before cannot be chosen while a text is being read.
+    // The formats depend on the pattern: those of the previous one cannot be chosen while a text is being read.
     private showFormats(): void {
         const { opened, store } = this.application;
         this.choices = choicesOf(this.application);

@@ -90,7 +90,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     new MutationObserver(() => view.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
     studio.store.subscribe((work) => view.setWork(work));
     studio.onOpened((facts, work) => view.setFacts(facts, work));
-    studio.onChecked(() => view.draw()); // with an error the picture stays that of the text before
+    studio.onChecked(() => view.draw()); // with an error the picture of the previous text remains
     return { name: "map", label: "Picture", element: panel, show: () => view.show(), hide: () => view.hide() };
 };
 

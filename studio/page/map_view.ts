@@ -19,7 +19,7 @@ const keepAfter = 300; // … until the position is stored in the work
 const enteringTime = 240; // milliseconds of the transition from the page to the plane
 const widest = 4096; // pixels of a page's picture
 export const drawing = "Drawing…";
-const patience = 300; // milliseconds without a new picture until the map says that it is drawing
+const patience = 300; // milliseconds without a new picture until the map reports that it is drawing
 const noLoupe: Loupe = { zoom: 1, right: 0, down: 0 };
 
 export class MapView {
@@ -124,7 +124,7 @@ export class MapView {
         this.takePlace();
         this.refresh();
         this.draw();
-        if (isOther) this.onChange(); // not only in the next frame
+        if (isOther) this.onChange(); // now, not in the next frame
     }
 
     // The picture is that of an earlier work from now on.
@@ -153,17 +153,17 @@ export class MapView {
         return isOfText && this.known === null ? null : failed;
     }
 
-    /// What the map is waiting for, in words; empty if its picture is that of the work, or is to come soon.
+    /// Describes what the map is waiting for; empty if it shows the picture of the work, or is expected to soon.
     get waiting(): string {
         if (this.isCurrent || this.failure) return "";
         if (this.studio.hasErrors) {
-            return this.isForeign ? "The text has errors: this is the picture of the pattern before." : "";
+            return this.isForeign ? "The text has errors: this is the picture of the previous pattern." : "";
         }
         if (this.failed) return "";
         return performance.now() - this.since > patience ? drawing : "";
     }
 
-    /// True if the picture is that of another work, and the one of the work does not come soon.
+    /// True if the map shows another work, and the picture of this one is late.
     get isStale(): boolean {
         return !this.isCurrent && (this.isForeign || this.failed !== null || this.waiting !== "");
     }

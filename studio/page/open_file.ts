@@ -10,7 +10,7 @@ import { keepScale } from "./scales";
 
 const largest_file = 64 * 1024 * 1024;
 
-/// What an import left out, and whether anything is left that draws.
+/// The losses of an import, and a remark if the pattern draws nothing.
 function lossesOf(system: Imported["systems"][number]): string {
     return system.losses.join("; ") + (system.draws ? "" : ". Nothing is left that draws.");
 }

@@ -22,7 +22,7 @@ const icons = {
     wider: "M3 7h8M14 14l-3.5-3.5",
     save: "M8 2v8M5 7.5L8 10.5l3-3M3 13h10",
 };
-const patience = 300; // milliseconds until the panel says that it is making a melody
+const patience = 300; // milliseconds until the panel reports that it is making a melody
 const half_frame = 0.008; // seconds
 const most_pointed = 200_000; // notes searched for the one under the pointer
 /// Elements in which the space key has another meaning.
@@ -191,7 +191,7 @@ class PlayPanel implements Panel {
         }
     }
 
-    // Another pattern: what is shown does not belong to it. Music that is heard goes on until the next is there.
+    // Another pattern: the melody shown does not belong to it. Music continues until the next melody is ready.
     private forget(): void {
         this.isStale = true;
         this.refusal.clear();
@@ -210,7 +210,7 @@ class PlayPanel implements Panel {
         this.describe("No melody yet.", "the pattern");
     }
 
-    // Says after a moment that a melody is being made, and dims the one that is there.
+    // After a moment, reports that a melody is being made, and dims the previous one.
     private wait(): void {
         clearTimeout(this.waitTimer);
         this.element.setAttribute("aria-busy", "true");
@@ -239,7 +239,7 @@ class PlayPanel implements Panel {
     }
 
     private showProblem(error: RequestFailed, facts: Opened, work: Work): void {
-        // Music that is heard goes on while its pattern is edited, dimmed.
+        // Music continues while its pattern is edited; the panel is dimmed.
         if (!this.player.transport.playing || !this.heard || isAnother(this.heard, work.pattern)) this.clear();
         else this.element.classList.add("stale");
         const remedies = remediesFor(error.message, work.pattern, work.play).map(({ label, options, pattern }) =>

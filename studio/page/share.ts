@@ -180,7 +180,7 @@ function leftOut(withheld: ReadLink["withheld"]): HTMLElement[] {
         element(
             "p",
             { class: "note warning" },
-            "Left out, because a link sets no commands for a plotter: ",
+            "Left out, because a link cannot set commands for a plotter: ",
             element("code", {}, excerpt(names, most_value).text),
         ),
     ];

@@ -15,7 +15,7 @@ import { fittingHalf, Stage, type Staged } from "./space_stage";
 import { isAnother } from "./versions";
 
 const mostSegments = 150_000; // larger models would take hundreds of megabytes
-const patience = 300; // milliseconds until the panel says that it is making a model
+const patience = 300; // milliseconds until the panel reports that it is making a model
 const growing = 700; // milliseconds for each derivation length
 const turning = 380; // milliseconds of the transition between two models
 const front: Eye = { azimuth: 0, elevation: 0, distance: null };
@@ -264,7 +264,7 @@ class SpaceView {
         this.draw();
     }
 
-    // Says after a moment that a model is being made, and dims what is there.
+    // After a moment, reports that a model is being made, and dims the previous one.
     private wait(): void {
         clearTimeout(this.waitTimer);
         this.refusal.clear();
@@ -315,7 +315,7 @@ class SpaceView {
         return this.opened !== null && !!styleOf("line", this.opened, this.work.draw)?.startsWith("spline");
     }
 
-    /// Why the drawing can have no model; empty if nothing is known against it.
+    /// The reason why the drawing cannot have a model; empty if none is known.
     private get obstacle(): string {
         const facts = this.opened;
         if (!facts) return "";

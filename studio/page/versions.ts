@@ -18,8 +18,9 @@ function linesOf(text: string): Set<string> {
 
 let last: { one: Named; other: Named; isAnother: boolean } | null = null; // each view asks about the same change
 
-/// True if one text is not an edited version of the other: most lines differ, or the title and other lines do. Under
-/// the same title another name says so, because an edit changes the name only with the title.
+/// True if one text is not an edited version of the other: most lines differ, or the title and other lines do.
+/// Under the same title another name also indicates another pattern, because an edit changes the name only with
+/// the title.
 export function isAnother(one: Named, other: Named): boolean {
     if (one.text === other.text) return false;
     if (last?.one !== one || last.other !== other) last = { one, other, isAnother: compare(one, other) };

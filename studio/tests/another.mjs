@@ -1,5 +1,5 @@
-// Tests that the page never shows something else than its work, in headless Chromium: another pattern, drawings that
-// take too long, names and commands, narrow windows.
+// Tests, in headless Chromium, that the page shows only its work: after a change of pattern, with drawings that
+// take too long, in names and commands, and in narrow windows.
 //     node tests/another.mjs [PAGE] [--only WORD]
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -42,7 +42,7 @@ const title = (page, text) => page.locator("#work-title", { hasText: text }).wai
 const isStale = (page, panel) => page.evaluate((name) => document.querySelector(name).matches(".stale"), `.${panel}`);
 const current = (page) => page.waitForFunction(() => document.querySelector(".map[aria-busy=false]:not(.stale)"));
 
-// Replaces the text, as pasting does, and returns at once what the page shows then.
+// Replaces the text, as pasting does, and returns the state of the page at that moment.
 async function paste(page, text, look = () => null) {
     await page.locator(".cm-content").click();
     await page.keyboard.press("Control+a");
@@ -95,7 +95,7 @@ const tests = {
         await close(page);
     },
 
-    async "messages of the pattern before are gone"() {
+    async "messages of the previous pattern are removed"() {
         const page = await open("curves/hilbert");
         await current(page);
         await paste(page, "title: Nothing\naxiom: X\nX --> XX\nderivation length: 2\n");
@@ -110,11 +110,11 @@ const tests = {
         await close(page);
     },
 
-    async "with errors in another text, the picture says whose it is"() {
+    async "with errors in another text, the picture is marked as that of the previous pattern"() {
         const page = await open("curves/hilbert");
         await current(page);
         await paste(page, "title: Broken\naxiom: F\nnonsense here\n");
-        await page.locator(".map-problem:visible", { hasText: "picture of the pattern before" }).waitFor();
+        await page.locator(".map-problem:visible", { hasText: "picture of the previous pattern" }).waitFor();
         assert.ok(await isStale(page, "map"));
         await page.keyboard.press("Control+z");
         await current(page);
@@ -183,7 +183,7 @@ const tests = {
         await close(page);
     },
 
-    async "a drawing that takes too long is answered by the reason and the largest n that can be drawn"() {
+    async "a drawing that takes too long is refused with the reason and the largest n that can be drawn"() {
         const page = await open("curves/hilbert");
         await current(page);
         const hurry = (isHurried) => page.evaluate((value) => (globalThis.is_hurried = value), isHurried);
@@ -250,7 +250,7 @@ const tests = {
         await close(page);
     },
 
-    async "export offers the formats of the work, not of the pattern before"() {
+    async "export offers the formats of the work, not of the previous pattern"() {
         const page = await open("plants/bush-3d", { settings: [["derivation length", "3"]] });
         await current(page);
         await slow(page, { open: 1500 });
@@ -267,7 +267,7 @@ const tests = {
         await close(page);
     },
 
-    async "two values of one name are told apart, and a map has no angle"() {
+    async "two values of one name are distinguished, and a map has no angle"() {
         const page = await open("plants/lilac", { draws: false });
         const labels = () => page.locator(".value-rows .slider > label").allTextContents();
         await page.waitForFunction(() => document.querySelectorAll(".value-rows .slider").length > 2);

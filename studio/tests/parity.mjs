@@ -222,8 +222,8 @@ for (const { name, text } of patterns.filter((_, i) => i % (is_quick ? 8 : 2) ==
     same({ do: "make", interpreter: "play", format: "mid", options: play, pattern }, () => written("play", "mid"));
 }
 
-// The commands shown by the page write the same files as the page: of bundled patterns and changed ones in a folder
-// that is empty, of long texts where the pattern was saved.
+// The commands shown by the page write the same files as the page: of bundled and changed patterns in an empty
+// folder, and of long texts where the pattern was saved.
 const { commandSource } = await load("command_source");
 const engine = { request: async (request) => ({ json: JSON.parse(web(JSON.stringify(request)).json) }) };
 const changes = [

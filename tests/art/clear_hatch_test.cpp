@@ -1,4 +1,4 @@
-// Hatching that keeps clear of ink: of random shapes by sampling, and of the fields of kolams as they are plotted.
+// Tests that hatching keeps clear of ink: random shapes by sampling, and the fields of kolams as plotted.
 #include "art/plotter/clear_hatch.h"
 
 #include "art/draw_settings.h"
@@ -151,7 +151,7 @@ struct Drawn {
     Print print;
 };
 
-/// What reaches a plotter, before it is arranged.
+/// The strokes for a plotter, before they are arranged.
 std::unique_ptr<Drawn> drawn(const Document& document, const OptionValues& values) {
     auto result = std::make_unique<Drawn>();
     const DrawSettings settings = read_draw_settings(values);

@@ -1,4 +1,4 @@
-// tests/art/cost_test.cpp: forecasts of prints: what they grow with, and that refusals come early.
+// tests/art/cost_test.cpp: forecasts of prints grow with the work, and refusals come early.
 #include "art/print/format.h"
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
@@ -32,7 +32,7 @@ TEST(PrintCost, LightTakesMostOfTheTimeOfAPictureInSpace) {
     const double lit = own(cost(plant, "png", {{"size", "A5"}}));
     EXPECT_GT(lit, 5 * flat);
     EXPECT_GT(lit, 3);
-    // Light is asked for by pixels and not by lines.
+    // The cost of light depends on pixels, not on lines.
     const double large = own(cost(plant, "png", {{"size", "A3"}}));
     EXPECT_GT(large, 2.5 * lit);
     EXPECT_LT(large, 5 * lit);
@@ -68,7 +68,7 @@ TEST(PrintCost, WordsOfUnknownLengthAreDerived) {
     }
 }
 
-TEST(PrintCost, OfEveryFormatIsForecast) {
+TEST(PrintCost, IsForecastForEveryFormat) {
     const Document dragon = bundled_pattern("dragon");
     const Document bush = bundled_pattern("bush-3d");
     for (const FormatInfo& row : print_formats()) {
@@ -103,7 +103,7 @@ std::uint64_t work_before_refusal(const Document& document, const char* format, 
     return units;
 }
 
-TEST(Refusals, OfViewsComeBeforeTheWalk) {
+TEST(Refusals, ViewsAreRefusedBeforeTheWalk) {
     const Document tree = parse("tree.lsys", "axiom: F\nderivation length: 25\nF --> FFF+F[F]F\nstroke: 0.2mm\n");
     EXPECT_LT(work_before_refusal(tree, "png", {{"size", "A2"}}), 20'000'000u);
     // The part in the window is a small one of the whole, and still too large.

@@ -20,7 +20,7 @@ std::int64_t cross(Micrometres a, Micrometres b, Micrometres c) {
            (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
 
-/// Every pair is looked at.
+/// Compares every pair.
 std::size_t slowly_counted(const std::vector<OutlineEdge>& edges) {
     std::size_t count = 0;
     const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
@@ -68,7 +68,7 @@ TEST(Crossings, AreThoseOfAllPairs) {
     }
 }
 
-TEST(Crossings, OfOneFanAreOnePlace) {
+TEST(Crossings, AFanHasOneCrossing) {
     std::vector<OutlineEdge> edges;
     for (int i = 1; i <= 100; ++i) edges.push_back({{-1000 * i, -1'000'000}, {1000 * i, 1'000'000}});
     EXPECT_EQ(count_crossings(edges, 1.5, 1000, {}), 1u);
@@ -81,7 +81,7 @@ double processor_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(Relief, ThatCrossesItselfTooOftenIsRefusedAtOnce) {
+TEST(Relief, TooManyCrossingsAreRefusedAtOnce) {
     // A star of 2,999 lines, each of which crosses a third of the others.
     const Document star = parse("star.lsys",
                                 "axiom: X\nderivation length: 2999\nX --> F+X\nangle increment: 122.0906969\n"

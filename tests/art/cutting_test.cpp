@@ -145,7 +145,7 @@ TEST(PieceRows, PiecesNeitherOverlapNorLeaveTheirArea) {
     }
 }
 
-/// Stops work that polls its monitor more often than some times, each of which stands for 4,096 steps.
+/// Stops work that polls its monitor more often than a given number of times, once in 4,096 steps.
 struct Patience {
     int polls = 0;
     Monitor monitor() {

@@ -35,7 +35,7 @@ const std::string kolam =
     "stroke: 0.2 step #fffaf0\nground: #8c3b2a\n";
 
 /// Values of published pairs: Sharma, Wu & Dalal list L*a*b*; white, grey and primaries follow from sRGB.
-TEST(Contrast, IsTheDifferenceOfTheCie) {
+TEST(Contrast, IsTheCieColourDifference) {
     const Colour white{255, 255, 255, 255}, black{0, 0, 0, 255};
     EXPECT_NEAR(colour_difference(white, black), 100, 1e-3);
     EXPECT_EQ(colour_difference(white, white), 0);
@@ -90,7 +90,7 @@ TEST(FaintInks, SheetsNameTheDrawings) {
     EXPECT_EQ(text.find("'Seen'"), std::string::npos) << text;
 }
 
-TEST(FaintInks, DotsToPractiseOnAreSeen) {
+TEST(FaintInks, PracticeDotsAreVisible) {
     const Document document = parse("kolam.lsys", kolam);
     for (const char* ground : {"#8c3b2a", "white", "snow", "none"}) {
         const OptionValues values = {{"dots", "only"}, {"ground", ground}};

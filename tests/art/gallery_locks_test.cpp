@@ -37,7 +37,7 @@ bool deny_locks(int error) {
            ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// A gallery took EACCES for the lock of another run, and waited for that run for ever.
+/// Galleries once took EACCES for a lock of another run, and waited forever.
 TEST(GalleryLocks, LocksThatAreDeniedAreNotThoseOfAnotherRun) {
     for (const int error : {EACCES, ENOLCK}) {
         const ScratchFolder folder;

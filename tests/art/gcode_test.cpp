@@ -273,7 +273,7 @@ std::vector<std::string> commands_of(const Document& document, const OptionValue
     return commands;
 }
 
-TEST_F(Gcode, NothingMovesToWhereItIs) {
+TEST_F(Gcode, RedundantMovesAreOmitted) {
     for (const char* name : {"plants/lily-of-the-valley", "kolams/snake-kolam", "tilings/penrose-rhombs"}) {
         std::string at;
         for (const std::string& line : commands_of(load(bundled(name)), {})) {

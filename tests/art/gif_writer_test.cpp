@@ -104,7 +104,7 @@ TEST(GifWriter, ManyColoursAreReducedButTheirMeansRemain) {
         double sum = 0, blocks = 0;
         for (std::size_t at = 0; at < shown[i].size(); ++at) sum += std::abs(shown[i][at] - pictures[i][at]);
         EXPECT_LT(sum / static_cast<double>(shown[i].size()), 6);
-        // Errors are handed on: the means of squares of 8 x 8 pixels are right.
+        // Errors are diffused: the means of squares of 8 x 8 pixels are right.
         for (int y = 0; y < side; y += 8) {
             for (int x = 0; x < side; x += 8) {
                 int difference = 0;

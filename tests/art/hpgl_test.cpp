@@ -243,7 +243,7 @@ TEST_F(Hpgl, WhatLiesOffThePageIsRefused) {
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
 }
 
-/// What an HP-GL plot of a document and its report say.
+/// The HP-GL plot of a document and its report.
 std::pair<std::string, std::string> plotted(const Document& document, const OptionValues& values) {
     MemoryDestination memory;
     const Made made = prints().plan(document, "hpgl", values, {})->make(memory, "plot.hpgl", {}, 1);
@@ -286,7 +286,7 @@ TEST_F(Hpgl, AProfileWidensTheMarginThatItNeeds) {
     EXPECT_EQ(plotted(kolam, {}).second.find("the margin is"), std::string::npos);
 }
 
-TEST_F(Hpgl, APenThatIsThereDoesNotMove) {
+TEST_F(Hpgl, RedundantMovesAreOmitted) {
     for (const char* name : {"plants/lily-of-the-valley", "kolams/snake-kolam", "tilings/penrose-rhombs"}) {
         const std::string text = plotted(load(bundled(name)), {{"tile-edges", "each"}}).first;
         std::string at;

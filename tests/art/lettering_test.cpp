@@ -176,8 +176,7 @@ TEST(Lettering, MissingCharactersAreNamedOnce) {
     EXPECT_EQ(missing_letters({"Würzburg „Kolam“ €", "அன்பு & மீரா"}), "");
     EXPECT_EQ(missing_letters({"日本 日", "a日"}), "日 (U+65E5), 本 (U+672C)");
     EXPECT_EQ(missing_letters({"\xff", "\x01"}), "the byte 0xff, U+0001");
-    EXPECT_EQ(letters_warning("日 (U+65E5)"),
-              "the lettering does not have 日 (U+65E5); an empty box stands in place of each");
+    EXPECT_EQ(letters_warning("日 (U+65E5)"), "the lettering font lacks 日 (U+65E5); an empty box replaces each");
 }
 
 std::u32string u32(std::string_view utf8) {
@@ -215,7 +214,7 @@ TEST(Tamil, EverySyllableIsOneGlyphWithinItsRoom) {
             EXPECT_LE(sink.box.high.x, text_width(syllable, 1.0)) << syllable;
             EXPECT_GE(sink.box.low.y, -letter_descent) << syllable;
             EXPECT_LE(sink.box.high.y, letter_ascent) << syllable;
-            // A sign changes what is written.
+            // A sign changes the glyph.
             const Written plain = written(consonant, 1.0);
             EXPECT_TRUE(sink.segments != plain.segments || sink.box.high != plain.box.high ||
                         sink.box.low != plain.box.low)

@@ -1,5 +1,5 @@
-// Every option of prints, on several drawings and outputs, changes the file, is refused, or is warned of: nothing
-// that is accepted is ignored in silence.
+// Every option of prints, on several drawings and outputs, changes the file, is refused, or causes a warning: no
+// accepted option is silently ignored.
 #include "art/prints.h"
 #include "engine/base/output.h"
 #include "tests/files.h"
@@ -137,7 +137,7 @@ const std::map<std::string, std::string> exempt = {
     {"jobs", "speed only: files do not depend on threads"},
     {"cmyk", "needs a profile; refused or applied, see the tests of the press"}};
 
-/// Combinations that rightly change nothing; empty: all drawings or outputs.
+/// Combinations that should change nothing; empty: all drawings or outputs.
 struct Exception {
     std::string option;
     std::set<std::string> drawings, outputs;

@@ -1,4 +1,4 @@
-// tests/art/photograph_marks_test.cpp: pictures of kolams in which something is lost, added or something else.
+// tests/art/photograph_marks_test.cpp: pictures of kolams with lost dots, added marks, or without kolams.
 #include "art/kolam/dot_grid_making.h"
 #include "art/reading/photograph.h"
 #include "tests/files.h"
@@ -74,7 +74,7 @@ void expect_no_silent_loss(const MadePhotograph& made) {
             << place.first << "," << place.second << " is lost";
     }
     for (const auto& place : dots)
-        EXPECT_TRUE(truth.contains(place)) << place.first << "," << place.second << " is no dot";
+        EXPECT_TRUE(truth.contains(place)) << place.first << "," << place.second << " is not a dot";
     // Certain gaps between dots that were read are right.
     for (std::uint32_t gap = 0; gap < read.kolam.states.size(); ++gap) {
         if (read.kolam.is_doubtful(gap)) continue;
@@ -131,7 +131,7 @@ TEST(PhotographMarks, PetalsWithoutDotsAreNotDots) {
 }
 
 /// Rows that waver by a seventh of the spacing, and dots beside the middles of their loops.
-TEST(PhotographMarks, AHandNeedNotBeRegular) {
+TEST(PhotographMarks, HandDrawingsMayBeIrregular) {
     for (const std::uint32_t seed : {1U, 2U}) {
         MadePhotograph made = made_of("1-3-5-7-9-7-5-3-1", seed, 0.4);
         made.bend = 0.14;
@@ -237,7 +237,7 @@ private:
     std::vector<std::uint8_t> pixels_;
 };
 
-/// What is said about a picture that is refused, after its overlay has been written.
+/// The message about a refused picture, after its overlay has been written.
 std::string refusal_of(const Sketch& sketch) {
     const ScratchFolder folder;
     sketch.write(folder.path() / "picture.png");
@@ -252,11 +252,11 @@ std::string refusal_of(const Sketch& sketch) {
     }
 }
 
-TEST(PhotographMarks, RefusalsSayWhatWasFound) {
+TEST(PhotographMarks, RefusalsReportFindings) {
     // Nothing but a bar.
     Sketch bar(800, 600);
     bar.line({100, 300}, {700, 310}, 20);
-    EXPECT_EQ(refusal_of(bar), "no kolam found: no round spots, as dots are");
+    EXPECT_EQ(refusal_of(bar), "no kolam found: no round spots that could be dots");
     // Spots anywhere.
     Sketch spots(800, 600);
     PictureChance chance(7);

@@ -1,5 +1,5 @@
-// tests/art/picture_process_test.cpp: pictures of strangers are decoded in a process that can do nothing else, and
-// whatever they do to it is one message.
+// tests/art/picture_process_test.cpp: untrusted pictures are decoded in a process that can do nothing else, and
+// every failure of it becomes one message.
 #include "art/decoder/averager.h"
 #include "art/decoder/bare_picture.h"
 #include "art/decoder/confinement.h"
@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::uint64_t most_pixels = 100'000'000;
 
-/// What read_picture() says of a file, or `WIDTHxHEIGHT`.
+/// The error of read_picture() for a file, or `WIDTHxHEIGHT`.
 std::string answer_to(const std::filesystem::path& path) {
     try {
         const DecodedPicture picture = read_picture(path, 1500, most_pixels);
@@ -118,7 +118,7 @@ TEST(PictureProcess, TransparentPartsLieOnWhite) {
     }
 }
 
-/// The library of the decoder has to be asked what it decoded: files state any size.
+/// Files can state any size, so only the size of the decoded picture is valid.
 TEST(PictureProcess, HeifIsNotLargerThanWhatItCodes) {
     for (const char* name : {"a.heic", "a.avif"}) {
         const std::string sound = coded(name, 64, 64);
@@ -130,7 +130,7 @@ TEST(PictureProcess, HeifIsNotLargerThanWhatItCodes) {
         EXPECT_TRUE(has(answer_to(with_stated_size(sound, 30'000, 30'000), name), "at most 100 million"));
         EXPECT_EQ(answer_to(with_stated_size(sound, 40, 50), name), "40x50");
     }
-    // Letters in a picture are no box.
+    // Letters in pixel data are not a box.
     std::string letters = coded("a.heic", 64, 64);
     letters += heif_box("free", "ispe" + std::string(4, '\0') + std::string(8, '\x7F'));
     EXPECT_EQ(answer_to(letters, "a.heic"), "64x64");
@@ -199,7 +199,7 @@ TEST(PictureProcess, EndsWhenItsWorkIsStopped) {
     const Monitor monitor([](void* data) { return ++static_cast<Counter*>(data)->calls > 1; },
                           [](void*, std::uint64_t) {}, &counter);
     EXPECT_THROW(read_picture(path, 1500, most_pixels, monitor), Stopped);
-    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // it is gone, not only ended
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // it was reaped, not only ended
     EXPECT_EQ(errno, ECHILD);
 }
 
@@ -213,9 +213,9 @@ TEST(PictureProcess, ReadsRegularFilesOnly) {
               "not a picture: expected JPEG, PNG, TIFF, WebP, HEIF or BMP");
 }
 
-// --- what the process may do ------------------------------------------------------------------------------------
+// --- rights of the process -------------------------------------------------------------------------------------
 
-/// Confines a process and returns what it could still do, a letter each.
+/// Confines a process and returns the actions that still succeed, a letter for each.
 std::string abilities_of_confined() {
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0) return "no pipe";

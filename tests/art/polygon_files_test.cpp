@@ -51,7 +51,7 @@ TEST(PolygonFiles, ReadListsAndObjects) {
     EXPECT_EQ(full.colour, (std::vector<std::int32_t>{3, 0, 0}));
     EXPECT_EQ(full.polygon(2)[0], glm::dvec2(5, 5));
     EXPECT_EQ(read_polygons_json("[]").size(), 0U);
-    // A list of tiles is not what was examined if polygons had to be left out.
+    // A list of tiles differs from the examined drawing if polygons were left out.
     EXPECT_TRUE(read_polygons_json(R"({"violations": 0, "list": []})").notes.empty());
     EXPECT_EQ(read_polygons_json(R"({"violations": 3, "list": []})").notes.size(), 1U);
 }
@@ -153,7 +153,7 @@ std::string names(const PolygonList& list) {
     return text;
 }
 
-/// A picture with copies is the picture in which somebody wrote them out.
+/// A picture with copies equals the picture with the copies written out.
 TEST(PolygonSvg, ReadsCopies) {
     const PolygonList copied = read_polygons_svg(
         svg("<defs><rect id=\"a\" width=\"1\" height=\"2\"/><g id=\"two\" transform=\"rotate(90)\">"
@@ -240,7 +240,7 @@ TEST(PolygonSvg, ReadsFillsOfStyleSheets) {
     EXPECT_EQ(fill_of("/* .a{fill:red} */ .a{/*;*/stroke:url(data:;a);fill: #fff ;}", "class=\"a\""), "#fff ");
     EXPECT_EQ(fill_of("<![CDATA[.a{fill:red}]]>", "class=\"a\""), "red ");
     EXPECT_EQ(fill_of(".a{fill:inherit}", "class=\"a\" fill=\"red\"", "fill=\"blue\""), "blue ");
-    // What is hidden is not a tile.
+    // Hidden elements are not tiles.
     const std::string more = "<rect x=\"5\" width=\"1\" height=\"1\"/>";
     for (const char* hidden : {"display:none", "fill:none", "visibility:hidden", "opacity:0", "fill-opacity:0",
                                "fill:None", "fill:transparent"}) {
@@ -264,7 +264,8 @@ TEST(PolygonSvg, CountsRulesThatAreNotRead) {
         return all;
     };
     EXPECT_EQ(notes(".a{fill:red} @font-face{font-family:x;src:url(a)} text:hover{stroke:red}"), "");
-    const std::string one = "1 style rule not read: only simple selectors are, outside of @media and the like\n";
+    const std::string one =
+        "1 style rule not read: only simple selectors outside of @media and similar rules are supported\n";
     for (const char* sheet : {"g .a{fill:red}", "g>rect{fill:red}", "rect[x]{fill:none}",
                               "rect:first-child{fill:red}", "@media print{.a{fill:red}}", "@import url(a.css);",
                               ".a\\:b{fill:red}", "@media print{.a{stroke:red} .b{stroke:none;fill:red}}"}) {

@@ -50,7 +50,7 @@ const std::string square = "{F+F+F+F+}";
 const std::string two_squares = "{F+F+F+F+;(1)}f{F+F+F+F+;(2)}";  // side by side
 
 TEST(Relief, NormalsAreThoseOfTheWrittenCorners) {
-    // Many small triangles, whose normals change most if a compiler omits the rounding of corners.
+    // Many small triangles: their normals change most if a compiler omits the rounding of corners.
     const Document kolam = load("snake-kolam", {"", {{"derivation length", "2"}}});
     const ReadMesh mesh = stl(kolam, {{"size", "90x90mm"}, {"step", "8mm"}});
     EXPECT_GT(mesh.triangles.size(), 5'000U);

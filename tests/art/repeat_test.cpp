@@ -394,7 +394,7 @@ TEST(Repeat, FillsThePage) {
     EXPECT_ANY_THROW(draw(document, "svg", {{"repeat", "p4m:fill"}, {"step", "0.1mm"}, {"size", "A0"}}));
 }
 
-/// A frieze goes on from edge to edge, as high as the page within its margins.
+/// A frieze runs from edge to edge, and is as high as the page within its margins.
 TEST(Repeat, AFriezeFillsItsRow) {
     const Document document = parse("hook.lsys", hook);
     for (const char* group : {"frieze", "frieze-p2mg", "frieze-p1m1"}) {

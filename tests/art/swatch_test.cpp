@@ -331,7 +331,7 @@ TEST(Swatch, IsRefusedWithAReason) {
         const std::string reason = refusal(load(name));
         EXPECT_EQ(reason.find("swatch: found no period among translations of up to "), 0U) << reason;
     }
-    // Positions leave the doubles before there are many tiles.
+    // Positions exceed the precision of doubles before there are many tiles.
     for (const char* name : {"fibonacci-spiral", "padovan-spiral"}) {
         const std::string reason = refusal(load(name));
         EXPECT_EQ(reason.find("swatch: found no period in "), 0U) << reason;

@@ -140,8 +140,8 @@ TEST(TileWorms, AreDrawnAsStraightStrokes) {
     EXPECT_EQ(strokes({{"decorate", "worms"}}) - strokes({}), std::lround(count));
 }
 
-/// Colours and lines without effect are warned of.
-TEST(TileWorms, AreMissed) {
+/// Colours and lines without effect cause warnings.
+TEST(TileWorms, MissingWormsAreReported) {
     const auto warnings = [](const char* name, const OptionValues& more) {
         OptionValues values = {{"derivation length", "3"}, {"size", "100x100mm"}};
         values.insert(values.end(), more.begin(), more.end());
@@ -159,7 +159,8 @@ TEST(TileWorms, AreMissed) {
     EXPECT_EQ(warnings("tilings/pinwheel", {{"tile-colours", "worms"}}), none);
     EXPECT_EQ(warnings("tilings/pinwheel", {{"decorate", "worms"}}), none);
     EXPECT_EQ(warnings("tilings/penrose-rhombs", {{"tile-colours", "worms"}, {"decorate", "worms"}}), "");
-    const std::string alike = "'tile colours' gives all tiles one colour: they do not differ in what it colours by\n";
+    const std::string alike =
+        "'tile colours' gives all tiles one colour: all tiles agree in the property that sets the colour\n";
     EXPECT_EQ(warnings("tilings/chair", {{"tile-colours", "hand"}}), alike);
     EXPECT_EQ(warnings("tilings/chair", {{"tile-colours", "direction"}}), "");
 }

@@ -41,7 +41,7 @@ struct Row {
     std::int64_t more_steps = 0;  ///< added to the derivation length
 };
 
-/// What a child reports before it ends.
+/// The report of a child.
 struct Outcome {
     Cost cost;
     double forecast_seconds = 0;  ///< of processor time that planning and forecasting took

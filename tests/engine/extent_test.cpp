@@ -47,7 +47,7 @@ TEST(Measure, ThePublishedKolam) {
     EXPECT_FALSE(found.derived);
 }
 
-/// Positions off the lattice are rounded; a drawing of the size of their tolerance is not closed for that.
+/// Positions off the lattice are rounded; a drawing of the size of their tolerance is not closed because of that.
 TEST(Measure, IsNotClosedBecauseItIsSmall) {
     const auto closed = [](const std::string& axiom) {
         return measure(grammar_of("axiom: " + axiom + "\nangle increment: 17.3\n"), budget).geometry->closed;

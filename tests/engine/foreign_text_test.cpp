@@ -1,5 +1,5 @@
-// tests/engine/foreign_text_test.cpp: what people paste from other programs and from the literature is answered with
-// the line as a pattern has it; texts of other programs are recognised.
+// tests/engine/foreign_text_test.cpp: errors about lines from other programs and the literature show the line in
+// the pattern language; texts of other programs are recognised.
 #include "engine/language/foreign_text.h"
 
 #include "engine/language/foreign_line.h"
@@ -65,7 +65,7 @@ TEST(ForeignLine, ArrowsOfOtherNotationsBecomeThatOfPatterns) {
     EXPECT_EQ(answer("X → F+X"), "'→' is not the arrow of a production; write 'X --> F+X'\n");
     EXPECT_EQ(answer("X=F+X"), "expected 'key: value' or a production with '-->'; write 'X --> F+X'\n");
     EXPECT_EQ(answer("X: F+X"), "unknown key 'X'; write 'X --> F+X'\n");
-    // The signs of typography go with the arrow, contexts and parameters stay.
+    // Typographic signs are replaced like the arrow; contexts and parameters remain.
     EXPECT_EQ(advice("X → F−[[X]+X]"), std::vector<std::string>{"X --> F-[[X]+X]"});
     EXPECT_EQ(advice("A < B(x) > C : x > 2 → B(x/2)"), std::vector<std::string>{"A < B(x) > C : x > 2 --> B(x/2)"});
     EXPECT_EQ(advice("F → "), std::vector<std::string>{"F --> *"});
@@ -112,7 +112,7 @@ TEST(ForeignLine, KeysOfOtherPrograms) {
     EXPECT_EQ(answer("angle increment: 25°"), "degrees are a plain number; write 'angle increment: 25'\n");
     EXPECT_EQ(answer("heading: 90 degrees"), "degrees are a plain number; write 'heading: 90'\n");
     EXPECT_NE(answer("angle increment: wide").find("expected degrees"), std::string::npos);
-    // A value that is not understood is not repeated in an advice.
+    // Advice does not repeat a value that is not understood.
     EXPECT_EQ(answer("angle: PI/6"), "unknown key 'angle'; did you mean 'angle increment'?\n");
     EXPECT_EQ(answer("angel: 25"), "unknown key 'angel'; did you mean 'angle increment'?\n");
     EXPECT_EQ(answer("length factor = 1.36"),
@@ -121,7 +121,7 @@ TEST(ForeignLine, KeysOfOtherPrograms) {
     EXPECT_EQ(answer("iteration count: 5"), "unknown key 'iteration count'\n");
 }
 
-TEST(ForeignLine, ListsAreTakenApart) {
+TEST(ForeignLine, ListsAreSplit) {
     EXPECT_EQ(advice("rules  : (X → F+[[X]−X]), (F → FF)"),
               (std::vector<std::string>{"X --> F+[[X]-X]", "F --> FF"}));
     EXPECT_EQ(advice("n=5, δ=25.7°"), (std::vector<std::string>{"derivation length: 5", "angle increment: 25.7"}));
@@ -133,14 +133,14 @@ TEST(ForeignLine, ListsAreTakenApart) {
               "unknown key 'rules'; write each in its own line: 'A --> AB', 'B --> A'\n");
 }
 
-TEST(ForeignLine, WhatPatternsDoWithoutIsLeftOut) {
+TEST(ForeignLine, NeedlessLinesAreLeftOut) {
     for (const char* line : {"variables: X F", "constants : + − [ ]", "alphabet: A, B",
                              "rules:", "config:", "step = 5", "rules = {", "production:"}) {
         EXPECT_NE(answer(line).find("leave this line out"), std::string::npos) << line << '\n' << answer(line);
     }
 }
 
-TEST(ForeignLine, WholePagesAreAnsweredLineByLine) {
+TEST(ForeignLine, WholePagesAreReportedLineByLine) {
     // As encyclopedias print a plant.
     expect_mistakes(
         "variables : X F\nconstants : + − [ ]\nstart  : X\nrules  : (X → F+[[X]−X]), (F → FF)\nangle  : 25°\n",
@@ -171,7 +171,7 @@ TEST(ForeignLine, WholePagesAreAnsweredLineByLine) {
          {{3, 5}, "leave this line out"},
          {{4, 9}, "write 'X --> F[+X]FX'"},
          {{6, 5}, "write 'angle increment: 30'"}});
-    // What can be understood is a pattern once the advice is followed.
+    // Following the advice yields a pattern.
     for (const char* text : {"axiom: X\nX --> F+[[X]-X]\nF --> FF\nangle increment: 25\n",
                              "derivation length: 5\nangle increment: 25.7\naxiom: F\nF --> F[+F]F[-F]F\n"}) {
         EXPECT_TRUE(diagnostics_of(text).empty());
@@ -182,13 +182,13 @@ TEST(ForeignLine, NamesOfProductionsAreNotPredecessors) {
     expect_mistakes("axiom: F\np1 : F --> FF\n", {{{2, 1}, "write 'F --> FF'"}});
     expect_mistakes("axiom: F(1)\np1 : F(x) : x > 2 --> F(x)\n", {{{2, 1}, "write 'F(x) : x > 2 --> F(x)'"}});
     expect_mistakes("axiom: F\nF ---> FF\n", {{{2, 3}, "expected '-->'"}});
-    // Symbols with names and conditions on defines are what they were.
+    // Symbols with names and conditions on defines are unaffected.
     EXPECT_TRUE(diagnostics_of("axiom: p1\nsymbols: p1\ndefine c = 1\np1 : c --> F\n").empty());
     EXPECT_TRUE(diagnostics_of("axiom: A1\nA1 : random(0, 1) < 0.5 --> F\n").empty());
     EXPECT_TRUE(diagnostics_of("axiom: +-\n- --> F\n-F --> F-\n").empty());
 }
 
-TEST(ForeignLine, ATextThatIsNothingIsAnsweredOnce) {
+TEST(ForeignLine, AnUnrecognisedTextIsReportedOnce) {
     std::string prose = "# A project\n\nIt draws: curves.\n";
     for (int i = 0; i < 40; ++i) prose += "Some prose about curves and more prose.\n";
     expect_mistakes(prose, {{{1, 1}, "this text is not a pattern"}});
@@ -249,7 +249,7 @@ TEST(ForeignSign, QuotationMarksAroundAWordAreWarnedOf) {
     EXPECT_TRUE(diagnostics_of("axiom: F\nF --> ''F;F'\nf --> 'F\n").empty());
 }
 
-TEST(LateRemark, NamesOfSymbolsAreNone) {
+TEST(LateRemark, NamesOfSymbolsAreNotRemarks) {
     EXPECT_TRUE(diagnostics_of("axiom: plant\nplant --> F -- leaf # leaf plant\nsymbols: plant leaf\n").empty());
 }
 

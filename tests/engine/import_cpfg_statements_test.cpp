@@ -58,7 +58,7 @@ TEST(ImportCpfgLines, ConditionsAreExpressions) {
     EXPECT_EQ(branch(1) + branch(2) + branch(3) + branch(4), "FGfg");
 }
 
-TEST(ImportCpfgStatements, LocalVariablesArePutIn) {
+TEST(ImportCpfgStatements, LocalVariablesAreReplaced) {
     const ImportedSystem system =
         cpfg(system_with("A(t) : {x=t/2;} x>0 {y=x+1; z = y*y;} --> F(y)[+A(x)]F(z)A(-x)\n", "A(4)", 2));
     EXPECT_EQ(all_losses(system), "");
@@ -67,14 +67,14 @@ TEST(ImportCpfgStatements, LocalVariablesArePutIn) {
         "axiom: A(4)\nturn: left\nA(t) : t/2 > 0 --> F(t/2+1)[+A(t/2)]F((t/2+1)^2)A(0-t/2)\nderivation length: 2\n";
     EXPECT_EQ(word_of(system.pattern), word_of(by_hand));
     EXPECT_EQ(word_of(system.pattern, 1), "F(3)[+A(2)]F(9)A(-2)");
-    // A parameter may be set, and a name be another value in another production.
+    // A parameter may be set, and a name may have another value in another production.
     const ImportedSystem two = cpfg(
         system_with("A(t) : {t = t+1;} 1 --> B(t)\nB(u) : {t = u*2; printf(\"%d;\", t);} 1 --> F(t)\n", "A(4)", 2));
     EXPECT_EQ(word_of(two.pattern), "F(10)");
     EXPECT_TRUE(has(all_losses(two), "what printf() writes"));
 }
 
-TEST(ImportCpfgStatements, WhatHasEffectsElsewhereIsLost) {
+TEST(ImportCpfgStatements, StatementsWithOtherEffectsAreLost) {
     // Of unknown statements only what depends on them is lost.
     const ImportedSystem kept = cpfg(system_with("A(t) : {if (t > 1) { x = 2; }} 1 --> F(t)\n", "A(4)"));
     EXPECT_EQ(word_of(kept.pattern), "F(4)");
@@ -90,7 +90,7 @@ TEST(ImportCpfgStatements, WhatHasEffectsElsewhereIsLost) {
         "A(t) : {total = total + t;} 1 --> F(t)\nendlsystem\n");
     EXPECT_EQ(word_of(shared.pattern), "F(4)");
     EXPECT_TRUE(has(all_losses(shared), "the C statements of a production"));
-    // One chance is not two.
+    // One random number is not two.
     const ImportedSystem chance = cpfg(system_with("A(t) : {x = ran(1);} 1 --> F(x)F(x)\n", "A(4)"));
     EXPECT_TRUE(has(all_losses(chance), "'x' would draw the same chance twice"));
     EXPECT_EQ(all_losses(cpfg(system_with("A(t) : {x = ran(1);} 1 --> F(x)\n", "A(4)"))), "");
@@ -127,7 +127,7 @@ TEST(ImportCpfg, OtherProgramsFilesAreNotItsOwn) {
     EXPECT_EQ(import_format("A {\nangle 4\naxiom F\n}\n"), ImportFormat::fractint);
 }
 
-TEST(ImportCpfg, WhatDrawsNothingIsNoted) {
+TEST(ImportCpfg, PatternsThatDrawNothingAreReported) {
     EXPECT_TRUE(cpfg(system_with("A --> F\n", "A")).draws);
     EXPECT_FALSE(cpfg(system_with("A(t) : {t = f(t);} 1 --> F(t)\n")).draws);
 }

@@ -456,7 +456,7 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("#define S(a,b) a\nLsystem: 1\nAxiom: S(F)\nendlsystem\n", {{{3, 8}, "'S' takes 2 arguments, not 1"}});
     expect("#define S(a F\nLsystem: 1\nAxiom: F\nendlsystem\n", {{{1, 13}, "expected names"}});
     expect("#define x 1\n" + head + "A(x) --> B\nendlsystem\n", {{{4, 4}, "the parameter 'x' is a define"}});
-    // What follows a condition that is not understood is matched all the same.
+    // Directives after a condition that is not understood are still matched.
     expect("#if x > (\n#else\n#endif\n" + head + "endlsystem\n", {{{1, 4}, "this condition is not understood"}});
     expect("#ifdef x\n" + head + "endlsystem\n",
            {{{1, 1}, "has no #endif"}, {{1, 1}, "there is no line 'Lsystem:'"}});

@@ -310,7 +310,7 @@ TEST(ImportFractint, FactorsThatCancelLeaveNothing) {
     const std::string near = "A {\nangle 6\naxiom F\nF=F@.333FF@3F-@.333F@3F+@.333F@3\n}\n";
     for (int order = 0; order < 6; ++order) expect_same_picture(near, imported(near), order);
     EXPECT_TRUE(has(imported(near), "table last10:\n"));
-    // Steps that become too short for any number have no length, as there.
+    // Steps that become too short for any number have no length, as in Fractint.
     const std::string shrinking = "A {\nangle 4\naxiom F\nF=F-@.8G--@.8F\n}\n";
     const Grammar grammar = grammar_of(imported(shrinking));
     EXPECT_TRUE(grammar.with_steps(12));
@@ -335,7 +335,7 @@ TEST(ImportFractint, TwoHeadings) {
     }
 }
 
-TEST(ImportFractint, WhatDrawsNothingIsNoted) {
+TEST(ImportFractint, PatternsThatDrawNothingAreReported) {
     EXPECT_FALSE(fractint("A {\nangle 4\naxiom X\nX=G+X\n}\n")[0].draws);
     EXPECT_TRUE(fractint("A {\nangle 4\naxiom X\nX=F+X\n}\n")[0].draws);
 }

@@ -16,7 +16,7 @@ namespace {
 
 using reference::expect_mistakes;
 
-/// The labels that a turtle hands on, and what else it draws.
+/// The labels that a turtle draws, and its strokes.
 struct Written {
     std::string text;
     glm::dvec2 centre;
@@ -131,7 +131,7 @@ TEST(Labels, AreInkAndNotSteps) {
         EXPECT_NEAR(ink[3].value, 3.5, 1e-12);
         EXPECT_EQ(measured.geometry->box[3].value, 2);
     }
-    // Too long to be walked: the rest is known all the same.
+    // Too long to be walked: all other measurements are still known.
     const Measurement large =
         measure(reference::grammar_of("axiom: N(8)F\nderivation length: 60\nF --> FF\nlabel N: {1}\n"), 1e6);
     EXPECT_EQ(large.drawn.value, 0x1p60);

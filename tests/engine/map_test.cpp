@@ -317,7 +317,7 @@ TEST(MapStep, DerivationsThatMustExceedALargeBudgetAreRefusedEarly) {
         nullptr, [](void* sum, std::uint64_t made) { *static_cast<std::uint64_t*>(sum) += made; }, &edges);
     EXPECT_THROW(derive_map(document.grammar(), {200e6, 1e12}, monitor), BudgetError);
     EXPECT_LT(edges, 1'000'000u);
-    // What fits is derived: the bound is one of edges that there will be.
+    // A map that fits is derived: the bound counts edges that will exist.
     edges = 0;
     const Document shorter = maps::document(maps::layer, 16);
     EXPECT_NO_THROW(derive_map(shorter.grammar(), {}, monitor));

@@ -1,4 +1,4 @@
-// tests/engine/public_cases_test.cpp: what users of other programs reported as faults or asked for, restated.
+// tests/engine/public_cases_test.cpp: faults and requests that users of other programs reported, restated.
 #include "engine/derivation/forecast.h"
 #include "engine/measure/extent.h"
 #include "tests/module_reference.h"

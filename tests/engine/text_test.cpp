@@ -1,4 +1,4 @@
-// tests/engine/text_test.cpp: texts of strangers as parts of messages, tables and patterns.
+// tests/engine/text_test.cpp: untrusted texts in messages, tables and patterns.
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 #include "engine/language/pattern.h"
@@ -44,7 +44,7 @@ TEST(Text, FurtherLinesOfMessagesAreIndented) {
     EXPECT_EQ(printable_lines("one line"), "one line");
 }
 
-/// Whatever the text is, the pattern says what it said before, and its title is one line.
+/// For any text, the rest of the pattern is unchanged, and its title is one line.
 TEST(Text, NoTitleSetsAKeyOfAPattern) {
     for (const std::string& text : hostile) {
         SCOPED_TRACE(testing::PrintToString(text));
@@ -82,7 +82,7 @@ TEST(Text, KeysSayWhichValuesNameFiles) {
                                      {"stroke", "a.lsys"}}) {
         EXPECT_FALSE(names_file(key, value)) << key << ' ' << value;
     }
-    // Keys whose help speaks of files are among them.
+    // They include all keys whose help mentions files.
     for (const KeyInfo& row : language_keys()) {
         const bool speaks_of_files = row.values.find("FILE") != std::string_view::npos ||
                                      row.values.find(" file") != std::string_view::npos ||

@@ -131,7 +131,7 @@ TEST(TileGrowth, FindsSharesOfHandsAndColours) {
     EXPECT_EQ(spectres.frequencies, std::vector<double>{1});
     EXPECT_TRUE(spectres.reflected.empty());
     EXPECT_FALSE(spectres.is_average);
-    // Second spectres of a pair have a colour of their own.
+    // The second spectre of a pair has a colour of its own.
     ASSERT_FALSE(spectres.colours.empty());
     EXPECT_NEAR(spectres.colours.back().second, (5 - std::sqrt(15.0)) / 10, 1e-9);
     EXPECT_NE(tile_counts_text("", 3, spectres).find("shares of kinds do not settle"), std::string::npos);
@@ -142,7 +142,7 @@ TileGrowth growth_of_text(const std::string& text) {
         reference::grammar_of("derivation length: 4\nangle factor: 4\nturn: left\nheading: 0\n" + text));
 }
 
-TEST(TileGrowth, ClaimsNoLimitOfWhatAlternates) {
+TEST(TileGrowth, ClaimsNoLimitIfSharesAlternate) {
     // A square becomes two rectangles, and each of these a square: 1, 2, 2, 4, 4 …
     const TileGrowth growth =
         growth_of_text("axiom: A\nA --> [B][fB]\nB --> [A]\ninterpret:\nA --> [{F+F+F+F}]\nB --> [{FF+F+FF+F}]\n");

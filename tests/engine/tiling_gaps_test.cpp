@@ -114,7 +114,7 @@ std::vector<std::set<Cell>> groups(std::set<Cell> left, bool corners) {
     return result;
 }
 
-/// What counting cells finds.
+/// The result of counting cells.
 struct Counted {
     bool overlaps = false;
     std::vector<std::set<Cell>> gaps;

@@ -491,7 +491,7 @@ TEST(TilingExamination, RefusesTooManyTilesBeforeDeriving) {
     EXPECT_THROW(examine_tiling(grammar, few), BudgetError);
 }
 
-/// Shapes that differ by less than doubles are compared with, and tiles that are smaller.
+/// Shapes that differ by less than the tolerance of doubles, and tiles that are smaller than it.
 TEST(TilingExamination, DistinguishesShapesExactly) {
     const TilingExamination near = word("[{F+F+F+F}][f(2){F(1.000001)+F(1.000001)+F(1.000001)+F(1.000001)}]");
     EXPECT_TRUE(near.is_exact);
@@ -517,7 +517,7 @@ TEST(TilingExamination, DistinguishesShapesExactly) {
     EXPECT_EQ(rough.tiles, 2U);
 }
 
-/// Doubles cannot tell positions apart that are much larger than edges: nothing is claimed then.
+/// Doubles cannot distinguish positions that are much larger than edges; then nothing is claimed.
 TEST(TilingExamination, RefusesPositionsThatAreTooLarge) {
     EXPECT_TRUE(bundled("fibonacci-spiral", 50).examination.is_tiling());
     for (const char* name : {"fibonacci-spiral", "padovan-spiral"}) {

@@ -1,5 +1,5 @@
-// tests/engine/undrawn_test.cpp: symbols that are meant to draw are found in the systems of the literature; nodes,
-// apices and notes are left alone.
+// tests/engine/undrawn_test.cpp: symbols that are meant to draw are found in systems of the literature; nodes,
+// apices and notes are not reported.
 #include "engine/language/undrawn.h"
 
 #include "engine/language/grammar.h"
@@ -23,7 +23,7 @@ struct System {
     const char* text;
 };
 
-/// The warnings of a pattern about what draws nothing.
+/// The warnings of a pattern about letters that draw nothing.
 std::string warned(const std::string& text, std::string_view variant = {}) {
     std::string found;
     for (const Diagnostic& one : diagnostics_of(text, {}, variant)) {
@@ -100,13 +100,13 @@ TEST(Undrawn, LettersThatCanOnlyBeMeantToDrawAreFound) {
         EXPECT_NE(warned(text).find(expected), std::string::npos) << text << warned(text);
     }
     EXPECT_EQ(warned(edge_systems[0].text).rfind("test.lsys:4:1: warning: 'G' draws nothing; 'forward: F G'", 0), 0U);
-    // Followed, the advice is the cure.
+    // Following the advice fixes the pattern.
     const std::string dragon = std::string(edge_systems[0].text) + "forward: F G\n";
     EXPECT_EQ(warned(dragon), "");
     EXPECT_FALSE(diagnostics_of(edge_systems[0].text).front().excerpt.empty());
 }
 
-TEST(Undrawn, NodesAndApicesAreLeftAlone) {
+TEST(Undrawn, NodesAndApicesAreNotReported) {
     for (const auto& [name, text] : node_systems) EXPECT_EQ(warned(text), "") << name;
 }
 

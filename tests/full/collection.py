@@ -1,4 +1,4 @@
-"""Imports a folder of Fractint collections (.l) and compares the patterns with what another reader measured.
+"""Imports a folder of Fractint collections (.l) and compares the patterns with measurements by another reader.
 
 usage: collection.py PROGRAM FOLDER [ORDER...]
 

@@ -18,7 +18,7 @@ pictures=png,tif,jpg,exr
 scores=mid,musicxml,mxl,ly,abc,csd,sco,strudel,notes.svg,html
 page=(--size 90x120mm --dpi 60 --margin 5mm)
 
-# In an empty folder. What a pattern cannot be made into, no program makes.
+# In an empty folder. If one program refuses an output, all of them do.
 make_all() {
     local program=$1 pattern
     local gallery=("$program" --quiet gallery --keep-going --jobs "$(nproc)")

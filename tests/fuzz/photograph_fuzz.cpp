@@ -1,4 +1,4 @@
-// tests/fuzz/photograph_fuzz.cpp: picture files that are taken apart, and pixels in which kolams are read.
+// tests/fuzz/photograph_fuzz.cpp: picture files that are parsed, and pixels in which kolams are read.
 #include "tests/fuzz/picture_targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
-// tests/fuzz/picture_targets.h: fuzz target for photographs: what takes picture files apart, and the reading of
-// kolams from small pictures.
+// tests/fuzz/picture_targets.h: fuzz target for photographs: parses picture files, and reads kolams from small
+// pictures.
 #pragma once
 
 #include "art/decoder/averager.h"
@@ -15,7 +15,7 @@
 
 namespace sikku {
 
-/// Takes a file apart: what is left is of the same kind, and can be taken apart again.
+/// Strips a file: the result has the same format, and can be stripped again.
 inline void try_bare_picture(std::string_view bytes) {
     constexpr std::uint64_t most_pixels = 1'000'000;
     BarePicture bare;

@@ -19,7 +19,7 @@
 
 namespace sikku {
 
-/// What is read are whole polygons, which can be examined; errors and notes are plain.
+/// The polygons read are complete and can be examined; errors and notes are plain text.
 inline void try_svg(std::string_view text) {
     try {
         const PolygonList list = read_polygons_svg(text);

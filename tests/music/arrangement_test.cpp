@@ -294,11 +294,11 @@ TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
         "1/4\n\"\"\"\n";
     const std::string head = "scale = \"dorian\"\ntonic = \"D4\"\n";
     const std::string told = facts(head + drone + track("", "drone") + track("start = 2\n", "drone"));
-    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the piece's, above the tracks, apply"),
+    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the values above the tracks apply"),
               std::string::npos)
         << told;
     EXPECT_EQ(told.find("'drone'"), told.rfind("'drone'")) << "once";
-    // The track decides for itself, or the piece says the same.
+    // The track sets the key itself, or the piece sets the same value.
     EXPECT_EQ(facts(head + drone + track("scale = \"minor\"\ntonic = \"C3\"\n", "drone")).find("'drone'"),
               std::string::npos);
     EXPECT_EQ(facts("scale = \"major\"\n" + drone + track("", "drone")).find("'drone'"), std::string::npos);

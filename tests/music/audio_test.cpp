@@ -348,7 +348,7 @@ TEST(Audio, TellsWhatFluidsynthSaid) {
                     "0123456789"));
 }
 
-/// Messages name what the user named, and not the temporary file beside it.
+/// Messages name the output that the user named, not the temporary file beside it.
 TEST(Audio, FailuresNameTheOutput) {
     NEEDS_FLUIDSYNTH;
     const ScratchFolder folder;

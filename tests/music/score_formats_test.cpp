@@ -274,7 +274,7 @@ TEST(Mxl, IsReadByOthers) {
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
-/// Comments cannot hold everything that a pattern can: `show` would give another text without a word.
+/// Comments cannot contain all characters of a pattern: without a warning, `show` would print another text.
 TEST(ScoreFormats, LossesOfCommentsAreReported) {
     EXPECT_TRUE(comments_keep("axiom: F\r\n\ttitle: கோலம்\n"));
     for (const char* lost : {"// \x1b[0m", "a\u2028b", "a\u200Fb", "\xff"}) EXPECT_FALSE(comments_keep(lost)) << lost;

@@ -269,7 +269,7 @@ TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
     EXPECT_NE(describe_score(std::span(&document, 1), {}, {}).find("skipped   5 Y, 2 X\n"), std::string::npos);
 }
 
-TEST(SymbolTable, WhatIsSkippedIsReportedWithoutATable) {
+TEST(SymbolTable, SkippedSymbolsAreReportedWithoutATable) {
     const Document document = parse("d.lsys", head + "axiom: F+(3)F!;CDF-(1)+\n");
     MemoryDestination files;
     const Made made = plan_score(std::span(&document, 1), "mid", {})->make(files, "x.mid", {});

@@ -159,7 +159,7 @@ TEST(Docs, TheReadmeListsAllPages) {
     }
 }
 
-/// Each row of claims says what, how, and what not.
+/// Each row states the claim, the method, and what is not claimed.
 TEST(Docs, ClaimsHaveThreeColumns) {
     std::istringstream lines(contents(root / "docs" / "claims.md"));
     std::size_t rows = 0;

@@ -1,5 +1,5 @@
-// tests/program/first_contact_test.cpp: what a newcomer gives to the program: systems of other programs, prose,
-// systems in F and G.
+// tests/program/first_contact_test.cpp: input from newcomers: systems of other programs, prose, systems in F and
+// G.
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(FirstContact, EveryCommandNamesTheImportOfAForeignFile) {
         command[1] = cpfg;
         EXPECT_TRUE(has(run(command).errors, "plant.l -o plant.lsys` makes a pattern of it"));
     }
-    // The command that is named makes patterns.
+    // The named command makes patterns.
     EXPECT_EQ(run({"import", fractint, "-o", folder.file("made")}).status, 0);
     EXPECT_EQ(run({"measure", folder.file("made/koch.lsys"), "-n", "1"}).status, 0);
     // Other files are still checked.
@@ -63,7 +63,7 @@ TEST(FirstContact, OtherProgramsFilesAreNamed) {
     EXPECT_TRUE(has(run({"check", lpfg}).output, "this is an L+C file of lpfg, which is C++, not a pattern\n"));
 }
 
-TEST(FirstContact, ProseIsAnsweredInOneMessage) {
+TEST(FirstContact, ProseIsReportedInOneMessage) {
     const ScratchFolder folder;
     std::string prose = "# A program\n\nIt makes pictures, and it sounds.\n";
     for (int i = 0; i < 100; ++i) prose += "- A list of features: many of them.\nAnd a paragraph.\n";
@@ -112,14 +112,14 @@ TEST(FirstContact, LettersThatDrawNothingAreNamedEverywhere) {
                     "makes A and B steps\n"));
 }
 
-TEST(FirstContact, AnImportThatDrawsNothingSaysSoLast) {
+TEST(FirstContact, AnImportThatDrawsNothingIsReportedLast) {
     const ScratchFolder folder;
     const std::string file = folder.write(
         "plant.l", "Lsystem: 1\nderivation length: 2\nAxiom: A(1)\nA(x) : {x = f(x);} 1 --> F(x)A(x)\nendlsystem\n");
     const Outcome outcome = run({"import", file, "-o", folder.file("plant.lsys")});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(outcome.errors.ends_with(
-        "sikku: warning: the pattern draws nothing: what draws is among what is not supported\n"))
+        "sikku: warning: the pattern draws nothing: the features that draw are not supported\n"))
         << outcome.errors;
     EXPECT_TRUE(has(run({"import", file, "--list"}).output, "draws nothing"));
     EXPECT_TRUE(

@@ -48,7 +48,7 @@ TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
     }
 }
 
-/// The files of two seeds are the same but for the seed where the program says so.
+/// The files of two seeds are the same, except for the seed, where the program reports it.
 TEST_F(KolamGrid, SeedsOfOneKolamAreNoted) {
     const auto drawing = [&](const std::string& seed, const char* grid) {
         const Outcome made = kolam({"--grid", grid, "--seed", seed, "-o", "a.lsys"});

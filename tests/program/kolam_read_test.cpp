@@ -109,7 +109,7 @@ TEST_F(KolamRead, PhotographsNeedNoStandardStreams) {
     }
 }
 
-/// A title, or the name of a file, of a stranger set keys of the pattern, or made it faulty.
+/// An untrusted title or file name once set keys of the pattern, or made it invalid.
 TEST_F(KolamRead, TitlesAndNamesStayInTheirLine) {
     const std::string design =
         R"("design": {"rows": 2, "cols": 2, "mask": ["11", "11"], "h": ["x", "x"], "v": ["xx"]}})";

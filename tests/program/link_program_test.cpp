@@ -204,7 +204,7 @@ TEST(LinkProgram, LinksSetNeitherCommandsForMachinesNorFiles) {
     work["pattern"]["text"] = "axiom: F\nborder: frame.lsys\n";
     refused(run({"sheet", link_to(work), "-o", folder.file("x.svg")}), names_file);
     refused(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "frame.scl"}}))}), names_file);
-    // Looks are free, also where other values would be files.
+    // Links may set the look, also by options whose other values are files.
     EXPECT_EQ(draw(shared("hilbert", {}, {{"border", "kaavi"}}, {}), "x.svg").status, 0);
     EXPECT_EQ(draw(shared("hilbert", {}, {{"profile", "grbl"}, {"pen-width", "0.5mm"}}, {}), "x.gcode").status, 0);
     EXPECT_EQ(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "dorian"}}))}).status, 0);

@@ -157,12 +157,12 @@ TEST(Bridge, FindsTheLargestDerivationLengthThatIsDrawn) {
     const int found = std::stoi(largest(parametric + "40\n"));
     EXPECT_GE(found, 22);
     EXPECT_LE(found, 24);
-    // A length that is short but does not end in time.
+    // A short length whose derivation does not end in time.
     EXPECT_EQ(largest(parametric + "5\n"), "4");
     EXPECT_EQ(largest("axiom: F\nderivation length: 0\n"), "");
 }
 
-TEST(Bridge, SaysWhatIsAMap) {
+TEST(Bridge, ReportsMaps) {
     const std::string checkers = "map: clockwise\nderivation length: 2\naxiom: A~B~AB\nA --> B[-A][+~A]B\nB --> ~A\n";
     EXPECT_TRUE(asked({{"do", "open"}, {"pattern", pattern(checkers)}})["is_map"].get<bool>());
     EXPECT_FALSE(asked({{"do", "open"}, {"pattern", pattern(koch)}})["is_map"].get<bool>());
@@ -278,7 +278,7 @@ TEST(Bridge, WarnsOfLettersThatDrawNothing) {
     const Json opened =
         asked({{"do", "open"}, {"pattern", pattern("axiom: F\nderivation length: 2\nF --> F+G\nG --> F-G\n")}});
     EXPECT_NE(opened.dump().find("'G' draws nothing; 'forward: F G' makes it a step"), std::string::npos);
-    // What is pasted is answered with the line as a pattern has it.
+    // The error about pasted text shows the line in the pattern language.
     const Json pasted = asked({{"do", "open"}, {"pattern", pattern("axiom: F\nF = F+F\n")}});
     EXPECT_NE(pasted.dump().find("write 'F --> F+F'"), std::string::npos) << pasted.dump();
 }
