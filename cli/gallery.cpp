@@ -109,6 +109,7 @@ bool print_forecast(Gallery& gallery) {
     Cost sum;
     std::size_t impossible = 0;
     std::vector<const GalleryJob*> possible;
+    std::string doubtful;
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", "file", "symbols", "time", "bytes", "memory");
     for (const std::size_t job : gallery.chosen()) {
         const JobForecast& each = gallery.forecast(job);
@@ -119,6 +120,8 @@ bool print_forecast(Gallery& gallery) {
         }
         fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", printable(gallery.jobs()[job].file(), 2000), each.symbols,
                    time_text(each.cost.seconds), bytes_text(each.cost.bytes), bytes_text(each.cost.memory));
+        if (each.cost.is_doubtful)
+            doubtful += (doubtful.empty() ? "" : ", ") + printable(gallery.jobs()[job].file(), 200);
         possible.push_back(&gallery.jobs()[job]);
         sum.seconds += each.own_seconds();
         sum.shared_seconds = std::max(sum.shared_seconds, each.cost.shared_seconds);
@@ -127,6 +130,10 @@ bool print_forecast(Gallery& gallery) {
     }
     fmt::print("{:<40} {:>24} {:>12} {:>10} {:>10}\n", counted(gallery.chosen().size() - impossible, "job"), "",
                time_text(sum.seconds + sum.shared_seconds), bytes_text(sum.bytes), bytes_text(sum.memory));
+    if (!doubtful.empty()) {
+        fmt::print("may be refused, because the growth of their words so far leads beyond the budget: {}\n",
+                   printable(doubtful, 2000));
+    }
     if (impossible > 0) fmt::print("{} cannot be made\n", counted(impossible, "job"));
     for (const auto& [file, forecast] : gallery.sheet_forecasts(possible)) {
         if (!forecast.problem.empty()) {

@@ -11,16 +11,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <iterator>
 #include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace {
 int fail(int status, std::string_view message) {
+    // A signal while a pipe is opened.
+    if (sikku::interrupted() && message.ends_with(std::generic_category().message(EINTR))) {
+        sikku::tell("sikku: interrupted\n");
+        return sikku::interruption_status();
+    }
     if (message.ends_with('\n')) message.remove_suffix(1);
     sikku::tell("sikku: {}\n", sikku::printable_lines(message, 2000));
     return status;
@@ -134,7 +141,7 @@ int run(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail(1, "not enough memory");
     } catch (const std::exception& error) {
-        return fail(1, error.what());
+        return fail(1, with_force(error.what()));
     }
 }
 

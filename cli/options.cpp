@@ -76,9 +76,14 @@ std::string with_dashes(const std::string& message) {
 }
 
 std::string with_force(std::string message) {
-    constexpr std::string_view quoted = "'force'";
-    const std::size_t at = message.find(quoted);
-    return at == std::string::npos ? message : message.replace(at, quoted.size(), "--force");
+    using Replacement = std::pair<std::string_view, std::string_view>;
+    for (const auto& [quoted, option] :
+         {Replacement("'force'", "--force"), Replacement("'name' sets another", "--name sets another")}) {
+        if (const std::size_t at = message.find(quoted); at != std::string::npos) {
+            message.replace(at, quoted.size(), option);
+        }
+    }
+    return message;
 }
 
 std::string diagnostic_message(const Diagnostic& diagnostic) {

@@ -682,6 +682,11 @@ void ScoreWork::write(const ScoreHead& head, const PlayOptions& playing, Output&
             "the comments of the score hold the pattern with blanks or '?' for its control characters and marks of "
             "direction");
     }
+    const bool is_xml =
+        format_ == ScoreFormat::musicxml || format_ == ScoreFormat::mxl || format_ == ScoreFormat::html;
+    if (is_xml && !fits_xml(head.pattern)) {
+        made.warn("the score holds the pattern with U+FFFD for its control characters, which XML cannot hold");
+    }
     if (is_silent) made.warn("the sound is silent: the soundfont has no sound for these keys of this instrument");
 }
 
@@ -774,6 +779,7 @@ Cost ScoreWork::forecast() const {
     for (const Player& player : ensemble_.players) {
         const Grammar& grammar = player.document.grammar();
         const WordSize size = word_size(shorten(grammar), nodes_read);
+        result.is_doubtful |= size.nodes > settings_.budget && settings_.bars == 0 && settings_.seconds == 0;
         double nodes = std::min(size.nodes, settings_.budget);
         double notes = std::min(size.drawn, nodes);
         if (settings_.bars > 0 || settings_.seconds > 0) {

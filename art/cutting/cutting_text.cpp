@@ -1,4 +1,5 @@
 #include "art/cutting/cutting_plan.h"
+#include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -37,8 +38,9 @@ std::string cutting_text(const std::string& title, const CuttingOptions& options
                         "length mm");
     for (std::size_t i = 0; i < plan.sheets.size(); ++i) {
         const CuttingSheet& sheet = plan.sheets[i];
-        text += fmt::format("{:<24} {:>6}  {:<14}  {:>7} {:>10.0f}  {}\n", files[i], sheet.copies, materials[i],
-                            percent(sheet.in_use), std::ceil(sheet.length), piece_counts(plan, sheet));
+        text += fmt::format("{:<24} {:>6}  {:<14}  {:>7} {:>10.0f}  {}\n", printable(files[i]), sheet.copies,
+                            printable(materials[i]), percent(sheet.in_use), std::ceil(sheet.length),
+                            piece_counts(plan, sheet));
     }
     text += fmt::format("{}, {} in use", counted(plan.sheet_count, "sheet"), percent(plan.in_use));
     const double net = finished(plan, options);

@@ -106,12 +106,13 @@ std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style
 
 /// Rough estimate of the cost of a drawing.
 struct DrawingCost {
-    double nodes = 0;     ///< derivation nodes visited in a pass
-    double lines = 0;     ///< lines, polygons and discs drawn in a pass
-    double points = 0;    ///< ends of lines, corners of polygons and discs that a writer receives
-    double strokes = 0;   ///< lines without a lift
-    double polygons = 0;  ///< polygons, in space without those of patches
-    double patches = 0;   ///< patches of surfaces in space
+    double nodes = 0;          ///< derivation nodes visited in a pass
+    bool is_doubtful = false;  ///< by its growth so far, the word exceeds the budget
+    double lines = 0;          ///< lines, polygons and discs drawn in a pass
+    double points = 0;         ///< ends of lines, corners of polygons and discs that a writer receives
+    double strokes = 0;        ///< lines without a lift
+    double polygons = 0;       ///< polygons, in space without those of patches
+    double patches = 0;        ///< patches of surfaces in space
     std::vector<std::pair<double, double>> bent{};  ///< bends of patches in millimetres, and their numbers
     double length = 0;                              ///< millimetres of lines
     double ink = 0;                                 ///< square millimetres of lines, however often they cross

@@ -112,6 +112,7 @@ DrawingCost cost_of_word(const Grammar& grammar, Print print, const DrawOptions&
     const double step = place(print, census, grammar, options);
     const double unit = print.style.stroke.in_steps ? step : 1;
     cost.nodes = std::min(census.nodes, 2 * options.budget);
+    cost.is_doubtful = census.nodes > options.budget;
     const double share = census.nodes > 0 ? cost.nodes / census.nodes : 1;
     cost.lines = (census.lines + census.polygons + census.discs) * share;
     cost.points = (census.lines + census.corners + census.discs + census.strokes) * share;
@@ -384,6 +385,7 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
     const DrawingCost drawing = drawing_cost(grammar, print, options);
     const bool has_pixels = !is_vector(options.format);
     Cost cost = base_cost(has_pixels);
+    cost.is_doubtful = drawing.is_doubtful;
     cost.seconds += drawing.seconds + 0.001;
     cost.memory += drawing.memory + static_cast<double>(print.pattern.size());
     cost.bytes = static_cast<double>(print.pattern.size());

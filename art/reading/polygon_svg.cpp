@@ -72,6 +72,7 @@ public:
             if (name == hidden) return;
         }
         if (name == "symbol" && !copy) return;
+        if (name == "switch") ++switches_;
         if (is_hidden(node)) return;
         if (std::string_view(node.attribute("inkscape:label").value()) == "ground") {
             ++grounds_;
@@ -119,6 +120,7 @@ public:
         note(grounds_, "ground", "left out");
         note(others_, "text or picture", "left out");
         note(clips_, "clipped or masked element", "read as a whole");
+        note(switches_, "switch", "read with all its alternatives");
         note(style_.unread(), "style rule",
              "not read: only simple selectors outside of @media and similar rules are supported");
         return result;
@@ -330,7 +332,7 @@ private:
     std::vector<pugi::xml_node> copied_;  ///< targets of the `use` elements around node_
     std::map<std::string, std::int32_t> colours_;
     std::size_t points_ = 0, copied_elements_ = 0;
-    std::size_t open_ = 0, grounds_ = 0, others_ = 0, clips_ = 0;
+    std::size_t open_ = 0, grounds_ = 0, others_ = 0, clips_ = 0, switches_ = 0;
 };
 
 }  // namespace
@@ -347,6 +349,9 @@ PolygonList read_polygons_svg(std::string_view text, const Monitor& monitor) {
     SvgPolygons polygons(text, root, monitor);
     polygons.visit(root, {}, 0);
     PolygonList result = polygons.finish();
+    if (text.find("<?xml-stylesheet") != std::string_view::npos) {
+        result.notes.emplace_back("the style sheet in another file is not read");
+    }
     if (result.size() == 0) throw std::runtime_error("the SVG has no closed polygons");
     result.title = printable(root.child("title").text().get(), 200);
     return result;

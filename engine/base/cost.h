@@ -11,6 +11,7 @@ struct Cost {
     double band = 0;            ///< additional bytes for each thread that renders pixels
     double shared_seconds = 0;  ///< part of `seconds` that all works of one program share
     double shared_memory = 0;   ///< part of `memory`, likewise
+    bool is_doubtful = false;   ///< by its growth so far, a word that only deriving measures exceeds the budget
 };
 
 }  // namespace sikku

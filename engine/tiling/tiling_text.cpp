@@ -334,13 +334,13 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
     line("neighbours", counted(t.neighbours, "pair") + counts + "; " + colours_text(t));
     line("symmetry", t.symmetry.name() + " about " + place(t.symmetry.centre));
     if (n) line("growth", growth_text(growth));
-    line("exact",
-         t.is_exact ? "yes"
-         : !n       ? fmt::format("no: corners within {:.3g} of each other count as one, and so do points that near "
-                                        "an edge and points on it",
-                                  t.tolerance)
-                    : fmt::format("no: {}{}points within {:.6f} steps of each other count as one", t.inexact,
-                            t.inexact.empty() ? "" : "; ", t.tolerance));
+    line("exact", t.is_exact ? "yes"
+                  : !n
+                      ? fmt::format("no: corners within {:.3g} of each other count as one, and points within that of "
+                                    "an edge count as on it",
+                                    t.tolerance)
+                      : fmt::format("no: {}{}points within {:.6f} steps of each other count as one", t.inexact,
+                                    t.inexact.empty() ? "" : "; ", t.tolerance));
     return text;
 }
 

@@ -272,6 +272,10 @@ TEST(PolygonSvg, CountsRulesThatAreNotRead) {
         EXPECT_EQ(notes(sheet), one) << sheet;
     }
     EXPECT_EQ(notes("@media print{.a{fill:red}} g g{fill:blue}").substr(0, 13), "2 style rules");
+    EXPECT_EQ(read_polygons_svg(svg("<switch><rect width=\"1\" height=\"1\"/></switch>")).notes,
+              (std::vector<std::string>{"1 switch read with all its alternatives"}));
+    EXPECT_EQ(read_polygons_svg("<?xml-stylesheet href='x.css'?>" + svg("<rect width=\"1\" height=\"1\"/>")).notes,
+              (std::vector<std::string>{"the style sheet in another file is not read"}));
     EXPECT_NE(read_polygons_svg(svg("<g clip-path=\"url(#c)\"><rect width=\"1\" height=\"1\"/></g>")).notes,
               std::vector<std::string>{});
 }

@@ -634,6 +634,12 @@ TEST_F(GalleryTest, ForecastsTellWhatWillFail) {
     EXPECT_TRUE(has(large.output, "above the budget"));
     EXPECT_TRUE(has(large.output, "1 job cannot be made"));
     EXPECT_EQ(gallery({"hilbert", "-f", "png", "--size", "A0", "--memory", "1M", "--dry-run"}).status, 1);
+    // Words that only deriving measures may be refused, or not.
+    folder.write("grows.lsys", "axiom: A(1)\nderivation length: 100\nA(x) : x<1e9 --> F(x)A(x*1.000001)[+A(x/3)]\n");
+    const Outcome grows = gallery({"grows.lsys", "--dry-run"});
+    EXPECT_EQ(grows.status, 0) << grows.errors;
+    EXPECT_TRUE(has(grows.output, "may be refused")) << grows.output;
+    EXPECT_FALSE(has(gallery({"hilbert", "--dry-run"}).output, "may be refused"));
 }
 
 }  // namespace
