@@ -167,6 +167,51 @@ void report_places(const Photograph& photograph, bool quiet) {
         tell_unless(quiet, "sikku: --number 1 to {} selects another kolam\n", photograph.readable);
 }
 
+/// Writes the pattern of gestures that meet in the middle of four dots, and reports it.
+/// @return false if the file has other contents
+bool write_gesture_drawing(const KolamReadOptions& options, const std::string& source, bool quiet) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(options.file, error) || is_picture(InputFile(options.file).read(0, 64))) {
+        return false;
+    }
+    const std::string text = read_file(options.file, options.file, most_text, stop_monitor());
+    if (text.size() > most_text) return false;
+    const std::optional<GestureDrawing> drawing = read_gesture_drawing(text);
+    if (!drawing) return false;
+    const char* const reason = "lines meet in the middle of four dots, where a grid of gaps has no crossing";
+    if (!is_pattern_file(options.output)) {
+        throw std::runtime_error(fmt::format("{}; only a pattern can be written", reason));
+    }
+    if (!options.fixes.empty() || !options.overlay.empty()) {
+        throw UsageError(fmt::format("{} needs gaps; {}", options.fixes.empty() ? "--overlay" : "--fix", reason));
+    }
+    KolamPatternOptions pattern;
+    const std::string summary =
+        fmt::format("{}, {}", counted(drawing->dots.size(), "dot"), counted(drawing->lines.size(), "line"));
+    pattern.title = "Kolam on " + counted(drawing->dots.size(), "dot");
+    pattern.description = fmt::format("{}; read from {}", summary, source);
+    const std::string written = gesture_pattern(*drawing, kolam_head(pattern));
+    if (options.output.empty()) {
+        fmt::print("{}", written);
+    } else {
+        write_file(options.output, written);
+    }
+    std::vector<std::string> notes = {fmt::format("{}: the pattern draws the lines and dots", reason)};
+    if (drawing->decorated > 0) {
+        notes.push_back(fmt::format("the decoration of {} was left out", counted(drawing->decorated, "gesture")));
+    }
+    if (options.as_json) {
+        std::string list;
+        for (const std::string& note : notes) list += (list.empty() ? "" : ", ") + json_string(note);
+        fmt::print("{{\"grid\": null, \"dots\": {}, \"lines\": {}, \"notes\": [{}]}}\n", drawing->dots.size(),
+                   drawing->lines.size(), list);
+        return true;
+    }
+    tell_unless(quiet, "sikku: {}: {}\n", printable(source), summary);
+    for (const std::string& note : notes) tell_unless(quiet, "sikku: {}\n", note);
+    return true;
+}
+
 /// The kolam of a file, and the photograph if it is one.
 struct FoundKolam {
     ReadKolam kolam;
@@ -317,8 +362,10 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
     if (!options.overlay.empty() && extension_of(options.overlay) != ".png") {
         throw UsageError(fmt::format("--overlay {}: expected a PNG, NAME.png", options.overlay));
     }
-    FoundKolam found = [&] {
+    const std::string source = std::filesystem::path(options.file).filename().string();
+    std::optional<FoundKolam> read = [&]() -> std::optional<FoundKolam> {
         try {
+            if (write_gesture_drawing(options, source, quiet)) return std::nullopt;
             return read_file_as_kolam(options, quiet);
         } catch (const UsageError&) {
             throw;
@@ -328,6 +375,8 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
                 message.starts_with(options.file) ? message : fmt::format("{}: {}", options.file, message));
         }
     }();
+    if (!read) return;
+    FoundKolam& found = *read;
     for (const std::string& fix : options.fixes) {
         try {
             fix_gaps(found.kolam, fix);
@@ -335,7 +384,6 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
             throw UsageError(fmt::format("--fix {}", error.what()));
         }
     }
-    const std::string source = std::filesystem::path(options.file).filename().string();
     const Certificate certificate = certify(found.kolam);
     write(found.kolam, certificate, options.output, source);
     if (!options.overlay.empty() && found.photograph) {

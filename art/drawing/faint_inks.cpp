@@ -64,13 +64,25 @@ class FaintSink : public PathSink {
 public:
     explicit FaintSink(const Print& print) : print_(print), ground_(*print.style.ground) {
         const int count = std::max(static_cast<int>(print.style.palette.size()), 1);
-        for (int i = 0; i < count; ++i) {
+        for (int i = 0; i < count && !has_suspects_; ++i) {
             const Pen pen{.colour = i};
-            open_ += is_faint(print.style.line_colour(pen), ground_) ? 1 : 0;
-            open_ += is_faint(print.style.fill_colour(pen), ground_) ? 2 : 0;  // of discs and of areas
+            has_suspects_ = is_faint(print.style.line_colour(pen), ground_) ||
+                            is_faint(print.style.fill_colour(pen), ground_);
         }
     }
-    bool has_suspects() const { return open_ > 0; }
+    bool has_suspects() const { return has_suspects_; }
+    /// Lines in the colour of the ground are seen as joints between visible fills, and pale fills by their outlines.
+    /// Fields of powders are meant to be seen.
+    std::vector<FaintInk> found() const {
+        std::vector<FaintInk> result;
+        for (const FaintInk& ink : inks_) {
+            const bool is_between = ink.kind == FaintInk::Kind::lines && has_visible_fills_;
+            const bool is_outlined =
+                ink.kind == FaintInk::Kind::areas && has_visible_lines_ && print_.style.powders.empty();
+            if (!is_between && !is_outlined) result.push_back(ink);
+        }
+        return result;
+    }
 
     void begin_stroke(glm::dvec2, const Pen& pen) override { pen_ = pen; }
     void change_pen(const Pen& pen) override { pen_ = pen; }
@@ -79,7 +91,8 @@ public:
     void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         count(vertices.size());
-        if (!print_.style.stroked) note(FaintInk::Kind::areas, print_.style.fill_colour(pen));
+        note(FaintInk::Kind::areas, print_.style.fill_colour(pen));
+        has_visible_lines_ |= print_.style.stroked && !is_faint(print_.style.line_colour(pen), ground_);
     }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
         count(outline.size());
@@ -89,8 +102,6 @@ public:
         count(1);
         note(FaintInk::Kind::discs, print_.style.fill_colour(pen));
     }
-
-    std::vector<FaintInk> found;
 
 private:
     void line(std::size_t points) {
@@ -102,17 +113,24 @@ private:
         if (points_ > most_points) throw Found();
     }
     void note(FaintInk::Kind kind, Colour colour) {
-        const bool is_known = std::any_of(found.begin(), found.end(),
+        if (!is_faint(colour, ground_)) {
+            if (colour.alpha == 0) return;
+            has_visible_lines_ |= kind == FaintInk::Kind::lines;
+            has_visible_fills_ |= kind == FaintInk::Kind::areas;
+            return;
+        }
+        const bool is_known = std::any_of(inks_.begin(), inks_.end(),
                                           [&](const FaintInk& ink) { return ink.kind == kind && ink.ink == colour; });
-        if (is_known || !is_faint(colour, ground_)) return;
-        found.push_back({kind, colour, ground_});
-        if (found.size() == open_) throw Found();
+        if (!is_known) inks_.push_back({kind, colour, ground_});
     }
 
     const Print& print_;
     Colour ground_;
     Pen pen_;
-    std::size_t open_ = 0;  ///< number that can be found at most
+    std::vector<FaintInk> inks_;
+    bool has_suspects_ = false;
+    bool has_visible_lines_ = false;
+    bool has_visible_fills_ = false;
     std::size_t points_ = 0;
 };
 
@@ -131,7 +149,7 @@ std::vector<FaintInk> faint_inks(const Drawing& drawing, const Print& print) {
         drawing.read(print, sink);
     } catch (const Found&) {
     }
-    return sink.found;
+    return sink.found();
 }
 
 Contents contents_of(const Drawing& drawing, const Print& print) {

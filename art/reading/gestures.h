@@ -20,9 +20,6 @@ namespace sikku {
 /// (D, T), which cross between four dots, and for loops that do not close
 ReadKolam read_gestures(std::string_view text);
 
-/// True if a text has `sequence:`, or begins with gestures.
-bool is_gestures(std::string_view text);
-
 /// A transcription (YAML) that read_gestures() reads.
 /// @throws std::runtime_error for interlaced grids, and for joined gaps, naming the first one
 std::string gestures_file(const DotGrid& grid, const GapStates& states);

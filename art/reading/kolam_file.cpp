@@ -2,6 +2,7 @@
 
 #include "art/analysis.h"
 #include "art/kolam/dot_grid_pattern.h"
+#include "art/reading/gesture_loops.h"
 #include "art/reading/gestures.h"
 #include "art/reading/kolam_csv.h"
 #include "art/reading/kolam_json.h"
@@ -72,6 +73,12 @@ std::vector<ClosedLine> closed_lines(const Polylines<glm::dvec2>& strokes, std::
     return lines;
 }
 
+/// A list of objects.
+bool is_json_list(std::string_view text, std::size_t first) {
+    const std::size_t next = text.find_first_not_of(" \t\r\n", first + 1);
+    return text[first] == '[' && next != std::string_view::npos && (text[next] == '{' || text[next] == ']');
+}
+
 /// The kolam that the comments of a pattern state, if its lines agree.
 std::optional<ReadKolam> stated_kolam(const Document& document, const std::vector<ClosedLine>& lines,
                                       const Monitor& monitor) {
@@ -104,7 +111,7 @@ std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFil
                                          const Monitor& monitor) {
     const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first == std::string::npos) throw std::runtime_error("the file is empty");
-    if (text[first] == '{') return read_kolam_json(text);
+    if (text[first] == '{' || is_json_list(text, first)) return read_kolam_json(text, options.number);
     if (text[first] == '<') {
         if (text.find("<svg") == std::string::npos && text.find(":svg") == std::string::npos) {
             throw std::runtime_error("XML, but not an SVG");
@@ -114,6 +121,13 @@ std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFil
     if (is_kolam_csv(text)) return read_kolam_csv(text, options.number, monitor);
     if (is_gestures(text)) return read_gestures(text);
     return std::nullopt;
+}
+
+std::optional<GestureDrawing> read_gesture_drawing(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first == std::string::npos || std::string_view("{[<").find(text[first]) != std::string_view::npos) return {};
+    if (is_kolam_csv(text) || !is_gestures(text) || !meets_between_four(text)) return std::nullopt;
+    return draw_gestures(text);
 }
 
 ReadKolam read_kolam_document(const Document& document, double budget, const Monitor& monitor) {

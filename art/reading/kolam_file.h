@@ -1,6 +1,7 @@
 // art/reading/kolam_file.h: reads a kolam from a file of any format, and writes it back.
 #pragma once
 
+#include "art/reading/gesture_drawing.h"
 #include "art/reading/photograph.h"
 #include "art/reading/read_kolam.h"
 #include "engine/language/document.h"
@@ -25,6 +26,10 @@ struct KolamFileOptions {
 /// @throws std::runtime_error if it is damaged, or no kolam
 std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFileOptions& options = {},
                                          const Monitor& monitor = {});
+
+/// Reads gestures that no grid of gaps can represent, because lines meet in the middle of four dots.
+/// @return nullopt for all other texts @throws std::runtime_error if the gestures are damaged
+std::optional<GestureDrawing> read_gesture_drawing(const std::string& text);
 
 /// Reads the kolam that a pattern draws, from its lines. The grid and the gaps that the program writes into patterns
 /// are used where the lines agree with them; otherwise the dots are placed as tradition does.

@@ -3,6 +3,7 @@
 #include "art/gallery/json.h"
 #include "art/reading/kolam_lines.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -73,14 +74,22 @@ char letter_of(GapState state) {
 
 }  // namespace
 
-ReadKolam read_kolam_json(const std::string& text) {
-    Json file;
+ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
+    Json whole_file;
     try {
-        file = read_json(text);
+        whole_file = read_json(text);
     } catch (const JsonError& error) {
         refuse(fmt::format("byte {}: {}", error.byte, error.what()));
     }
-    if (!file.is_object()) refuse("not an object");
+    const bool is_list = whole_file.is_array();
+    if (!is_list && !whole_file.is_object()) refuse("neither an object nor a list");
+    const std::size_t count = is_list ? whole_file.size() : 1;
+    if (count == 0) refuse("the list is empty");
+    if (number < 1 || number > count) {
+        throw std::runtime_error(fmt::format("no kolam {}; the file contains {}", number, counted(count, "kolam")));
+    }
+    const Json& file = is_list ? whole_file[number - 1] : whole_file;
+    if (!file.is_object()) refuse(fmt::format("kolam {} of the list is not an object", number));
     const Json& format = member(file, "format");
     if (!format.is_string() || format.get<std::string>() != "kolam") refuse("'format' is not \"kolam\"");
     const Json& version = member(file, "version");
@@ -128,6 +137,7 @@ ReadKolam read_kolam_json(const std::string& text) {
     if (file.contains("title") && file["title"].is_string()) {
         kolam.title = printable(file["title"].get<std::string>(), 200);
     }
+    if (count > 1) kolam.notes.push_back(fmt::format("kolam {} of {} in the list", number, count));
     return kolam;
 }
 

@@ -102,11 +102,28 @@ TEST(FaintInks, PracticeDotsAreVisible) {
     }
 }
 
-/// Bundled patterns have no faint lines on their own ground.
-TEST(FaintInks, NoBundledKolamHasAny) {
-    for (const auto& file : pattern_files("patterns/kolams")) {
-        const Document document = load(file.string());
-        EXPECT_FALSE(is_told(warnings(document, {}))) << file;
+/// Joints in the colour of the ground show tiles, and outlines show pale fills; neither shows the other.
+TEST(FaintInks, JointsAndOutlinesAreSeen) {
+    const auto tiles = [](const std::string& keys) {
+        return parse("tiles.lsys", "angle increment: 90\naxiom: [{F+F+F+F}]f[{F+F+F+F}]\nground: white\n" + keys);
+    };
+    const std::string joints = "stroke: 0.1 step white\n";
+    EXPECT_FALSE(is_told(warnings(tiles(joints + "palette: navy\n"), {})));
+    EXPECT_TRUE(is_told(warnings(tiles(joints + "palette: #fefefe\n"), {})));
+    EXPECT_FALSE(is_told(warnings(tiles("stroke: 0.1 step navy\npalette: #fefefe\n"), {})));
+    EXPECT_TRUE(is_told(warnings(tiles("stroke: none\npalette: #fefefe\n"), {})));
+    // Dots show no lines.
+    const Document kolam_on_white = parse("kolam.lsys", kolam);
+    EXPECT_TRUE(is_told(warnings(kolam_on_white, {{"ground", "white"}, {"dots", "2mm navy"}})));
+}
+
+/// Bundled patterns have no faint ink on their own ground.
+TEST(FaintInks, NoBundledPatternHasAny) {
+    for (const char* folder : {"kolams", "tilings", "words", "curves"}) {
+        for (const auto& file : pattern_files(std::string("patterns/") + folder)) {
+            const Document document = load(file.string());
+            EXPECT_FALSE(is_told(warnings(document, {}))) << file;
+        }
     }
 }
 

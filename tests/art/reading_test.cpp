@@ -1,5 +1,7 @@
 // tests/art/reading_test.cpp: kolams read from JSON, tables, gestures and drawings, and written back.
+#include "art/analysis.h"
 #include "art/kolam/dot_grid_making.h"
+#include "art/reading/gesture_drawing.h"
 #include "art/reading/gestures.h"
 #include "art/reading/kolam_csv.h"
 #include "art/reading/kolam_file.h"
@@ -225,7 +227,7 @@ TEST(KolamJson, SaysWhatIsWrong) {
     EXPECT_EQ(gap_states_text(read_kolam_json(design(good)).grid, read_kolam_json(design(good)).states), "10");
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"{", "byte"},
-        {"[]", "not an object"},
+        {"[]", "the list is empty"},
         {"{}", "'format' is missing"},
         {R"({"format":"rangoli"})", "'format' is not \"kolam\""},
         {R"({"format":"kolam","version":2})", "'version' is not 1"},
@@ -324,6 +326,21 @@ TEST(KolamCsv, ComesBackByteForByte) {
     EXPECT_TRUE(contains(error_of([&] { kolam_csv_file(grid, parse_gap_states(grid, "none")); }), "has 9"));
 }
 
+TEST(KolamJson, ListsAreReadByNumber) {
+    const auto file = [](const char* states) {
+        return kolam_json_file(parse_dot_grid("2x2"), parse_gap_states(parse_dot_grid("2x2"), states));
+    };
+    const std::string list = "[" + file("1 11 1") + ", " + file("0 10 1") + "]";
+    const auto second = read_kolam_text(list, {.number = 2});
+    ASSERT_TRUE(second);
+    EXPECT_EQ(gap_states_text(second->grid, second->states), "0 10 1");
+    EXPECT_EQ(second->notes, (std::vector<std::string>{"kolam 2 of 2 in the list"}));
+    EXPECT_TRUE(read_kolam_text("[" + file("1 11 1") + "]")->notes.empty());
+    EXPECT_TRUE(contains(error_of([&] { read_kolam_text(list, {.number = 3}); }), "no kolam 3; the file contains 2"));
+    EXPECT_TRUE(contains(error_of([] { read_kolam_text("[]"); }), "the list is empty"));
+    EXPECT_TRUE(contains(error_of([] { read_kolam_text("[{}, 3]", {.number = 2}); }), "kolam 2 of the list"));
+}
+
 // --- gestures -----------------------------------------------------------------------------------------------------
 
 /// `[O1 O3 O4 O1] x 4`, the example of Waring (2012) for orthogonal gestures, draws one loop.
@@ -333,6 +350,65 @@ TEST(Gestures, ReadsTheExampleOfWaring) {
     EXPECT_TRUE(kolam.doubtful().empty());
     // Each quarter of a dot is drawn once.
     EXPECT_EQ(4 * kolam.grid.dots().size(), 4 * (1U + 3 + 4 + 1));
+}
+
+/// Places and headings that a study recorded before each gesture, from a gap to the middle of four dots and back.
+TEST(Gestures, MeetInTheMiddleOfFourDots) {
+    const std::string loop = "2.5,7.5,180: D4L T2R O1 O2 O1 O3 T4 D4R D1 D1 T3R O1 T1\n";
+    EXPECT_TRUE(meets_between_four(loop));
+    const GestureDrawing drawing = draw_gestures(loop);
+    ASSERT_EQ(drawing.lines.size(), 1U);
+    std::vector<std::pair<int, int>> points;
+    for (const GridDot at : drawing.lines[0]) points.emplace_back(at.x, at.y);
+    // In half spacings, as recorded: 2,8.5 2.5,9 3.5,9 4,8.5 3.5,8 3.5,8.5 2.5,8.5 1.5,8.5 1.5,9 2,8.5
+    std::size_t next = 0;
+    for (const auto& place : std::vector<std::pair<int, int>>{{5, 15},
+                                                              {5, 15},
+                                                              {4, 17},
+                                                              {5, 18},
+                                                              {7, 18},
+                                                              {8, 17},
+                                                              {7, 16},
+                                                              {7, 17},
+                                                              {7, 17},
+                                                              {5, 17},
+                                                              {3, 17},
+                                                              {3, 18},
+                                                              {4, 17}}) {
+        next = static_cast<std::size_t>(
+            std::find(points.begin() + static_cast<std::ptrdiff_t>(next), points.end(), place) - points.begin());
+        ASSERT_LT(next, points.size()) << place.first << ' ' << place.second;
+        ++next;
+    }
+    const Document pattern = parse("x.lsys", gesture_pattern(drawing, "title: one\n"));
+    const DrawnLines drawn = drawn_lines(pattern, 1e6, {});
+    const auto& strokes = std::get<Polylines<glm::dvec2>>(drawn);
+    ASSERT_EQ(strokes.begins.size(), 2U);
+    EXPECT_EQ(strokes.points.front(), strokes.points.back()) << "closed exactly";
+}
+
+TEST(Gestures, FourPetalsAreOneClosedLine) {
+    // The first loop of the first kolam that the study shares, without quotes.
+    const std::string text =
+        "matrix_size: 21\nsequence: \n [[D4L D4L D4L D4L]]\nhistory: [[h] [Oldx 0 31.5 31.5 31.5 31.5] "
+        "[Oldy 10.5 73.5 73.5 73.5 73.5] [Oldh 90 0 90 180 270]]\n";
+    const GestureDrawing drawing = draw_gestures(text);
+    EXPECT_EQ(drawing.dots.size(), 4U);
+    EXPECT_EQ(drawing.lines[0].size(), 20U);
+    EXPECT_EQ(std::count(drawing.lines[0].begin(), drawing.lines[0].end(), GridDot{3, 7}), 4);
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"0.5,0.5,0: D4", "needs a side"},
+        {"0.5,0.5,45: D4L", "has the heading 45 here"},
+        {"0.5,0.5,0: O2", "starts between two dots"},
+        {"0.5,0,45: D1", "starts in the middle of four dots"},
+        {"0.5,0.5,0: D1", "does not close"},
+        {"0.5,0.5,0: D1 C1", "must be the only gesture"},
+        {"1,1,0: T1L", "on a dot"}};
+    for (const auto& [gestures, message] : cases) {
+        EXPECT_TRUE(contains(error_of([&] { draw_gestures(gestures); }), message))
+            << gestures << "\n"
+            << error_of([&] { draw_gestures(gestures); });
+    }
 }
 
 /// A loop of a transcription that the study of 2021 shares: the third of its second kolam.
@@ -368,7 +444,7 @@ TEST(Gestures, SayWhatTheyCannotDescribe) {
     EXPECT_TRUE(contains(error_of([&] { gestures_file(grid, states); }), "row 2, gap 3 (2 in all)"));
     EXPECT_TRUE(contains(error_of([] { gestures_file(parse_dot_grid("7-4 idukku"), GapStates(90)); }), "interlaced"));
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"O4 D4L", "loop 1, gesture 2: 'd4l' passes between four dots"},
+        {"O4 D4L", "loop 1, gesture 2: 'd4l' passes through the middle of four dots"},
         {"O1 O9", "loop 1, gesture 2: 'o9' is unknown"},
         {"C2", "decoration"},
         {"O1 O1", "loop 1 does not close"},

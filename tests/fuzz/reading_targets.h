@@ -1,6 +1,7 @@
 // tests/fuzz/reading_targets.h: fuzz target that reads arbitrary text as a kolam: JSON, a table, gestures, an SVG.
 #pragma once
 
+#include "art/reading/gesture_drawing.h"
 #include "art/reading/gestures.h"
 #include "art/reading/kolam_csv.h"
 #include "art/reading/kolam_json.h"
@@ -47,6 +48,10 @@ inline void try_reading(std::string_view text) {
         }
         must(read_gestures(gestures_file(kolam.grid, kolam.states)).states == kolam.states,
              "a kolam does not come back from gestures");
+    });
+    attempt([&] {
+        const GestureDrawing drawing = draw_gestures(copy);
+        must(!drawing.lines.empty() && !drawing.dots.empty(), "gestures draw nothing");
     });
     attempt([&] { check(read_kolam_svg(copy)); });
     const auto tiles = [](const PolygonList& list) {
