@@ -164,8 +164,8 @@ void import_file(const ImportOptions& options, bool quiet) {
         write_file(options.output, first.pattern);
     }
     if (!to_folder && !first.pattern.empty() && !first.draws) {
-        tell_unless(quiet, "sikku: warning: the pattern draws nothing{}\n",
-                    first.losses.empty() ? "" : ": the features that draw are not supported");
+        tell_unless(quiet, "sikku: warning: the pattern draws nothing at its derivation length{}\n",
+                    first.losses.empty() ? "" : "; what is not supported may be the cause");
     }
     const bool all_good =
         std::none_of(indices.begin(), indices.end(), [&](std::size_t i) { return systems[i].pattern.empty(); });

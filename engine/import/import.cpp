@@ -1,6 +1,7 @@
 #include "engine/import/import.h"
 
 #include "engine/base/text.h"
+#include "engine/derivation/derivation.h"
 #include "engine/language/foreign_text.h"
 #include "engine/language/grammar.h"
 #include "engine/language/undrawn.h"
@@ -15,6 +16,43 @@ namespace {
 
 constexpr std::size_t most_losses = 200;  // kept of one system
 constexpr std::size_t most_told = 12;     // in its description
+constexpr double most_derived = 200'000;  // nodes, to find a symbol that draws
+
+struct InkFound {};
+
+/// Ends a derivation at the first symbol that draws.
+class InkFinder : public SymbolSink {
+public:
+    explicit InkFinder(const Grammar& grammar) : grammar_(grammar) {}
+    void symbols(const Run& run) override {
+        for (const Symbol symbol : run.symbols) {
+            if (is_ink(grammar_.symbols()[symbol].command.action)) throw InkFound();
+        }
+    }
+
+private:
+    const Grammar& grammar_;
+};
+
+/// True if the word of the derivation length draws something, or is too long to tell.
+bool draws_something(const Grammar& grammar) {
+    if (!may_draw(grammar)) return false;
+    if (grammar.is_plain() && grammar.whole_word_steps() == 0) return true;  // that was exact
+    DerivationOptions options;
+    options.interpreted = true;
+    options.limit_whole_words(most_derived);
+    InkFinder finder(grammar);
+    try {
+        derive(grammar, finder, options);
+    } catch (const InkFound&) {
+        return true;
+    } catch (const BudgetError&) {
+        return true;
+    } catch (const WordError&) {
+        return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -105,7 +143,7 @@ void compile_import(ImportedSystem& system, const Span& where, Diagnostics& diag
     const Pattern parsed = parse_pattern(system.name, pattern, own);
     if (!own.is_unreadable()) {
         const Grammar grammar = compile_grammar(parsed, own);
-        if (!own.has_errors()) system.draws = can_draw(grammar);
+        if (!own.has_errors()) system.draws = draws_something(grammar);
     }
     if (!own.has_errors()) {
         system.pattern = pattern;

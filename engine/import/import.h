@@ -21,7 +21,7 @@ struct ImportedSystem {
     std::string pattern;  ///< text of a pattern file; empty if the system has mistakes
     std::vector<std::string>
         losses;         ///< features that the pattern lacks, each with its line; the pattern lists them, too
-    bool draws = true;  ///< false if the pattern draws nothing, at any derivation length
+    bool draws = true;  ///< false if the pattern draws nothing at its derivation length
 };
 
 /// Maximum length of a text in bytes; longer ones are rejected.

@@ -4,12 +4,12 @@
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
 #include "engine/language/angle.h"
+#include "engine/language/grammar.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 namespace sikku {
@@ -125,6 +125,18 @@ bool is_digit(char byte) {
     return byte >= '0' && byte <= '9';
 }
 
+bool is_word_byte(char byte) {
+    return is_letter(byte) || static_cast<unsigned char>(byte) >= 0x80;
+}
+
+/// Words, with the marks of sentences, but without signs of a turtle.
+bool is_prose(std::string_view text) {
+    return !text.empty() && is_word_byte(text.front()) && std::all_of(text.begin(), text.end(), [](char byte) {
+        return is_word_byte(byte) || is_digit(byte) || is_blank(byte) ||
+               std::string_view(".,:!?'").find(byte) != nothing;
+    });
+}
+
 std::string folded(std::string_view name) {
     std::string result;
     for (const char byte : trimmed(name)) {
@@ -233,8 +245,9 @@ std::string_view bare(std::string_view line) {
     while (line.ends_with(',') || line.ends_with(';') || is_blank(line.empty() ? 'x' : line.back())) {
         line.remove_suffix(1);
     }
+    line.remove_prefix(item_number_length(line));
     for (const std::string_view word :
-         {"- ", "* ", "let ", "var ", "const ", "String ", "string ", "this.", "self."}) {
+         {"- ", "* ", "\u2022 ", "let ", "var ", "const ", "String ", "string ", "this.", "self."}) {
         if (line.starts_with(word)) line = trimmed(line.substr(word.size()));
     }
     return line;
@@ -294,6 +307,36 @@ bool is_number(std::string_view text) {
     return read_number(trimmed(text), value);
 }
 
+/// The first error of a line in a pattern that consists of little else; empty if it is accepted. Names in conditions
+/// and parameters that the rest of the pattern has to define are defined.
+std::string error_of(const std::string& line) {
+    constexpr std::string_view undefined = "' is not defined";
+    constexpr int most_names = 8;
+    const bool is_axiom = line.starts_with("axiom:");
+    const std::size_t arrow = line.find("-->");
+    const bool is_word = is_axiom || arrow != nothing;
+    std::string_view weight;
+    if (arrow != nothing) {
+        weight = std::string_view(line).substr(arrow);
+        weight.remove_prefix(std::min(find_top(weight, ":"), weight.size()));
+    }
+    std::string text = is_axiom ? line + '\n' : "axiom: F\n" + line + '\n';
+    for (int names = 0;; ++names) {
+        Diagnostics diagnostics;
+        const Pattern pattern = parse_pattern("", text, diagnostics);
+        // What values of keys may be is not a matter of the language alone.
+        if (is_word && !diagnostics.has_errors()) compile_grammar(pattern, diagnostics);
+        const auto& list = diagnostics.list();
+        const auto error = std::find_if(list.begin(), list.end(), [](const Diagnostic& one) { return !one.warning; });
+        if (error == list.end()) return {};
+        const std::string& message = error->message;
+        if (names == most_names || !message.starts_with('\'') || !message.ends_with(undefined)) return message;
+        const std::string name = message.substr(1, message.size() - 1 - undefined.size());
+        if (weight.find(name) != nothing) return message;  // more likely not a weight at all
+        text += fmt::format("define {} = 1\n", name);
+    }
+}
+
 template <class List>
 bool contains(const List& list, std::string_view name) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -306,13 +349,30 @@ public:
     LineAdvice read(std::string_view line) {
         if (line.size() > most_advised) return {};
         text_ = without_entities(line);
-        if (line_is_read(text_, 0)) return std::move(advice_);
+        if (line_is_read(text_, 0)) return accepted();
         advice_ = {};
         if (!quoted_pairs_are_read(text_)) advice_ = {};
-        return std::move(advice_);
+        return accepted();
     }
 
 private:
+    /// The advice without lines that a pattern would not accept. Their error is the answer where the line was
+    /// certainly meant as a production.
+    LineAdvice accepted() {
+        std::string problem;
+        const std::size_t before = advice_.lines.size();
+        std::erase_if(advice_.lines, [&](const std::string& line) {
+            const std::string error = error_of(line);
+            if (!error.empty() && problem.empty()) problem = error;
+            if (!error.empty() && line == "axiom: " + advice_.axiom) advice_.axiom = "*";
+            return !error.empty();
+        });
+        const bool is_certain = !foreign_arrow(text_).empty() || !advice_.lines.empty() || has_symbol_;
+        if (advice_.lines.size() < before && is_certain) advice_.problem = problem;
+        if (!advice_.is_understood()) return {};
+        return std::move(advice_);
+    }
+
     bool line_is_read(std::string_view line, int level) {
         line = bare(line);
         if (line.empty() || level > most_levels) return false;
@@ -395,6 +455,7 @@ private:
             }
         }
         left = without_quotes(left);
+        left.remove_prefix(item_number_length(left));
         // A label before '=', as in `rule1 = F -> FF`.
         if (const std::size_t equals = find_top(left, "="); equals != nothing)
             left = trimmed(left.substr(equals + 1));
@@ -408,12 +469,14 @@ private:
         if (name == "axiom" || key_of_other_name(name) == "axiom") {
             if (!(left.size() == 1)) return axiom_is_read(right);
         }
+        has_symbol_ = has_symbol_ || utf8_length(left) == left.size();
         advice_.lines.push_back(fmt::format("{} --> {}", trimmed(plain(left)), word(right)));
         return true;
     }
 
     bool axiom_is_read(std::string_view value) {
         if (trimmed(value).empty()) return false;
+        has_symbol_ = true;
         advice_.axiom = word(value);
         advice_.lines.push_back("axiom: " + advice_.axiom);
         return true;
@@ -429,6 +492,7 @@ private:
     }
 
     bool setting_is_read(std::string_view left, std::string_view right, int level) {
+        if (right.starts_with(':') || right.starts_with('=')) right = trimmed(right.substr(1));  // F :: F+F
         const std::string name = folded(without_quotes(left));
         if (name.empty()) return false;
         if (is_needless(name)) return true;
@@ -483,6 +547,7 @@ private:
     }
 
     bool has_axiom_;
+    bool has_symbol_ = false;  // alone, to the left of an arrow or sign, or the name of the axiom
     std::string text_;
     LineAdvice advice_;
 };
@@ -490,18 +555,30 @@ private:
 }  // namespace
 
 std::string LineAdvice::text() const {
+    if (lines.empty() && !problem.empty()) return problem;
     if (lines.empty()) return fmt::format("leave this line out{}{}", reason.empty() ? "" : "; ", reason);
-    if (lines.size() == 1) return fmt::format("write '{}'", printable(lines.front(), 120));
+    const std::string other = problem.empty() ? "" : "; in another: " + problem;
+    if (lines.size() == 1) return fmt::format("write '{}'{}", printable(lines.front(), 120), other);
     std::string list;
     constexpr std::size_t most_shown = 8;
     for (std::size_t i = 0; i < std::min(lines.size(), most_shown); ++i) {
         list += fmt::format("{}'{}'", i > 0 ? ", " : "", printable(lines[i], 80));
     }
     if (lines.size() > most_shown) list += " …";
-    return "write each in its own line: " + list;
+    return "write each in its own line: " + list + other;
 }
 
 LineAdvice advice_for_line(std::string_view line, bool has_axiom) {
+    // The parser and the compiler, which read what is advised, would ask for advice on it in turn.
+    thread_local bool is_trial = false;
+    if (is_trial) return {};
+    struct Trial {
+        Trial() { is_trial = true; }
+        ~Trial() { is_trial = false; }
+        Trial(const Trial&) = delete;
+        Trial& operator=(const Trial&) = delete;
+    };
+    const Trial trial;
     return Adviser(has_axiom).read(line);
 }
 
@@ -548,7 +625,7 @@ const char* ascii_of(std::string_view point) {
 bool is_label(std::string_view name, std::string_view after_colon) {
     std::size_t letters = 0;
     while (letters < name.size() && (is_letter(name[letters]) || name[letters] == '_')) ++letters;
-    if (letters == 0 || letters == name.size()) return false;
+    if (letters == name.size()) return false;
     const std::string_view number = trimmed(name.substr(letters));
     if (number.empty() || !std::all_of(number.begin(), number.end(), is_digit)) return false;
     // A predecessor follows: with a condition of its own, or single symbols with contexts.
@@ -558,27 +635,80 @@ bool is_label(std::string_view name, std::string_view after_colon) {
     return !after_colon.empty() && !has_number && is_predecessor(after_colon);
 }
 
+std::size_t remark_length(std::string_view text) {
+    return text.starts_with("--") || text.starts_with("//") ? 2 : 1;
+}
+
 std::size_t find_late_remark(std::string_view line, const std::function<bool(std::string_view)>& is_name) {
     for (std::size_t at = 1; at + 2 < line.size(); ++at) {
         if (!is_blank(line[at - 1])) continue;
-        const std::size_t length = line.compare(at, 2, "--") == 0 ? 2 : 1;
+        const std::size_t length = remark_length(line.substr(at));
         if (length == 1 && std::string_view("#;%").find(line[at]) == nothing) continue;
-        std::size_t next = at + length;
-        if (next >= line.size() || !is_blank(line[next])) continue;
+        const std::size_t next = at + length;
+        if (next >= line.size()) continue;
+        const bool is_apart = is_blank(line[next]);
+        // `//` between blanks has a warning of its own, which needs no word.
+        if (is_apart ? line[at] == '/' : !is_prose(line.substr(next))) continue;
         // Symbols between blanks may follow, too; a word has a small letter that is not a move.
         for (std::size_t i = next; i < line.size();) {
             std::size_t end = i;
             bool is_word = false;
-            while (end < line.size() && (is_letter(line[end]) || static_cast<unsigned char>(line[end]) >= 0x80)) {
+            while (end < line.size() && is_word_byte(line[end])) {
                 if (line[end] >= 'a' && line[end] <= 'z' && line[end] != 'f') is_word = true;
                 ++end;
             }
+            const bool is_long = end - i > (is_apart ? 1U : 2U);
             const bool has_parameter = end < line.size() && line[end] == '(';
-            if (is_word && end - i > 1 && !has_parameter && !is_name(line.substr(i, end - i))) return at;
+            if (is_word && is_long && !has_parameter && !is_name(line.substr(i, end - i))) return at;
             i = std::max(end, i + 1);
         }
+        return nothing;  // what follows another mark is a part of this
     }
     return nothing;
+}
+
+std::optional<MisplacedWeight> misplaced_weight(std::string_view right) {
+    const auto weight = [](std::string_view text) -> std::optional<std::string_view> {
+        const bool is_percent = text.ends_with('%');
+        if (is_percent) text.remove_suffix(1);
+        const bool is_plain = text.find_first_not_of("0123456789.") == nothing;
+        if (!is_plain || !is_number(text) || !(is_percent || text.find('.') != nothing)) return std::nullopt;
+        return text;
+    };
+    const auto answer = [&](std::string_view number, std::string_view value, std::string_view word) {
+        while (word.ends_with(',') || word.ends_with(';')) word = trimmed(word.substr(0, word.size() - 1));
+        return MisplacedWeight{static_cast<std::size_t>(number.data() - right.data()), number.size(),
+                               fmt::format("{} : {}", word, value)};
+    };
+    right = trimmed(right);
+    const std::size_t colon = right.find(':');
+    if (colon != nothing) {
+        const std::string_view number = trimmed(right.substr(0, colon));
+        const std::string_view word = trimmed(right.substr(colon + 1));
+        const auto value = weight(number);
+        if (value && !word.empty() && !is_number(word)) return answer(number, *value, word);
+        return std::nullopt;
+    }
+    const std::size_t first = right.find_first_of(" \t");
+    if (first == nothing) return std::nullopt;
+    const std::string_view before = right.substr(0, first);
+    if (const auto value = weight(before)) return answer(before, *value, trimmed(right.substr(first)));
+    const std::size_t last = right.find_last_of(" \t");
+    const std::string_view after = right.substr(last + 1);
+    if (const auto value = weight(after)) return answer(after, *value, trimmed(right.substr(0, last)));
+    return std::nullopt;
+}
+
+std::size_t item_number_length(std::string_view line) {
+    const bool is_enclosed = line.starts_with('(');
+    const std::size_t begin = is_enclosed ? 1 : 0;
+    std::size_t at = begin;
+    while (at < line.size() && is_digit(line[at])) ++at;
+    if (at == begin || at - begin > 4 || at + 1 >= line.size()) return 0;
+    if (line[at] != ')' && (is_enclosed || line[at] != '.')) return 0;
+    if (!is_blank(line[++at])) return 0;
+    while (at < line.size() && is_blank(line[at])) ++at;
+    return at;
 }
 
 }  // namespace sikku

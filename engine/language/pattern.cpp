@@ -18,8 +18,10 @@ namespace {
 
 constexpr const char* open_comment_message = "this comment has no end: expected '*/'";
 
-constexpr std::size_t most_key_bytes = 100;     // of `symbols`, with blanks
-constexpr std::size_t most_strange_lines = 10;  // for each line that may belong to a pattern
+constexpr std::size_t most_key_bytes = 100;    // of `symbols`, with blanks
+constexpr std::size_t most_strange_lines = 3;  // for each line that may belong to a pattern
+
+constexpr std::size_t most_advised = 1000;  // lines in another notation; then the text has errors enough
 
 constexpr std::size_t most_nesting = std::size_t{1} << 20;
 // Limits of a pattern file, checked while it is read, so that a small file cannot take much memory.
@@ -87,7 +89,8 @@ std::size_t rfind_outside(std::string_view text, char wanted) {
 
 class Parser {
 public:
-    Parser(Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+    Parser(Pattern& pattern, Diagnostics& diagnostics)
+        : pattern_(pattern), diagnostics_(diagnostics), before_(diagnostics) {}
 
     void run() {
         const std::string_view text = pattern_.source->cleaned();
@@ -116,12 +119,15 @@ private:
         find_axiom();
         std::size_t strange = unknown_.size() + repeated_;  // lines
         std::size_t known = productions_ + pattern_.tables.size() + pattern_.defines.size() +
-                            pattern_.patches.size() + (has_advice_ ? 1 : 0);
+                            pattern_.patches.size() + (advised_ > 0 ? 1 : 0);
         for (const Key& key : pattern_.keys) {
             const bool is_key = find_language_key(key.name) || !nearest_key(key.name).empty();
             ++(is_key ? known : strange);
         }
-        if (strange > most_strange_lines * std::max<std::size_t>(known, 1) || (known == 0 && strange > 1)) {
+        const bool has_axiom = pattern_.find("axiom") || !axiom_.empty();
+        if (strange > most_strange_lines * std::max<std::size_t>(known, 1) || (known == 0 && strange > 1) ||
+            (!has_axiom && strange > known + advised_)) {
+            diagnostics_ = before_;  // advice on single lines of prose is of no use
             return diagnostics_.unreadable(
                 unknown_.empty() ? pattern_.keys.front().name_at : unknown_.front(),
                 "this text is not a pattern: expected lines such as 'axiom: F' and 'F --> F+F'");
@@ -130,7 +136,7 @@ private:
             // Brackets and headings of a program around lines that were reported.
             const std::string_view text = whole.view();
             const bool is_heading = text.ends_with('{') || (text.front() == '[' && text.back() == ']');
-            if (has_advice_ && (is_heading || text.find_first_not_of("{}[]();, \t") == std::string_view::npos))
+            if (advised_ > 0 && (is_heading || text.find_first_not_of("{}[]();, \t") == std::string_view::npos))
                 continue;
             diagnostics_.error(whole, whole.view().starts_with('#')
                                           ? "a comment begins with '//'"
@@ -160,9 +166,14 @@ private:
     /// Reports a line in another notation. False if it is not understood.
     bool advise(const Span& whole, std::size_t colon) {
         const std::string_view text = whole.view();
+        if (advised_ > most_advised) {
+            ++advised_;
+            diagnostics_.error(whole, "expected 'key: value' or a production with '-->'");
+            return true;
+        }
         const LineAdvice advice = advice_for_line(text, pattern_.find("axiom") || !axiom_.empty());
         if (!advice.is_understood()) return false;
-        has_advice_ = true;
+        ++advised_;
         if (!advice.axiom.empty() && axiom_.empty()) axiom_ = advice.axiom;
         const std::string_view arrow = foreign_arrow(text);
         if (!arrow.empty()) {
@@ -255,9 +266,9 @@ private:
     /// languages.
     void warn_of_remark(const Span& whole) {
         const std::size_t at =
-            find_late_remark(whole.view(), [this](std::string_view word) { return is_listed_symbol(word); });
+            find_late_remark(whole.view(), [this](std::string_view word) { return is_of_symbols(word); });
         if (at == std::string_view::npos) return;
-        const std::string_view mark = whole.view().substr(at, whole.view().compare(at, 2, "--") == 0 ? 2 : 1);
+        const std::string_view mark = whole.view().substr(at, remark_length(whole.view().substr(at)));
         diagnostics_.warning(whole.part(at),
                              fmt::format("'{}' does not begin a comment: the rest of this line is read as symbols; "
                                          "comments stand in lines of their own, after '//'",
@@ -288,6 +299,24 @@ private:
                 return true;
             }
         }
+        if (const std::size_t number = item_number_length(left); number > 0 && number < left.size()) {
+            const LineAdvice advice = advice_for_line(whole.view(), true);
+            diagnostics_.error(left_side.part(0, number).trimmed(),
+                               fmt::format("'{}' is not a predecessor: productions have no numbers; {}",
+                                           trimmed(left.substr(0, number)), advice.text()));
+            return true;
+        }
+        // A weight beside the word: `F --> 0.33 FF`.
+        const Span right_side = whole.part(arrow + 3).trimmed();
+        if (const auto weight = misplaced_weight(right_side.view())) {
+            const Span number = right_side.part(weight->at, weight->length);
+            if (!has_predecessor_in(number.view())) {
+                diagnostics_.error(number,
+                                   fmt::format("a weight follows the successor; write '{}'",
+                                               printable(fmt::format("{} --> {}", left, weight->right), 120)));
+                return true;
+            }
+        }
         // A weight in front of the arrow: `F 0.33 --> FF`.
         const std::size_t blank = left.find_last_of(" \t");
         double weight = 0;
@@ -314,6 +343,42 @@ private:
     bool is_listed_symbol(std::string_view name) {
         if (!listed_symbols_) find_listed_symbols();
         return listed_symbols_->contains(name);
+    }
+
+    /// True for the name of a symbol, and for words all of whose letters are symbols with productions.
+    bool is_of_symbols(std::string_view word) {
+        if (is_listed_symbol(word)) return true;
+        find_predecessors();
+        return word.find_first_not_of(*predecessors_) == std::string_view::npos;
+    }
+
+    bool has_predecessor_in(std::string_view word) {
+        find_predecessors();
+        return word.find_first_of(*predecessors_) != std::string_view::npos;
+    }
+
+    /// The letters and digits to the left of arrows, wherever these stand, and up to parameters and conditions.
+    void find_predecessors() {
+        if (predecessors_) return;
+        predecessors_.emplace();
+        const std::string_view text = pattern_.source->cleaned();
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            const std::string_view line = text.substr(at, end - at);
+            at = end + 1;
+            const std::size_t arrow = line.find("-->");
+            if (arrow == std::string_view::npos) continue;
+            const std::string_view left = line.substr(0, arrow);
+            int depth = 0;
+            for (const char byte : left.substr(0, find_outside(left, ":"))) {
+                if (byte == '(') ++depth;
+                if (byte == ')') --depth;
+                const bool is_digit = byte >= '0' && byte <= '9';
+                const bool is_letter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+                if (depth == 0 && (is_digit || is_letter) && predecessors_->find(byte) == std::string::npos)
+                    *predecessors_ += byte;
+            }
+        }
     }
 
     void find_listed_symbols() {
@@ -518,6 +583,7 @@ private:
 
     Pattern& pattern_;
     Diagnostics& diagnostics_;
+    const Diagnostics before_;  // those of others
     Section section_ = Section::common;
     bool interpret_seen_ = false;
     bool is_in_patch_ = false;
@@ -525,9 +591,10 @@ private:
     std::size_t settings_ = 0;
     std::vector<Span> unknown_;  // lines of no known kind
     std::size_t repeated_ = 0;   // keys that are unknown and were stated before
-    bool has_advice_ = false;
-    std::string axiom_;  // as another notation states it
+    std::size_t advised_ = 0;    // lines in another notation
+    std::string axiom_;          // as another notation states it
     std::optional<std::set<std::string, std::less<>>> listed_symbols_;
+    std::optional<std::string> predecessors_;
     std::set<std::string, std::less<>> key_names_;
     std::set<std::string, std::less<>> define_names_;
     std::set<std::string, std::less<>> table_names_;

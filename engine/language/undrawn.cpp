@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t most_named = 12;  // of the letters in a message
 
-bool is_ink(Action action) {
-    return action == Action::draw || action == Action::disc || action == Action::polygon_end ||
-           action == Action::edge_end || action == Action::surface || action == Action::label;
-}
-
 /// What a letter does in a grammar.
 struct LetterFacts {
     bool is_skipped = true;       ///< by a turtle, in all its forms
@@ -24,6 +19,7 @@ struct LetterFacts {
     bool has_rule = false;        ///< by itself
     bool is_context = false;      ///< of a production, or ignored as one
     bool draws = false;           ///< makes a step that draws
+    bool moves = false;           ///< makes a step that does not, in words of the system
     bool is_in_step = false;      ///< a step's successor contains it, outside of brackets
     bool contains_self = false;   ///< a successor of its own does, outside of brackets
     bool contains_other = false;  ///< a successor of its own contains other letters
@@ -44,6 +40,7 @@ public:
             if (is_ink(action) || action == Action::move) draws_ = true;
             if (!reached[symbol]) continue;
             letter.is_reached = true;
+            if (action == Action::move) letter.moves = true;
             if (action == Action::turn) turns_ = true;
             if (grammar.ignored(symbol)) letter.is_context = true;
         }
@@ -114,6 +111,22 @@ bool states_meaning(const Pattern& pattern) {
     });
 }
 
+/// The letters that move in a system none of whose words draw anything.
+std::vector<std::string> moves_without_ink(const Letters& letters, const Grammar& grammar) {
+    if (can_draw(grammar)) return {};
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
+        if (letters.facts()[i].moves) found.push_back(i);
+    }
+    return letters.names(found);
+}
+
+/// True if points of the line are all that moves are in this pattern.
+bool moves_draw(const Pattern& pattern) {
+    const Key* line = pattern.find("line");
+    return line && line->value.view() == "spline";
+}
+
 /// `A`, `A and B`, `A, B and C`
 std::string enumerated(const std::vector<std::string>& names, std::string_view quote) {
     std::string text;
@@ -140,7 +153,21 @@ std::string key_with(std::string_view key, Action action, const Grammar& grammar
     return list;
 }
 
+/// `'f' moves without drawing; 'forward: f' makes it a step, F draws`
+std::string moves_message(const Grammar& grammar, const std::vector<std::string>& names) {
+    const bool is_one = names.size() == 1;
+    const bool has_f = std::find(names.begin(), names.end(), "F") != names.end();
+    return fmt::format("{} {} without drawing; '{}' makes {}{}", enumerated(names, "'"), is_one ? "moves" : "move",
+                       key_with("forward", Action::draw, grammar, names), is_one ? "it a step" : "them steps",
+                       has_f ? "" : ", F draws");
+}
+
 }  // namespace
+
+bool is_ink(Action action) {
+    return action == Action::draw || action == Action::disc || action == Action::polygon_end ||
+           action == Action::edge_end || action == Action::surface || action == Action::label;
+}
 
 std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& grammar) {
     if (grammar.map() || states_meaning(pattern)) return {};
@@ -155,6 +182,7 @@ std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& g
             letters.draws() ? !letter.is_context && (is_like_a_step || only_multiplies) : letters.turns();
         if (is_meant) found.push_back(i);
     }
+    if (found.empty() && !moves_draw(pattern)) return moves_without_ink(letters, grammar);
     return letters.names(found);
 }
 
@@ -176,6 +204,9 @@ void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics
         std::any_of(pattern.tables.begin(), pattern.tables.end(),
                     [&](const TableText& table) { return find(table.productions); });
     }
+    if (moves_without_ink(Letters(grammar), grammar) == names) {
+        return diagnostics.warning(where, moves_message(grammar, names));
+    }
     const bool is_one = names.size() == 1;
     std::string message =
         fmt::format("{} {} nothing; '{}' makes {}", enumerated(names, "'"), is_one ? "draws" : "draw",
@@ -195,9 +226,53 @@ bool can_draw(const Grammar& grammar) {
     return false;
 }
 
+bool may_draw(const Grammar& grammar) {
+    constexpr std::size_t most_visits = std::size_t{1} << 20;  // symbols of successors
+    const std::vector<SymbolInfo>& symbols = grammar.symbols();
+    std::size_t visits = 0;
+    std::vector<char> present(symbols.size(), 0);
+    for (const Symbol symbol : grammar.axiom()) present[symbol] = 1;
+    /// The symbols after a step: a symbol stays, too, if its productions need more than it.
+    const auto advance = [&](const Table& table) {
+        std::vector<char> next(symbols.size(), 0);
+        const auto add = [&](const Word& word) {
+            visits += word.size() + 1;
+            for (const Symbol symbol : word) next[symbol] = 1;
+        };
+        for (Symbol symbol = 0; symbol < present.size(); ++symbol) {
+            if (!present[symbol]) continue;
+            if (table.context_free() && grammar.is_plain()) {
+                const Word* successor = table.successor(symbol);
+                successor ? add(*successor) : add({symbol});
+                continue;
+            }
+            add({symbol});
+            for (const std::uint32_t i : table.candidates(symbol)) add(table.production(i).successor);
+        }
+        visits += symbols.size();
+        const bool is_same = next == present;
+        present = std::move(next);
+        return is_same;
+    };
+    for (const ScheduleRun& run : grammar.schedule()) {
+        for (std::int64_t step = 0; step < run.steps; ++step) {
+            if (visits > most_visits) return can_draw(grammar);
+            if (advance(grammar.tables()[run.table])) break;
+        }
+    }
+    if (grammar.interpretation()) advance(*grammar.interpretation());
+    for (Symbol symbol = 0; symbol < present.size(); ++symbol) {
+        if (present[symbol] && is_ink(symbols[symbol].command.action)) return true;
+    }
+    return false;
+}
+
 std::string undrawn_hint(const Grammar& grammar) {
+    if (grammar.map() || can_draw(grammar)) return {};
     const Letters letters(grammar);
-    if (grammar.map() || letters.draws()) return {};
+    if (const std::vector<std::string> moves = moves_without_ink(letters, grammar); !moves.empty()) {
+        return "; " + moves_message(grammar, moves);
+    }
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
         if (is_candidate(letters.facts()[i])) found.push_back(i);

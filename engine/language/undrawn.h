@@ -17,17 +17,28 @@ namespace sikku {
 /// - its productions consist of the letter alone, several times, as in `G --> GG`; or
 /// - a step's productions contain it, and its own productions contain it, both outside of brackets, as in
 ///   `F --> F+G`, `G --> F-G`. In curves with nodes, such as Hilbert's in X and Y, F derives no node.
+/// If there are none, nothing in the system draws, and the pattern has no `line: spline`, whose points they would be:
+/// the letters that move, as in `X --> f[+X]f`.
 /// Cost: linear in the grammar.
 std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& grammar);
 
 /// Warns of these letters at the first production of the first one.
 void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
 
+/// True for what leaves ink: steps, discs, polygons, surfaces, labels.
+bool is_ink(Action action);
+
 /// True if a word of the system, of any derivation length, may contain a symbol that draws. Cost: linear.
 bool can_draw(const Grammar& grammar);
 
-/// For a word that draws nothing: names the letters with productions that a turtle skips, as
-/// `; 'forward: A B' makes A and B steps`; empty if there are none, or if other words of the system draw.
+/// True if the word of the derivation length may contain a symbol that draws: exact for plain systems without
+/// contexts, otherwise conditions, contexts and chance count as fulfilled. Cost: at most about a million symbols of
+/// successors; beyond, that of can_draw(), which is the answer then.
+bool may_draw(const Grammar& grammar);
+
+/// For a word that draws nothing: names the letters that move, as `; 'f' moves without drawing; 'forward: f' makes it
+/// a step, F draws`, or else those with productions that a turtle skips, as `; 'forward: A B' makes A and B steps`;
+/// empty if there are none, or if other words of the system draw.
 std::string undrawn_hint(const Grammar& grammar);
 
 }  // namespace sikku

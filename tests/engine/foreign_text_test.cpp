@@ -193,8 +193,81 @@ TEST(ForeignLine, AnUnrecognisedTextIsReportedOnce) {
     for (int i = 0; i < 40; ++i) prose += "Some prose about curves and more prose.\n";
     expect_mistakes(prose, {{{1, 1}, "this text is not a pattern"}});
     expect_mistakes("axiom: F\n" + prose, {{{2, 1}, "this text is not a pattern"}});
+    // Without an axiom most lines suffice, and what was said about others is left out.
+    expect_mistakes("# A project\n\nIt draws curves.\nThey are long.\n\nAnd loud.\n<img src=\"a.png\">\nF -> FF\n",
+                    {{{1, 1}, "this text is not a pattern"}});
+    expect_mistakes("F --> FF\nwhat is this\n", {{{1, 1}, "'axiom:' is missing"}, {{2, 1}, "expected 'key: value'"}});
     // One strange line in a pattern is one error in its place.
     expect_mistakes("axiom: F\nF --> FF\nwhat is this\n", {{{3, 1}, "expected 'key: value'"}});
+}
+
+TEST(ForeignLine, NumbersOfItemsAreNotPartsOfProductions) {
+    for (const char* line : {"1. X -> F+X", "2) X → F+X", "(3) X = F+X", "1. X --> F+X", "12. X: F+X", "1) X --> F+X",
+                             "1: X --> F+X", "1: X -> F+X", "• X → F+X", "rule: 1. X → F+X"}) {
+        const std::string message = answer(line);
+        EXPECT_NE(message.find("write 'X --> F+X'"), std::string::npos) << line << '\n' << message;
+    }
+    expect_mistakes("axiom: F\n1. F --> F+F\n",
+                    {{{2, 1}, "'1.' is not a predecessor: productions have no numbers; write 'F --> F+F'"}});
+    EXPECT_EQ(advice("1. axiom: X"), std::vector<std::string>{"axiom: X"});
+    // Digits are symbols.
+    for (const char* line : {"1 --> 11", "0 < 1 > 0 --> 1", "1.F --> F", "11 --> 1"}) EXPECT_EQ(answer(line), "");
+    EXPECT_TRUE(diagnostics_of("axiom: 1\ndefine c = 1\n1 : c --> F\n").empty());
+}
+
+TEST(ForeignLine, DoubleSignsAreThoseOfProductions) {
+    for (const char* line : {"X :: F+X", "X == F+X", "X : : F+X"}) {
+        EXPECT_EQ(advice(line), std::vector<std::string>{"X --> F+X"}) << line;
+    }
+}
+
+TEST(ForeignLine, WhatIsOfferedIsAccepted) {
+    // Lines as people paste them: none of the advice may be refused in its turn.
+    for (const char* line : {"F -> >F<",
+                             "F = >F<",
+                             "F :: F+F",
+                             "F :: >F",
+                             "F → F(",
+                             "F → F)",
+                             "F -> F -> G",
+                             "F -> F --> G",
+                             "F → F*F",
+                             "A(x) : x >> 1 → B(x)",
+                             "A(x) → B(x+)",
+                             "axiom = <F>",
+                             "start: F(",
+                             "X → F : y",
+                             "rules: (F → >F<), (G → FF)",
+                             "F: <b>F</b>",
+                             "F < G > → F",
+                             "< F → F",
+                             "F > → G",
+                             "a -> b: c",
+                             "F = F = F",
+                             "<img src=\"a.png\" width=\"2\">",
+                             "rules = {\"F\": \"F:F\", \"G\": \"GG\"}",
+                             "(\"F\", \"F+(F\")",
+                             "1. F -> F->F",
+                             "| F → FF | F |"}) {
+        for (const std::string& offered : advice(line)) {
+            const std::string begin = offered.starts_with("axiom:") ? "" : "axiom: F\n";
+            for (const Diagnostic& one : diagnostics_of(begin + offered + "\n")) {
+                EXPECT_TRUE(one.warning) << line << " | " << offered << " | " << one.message;
+            }
+        }
+    }
+    EXPECT_EQ(
+        answer("F -> >F<"),
+        "'->' is not the arrow of a production; '>' is not a symbol; branches stand in [ ], and a step takes its "
+        "length as a parameter: F(1.36*x)\n");
+    EXPECT_EQ(answer("F = >F<").find("write"), std::string::npos);
+    EXPECT_EQ(answer("<img src=\"a.png\" width=\"2\">").find("write"), std::string::npos);
+    // What can be offered of a list is; what other lines may define is accepted.
+    EXPECT_EQ(advice("rules: (F → >F<), (G → FF)"), std::vector<std::string>{"G --> FF"});
+    EXPECT_NE(answer("rules: (F → >F<), (G → FF)").find("'>' is not a symbol"), std::string::npos);
+    EXPECT_EQ(advice("A(x) : x > K → B(x/R)"), std::vector<std::string>{"A(x) : x > K --> B(x/R)"});
+    // An axiom with errors is not missing, too.
+    EXPECT_EQ(diagnostics_of("axiom = <F>\nF --> FF\n").size(), 1U);
 }
 
 TEST(ForeignLine, ReadsAnyBytes) {
@@ -238,6 +311,30 @@ TEST(LateRemark, OtherMarksOfCommentsAreWarnedOf) {
                              "F --> F ; F , F", "F --> F -- F", "F --> F # fF", "F --> F # FX F"}) {
         EXPECT_TRUE(diagnostics_of("axiom: F\n" + std::string(line) + "\n").empty()) << line;
     }
+}
+
+TEST(LateRemark, MarksWithoutABlankAfterThem) {
+    for (const char* line : {"F --> F+F #leaf", "F --> F+F ;the stem", "F --> F+F %leaf", "F --> F+F --stem",
+                             "F --> F+F //leaf", "F --> F+F #größer", "F --> F+F #leaf : 0.5"}) {
+        const auto found = diagnostics_of("axiom: F\n" + std::string(line) + "\n");
+        ASSERT_EQ(found.size(), 1U) << line;
+        EXPECT_TRUE(found[0].warning);
+        EXPECT_EQ(found[0].where.column, 11) << line;
+        EXPECT_NE(found[0].message.find("does not begin a comment"), std::string::npos);
+    }
+    EXPECT_EQ(diagnostics_of("axiom: F #start\n").size(), 1U);
+    // Symbols of the turtle and of the system.
+    for (const char* line : {"F --> F#leaf", "F --> F #fF", "F --> F #FX", "F --> F #leaf+F", "F --> F #le[af]",
+                             "F --> F //F", "F --> F ;F", "F --> F #a(2)bcd"}) {
+        EXPECT_TRUE(diagnostics_of("axiom: F\n" + std::string(line) + "\n").empty()) << line;
+    }
+    EXPECT_TRUE(diagnostics_of("axiom: a\na --> b #bac\nb --> F # abc\nc --> a\n").empty());
+}
+
+TEST(LateRemark, LongLinesOfMarksAreReadOnce) {
+    std::string line = "F --> F";
+    for (int i = 0; i < 400000; ++i) line += " # F";
+    EXPECT_EQ(find_late_remark(line, [](std::string_view) { return false; }), std::string::npos);
 }
 
 TEST(ForeignSign, QuotationMarksAroundAWordAreWarnedOf) {

@@ -46,6 +46,23 @@ TEST(PublicCases, WeightsBeforeTheArrow) {
     reference::expect_mistakes("axiom: F\nF --> FF\nF --> F\n", {{{3, 1}, "can never apply"}});
 }
 
+TEST(PublicCases, WeightsBesideTheWord) {
+    for (const char* line :
+         {"F --> 0.33 F+F", "F --> F+F 0.33", "F --> 0.33 : F+F", "F --> F+F, 0.33", "F --> .33  F+F"}) {
+        const auto found = diagnostics_of("axiom: F\n" + std::string(line) + "\n");
+        ASSERT_EQ(found.size(), 1U) << line;
+        EXPECT_NE(found[0].message.find("a weight follows the successor; write 'F --> F+F : "), std::string::npos);
+        EXPECT_NE(found[0].message.find(".33'"), std::string::npos) << found[0].message;
+    }
+    reference::expect_mistakes("axiom: F\nF --> 33% F\nF --> 67% FF\n",
+                               {{{2, 7}, "write 'F --> F : 33'"}, {{3, 7}, "write 'F --> FF : 67'"}});
+    for (const char* line : {"F --> 1 F", "F --> F 1", "F --> F%F", "F --> {.F.F}", "F --> F : 0.33", "F --> F. F"}) {
+        EXPECT_TRUE(diagnostics_of("axiom: F\n" + std::string(line) + "\n").empty()) << line;
+    }
+    // Digits with productions are symbols.
+    EXPECT_TRUE(diagnostics_of("axiom: 0\n0 --> 1.0 F\n1 --> F\n").empty());
+}
+
 TEST(PublicCases, LettersThatMoveWithoutDrawing) {
     const Measurement carpet =
         measure(grammar_of("axiom: F\nmove: f G\nderivation length: 3\nF --> FGF\nG --> GGG\n"), 1e6);

@@ -120,6 +120,10 @@ TEST(Undrawn, NoBundledPatternIsWarnedOf) {
         text << stream.rdbuf();
         ++patterns;
         EXPECT_EQ(warned(text.str()), "") << entry.path();
+        for (const Diagnostic& one : diagnostics_of(text.str())) {
+            EXPECT_EQ(one.message.find("does not begin a comment"), std::string::npos) << entry.path();
+            EXPECT_EQ(one.message.find("a weight follows"), std::string::npos) << entry.path();
+        }
         Diagnostics diagnostics;
         for (const Variant& variant : parse_pattern("a", text.str(), diagnostics).variants) {
             EXPECT_EQ(warned(text.str(), variant.name.view()), "") << entry.path() << variant.name.view();
@@ -138,6 +142,48 @@ TEST(Undrawn, AWordWithoutInkNamesItsLetters) {
     EXPECT_TRUE(can_draw(grammar_of("axiom: X\nX --> F[+X]X\n")));
     EXPECT_FALSE(can_draw(grammar_of(edge_systems[2].text)));
     EXPECT_FALSE(can_draw(grammar_of("axiom: X\nX --> f[+X]X\nY --> F\n")));
+}
+
+/// A plant whose steps are written as moves.
+const char* const moved_plant = "derivation length: 4\nangle increment: 25\naxiom: +X\nX --> f-[X]+fX\nf --> ff\n";
+
+TEST(Undrawn, WhereNothingDrawsMovesAreNamed) {
+    EXPECT_NE(warned(moved_plant)
+                  .find("test.lsys:5:1: warning: 'f' moves without drawing; 'forward: f' makes it a step, F draws"),
+              std::string::npos)
+        << warned(moved_plant);
+    EXPECT_EQ(undrawn_hint(grammar_of(moved_plant)),
+              "; 'f' moves without drawing; 'forward: f' makes it a step, F draws");
+    EXPECT_NE(warned("axiom: A\nmove: A F\nA --> F+A\n")
+                  .find("'A' and 'F' move without drawing; 'forward: A F' makes them steps"),
+              std::string::npos);
+    EXPECT_EQ(warned(std::string(moved_plant) + "forward: f\n"), "");
+    // Something draws, or moves are points of a spline or rests.
+    for (const char* more : {"X --> X\ntable t:\nX --> @O\n", "interpret:\nf --> F\n", "line: spline\n",
+                             "mapping: symbols\n", "label X: {1}\n"}) {
+        EXPECT_EQ(warned("axiom: fX\nf --> ff\n" + std::string(more)), "") << more;
+    }
+    EXPECT_NE(warned(std::string(moved_plant) + "line: spline with lifts\n"), "");
+}
+
+TEST(Undrawn, OnlyTheStepsOfTheDerivationCount) {
+    const std::string slow = "axiom: A\nA --> B\nB --> C\nC --> F\nderivation length: ";
+    for (const auto& [steps, draws] :
+         {std::pair{"0", false}, {"2", false}, {"3", true}, {"4", true}, {"1000000000000", true}}) {
+        EXPECT_EQ(may_draw(grammar_of(slow + steps)), draws) << steps;
+    }
+    EXPECT_TRUE(can_draw(grammar_of(slow + "0")));
+    // It draws in every second step, and in tables of the schedule only.
+    const std::string turns = "axiom: A\nA --> F\nF --> A\nderivation length: ";
+    EXPECT_FALSE(may_draw(grammar_of(turns + "4")));
+    EXPECT_TRUE(may_draw(grammar_of(turns + "5")));
+    const std::string tables = "axiom: A\nderivation length: 3\ntable a:\nA --> AA\ntable b:\nA --> F\nschedule: ";
+    EXPECT_FALSE(may_draw(grammar_of(tables + "a*3")));
+    EXPECT_TRUE(may_draw(grammar_of(tables + "a*2 b")));
+    EXPECT_TRUE(may_draw(grammar_of("axiom: A\ninterpret:\nA --> F\n")));
+    // Conditions and contexts count as fulfilled.
+    EXPECT_TRUE(may_draw(grammar_of("axiom: A(4)\nA(n) : n==1 --> F\nderivation length: 1\n")));
+    EXPECT_TRUE(may_draw(grammar_of("axiom: A\nB < A --> F\nderivation length: 1\n")));
 }
 
 }  // namespace

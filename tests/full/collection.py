@@ -28,7 +28,8 @@ def entries_of(file, scratch):
     target = os.path.join(scratch, os.path.basename(file))
     run("-q", "import", file, "-o", target)
     texts = {}
-    for name in os.listdir(target):
+    # Nothing is written for a collection without systems, or with mistakes in all of them.
+    for name in os.listdir(target) if os.path.isdir(target) else []:
         path = os.path.join(target, name)
         with open(path, encoding="utf-8") as stream:
             text = stream.read()

@@ -67,8 +67,8 @@ const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
         {"engine/base", "", "boost fast_float tbb posix toml"},
         {"engine/language", "engine/base", ""},
-        {"engine/import", "engine/base engine/language", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
+        {"engine/import", "engine/base engine/language engine/derivation", ""},
         {"engine/map", "engine/base engine/language engine/derivation", ""},
         {"engine/geometry", "engine/base engine/language engine/derivation", "boost"},
         {"engine/measure", "engine/base engine/language engine/derivation engine/geometry", "boost"},

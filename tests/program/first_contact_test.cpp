@@ -118,12 +118,74 @@ TEST(FirstContact, AnImportThatDrawsNothingIsReportedLast) {
         "plant.l", "Lsystem: 1\nderivation length: 2\nAxiom: A(1)\nA(x) : {x = f(x);} 1 --> F(x)A(x)\nendlsystem\n");
     const Outcome outcome = run({"import", file, "-o", folder.file("plant.lsys")});
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_TRUE(outcome.errors.ends_with(
-        "sikku: warning: the pattern draws nothing: the features that draw are not supported\n"))
-        << outcome.errors;
+    const std::string with_losses =
+        "sikku: warning: the pattern draws nothing at its derivation length; what is not supported may be the "
+        "cause\n";
+    EXPECT_TRUE(outcome.errors.ends_with(with_losses)) << outcome.errors;
     EXPECT_TRUE(has(run({"import", file, "--list"}).output, "draws nothing"));
     EXPECT_TRUE(
         has(run({"import", file, "-o", folder.file("out")}).errors, "1 of them incomplete; 1 draws nothing\n"));
+    // A production that draws is left, but its condition is never fulfilled without the one that is lost.
+    const std::string lost = folder.write(
+        "lost.l",
+        "Lsystem: 1\nderivation length: 3\nAxiom: A(4)\nA(n) : n>1 {m=floor(n*bran(5,16)); k=n-m-1;} --> "
+        "F(n)[+A(m)][-A(k)]\nA(n) : n==1 --> F(1)\nendlsystem\n");
+    EXPECT_TRUE(run({"import", lost, "-o", folder.file("lost.lsys")}).errors.ends_with(with_losses));
+    EXPECT_EQ(run({"draw", folder.file("lost.lsys"), "-o", folder.file("x.svg")}).status, 1);
+    // Without losses: too few steps, a context that never matches.
+    for (const char* rules : {"A --> B\nB --> C\nC --> D\nD --> F\n", "B < A --> F\n", "A --> f\n"}) {
+        const std::string whole = folder.write(
+            "whole.l", "Lsystem: 1\nderivation length: 3\nAxiom: A\n" + std::string(rules) + "endlsystem\n");
+        EXPECT_EQ(run({"import", whole, "-o", folder.file("whole.lsys")}).errors,
+                  "sikku: warning: the pattern draws nothing at its derivation length\n");
+        EXPECT_EQ(run({"draw", folder.file("whole.lsys"), "-o", folder.file("x.svg")}).status, 1);
+    }
+    const std::string good =
+        folder.write("good.l",
+                     "Lsystem: 1\nderivation length: 3\nAxiom: A(3)\nA(n) : n>1 --> A(n-1)\nA(n) : n==1 --> F(1)\n"
+                     "endlsystem\n");
+    EXPECT_EQ(run({"import", good, "-o", folder.file("good.lsys")}).errors, "");
+    EXPECT_EQ(run({"draw", folder.file("good.lsys"), "-q", "-o", folder.file("x.svg")}).status, 0);
+}
+
+TEST(FirstContact, MovesAreNamedWhereNothingDraws) {
+    const ScratchFolder folder;
+    const std::string file = folder.write(
+        "moves.lsys", "axiom: +X\nderivation length: 4\nangle increment: 25\nX --> f-[X]+fX\nf --> ff\n");
+    const std::string hint = "'f' moves without drawing; 'forward: f' makes it a step, F draws\n";
+    EXPECT_TRUE(has(run({"check", file}).output, "moves.lsys:5:1: warning: " + hint));
+    EXPECT_TRUE(run({"draw", file, "-o", folder.file("x.svg")}).errors.ends_with("disc or label; " + hint));
+    const Outcome measured = run({"measure", file, "--json"});
+    EXPECT_TRUE(has(measured.errors, hint));
+    EXPECT_TRUE(has(measured.output, "\"undrawn\": [\"f\"]}\n"));
+    EXPECT_EQ(run({"draw", file, "--set", "forward=f", "-o", folder.file("x.svg")}).status, 0);
+}
+
+TEST(FirstContact, DocumentsAreNotPatterns) {
+    const std::filesystem::path root = SIKKU_SOURCE_DIR;
+    const ScratchFolder folder;
+    const Outcome drawn = run({"draw", (root / "README.md").string(), "-o", folder.file("x.svg")});
+    EXPECT_EQ(drawn.status, 2);
+    EXPECT_TRUE(has(drawn.errors, "this text is not a pattern")) << drawn.errors;
+    EXPECT_EQ(lines_of(drawn.errors), 3U) << drawn.errors;  // with its place
+    for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
+        if (entry.path().extension() != ".md") continue;
+        EXPECT_EQ(run({"check", entry.path().string()}).status, 2) << entry.path();
+    }
+}
+
+TEST(FirstContact, CollectionsWithoutSystemsAreMeasuredToo) {
+    const std::string python = "/usr/bin/python3";
+    if (!std::filesystem::exists(python)) GTEST_SKIP() << "needs python3";
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder / "collection");
+    folder.write("collection/empty.l", "; nothing but a remark\n");
+    folder.write("collection/koch.l", koch);
+    folder.write("collection/wrong.l", "Wrong {\n  Angle 6\n  F=F+F\n}\n");
+    const std::string tool = std::string(SIKKU_SOURCE_DIR) + "/tests/full/collection.py";
+    const Outcome outcome = run({tool, SIKKU_PROGRAM, folder.file("collection"), "1", "2"}, {.program = python});
+    EXPECT_EQ(outcome.output, "2 measured, 0 differ, 1 entries refused: wrong.l Wrong\n") << outcome.errors;
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
 }
 
 TEST(FirstContact, ManyFilesAreWrittenTogether) {
