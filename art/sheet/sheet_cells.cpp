@@ -52,14 +52,19 @@ double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& opt
 Cost sheet_cost(const std::vector<SheetCell>& cells, const SheetOptions& options) {
     Cost cost = base_cost(!is_vector(options.format));
     cost.memory += sheet_memory(cells, options);
+    double largest = 0;
     for (const SheetCell& cell : cells) {
         named_cell(cell, [&] {
             const Cost own =
                 print_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
             cost.seconds += own.seconds - own.shared_seconds;
             cost.bytes += own.bytes;
+            cost.is_doubtful |= own.is_doubtful;
+            largest = std::max(largest, own.memory - own.shared_memory);
         });
     }
+    // Cells are written one after another.
+    if (is_vector(options.format)) cost.memory += largest;
     return cost;
 }
 
