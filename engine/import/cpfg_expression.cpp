@@ -34,7 +34,7 @@ void combine(Value& left, std::string_view sign, int level, const Value& right, 
         // The remainder of whole numbers, with division rounded towards 0.
         const auto whole = [&](const Value& value) {
             if (is_whole(value)) return value.text;
-            if (value.is_random) lose(at, "'%' would draw the same chance twice");
+            if (value.is_random) lose(at, "'%' would use one random number twice");
             return fmt::format("{}-mod({},1)", in_parentheses(value, 5), value.text);
         };
         left = {fmt::format("mod({},{})", whole(left), whole(right)), 9, left.is_random};
@@ -244,7 +244,7 @@ Value Expressions::operand(Reader& reader) {
     if (const auto local = locals_.find(name); local != locals_.end()) {
         Value& value = local->second;
         if (value.text.empty()) {
-            lose(at, value.is_random ? fmt::format("'{}' would draw the same chance twice", name)
+            lose(at, value.is_random ? fmt::format("'{}' would use one random number twice", name)
                                      : fmt::format("the statements that set '{}' are not read", name));
         }
         Value result = value;
@@ -287,7 +287,7 @@ Value Expressions::call(Reader& reader, const std::string& name, std::size_t at)
     if (name == "trunc") return {fmt::format("floor({}+0.5)", in_parentheses(argument, 5)), 9, random};
     if (name == "ran") return {fmt::format("random(0,{})", argument.text), 9, true};
     if (name == "sign") {
-        if (random) lose(at, "'sign' would draw the same chance twice");
+        if (random) lose(at, "'sign' would use one random number twice");
         return {fmt::format("({0}>0)-({0}<0)", in_parentheses(argument, 5)), 5, false};
     }
     return {fmt::format("{}({})", known->second, argument.text), 9, random};

@@ -92,7 +92,7 @@ TEST(ImportCpfgStatements, StatementsWithOtherEffectsAreLost) {
     EXPECT_TRUE(has(all_losses(shared), "the C statements of a production"));
     // One random number is not two.
     const ImportedSystem chance = cpfg(system_with("A(t) : {x = ran(1);} 1 --> F(x)F(x)\n", "A(4)"));
-    EXPECT_TRUE(has(all_losses(chance), "'x' would draw the same chance twice"));
+    EXPECT_TRUE(has(all_losses(chance), "'x' would use one random number twice"));
     EXPECT_EQ(all_losses(cpfg(system_with("A(t) : {x = ran(1);} 1 --> F(x)\n", "A(4)"))), "");
 }
 
