@@ -69,6 +69,13 @@ void add_budget_option(CLI::App& command, double& budget) {
         });
 }
 
+void keep_input(std::string_view option, const std::string& output, const std::string& input) {
+    std::error_code unknown;
+    if (output.empty() || input.empty() || !std::filesystem::is_regular_file(output, unknown)) return;
+    if (!std::filesystem::equivalent(output, input, unknown)) return;
+    throw UsageError(fmt::format("{} {}: this file is read and would be replaced", option, printable(output)));
+}
+
 NamedText read_pattern_text(const std::string& pattern) {
     if (auto link = read_link_argument(pattern)) {
         check_text_of_link(*link);

@@ -56,6 +56,10 @@ struct NamedText {
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);
 
+/// Refuses to replace a file that is read. @param option  `-o` or `--overlay`, for the message
+/// @throws UsageError
+void keep_input(std::string_view option, const std::string& output, const std::string& input);
+
 /// The message for a text that was written for another program, with the command that imports it if there is one;
 /// empty for patterns. @param pattern  the argument that names the text
 std::string foreign_message(const std::string& pattern, const NamedText& text);

@@ -78,7 +78,7 @@ void add_draw(CLI::App& app, bool& quiet) {
         ->required();
     options->options.add(*command, prints().options());
     command->footer(
-        "Lengths are in mm, cm, in, pt or px. The file appears whole or not at all. A studio link sets values "
+        "Lengths are in mm, cm, m, in, pt or px. The file appears whole or not at all. A studio link sets values "
         "and options; options on the command line replace them.\n\n"
         "Examples:\n"
         "  sikku draw snake-kolam -o snake.svg\n"

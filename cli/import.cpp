@@ -118,6 +118,7 @@ bool concerns(const Diagnostic& diagnostic, const SourcePointer& file, const std
 }
 
 void import_file(const ImportOptions& options, bool quiet) {
+    keep_input("-o", options.output, options.file);
     const SourcePointer file = read_source(options.file);
     const auto format = import_format(file->text());
     if (!format) {

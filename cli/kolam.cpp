@@ -102,6 +102,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         }
         if (!grid->output.empty() && *as_json) throw UsageError("--json excludes -o: it prints the examination");
         const Document loaded = load(*options, quiet);
+        keep_input("-o", grid->output, options->pattern);
         if (!grid->output.empty()) return kolam_convert(loaded, grid->output, *budget, quiet);
         Progress progress(quiet);
         const KolamExamination examined = examine_kolam(loaded, *budget, progress.monitor());

@@ -362,6 +362,8 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
     if (!options.overlay.empty() && extension_of(options.overlay) != ".png") {
         throw UsageError(fmt::format("--overlay {}: expected a PNG, NAME.png", options.overlay));
     }
+    keep_input("--overlay", options.overlay, options.file);
+    keep_input("-o", options.output, options.file);
     const std::string source = std::filesystem::path(options.file).filename().string();
     std::optional<FoundKolam> read = [&]() -> std::optional<FoundKolam> {
         try {

@@ -163,6 +163,7 @@ void add_tiling(CLI::App& app, bool& quiet) {
                 throw UsageError(fmt::format("{} applies to patterns, not to a file of polygons", name));
             }
             check_piece_options(*command, *pieces);
+            keep_input("-o", pieces->output, options->pattern);
             return examine_file(options->pattern, *tolerance, *pieces, *as_json, quiet);
         }
         if (*tolerance > 0) {

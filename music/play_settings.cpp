@@ -3,8 +3,10 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -14,7 +16,9 @@ using Text = const std::string&;
 using enum OptionKind;
 
 void set_key(S& settings, std::string_view name, const std::string& text) {
-    settings.keys.push_back({std::string(name), std::string(name), text});
+    std::string key(name);
+    std::replace(key.begin(), key.end(), '-', ' ');
+    settings.keys.push_back({std::string(name), std::move(key), text});
 }
 
 std::vector<Option<S>> make_table() {

@@ -136,6 +136,16 @@ bool filter_calls() {
 
 #endif
 
+/// Closes all descriptors but the standard ones; one by one where the kernel cannot do it in one call.
+void close_others() {
+    if (::syscall(SYS_close_range, 3U, ~0U, 0U) == 0) return;
+    rlimit most{};
+    check(::getrlimit(RLIMIT_NOFILE, &most) == 0);
+    for (rlim_t descriptor = 3; descriptor < most.rlim_max && descriptor < 1'048'576; ++descriptor) {
+        ::close(static_cast<int>(descriptor));
+    }
+}
+
 /// Threads of decoders, one for each core, would reserve 8 MB each.
 void use_small_stacks() {
     pthread_attr_t attributes;
@@ -151,7 +161,7 @@ void confine(const ConfinementLimits& limits, int parent) {
     check(::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0);
     if (::getppid() != parent) ::_exit(1);
     check(::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0);
-    ::syscall(SYS_close_range, 3U, ~0U, 0U);
+    close_others();
     use_small_stacks();
     limit(RLIMIT_FSIZE, 0, 0);
     // The first limit ends the process by a signal that names the reason, the second in any case.

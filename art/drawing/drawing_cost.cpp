@@ -419,7 +419,7 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
 
 namespace {
 
-constexpr double relief_triangle_seconds = 1.8e-6, relief_triangle_bytes = 140;
+constexpr double relief_triangle_seconds = 1.1e-6, relief_triangle_bytes = 100;
 constexpr double coloured_triangle_seconds = 1.2e-6, coloured_triangle_bytes = 120;
 constexpr double model_triangle_seconds = 0.25e-6;
 constexpr double written_triangle_seconds = 2.6e-6;  // of a text

@@ -1,10 +1,14 @@
 #include "art/drawing/faint_inks.h"
 
 #include "art/style/contrast.h"
+#include "engine/base/chance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <set>
+#include <unordered_set>
 
 namespace sikku {
 namespace {
@@ -60,77 +64,101 @@ private:
     std::size_t points_ = 0;
 };
 
+/// Finds faint ink. Faint lines along the edges of visible fills are seen as joints, and faint fills by visible lines
+/// along their edges; fields of powders are meant to be seen themselves.
 class FaintSink : public PathSink {
 public:
     explicit FaintSink(const Print& print) : print_(print), ground_(*print.style.ground) {
         const int count = std::max(static_cast<int>(print.style.palette.size()), 1);
         for (int i = 0; i < count && !has_suspects_; ++i) {
             const Pen pen{.colour = i};
-            has_suspects_ = is_faint(print.style.line_colour(pen), ground_) ||
-                            is_faint(print.style.fill_colour(pen), ground_);
+            has_suspects_ =
+                is_faint(print.style.line_colour(pen), ground_) || is_faint(print.style.fill_colour(pen), ground_);
         }
     }
     bool has_suspects() const { return has_suspects_; }
-    /// Lines in the colour of the ground are seen as joints between visible fills, and pale fills by their outlines.
-    /// Fields of powders are meant to be seen.
     std::vector<FaintInk> found() const {
         std::vector<FaintInk> result;
         for (const FaintInk& ink : inks_) {
-            const bool is_between = ink.kind == FaintInk::Kind::lines && has_visible_fills_;
-            const bool is_outlined =
-                ink.kind == FaintInk::Kind::areas && has_visible_lines_ && print_.style.powders.empty();
+            const bool is_between = ink.kind == FaintInk::Kind::lines && lies_on(faint_lines_, visible_fills_);
+            const bool is_outlined = ink.kind == FaintInk::Kind::areas && print_.style.powders.empty() &&
+                                     lies_on(faint_fills_, visible_lines_);
             if (!is_between && !is_outlined) result.push_back(ink);
         }
         return result;
     }
 
-    void begin_stroke(glm::dvec2, const Pen& pen) override { pen_ = pen; }
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
+        pen_ = pen;
+        line(std::span(&start, 1), 1);
+    }
     void change_pen(const Pen& pen) override { pen_ = pen; }
-    void lines(std::span<const glm::dvec2> ends) override { line(ends.size()); }
-    void curves(std::span<const glm::dvec2> controls) override { line(controls.size()); }
+    void lines(std::span<const glm::dvec2> ends) override { line(ends, 1); }
+    void curves(std::span<const glm::dvec2> controls) override { line(controls, 3); }
     void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        count(vertices.size());
-        note(FaintInk::Kind::areas, print_.style.fill_colour(pen));
-        has_visible_lines_ |= print_.style.stroked && !is_faint(print_.style.line_colour(pen), ground_);
+        fill(vertices, 1, pen);
+        if (!print_.style.draws(pen)) return;
+        pen_ = pen;
+        line(vertices, 1);
     }
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
-        count(outline.size());
-        note(FaintInk::Kind::areas, print_.style.fill_colour(pen));
-    }
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { fill(outline, 3, pen); }
     void disc(glm::dvec2, double, const Pen& pen) override {
         count(1);
         note(FaintInk::Kind::discs, print_.style.fill_colour(pen));
     }
 
 private:
-    void line(std::size_t points) {
-        count(points);
-        if (print_.style.draws(pen_)) note(FaintInk::Kind::lines, print_.style.line_colour(pen_));
+    using Places = std::unordered_set<std::uint64_t>;
+    static constexpr std::size_t most_places = 1'000'000;
+
+    /// Notes the ends of lines or curves: each `stride`th point, from the last one.
+    void put(Places& places, std::span<const glm::dvec2> points, std::size_t stride) {
+        for (std::size_t i = stride - 1; i < points.size() && places.size() < most_places; i += stride) {
+            const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value * 1e5)); };
+            places.insert(scrambled(whole(points[i].x)) ^ whole(points[i].y));
+        }
+    }
+    static bool lies_on(const Places& places, const Places& others) {
+        const auto shared =
+            std::count_if(places.begin(), places.end(), [&](std::uint64_t place) { return others.contains(place); });
+        return 2 * static_cast<std::size_t>(shared) >= places.size() && !others.empty();
+    }
+
+    void line(std::span<const glm::dvec2> points, std::size_t stride) {
+        count(points.size());
+        if (!print_.style.draws(pen_)) return;
+        const Colour colour = print_.style.line_colour(pen_);
+        if (colour.alpha == 0) return;
+        put(note(FaintInk::Kind::lines, colour) ? faint_lines_ : visible_lines_, points, stride);
+    }
+    void fill(std::span<const glm::dvec2> points, std::size_t stride, const Pen& pen) {
+        count(points.size());
+        const Colour colour = print_.style.fill_colour(pen);
+        if (colour.alpha == 0) return;
+        Places& places = note(FaintInk::Kind::areas, colour) ? faint_fills_ : visible_fills_;
+        // The outline of an area begins with its start.
+        put(places, stride == 3 ? points.subspan(1) : points, stride);
     }
     void count(std::size_t points) {
         points_ += points;
         if (points_ > most_points) throw Found();
     }
-    void note(FaintInk::Kind kind, Colour colour) {
-        if (!is_faint(colour, ground_)) {
-            if (colour.alpha == 0) return;
-            has_visible_lines_ |= kind == FaintInk::Kind::lines;
-            has_visible_fills_ |= kind == FaintInk::Kind::areas;
-            return;
-        }
+    /// @return true if the colour is faint
+    bool note(FaintInk::Kind kind, Colour colour) {
+        if (!is_faint(colour, ground_)) return false;
         const bool is_known = std::any_of(inks_.begin(), inks_.end(),
                                           [&](const FaintInk& ink) { return ink.kind == kind && ink.ink == colour; });
         if (!is_known) inks_.push_back({kind, colour, ground_});
+        return true;
     }
 
     const Print& print_;
     Colour ground_;
     Pen pen_;
     std::vector<FaintInk> inks_;
+    Places faint_lines_, visible_lines_, faint_fills_, visible_fills_;
     bool has_suspects_ = false;
-    bool has_visible_lines_ = false;
-    bool has_visible_fills_ = false;
     std::size_t points_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "art/gallery/batch.h"
 
+#include "art/print/format.h"
 #include "engine/base/text.h"
 #include "engine/base/threads.h"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <span>
 #include <stdexcept>
 
 namespace sikku {
@@ -170,6 +172,24 @@ void Batch::make(const Turn& turn) {
     stopped_ = stopped_ || !options_.keep_going;
 }
 
+namespace {
+
+/// True for a warning that an option of pictures has no effect on this file, if pictures of the pattern are made,
+/// too.
+bool is_meant_for_another(const std::string& warning, const GalleryJob& job, std::span<const GalleryJob> jobs) {
+    if (!warning.starts_with("'dpi' has no effect") && !warning.starts_with("'compression' has no effect") &&
+        !warning.starts_with("'icc' has no effect")) {
+        return false;
+    }
+    return std::any_of(jobs.begin(), jobs.end(), [&](const GalleryJob& other) {
+        const auto format = print_format(other.file());
+        return other.pattern == job.pattern && other.place == job.place && format &&
+               info(*format).kind == FormatKind::pixels;
+    });
+}
+
+}  // namespace
+
 FinishedJob Batch::make_job(const Turn& turn) {
     const GalleryJob& job = jobs_[turn.task.job];
     if (!job.pattern->text) throw std::runtime_error(job.pattern->problem);
@@ -195,6 +215,7 @@ FinishedJob Batch::make_job(const Turn& turn) {
         const auto work = job.work();
         job.works->forget(job.file());
         for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
+            if (remark.is_warning && is_meant_for_another(remark.text, job, jobs_)) continue;
             (remark.is_warning ? file.warnings : file.told).push_back(std::move(remark.text));
         }
     };

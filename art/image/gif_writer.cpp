@@ -35,8 +35,8 @@ private:
 
 /// Colours that agree in their five upper bits.
 struct ColourCell {
-    std::array<std::uint32_t, 3> sums{};
-    std::uint32_t count = 0;
+    std::array<std::uint64_t, 3> sums{};  // of up to 100 million pixels
+    std::uint64_t count = 0;
 
     int mean(std::size_t channel) const { return static_cast<int>((sums[channel] + count / 2) / count); }
 };
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> median_cut(const std::vector<ColourCell>& all, std::s
             double count = 0, sum = 0, squares = 0;
             for (std::size_t i = group.begin; i < group.end; ++i) {
                 const ColourCell& cell = all[used[i]];
-                const double value = cell.mean(channel), times = cell.count;
+                const double value = cell.mean(channel), times = static_cast<double>(cell.count);
                 count += times;
                 sum += times * value;
                 squares += times * value * value;

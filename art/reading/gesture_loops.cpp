@@ -88,6 +88,7 @@ std::int32_t half_spacings(double value, std::string_view what) {
 }
 
 int right_heading(double heading) {
+    if (!(std::fabs(heading) < 1e6)) refuse("a heading is not an angle in degrees");
     const double turned = heading - 360 * std::floor(heading / 360);
     const double rounded = std::round(turned);
     return static_cast<int>(rounded) % 360;

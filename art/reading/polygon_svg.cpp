@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -31,6 +32,34 @@ using polygon_files::most_points;
 
 constexpr std::size_t most_copied_levels = 50;
 constexpr std::size_t most_copied_elements = 1'000'000;
+constexpr std::size_t most_copied_bytes = std::size_t{64} << 20U;  // seconds
+
+/// A number from 0 to 1, or a percentage. @return nullopt for other texts
+std::optional<double> opacity_of(std::string_view text) {
+    text = trimmed(text);
+    const bool is_percentage = text.ends_with('%');
+    if (is_percentage) text.remove_suffix(1);
+    double value = 0;
+    if (!read_number(trimmed(text), value)) return std::nullopt;
+    return is_percentage ? value / 100 : value;
+}
+
+/// True for a colour that is not painted: none, transparent, or one whose alpha is 0.
+bool is_clear(std::string_view colour) {
+    colour = trimmed(colour);
+    if (colour == "none" || colour == "transparent") return true;
+    if (colour.starts_with('#')) {
+        return (colour.size() == 5 && colour.ends_with('0')) || (colour.size() == 9 && colour.ends_with("00"));
+    }
+    const std::size_t open = colour.find('(');
+    if (open == std::string_view::npos || !colour.ends_with(')')) return false;
+    const std::string_view inner = colour.substr(open + 1, colour.size() - open - 2);
+    const std::size_t slash = inner.rfind('/');
+    const bool has_alpha = slash != std::string_view::npos || std::count(inner.begin(), inner.end(), ',') == 3;
+    if (!has_alpha) return false;
+    const std::optional<double> alpha = opacity_of(inner.substr(inner.find_last_of("/,") + 1));
+    return alpha && *alpha <= 0;
+}
 
 /// Properties that an element inherits from those around it.
 struct Around {
@@ -39,17 +68,15 @@ struct Around {
     bool is_opaque = true;   ///< the opacity of fills is not 0
     bool is_visible = true;  ///< by `visibility`
 
-    bool is_filled() const {
-        const std::string name = lower_case(fill);
-        return is_opaque && name != "none" && name != "transparent";
-    }
+    bool is_filled() const { return is_opaque && !is_clear(lower_case(fill)); }
 };
 
 /// Something without straight edges.
 struct Curve {
     bool is_filled = false;
-    double area = 0;    ///< of a circle or ellipse
-    std::string fault;  ///< with its place
+    double area = 0;  ///< of a circle or ellipse
+    pugi::xml_node node;
+    std::string why;
 };
 
 class SvgPolygons {
@@ -102,7 +129,10 @@ public:
         for (const Curve& curve : curves_) {
             // A filled circle no larger than the smallest tile marks a place; a larger one would be a tile.
             const bool counts = curve.is_filled || !has_fills;
-            if (counts && !(curve.area > 0 && curve.area <= chosen.least_area)) throw Refused(curve.fault);
+            if (counts && !(curve.area > 0 && curve.area <= chosen.least_area)) {
+                node_ = curve.node;
+                refuse(curve.why);
+            }
             ++(curve.area > 0 ? circles : curved_lines);
         }
         PolygonList result = std::move(chosen.list);
@@ -120,6 +150,7 @@ public:
         note(grounds_, "ground", "left out");
         note(others_, "text or picture", "left out");
         note(clips_, "clipped or masked element", "read as a whole");
+        note(opacities_, "opacity", "not understood: its shapes count as visible");
         note(switches_, "switch", "read with all its alternatives");
         note(style_.unread(), "style rule",
              "not read: only simple selectors outside of @media and similar rules are supported");
@@ -141,10 +172,16 @@ private:
     }
     [[noreturn]] void refuse(const std::string& what) const { throw Refused(fault(what)); }
 
-    bool is_hidden(pugi::xml_node node) const {
+    bool is_hidden(pugi::xml_node node) {
         if (lower_case(style_.property(node, "display")) == "none") return true;
-        double opacity = 1;
-        return read_number(style_.property(node, "opacity"), opacity) && opacity == 0;
+        return opacity(style_.property(node, "opacity")).value_or(1) <= 0;
+    }
+    /// Nullopt if the property is not set, or counted as not understood.
+    std::optional<double> opacity(const std::string& text) {
+        if (text.empty() || text == "inherit") return std::nullopt;
+        const std::optional<double> value = opacity_of(text);
+        if (!value) ++opacities_;
+        return value;
     }
     void inherit(pugi::xml_node node, Around& around) {
         const auto inherited = [&](const char* name) {
@@ -152,8 +189,7 @@ private:
             return value == "inherit" ? std::string() : value;
         };
         if (std::string fill = inherited("fill"); !fill.empty()) around.fill = std::move(fill);
-        double opacity = 1;
-        if (read_number(inherited("fill-opacity"), opacity)) around.is_opaque = opacity != 0;
+        if (const auto value = opacity(inherited("fill-opacity"))) around.is_opaque = *value > 0;
         if (const std::string visibility = lower_case(inherited("visibility")); !visibility.empty()) {
             around.is_visible = visibility == "visible";
         }
@@ -203,16 +239,18 @@ private:
             return;
         } else if (name == "path") {
             const std::string_view data = node.attribute("d").value();
+            count_copied(data.size());
             if (const std::size_t at = first_curve(data); at != std::string_view::npos) {
-                curves_.push_back(
-                    {around.is_filled(), 0,
-                     fault(fmt::format("byte {} of its path is the curve '{}'; tiles have straight edges", at + 1,
-                                       data[at]))});
+                curves_.push_back({around.is_filled(), 0, node,
+                                   fmt::format("byte {} of its path is the curve '{}'; tiles have straight edges",
+                                               at + 1, data[at])});
                 return;
             }
             for (const FlatPath& path : flatten_path(data, most_points - points_)) add(path, around);
         } else if (name == "polygon" || name == "polyline") {
-            const std::vector<double> numbers = numbers_of(node.attribute("points").value());
+            const std::string_view data = node.attribute("points").value();
+            count_copied(data.size());
+            const std::vector<double> numbers = numbers_of(data);
             if (numbers.size() % 2 != 0) refuse("its points have an odd number of coordinates");
             FlatPath path;
             for (std::size_t i = 0; i < numbers.size(); i += 2) path.points.emplace_back(numbers[i], numbers[i + 1]);
@@ -228,6 +266,14 @@ private:
             ++open_;
         } else if (name == "text" || name == "image" || name == "foreignObject") {
             ++others_;
+        }
+    }
+
+    void count_copied(std::size_t bytes) {
+        if (copied_.empty()) return;
+        copied_bytes_ += bytes;
+        if (copied_bytes_ > most_copied_bytes) {
+            refuse(fmt::format("the copies have more than {} MB of paths", most_copied_bytes >> 20U));
         }
     }
 
@@ -282,7 +328,7 @@ private:
     }
     void rectangle(pugi::xml_node node, const Around& around) {
         if (number(node, "rx") > 0 || number(node, "ry") > 0) {
-            curves_.push_back({around.is_filled(), 0, fault("it has round corners; tiles have straight edges")});
+            curves_.push_back({around.is_filled(), 0, node, "it has round corners; tiles have straight edges"});
             return;
         }
         const double x = number(node, "x"), y = number(node, "y");
@@ -296,7 +342,7 @@ private:
         const Transform& t = around.transform;
         const double area = std::numbers::pi * across * down * std::fabs(t.a * t.d - t.b * t.c);
         if (area > 0)
-            curves_.push_back({around.is_filled(), area, fault("this is a curve; tiles have straight edges")});
+            curves_.push_back({around.is_filled(), area, node, "this is a curve; tiles have straight edges"});
     }
     void add(const FlatPath& path, const Around& around) {
         if (!path.is_closed) {
@@ -331,8 +377,8 @@ private:
     std::unordered_map<std::string_view, pugi::xml_node> ids_;
     std::vector<pugi::xml_node> copied_;  ///< targets of the `use` elements around node_
     std::map<std::string, std::int32_t> colours_;
-    std::size_t points_ = 0, copied_elements_ = 0;
-    std::size_t open_ = 0, grounds_ = 0, others_ = 0, clips_ = 0, switches_ = 0;
+    std::size_t points_ = 0, copied_elements_ = 0, copied_bytes_ = 0;
+    std::size_t open_ = 0, grounds_ = 0, others_ = 0, clips_ = 0, switches_ = 0, opacities_ = 0;
 };
 
 }  // namespace

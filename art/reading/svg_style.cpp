@@ -114,8 +114,9 @@ void SvgStyle::find_sheets(pugi::xml_node node, int level) {
     if (local_name(node.name()) == "style") {
         std::string text;
         for (const pugi::xml_node child : node.children()) text += child.value();
-        const std::string type = lower_case(std::string(trimmed(node.attribute("type").value())));
-        if (!type.empty() && type != "text/css") return;
+        const std::string_view whole_type = node.attribute("type").value();
+        const std::string type = lower_case(std::string(trimmed(whole_type.substr(0, whole_type.find(';')))));
+        if (!type.empty() && type != "text/css") return count_unread(text);
         const std::string media = lower_case(std::string(trimmed(node.attribute("media").value())));
         if (media.empty() || media == "all" || media == "screen") {
             read_sheet(std::move(text));
@@ -137,7 +138,8 @@ void SvgStyle::read_sheet(std::string text) {
         pulse_();
         const std::size_t open = find_outside(sheet, "{;", at);
         const std::string_view head = trimmed(sheet.substr(at, open - at));
-        if (open == sheet.size()) return;
+        // The rest of a damaged sheet, such as one with an unbalanced bracket.
+        if (open == sheet.size()) return count_unread(sheet.substr(at));
         if (sheet[open] == ';') {
             // `@import` brings rules of another file.
             if (lower_case(head).starts_with("@import")) ++unread_;
@@ -242,13 +244,16 @@ bool SvgStyle::applies(const Rule& rule, pugi::xml_node node, const std::vector<
 
 /// The declaration of the sheets that applies to an element; null if there is none.
 const SvgStyle::Declaration* SvgStyle::declared(pugi::xml_node node, const char* name) const {
-    const std::vector<std::string_view> classes = words(node.attribute("class").value());
+    std::vector<std::string_view> classes = words(node.attribute("class").value());
+    std::sort(classes.begin(), classes.end());
+    classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
     const Declaration* best = nullptr;
     std::size_t best_rule = 0;
     const auto consider = [&](std::string_view key) {
         const auto found = by_key_.find(key);
         if (found == by_key_.end()) return;
         for (const std::size_t number : found->second) {
+            pulse_();
             const Rule& rule = rules_[number];
             if (!applies(rule, node, classes)) continue;
             for (const Declaration& each : declarations_[rule.declarations]) {

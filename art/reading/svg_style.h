@@ -54,7 +54,7 @@ private:
     bool applies(const Rule& rule, pugi::xml_node node, const std::vector<std::string_view>& classes) const;
     const Declaration* declared(pugi::xml_node node, const char* name) const;
 
-    Pulse pulse_;
+    mutable Pulse pulse_;
     std::vector<std::vector<Declaration>> declarations_;
     std::vector<Rule> rules_;
     std::map<std::string, std::vector<std::size_t>, std::less<>>

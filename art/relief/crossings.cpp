@@ -124,8 +124,8 @@ std::size_t count_crossings(std::span<const OutlineEdge> segments, double apart,
     double compared = 0;
     for (std::size_t square = 0; square < squares.count() && compared < most_comparisons; ++square) {
         const auto here = squares.in(square);
-        compared += static_cast<double>(here.size()) * static_cast<double>(here.size()) / 2;
-        for (std::size_t i = 0; i < here.size(); ++i) {
+        for (std::size_t i = 0; i < here.size() && compared < most_comparisons; ++i) {
+            compared += static_cast<double>(here.size() - i);
             pulse();
             for (std::size_t k = i + 1; k < here.size(); ++k) {
                 const auto place = crossing(segments[here[i]], segments[here[k]]);

@@ -15,8 +15,12 @@ bool is_comment(const std::string& text, std::size_t slashes) {
     return before < slashes && (slashes + 2 == text.size() || is_blank(text[slashes + 2]));
 }
 
-/// The value of an integer expression of C with its defines expanded; undefined names are 0.
+/// The value of an integer expression of C with its defines expanded; undefined names are 0. Without division,
+/// integers are exact in doubles.
 bool holds(const std::string& text, std::size_t at) {
+    if (text.find_first_of("/.") != std::string::npos) {
+        mistake(at, "this condition is not read: it divides or has a decimal point, and conditions are integers");
+    }
     const Source source("", text);
     Diagnostics diagnostics;
     const auto value = Expression::compile(

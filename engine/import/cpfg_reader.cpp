@@ -339,6 +339,13 @@ private:
         reader.take();
     }
 
+    /// True for `+=`, `++` and the like after the name of a variable.
+    static bool changes_variable(std::string_view after) {
+        if (after.starts_with("++") || after.starts_with("--")) return true;
+        return after.size() > 1 && after[1] == '=' &&
+               std::string_view("+-*/%").find(after[0]) != std::string_view::npos;
+    }
+
     /// Reads one statement. False if it is not an assignment to a local variable; its name has no value then.
     bool statement(Reader& reader, std::size_t at) {
         if (expressions_.next(reader) == ';') {
@@ -356,7 +363,10 @@ private:
             }
             return false;
         }
-        if (name.empty() || expressions_.next(reader) != '=') return false;
+        if (name.empty()) return false;
+        const char sign = expressions_.next(reader);
+        if (changes_variable(reader.ahead())) expressions_.set_local(name, {""});
+        if (sign != '=') return false;
         reader.take();
         try {
             Value value = expressions_.read(reader);
@@ -375,14 +385,19 @@ private:
     /// Skips the rest of a block; variables that it sets have no value.
     void skip_block(Reader& reader, std::size_t at) {
         std::size_t depth = 1;
+        bool steps_variable = false;  // `++` or `--` stands before
         while (const char byte = expressions_.next(reader)) {
             if (const std::string name = expressions_.identifier(reader); !name.empty()) {
+                const bool follows_change = steps_variable;
+                steps_variable = false;
                 const bool is_set = expressions_.next(reader) == '=' && !reader.ahead().starts_with("==");
-                if (is_set) expressions_.set_local(name, {""});
+                if (is_set || follows_change || changes_variable(reader.ahead())) expressions_.set_local(name, {""});
                 continue;
             }
             if (byte == '{') ++depth;
             if (byte == '}') --depth;
+            steps_variable = reader.ahead().starts_with("++") || reader.ahead().starts_with("--");
+            if (steps_variable) reader.take();
             reader.take();
             if (depth == 0) return;
         }

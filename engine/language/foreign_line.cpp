@@ -456,6 +456,7 @@ private:
         }
         left = without_quotes(left);
         left.remove_prefix(item_number_length(left));
+        left = without_star(left);
         // A label before '=', as in `rule1 = F -> FF`.
         if (const std::size_t equals = find_top(left, "="); equals != nothing)
             left = trimmed(left.substr(equals + 1));
@@ -553,6 +554,12 @@ private:
 };
 
 }  // namespace
+
+std::string_view without_star(std::string_view left) {
+    left = trimmed(left);
+    const std::size_t colon = left.rfind(':');
+    return colon != nothing && trimmed(left.substr(colon + 1)) == "*" ? trimmed(left.substr(0, colon)) : left;
+}
 
 std::string LineAdvice::text() const {
     if (lines.empty() && !problem.empty()) return problem;

@@ -69,4 +69,7 @@ std::optional<MisplacedWeight> misplaced_weight(std::string_view right);
 /// none.
 std::size_t item_number_length(std::string_view line);
 
+/// The left side of a production without the condition `: *` of cpfg and the literature, which always holds.
+std::string_view without_star(std::string_view left);
+
 }  // namespace sikku

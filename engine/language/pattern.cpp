@@ -306,6 +306,12 @@ private:
                                            trimmed(left.substr(0, number)), advice.text()));
             return true;
         }
+        if (without_star(left).size() < trimmed(left).size()) {
+            diagnostics_.error(left_side.part(left.rfind('*'), 1),
+                               fmt::format("'*' is not a condition: without one, a production always applies; {}",
+                                           advice_for_line(whole.view(), true).text()));
+            return true;
+        }
         // A weight beside the word: `F --> 0.33 FF`.
         const Span right_side = whole.part(arrow + 3).trimmed();
         if (const auto weight = misplaced_weight(right_side.view())) {

@@ -429,19 +429,30 @@ private:
         return period;
     }
 
-    /// True if symbols follow one in its branch, so that its moves and turns move them.
-    bool is_followed(Symbol symbol) const {
-        const auto is_followed_in = [&](const Word& word) {
-            for (std::size_t i = 0; i + 1 < word.size(); ++i) {
-                if (word[i] == symbol && grammar_.symbols()[word[i + 1]].command.action != Action::pop) return true;
+    /// The symbols that others follow in their branch, at some step, so that their moves and turns move these. What
+    /// follows a symbol also follows the last symbol of its successor.
+    std::vector<char> followed() const {
+        std::vector<char> result(grammar_.symbols().size());
+        const auto note = [&](const Word& word, bool is_last_followed) {
+            bool changes = false;
+            for (std::size_t i = 0; i < word.size(); ++i) {
+                const bool is_followed = i + 1 < word.size()
+                                             ? grammar_.symbols()[word[i + 1]].command.action != Action::pop
+                                             : is_last_followed;
+                changes |= is_followed && result[word[i]] == 0;
+                result[word[i]] |= is_followed ? 1 : 0;
             }
-            return false;
+            return changes;
         };
-        if (is_followed_in(grammar_.axiom())) return true;
-        return std::any_of(symbols_.begin(), symbols_.end(), [&](Symbol each) {
-            const Word* successor = grammar_.tables().front().successor(each);
-            return successor && is_followed_in(*successor);
-        });
+        note(grammar_.axiom(), false);
+        for (bool changes = true; changes;) {
+            changes = false;
+            for (const Symbol each : symbols_) {
+                const Word* successor = grammar_.tables().front().successor(each);
+                if (successor) changes |= note(*successor, result[each] != 0);
+            }
+        }
+        return result;
     }
 
     /// The move of a word of symbols of the finished word, branches left out.
@@ -470,11 +481,12 @@ private:
 
     void find_length() {
         std::optional<glm::dvec2> factor;
+        const std::vector<char> is_followed = followed();
         for (const Symbol symbol : symbols_) {
             const Move own = move_of({symbol}, true);
             const double square = scalar_product(own.way, own.way);
             const Word* successor = grammar_.tables().front().successor(symbol);
-            if (square < accuracy && (!successor || !is_followed(symbol))) continue;
+            if (square < accuracy && (!successor || is_followed[symbol] == 0)) continue;
             // Modules with the values of the last step have no productions in the plain form.
             if (!successor && has_parameters_ && !grammar_.symbols()[symbol].arguments.empty()) continue;
             const Move next = successor ? move_of(*successor, true) : own;

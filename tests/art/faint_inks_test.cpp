@@ -112,6 +112,12 @@ TEST(FaintInks, JointsAndOutlinesAreSeen) {
     EXPECT_TRUE(is_told(warnings(tiles(joints + "palette: #fefefe\n"), {})));
     EXPECT_FALSE(is_told(warnings(tiles("stroke: 0.1 step navy\npalette: #fefefe\n"), {})));
     EXPECT_TRUE(is_told(warnings(tiles("stroke: none\npalette: #fefefe\n"), {})));
+    // Only along their edges.
+    EXPECT_TRUE(is_told(warnings(parse("apart.lsys",
+                                       "angle increment: 90\naxiom: FFFF;f[{F+F+F+F}]\nground: white\n"
+                                       "stroke: 0.1 step white\npalette: navy\n"),
+                                 {})));
+    EXPECT_TRUE(is_told(warnings(tiles("stroke: 0.1 step transparent\npalette: #fefefe\n"), {})));
     // Dots show no lines.
     const Document kolam_on_white = parse("kolam.lsys", kolam);
     EXPECT_TRUE(is_told(warnings(kolam_on_white, {{"ground", "white"}, {"dots", "2mm navy"}})));

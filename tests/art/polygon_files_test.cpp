@@ -254,6 +254,32 @@ TEST(PolygonSvg, ReadsFillsOfStyleSheets) {
               1U);
 }
 
+/// A square that is not painted is not a tile, however its transparency is written.
+TEST(PolygonSvg, TransparentShapesAreNoTiles) {
+    const std::string seen = "<rect x=\"5\" width=\"1\" height=\"1\"/>";
+    for (const char* clear :
+         {"opacity=\"0\"", "opacity=\"0%\"", "fill-opacity=\"0.0%\"", "fill=\"rgba(255,0,0,0)\"", "fill=\"#f000\"",
+          "fill=\"#ff000000\"", "fill=\"rgb(255 0 0 / 0%)\"", "style=\"fill:hsla(0,1%,1%,0.0)\""}) {
+        const PolygonList list =
+            read_polygons_svg(svg("<rect " + std::string(clear) + " width=\"1\" height=\"1\"/>" + seen));
+        EXPECT_EQ(list.size(), 1U) << clear;
+    }
+    for (const char* opaque : {"fill=\"#f00f\"", "fill=\"rgb(255,0,0)\"", "fill=\"rgb(0 0 0)\"", "opacity=\"1%\"",
+                               "fill=\"rgba(0,0,0,.5)\""}) {
+        const PolygonList list =
+            read_polygons_svg(svg("<rect " + std::string(opaque) + " width=\"1\" height=\"1\"/>" + seen));
+        EXPECT_EQ(list.size(), 2U) << opaque;
+        EXPECT_TRUE(list.notes.empty()) << opaque;
+    }
+    const PolygonList odd = read_polygons_svg(svg("<rect style=\"opacity:calc(0)\" width=\"1\" height=\"1\"/>"));
+    EXPECT_EQ(odd.notes, (std::vector<std::string>{"1 opacity not understood: its shapes count as visible"}));
+    const PolygonList sheet = read_polygons_svg(svg(
+        "<style type=\"text/css; charset=utf-8\">.a{fill:none}</style><rect class=\"a\" width=\"1\" height=\"1\"/>" +
+        seen));
+    EXPECT_EQ(sheet.size(), 1U);
+    EXPECT_EQ(read_polygons_svg(svg("<style>.b( .a{fill:none}</style>" + seen)).notes.size(), 1U);
+}
+
 TEST(PolygonSvg, CountsRulesThatAreNotRead) {
     const auto notes = [](const std::string& sheet) {
         std::string all;

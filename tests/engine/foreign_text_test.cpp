@@ -210,6 +210,13 @@ TEST(ForeignLine, NumbersOfItemsAreNotPartsOfProductions) {
     expect_mistakes("axiom: F\n1. F --> F+F\n",
                     {{{2, 1}, "'1.' is not a predecessor: productions have no numbers; write 'F --> F+F'"}});
     EXPECT_EQ(advice("1. axiom: X"), std::vector<std::string>{"axiom: X"});
+    // Names of productions, and the condition of the literature that always holds.
+    expect_mistakes("axiom: A\np3 : A < A > A : * --> AA\n",
+                    {{{2, 1}, "'p3:' is not a predecessor: productions have no names; write 'A < A > A --> AA'"}});
+    expect_mistakes("axiom: A(1,2)\nA(l,w) : * --> F(l)A(l,w)\n",
+                    {{{2, 10},
+                      "'*' is not a condition: without one, a production always applies; write 'A(l,w) --> "
+                      "F(l)A(l,w)'"}});
     // Digits are symbols.
     for (const char* line : {"1 --> 11", "0 < 1 > 0 --> 1", "1.F --> F", "11 --> 1"}) EXPECT_EQ(answer(line), "");
     EXPECT_TRUE(diagnostics_of("axiom: 1\ndefine c = 1\n1 : c --> F\n").empty());

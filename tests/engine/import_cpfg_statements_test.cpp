@@ -82,6 +82,11 @@ TEST(ImportCpfgStatements, StatementsWithOtherEffectsAreLost) {
     const ImportedSystem lost = cpfg(system_with("A(t) : {if (t > 1) { t = 2; }} 1 --> F(t)\n", "A(4)"));
     EXPECT_EQ(word_of(lost.pattern), "A(4)");
     EXPECT_TRUE(has(all_losses(lost), "the statements that set 't' are not read"));
+    for (const char* change : {"t += 5;", "t++;", "++t;", "t -= 1;", "x = 1; --t;"}) {
+        const ImportedSystem changed = cpfg(system_with("A(t) : {" + std::string(change) + "} 1 --> F(t)\n", "A(4)"));
+        EXPECT_EQ(word_of(changed.pattern), "A(4)") << change;
+        EXPECT_FALSE(all_losses(changed).empty()) << change;
+    }
     const ImportedSystem unread = cpfg(system_with("A(t) : {x = \"text\"[2] ? 1 : 0;} 1 --> F(t)\n", "A(4)"));
     EXPECT_EQ(word_of(unread.pattern), "F(4)");
     // A variable that belongs to the whole system.

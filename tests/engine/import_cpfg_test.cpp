@@ -458,6 +458,8 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("#define x 1\n" + head + "A(x) --> B\nendlsystem\n", {{{4, 4}, "the parameter 'x' is a define"}});
     // Directives after a condition that is not understood are still matched.
     expect("#if x > (\n#else\n#endif\n" + head + "endlsystem\n", {{{1, 4}, "this condition is not understood"}});
+    // Integers of C: 1/2 is 0.
+    expect("#if 1/2\n#else\n#endif\n" + head + "endlsystem\n", {{{1, 4}, "this condition is not read: it divides"}});
     expect("#ifdef x\n" + head + "endlsystem\n",
            {{{1, 1}, "has no #endif"}, {{1, 1}, "there is no line 'Lsystem:'"}});
     expect(head + "#(w) --> B\nendlsystem\n", {{{3, 1}, "unknown preprocessor directive"}});

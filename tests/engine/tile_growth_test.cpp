@@ -79,6 +79,17 @@ TEST(TileGrowth, FindsThePublishedFactors) {
     EXPECT_EQ(closed_form(std::acos(-1.0)), "");
 }
 
+/// A symbol that begins to move shifts what follows its parent, also as the last symbol of a successor: the tile lies
+/// at 2, 5, 12, 29, whose ratio is not 2.
+TEST(TileGrowth, WhatFollowsAParentFollowsItsLastSymbol) {
+    const TileGrowth growth = find_growth(reference::grammar_of(
+        "axiom: FT\nangle increment: 90\nderivation length: 3\nF --> FFA\nA --> F\nT --> TTTT\ninterpret:\n"
+        "T --> [{F+F+F+F}]\n",
+        {}));
+    EXPECT_FALSE(growth.length.has_value());
+    EXPECT_EQ(growth.no_length, "the moves are not multiplied by one number");
+}
+
 TEST(TileGrowth, FindsThePublishedFrequencies) {
     const double tau = (1 + std::sqrt(5.0)) / 2;
     const TileGrowth rhombs = growth_of("penrose-rhombs", 5);

@@ -320,6 +320,9 @@ TEST(ScoreOptions, AreAppliedOrReported) {
         }
         return warnings;
     };
+    // Names of keys contain blanks, those of options dashes.
+    EXPECT_EQ(warnings_of("mid", {{"named-notes", "no"}}),
+              "'named notes:' has no meaning without `mapping: symbols`\n");
     const OptionValues options = {{"midi-format", "0"}, {"tuning", "mts"},         {"humanise", "0.5"},
                                   {"pan", "by x"},      {"controller", "74 by y"}, {"swing", "66"}};
     for (const char* format : {"mid", "musicxml", "ly", "abc"}) {

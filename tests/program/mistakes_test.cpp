@@ -134,6 +134,25 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
     EXPECT_EQ(run_here({"show", "loose.lsys"}).output, "axiom: F]\n");
 }
 
+/// No output replaces the file that is read.
+TEST_F(Mistakes, FilesThatAreReadStay) {
+    const std::string picture = "<svg xmlns=\"http://www.w3.org/2000/svg\"><rect width=\"1\" height=\"1\"/></svg>";
+    folder_.write("tiles.svg", picture);
+    folder_.write("frac.l", "K {\n Angle 6\n Axiom F--F--F\n F=F+F--F+F\n}\n");
+    ASSERT_EQ(run_here({"kolam", "--grid", "3x3", "-o", "k.lsys"}).status, 0);
+    ASSERT_EQ(run_here({"draw", "k.lsys", "--dots", "--dpi", "60", "-o", "k.png"}).status, 0);
+    const std::string photograph = contents(folder_.file("k.png")), pattern = contents(folder_.file("k.lsys"));
+    const std::string why = "this file is read and would be replaced";
+    expect_refused({{"kolam", "--read", "k.png", "--overlay", "k.png", "-o", "y.lsys"}, "--overlay k.png: " + why});
+    expect_refused({{"kolam", "--read", "k.lsys", "-o", "./k.lsys"}, why});
+    expect_refused({{"kolam", "k.lsys", "-o", "k.lsys"}, "-o k.lsys: " + why});
+    expect_refused({{"tiling", "tiles.svg", "--templates", "6mm", "-o", "tiles.svg"}, "-o tiles.svg: " + why});
+    expect_refused({{"import", "frac.l", "-o", "frac.l"}, why});
+    EXPECT_EQ(contents(folder_.file("k.png")), photograph);
+    EXPECT_EQ(contents(folder_.file("k.lsys")), pattern);
+    EXPECT_EQ(contents(folder_.file("tiles.svg")), picture);
+}
+
 TEST_F(Mistakes, WithoutEffectIsReported) {
     const std::vector<Mistake> mistakes = {
         {{"draw", "mine.lsys", "--hatch", "-o", "m.gcode"}, "--hatch has no effect: this drawing has no fills"},
