@@ -65,7 +65,7 @@ private:
 };
 
 /// Finds faint ink. Faint lines along the edges of visible fills are seen as joints, and faint fills by visible lines
-/// along their edges; fields of powders are meant to be seen themselves.
+/// or fills along their edges; fields of powders are meant to be seen themselves.
 class FaintSink : public PathSink {
 public:
     explicit FaintSink(const Print& print) : print_(print), ground_(*print.style.ground) {
@@ -82,7 +82,7 @@ public:
         for (const FaintInk& ink : inks_) {
             const bool is_between = ink.kind == FaintInk::Kind::lines && lies_on(faint_lines_, visible_fills_);
             const bool is_outlined = ink.kind == FaintInk::Kind::areas && print_.style.powders.empty() &&
-                                     lies_on(faint_fills_, visible_lines_);
+                                     (lies_on(faint_fills_, visible_lines_) || lies_on(faint_fills_, visible_fills_));
             if (!is_between && !is_outlined) result.push_back(ink);
         }
         return result;
@@ -96,12 +96,7 @@ public:
     void lines(std::span<const glm::dvec2> ends) override { line(ends, 1); }
     void curves(std::span<const glm::dvec2> controls) override { line(controls, 3); }
     void end_stroke(bool) override {}
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
-        fill(vertices, 1, pen);
-        if (!print_.style.draws(pen)) return;
-        pen_ = pen;
-        line(vertices, 1);
-    }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { fill(vertices, 1, pen); }
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { fill(outline, 3, pen); }
     void disc(glm::dvec2, double, const Pen& pen) override {
         count(1);
