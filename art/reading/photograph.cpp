@@ -66,6 +66,15 @@ struct InkSpots {
     bool is_rough() const { return spots.size() >= SpotFinder::most_spots; }
 };
 
+/// Dots in single rows, as those of a border.
+bool is_narrow_grid(const DotGrid& grid) {
+    return 6 * grid.gaps().size() < 7 * grid.dots().size();
+}
+
+/// Least agreement of lines whose kolam could be an accident: the crossings between dots make coarser lattices, and
+/// the ornaments of borders their own, whose gaps agree with no state.
+constexpr double least_agreement = 1.12;
+
 /// A part of a picture with dots on a lattice.
 struct Part {
     Reading reading;
@@ -77,15 +86,13 @@ struct Part {
 
     std::size_t dots() const { return kolam.grid.dots().size(); }
     bool is_kolam() const { return refusal.empty(); }
-    /// Dots on a lattice and lines around them, even if most gaps cannot be read. The crossings between dots make
-    /// coarser lattices, and the ornaments of borders their own, whose gaps agree with no state.
+    /// Dots on a lattice and lines around them, even if most gaps cannot be read.
     bool is_counted() const {
-        return is_kolam() || (!is_border && !is_narrow() && has_lines() && reading.agreement >= 1.1);
+        return is_kolam() || (!is_border && !is_narrow() && has_lines() && reading.agreement >= least_agreement);
     }
     /// Lines around dots on a lattice, which may be ornaments.
     bool has_lines() const { return dots() >= 9 && reading.explained >= 0.5 && 2 * reading.joined >= dots(); }
-    /// Dots in single rows, as those of a border.
-    bool is_narrow() const { return 6 * kolam.states.size() < 7 * dots(); }
+    bool is_narrow() const { return is_narrow_grid(kolam.grid); }
 };
 
 /// Places that may have dots that were not read.
@@ -130,6 +137,9 @@ std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
     if (2 * reading.joined < dots) {
         return fmt::format("{} on a lattice, but lines lead to only {} of them from another", counted(dots, "dot"),
                            reading.joined);
+    }
+    if (is_narrow_grid(kolam.grid) && reading.agreement < least_agreement) {
+        return fmt::format("{} in single rows, but the lines around them agree with no kolam", counted(dots, "dot"));
     }
     return "";
 }
