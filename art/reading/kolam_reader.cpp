@@ -449,18 +449,26 @@ private:
         join_inner(found);
         return found;
     }
-    /// True if the lines around a few dots go no farther than around them, as those of a ring do, and those of a
-    /// border do not.
+    /// True if lines run around each of a few dots, and no farther, as those of a ring do. The ornaments of a border
+    /// have lines beside them that run along it, or none on some side.
     bool has_own_lines(const std::vector<Key>& group) const {
         const double most = (static_cast<double>(group.size()) + 0.5) * found_.spacing;
+        constexpr int ways = 24;
+        constexpr int least_closed = 20;
         return std::all_of(group.begin(), group.end(), [&](Key place) {
-            bool is_own = false;
-            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                for (const std::uint32_t piece : pieces_at(dot(place), side)) {
-                    is_own = is_own || pieces_->size(piece) < most;
+            const glm::dvec2 middle = lattice_point(grid().lattice(), dot(place));
+            int closed = 0;
+            for (int k = 0; k < ways; ++k) {
+                const double angle = 2 * std::numbers::pi * k / ways;
+                const glm::dvec2 way(std::cos(angle), std::sin(angle));
+                for (double reach = 0.2; reach < 0.72; reach += 0.02) {
+                    const std::uint32_t piece = pieces_->at(found_.map(middle + reach * way));
+                    if (piece == 0) continue;
+                    closed += pieces_->size(piece) < most;
+                    break;
                 }
             }
-            return is_own;
+            return closed >= least_closed;
         });
     }
     /// True if the box of some places contains that of others, and leaves room on all sides.

@@ -66,6 +66,15 @@ struct InkSpots {
     bool is_rough() const { return spots.size() >= SpotFinder::most_spots; }
 };
 
+/// Dots in single rows, as those of a border.
+bool is_narrow_grid(const DotGrid& grid) {
+    return 6 * grid.gaps().size() < 7 * grid.dots().size();
+}
+
+/// Least agreement of lines whose kolam could be an accident: the crossings between dots make coarser lattices, and
+/// the ornaments of borders their own, whose gaps agree with no state.
+constexpr double least_agreement = 1.12;
+
 /// A part of a picture with dots on a lattice.
 struct Part {
     Reading reading;
@@ -79,15 +88,40 @@ struct Part {
     bool is_kolam() const { return refusal.empty(); }
     /// Dots on a lattice and lines around them, even if most gaps cannot be read.
     bool is_counted() const {
-        return is_kolam() || (!is_border && !is_narrow() && dots() >= 9 && reading.explained >= 0.5 &&
-                              2 * reading.joined >= dots());
+        return is_kolam() || (!is_border && !is_narrow() && has_lines() && reading.agreement >= least_agreement);
     }
-    /// Dots in single rows, as those of a border.
-    bool is_narrow() const { return 6 * kolam.states.size() < 7 * dots(); }
+    /// Lines around dots on a lattice, which may be ornaments.
+    bool has_lines() const { return dots() >= 9 && reading.explained >= 0.5 && 2 * reading.joined >= dots(); }
+    bool is_narrow() const { return is_narrow_grid(kolam.grid); }
 };
 
-/// Why a reading is not a kolam, or cannot be read; empty if it can.
-std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
+/// Places that may have dots that were not read.
+std::size_t losses(const Reading& reading) {
+    return reading.open_ends.size() + reading.missing.size() + reading.left_out;
+}
+bool has_kolam(const std::vector<Part>& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); });
+}
+/// Whether dots or gaps of the kolams among some parts may be lost.
+bool has_losses(const std::vector<Part>& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+        return part.is_counted() &&
+               (losses(part.reading) > 0 || 8 * part.kolam.doubtful().size() > part.kolam.states.size());
+    });
+}
+/// Certain gaps of the kolams among some parts, less what may be lost.
+double gain_of(const std::vector<Part>& parts) {
+    double gain = 0;
+    for (const Part& part : parts) {
+        if (!part.is_counted()) continue;
+        gain += static_cast<double>(part.kolam.states.size()) - static_cast<double>(part.kolam.doubtful().size());
+        gain -= static_cast<double>(losses(part.reading));
+    }
+    return gain;
+}
+
+/// Why the dots that lines join are not a kolam, or cannot be read; empty if they can.
+std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
     const std::size_t dots = kolam.grid.dots().size();
     const std::size_t gaps = kolam.states.size();
     const std::size_t doubts = kolam.doubtful().size();
@@ -104,7 +138,22 @@ std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
         return fmt::format("{} on a lattice, but lines lead to only {} of them from another", counted(dots, "dot"),
                            reading.joined);
     }
+    if (is_narrow_grid(kolam.grid) && reading.agreement < least_agreement) {
+        return fmt::format("{} in single rows, but the lines around them agree with no kolam", counted(dots, "dot"));
+    }
     return "";
+}
+
+/// Why a reading is not a kolam, or cannot be read; empty if it can.
+std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
+    std::string refusal = refusal_of_joined(reading, kolam);
+    const std::size_t joined = kolam.grid.dots().size();
+    const std::size_t dots = joined + reading.left_out;
+    if (refusal.empty() || dots < least_dots) return refusal;
+    const bool is_without_lines = reading.explained == 0;
+    if (!is_without_lines && joined > reading.left_out) return refusal;
+    return fmt::format("{} on a lattice, but no line runs around {} from one to another", counted(dots, "dot"),
+                       is_without_lines ? "them" : "most of them");
 }
 
 /// Makes the gaps of a place to dots doubtful.
@@ -134,6 +183,13 @@ Part part_of(Reading reading, bool is_dark) {
         kolam.certainty[i] = certainty(reading.evidence[i], grid.lattice(), bad);
     }
     std::string refusal = refusal_of(reading, kolam);
+    for (const auto* places : {&reading.added, &reading.open_ends, &reading.missing}) {
+        for (const GridDot place : *places) doubt_around(kolam, place);
+    }
+    if (refusal.empty() && gaps > 0 && kolam.doubtful().size() == gaps) {
+        refusal = fmt::format("{} on a lattice, but every gap between them is beside a place that may have another",
+                              counted(grid.dots().size(), "dot"));
+    }
     return {std::move(reading), std::move(kolam), std::move(refusal), is_dark};
 }
 
@@ -201,8 +257,10 @@ public:
     }
     /// Pixels of the box around the dots.
     double box() const { return std::max(0.0, high_.x - low_.x) * std::max(0.0, high_.y - low_.y); }
-    bool surrounds(const Area& other) const {
-        return low_.x < other.low_.x && low_.y < other.low_.y && high_.x > other.high_.x && high_.y > other.high_.y;
+    bool surrounds(const Area& other) const { return surrounds_box(low_, high_, other); }
+    /// Whether a box contains the dots of an area.
+    static bool surrounds_box(glm::dvec2 low, glm::dvec2 high, const Area& other) {
+        return low.x < other.low_.x && low.y < other.low_.y && high.x > other.high_.x && high.y > other.high_.y;
     }
 
 private:
@@ -264,6 +322,20 @@ std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) 
     return subsets;
 }
 
+/// Distances from spots to the nearest other one, for at most 400 of them.
+std::vector<double> nearest_distances(const std::vector<InkSpot>& spots) {
+    constexpr std::size_t most = 400;
+    std::vector<double> distances;
+    for (std::size_t i = 0; spots.size() > 1 && i < std::min(most, spots.size()); ++i) {
+        double least = 1e300;
+        for (std::size_t k = 0; k < spots.size(); ++k) {
+            if (k != i) least = std::min(least, glm::distance(spots[i].at, spots[k].at));
+        }
+        distances.push_back(least);
+    }
+    return distances;
+}
+
 /// All parts of a picture with dots on a lattice, of lines in one sense.
 void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vector<Part>& parts,
                 const Monitor& monitor) {
@@ -280,43 +352,63 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
     constexpr std::size_t most_parts = 64;
     // Kolams of a page are of one size, mostly.
     std::optional<double> spacing;
-    // Adds the parts on the best lattice through some spots. Whether there is a kolam among them.
-    const auto read = [&](const std::vector<InkSpot>& some) {
-        std::vector<Reading> more = read_lattice(reader, ink.finder, some, lattice, spacing, monitor);
-        bool is_good = false;
-        std::optional<double> size;
-        for (Reading& reading : more) {
-            Part part = part_of(std::move(reading), ink.is_dark);
+    // The parts on the best lattice through some spots.
+    const auto parts_on = [&](const std::vector<InkSpot>& some, std::optional<double> step) {
+        std::vector<Part> found;
+        for (Reading& reading : read_lattice(reader, ink.finder, some, lattice, step, monitor)) {
+            found.push_back(part_of(std::move(reading), ink.is_dark));
+        }
+        return found;
+    };
+    // Adds parts. Whether there is a kolam among them.
+    const auto add = [&](std::vector<Part> more) {
+        const bool is_first = !spacing;
+        const bool is_good = has_kolam(more);
+        if (is_good) spacing.reset();
+        for (Part& part : more) {
             if (part.is_counted()) {
                 part.beside = dots_beside(part, ink.spots);
                 remove_area(part.reading);
                 const double strength = part.reading.grid.strength;
-                if (!spacing) {
+                if (is_first) {
                     std::erase_if(spots, [&](const InkSpot& spot) { return spot.strength < 0.5 * strength; });
                 }
-                is_good = true;
-                size = part.reading.grid.spacing;
+                spacing = part.reading.grid.spacing;
             }
             parts.push_back(std::move(part));
         }
-        if (is_good) spacing = size;
         return is_good;
     };
+    // Adds the first kolams: those on all spots if nothing is lost there, else the most that any subset has.
+    const auto add_first = [&](const std::vector<std::vector<InkSpot>>& subsets) {
+        std::vector<Part> best;
+        for (const bool is_nearest : {false, true}) {
+            for (const std::vector<InkSpot>& some : subsets) {
+                // On a page of kolams, multiples of their steps can lead from one to the next.
+                std::optional<double> step;
+                if (is_nearest) step = median(nearest_distances(some));
+                std::vector<Part> found = parts_on(some, step);
+                if (!has_kolam(found)) {
+                    add(std::move(found));
+                    continue;
+                }
+                if (best.empty() || gain_of(found) > gain_of(best)) best = std::move(found);
+                if (!has_losses(best)) return add(std::move(best));
+            }
+        }
+        return add(std::move(best));
+    };
     // Lattices are often found by chance among the spots of textures.
-    const bool has_kolam =
-        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); });
-    int attempts = has_kolam ? 1 : 2;
+    int attempts = has_kolam(parts) ? 1 : 2;
     for (; attempts > 0 && parts.size() < most_parts && spots.size() >= least_dots;) {
         if (spacing) {
-            if (read(spots)) continue;
+            if (add(parts_on(spots, spacing))) continue;
             spacing.reset();
         }
         const std::size_t before = parts.size();
         const bool is_further =
             std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_kolam(); });
-        const std::vector<std::vector<InkSpot>> subsets =
-            is_further ? std::vector<std::vector<InkSpot>>{spots} : subsets_of(spots);
-        if (std::any_of(subsets.begin(), subsets.end(), read)) {
+        if (is_further ? add(parts_on(spots, std::nullopt)) : add_first(subsets_of(spots))) {
             attempts = 1;
             continue;
         }
@@ -357,8 +449,8 @@ void sort_parts(std::vector<Part>& parts) {
     std::vector<char> is_frame(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
-            is_frame[i] = k != i && parts[i].is_counted() && parts[k].is_kolam() && areas[i].surrounds(areas[k]) &&
-                          10 * parts[k].dots() > parts[i].dots();
+            is_frame[i] = k != i && (parts[i].is_kolam() || parts[i].has_lines()) && parts[k].is_kolam() &&
+                          areas[i].surrounds(areas[k]) && 10 * parts[k].dots() > parts[i].dots();
         }
     }
     std::vector<Part> frames;
@@ -418,7 +510,35 @@ std::string places_text(std::size_t count) {
 }
 
 /// Spots that look like the dots of a kolam, but lie in none.
-std::size_t stray_dots(const Findings& found, const Part& part) {
+struct StrayDots {
+    std::size_t count = 0;   ///< beside each other, as on a lattice
+    bool is_border = false;  ///< they, or all spots, lie along the sides of a box around the kolams
+};
+
+/// Whether points lie along the four sides of a box that contains some areas.
+bool lie_around(const std::vector<glm::dvec2>& points, const std::vector<Area>& areas) {
+    glm::dvec2 low(1e300);
+    glm::dvec2 high(-1e300);
+    for (const glm::dvec2 point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    if (!std::all_of(areas.begin(), areas.end(),
+                     [&](const Area& area) { return Area::surrounds_box(low, high, area); })) {
+        return false;
+    }
+    const double reach = 0.12 * std::min(high.x - low.x, high.y - low.y);
+    std::array<std::size_t, 4> sides{};
+    for (const glm::dvec2 point : points) {
+        const std::array<double, 4> to = {point.x - low.x, high.x - point.x, point.y - low.y, high.y - point.y};
+        const auto nearest = std::min_element(to.begin(), to.end());
+        if (*nearest > reach) return false;
+        ++sides[static_cast<std::size_t>(nearest - to.begin())];
+    }
+    return *std::min_element(sides.begin(), sides.end()) >= 3;
+}
+
+StrayDots stray_dots(const Findings& found, const Part& part) {
     const FoundGrid& grid = part.reading.grid;
     const double radius = grid.dot_radius * grid.spacing;
     std::vector<Area> areas;
@@ -426,19 +546,24 @@ std::size_t stray_dots(const Findings& found, const Part& part) {
         if (each.is_counted()) areas.emplace_back(each.reading);
     }
     std::vector<glm::dvec2> strays;
+    std::vector<glm::dvec2> all;
     for (const InkSpot& spot : found.spots) {
-        if (spot.strength < 0.7 * grid.strength || spot.radius < 0.7 * radius || spot.radius > 1.4 * radius) continue;
+        if (spot.strength < 0.5 * grid.strength) continue;
         if (std::any_of(areas.begin(), areas.end(), [&](const Area& area) { return area.contains(spot.at); }))
             continue;
+        all.push_back(spot.at);
+        if (spot.strength < 0.7 * grid.strength || spot.radius < 0.7 * radius || spot.radius > 1.4 * radius) continue;
         strays.push_back(spot.at);
     }
-    // Beside each other, as on a lattice.
-    return static_cast<std::size_t>(std::count_if(strays.begin(), strays.end(), [&](glm::dvec2 at) {
+    StrayDots dots;
+    dots.is_border = lie_around(strays, areas) || lie_around(all, areas);
+    dots.count = static_cast<std::size_t>(std::count_if(strays.begin(), strays.end(), [&](glm::dvec2 at) {
         return std::count_if(strays.begin(), strays.end(), [&](glm::dvec2 other) {
                    return glm::distance(at, other) > 0.5 * grid.spacing &&
                           glm::distance(at, other) < 1.6 * grid.spacing;
                }) >= 2;
     }));
+    return dots;
 }
 
 void add_notes(Part& part, const Findings& found, const PhotographOptions& options) {
@@ -450,14 +575,16 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
                                           [](const Part& each) { return each.is_counted() && !each.is_kolam(); });
         if (unread > 0) notes.push_back(fmt::format("{} of the kolams cannot be read", unread));
     }
-    if (const std::size_t stray = part.is_dark == found.is_dark ? stray_dots(found, part) : 0; stray >= least_dots) {
+    const StrayDots stray = part.is_dark == found.is_dark ? stray_dots(found, part) : StrayDots{};
+    if (stray.count >= least_dots && !stray.is_border) {
         notes.push_back(fmt::format("{} like dots elsewhere in the picture: they may belong to another kolam",
-                                    counted(stray, "spot")));
+                                    counted(stray.count, "spot")));
     }
     if (reading.reaches_edge) {
         notes.emplace_back("the kolam seems to continue outside of the picture: dots and lines there are missing");
     }
-    if (std::any_of(found.parts.begin(), found.parts.end(), [](const Part& each) { return each.is_border; })) {
+    if (stray.is_border ||
+        std::any_of(found.parts.begin(), found.parts.end(), [](const Part& each) { return each.is_border; })) {
         notes.emplace_back("a border around the kolam was left out");
     }
     if (reading.left_out > 0) {
@@ -481,9 +608,6 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
             fmt::format("{} may be missing: no dot was seen there, but there is ink, and the other dots suggest one",
                         counted(reading.missing.size(), "dot")));
     }
-    for (const auto* places : {&reading.added, &reading.open_ends, &reading.missing}) {
-        for (const GridDot place : *places) doubt_around(part.kolam, place);
-    }
     notes.push_back(fmt::format("{} lines on {} ground, dots {:.0f} pixels apart in a picture of {} x {}",
                                 part.is_dark ? "dark" : "light", part.is_dark ? "light" : "dark",
                                 reading.grid.spacing * file_scale(found.picture), found.picture.file_width,
@@ -506,20 +630,23 @@ Photograph photograph_of(const Part& part, const std::vector<Part>& parts) {
 
 /// How far the distances from dots to their nearest neighbours vary: their standard deviation, of their mean.
 double variation(const std::vector<InkSpot>& spots) {
-    constexpr std::size_t most = 400;
-    const std::size_t count = std::min(most, spots.size());
     double sum = 0;
     double squares = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        double least = 1e300;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (k != i) least = std::min(least, glm::distance(spots[i].at, spots[k].at));
-        }
-        sum += least;
-        squares += least * least;
+    const std::vector<double> distances = nearest_distances(spots);
+    for (const double distance : distances) {
+        sum += distance;
+        squares += distance * distance;
     }
-    const double mean = sum / static_cast<double>(count);
-    return std::sqrt(std::max(0.0, squares / static_cast<double>(count) - mean * mean)) / std::max(mean, 1e-9);
+    const auto count = static_cast<double>(std::max<std::size_t>(1, distances.size()));
+    const double mean = sum / count;
+    return std::sqrt(std::max(0.0, squares / count - mean * mean)) / std::max(mean, 1e-9);
+}
+
+/// The first part with dots enough for a kolam, also those that no line joins; the end if there is none.
+std::vector<Part>::const_iterator best_lattice(const std::vector<Part>& parts) {
+    if (!parts.empty() && parts[0].dots() >= least_dots) return parts.begin();
+    return std::find_if(parts.begin(), parts.end(),
+                        [](const Part& part) { return part.dots() + part.reading.left_out >= least_dots; });
 }
 
 [[noreturn]] void refuse(Findings found) {
@@ -529,12 +656,13 @@ double variation(const std::vector<InkSpot>& spots) {
         what += "too many round spots to be the dots of a kolam";
     } else if (found.spots.empty()) {
         what += "no round spots that could be dots";
-    } else if (found.parts.empty() || found.parts[0].dots() < least_dots) {
-        what += spots() + ", no lattice";
-        if (found.spots.size() > 3)
-            what += fmt::format(": their distances vary by {:.0f} %", 100 * variation(found.spots));
+    } else if (const auto part = best_lattice(found.parts); part != found.parts.end()) {
+        what += spots() + ", " + part->refusal;
     } else {
-        what += spots() + ", " + found.parts[0].refusal;
+        what += spots() + ", no lattice";
+        // Dots in a ring are as far from each other as those of a lattice.
+        const double percent = found.spots.size() > 3 ? 100 * variation(found.spots) : 0;
+        if (percent >= 10) what += fmt::format(": their distances vary by {:.0f} %", percent);
     }
     RefusedPicture refused;
     constexpr std::size_t most_shown = 2000;

@@ -284,6 +284,33 @@ TEST(PhotographMarks, RefusalsReportFindings) {
         }
     }
     EXPECT_NE(refusal_of(graph).find("no kolam found"), std::string::npos) << refusal_of(graph);
+    // Dots that straight lines join, and dots within a frame, drawn large: the picture is made smaller by averaging.
+    Sketch bricks(1600, 1600);
+    Sketch framed(1600, 1600);
+    const std::vector<glm::dvec2> corners = {{100, 100}, {1500, 100}, {1500, 1500}, {100, 1500}};
+    for (std::size_t i = 0; i < 4; ++i) framed.line(corners[i], corners[(i + 1) % 4], 12);
+    for (int y = 0; y < 5; ++y) {
+        for (int x = 0; x < 5; ++x) {
+            const glm::dvec2 at(200 + 300 * x, 200 + 300 * y);
+            bricks.disc(at, 24);
+            if (x < 4) bricks.line(at, at + glm::dvec2(300, 0), 8);
+            if (y < 4 && (x + y) % 2 == 1) bricks.line(at, at + glm::dvec2(0, 300), 8);
+            framed.disc({400 + 200 * x, 400 + 200 * y}, 16);
+        }
+    }
+    EXPECT_EQ(refusal_of(bricks),
+              "no kolam found: 25 round spots, 25 dots on a lattice, but no line runs around most "
+              "of them from one to another");
+    EXPECT_EQ(refusal_of(framed),
+              "no kolam found: 25 round spots, 25 dots on a lattice, but no line runs around them "
+              "from one to another");
+    // A ring of dots.
+    Sketch circle(800, 800);
+    for (int i = 0; i < 24; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 24;
+        circle.disc(glm::dvec2(400) + 300.0 * glm::dvec2(std::cos(angle), std::sin(angle)), 8);
+    }
+    EXPECT_EQ(refusal_of(circle).find("vary by 0 %"), std::string::npos) << refusal_of(circle);
     // A woven lattice with rows of dots along it.
     Sketch woven(900, 900);
     for (int i = 0; i <= 10; ++i) {
