@@ -112,10 +112,11 @@ void check_options_of_link(std::span<const OptionInfo* const> table, const Optio
         const OptionInfo* row = find_option(table, value.name);
         const KeyInfo* key = row ? nullptr : find_language_key(value.name);
         if (row ? !row->is_local(value.text) : !key || !key->names_file || !key->names_file(value.text)) continue;
-        throw UsageError(fmt::format(
-            "the link {}: {} '{}'; --trust-link allows it{}",
-            row && row->moves_machine ? "sets commands for a plotter" : "names a file of this machine", value.name,
-            printable(value.text, 80), row ? fmt::format(", and --{} replaces it", value.name) : ""));
+        const bool is_file = !row || (row->names_file && row->names_file(value.text));
+        throw UsageError(fmt::format("the link {}: {} '{}'; --trust-link allows it{}",
+                                     is_file ? "names a file of this machine" : "sets commands for a plotter",
+                                     value.name, printable(value.text, 80),
+                                     row ? fmt::format(", and --{} replaces it", value.name) : ""));
     }
 }
 

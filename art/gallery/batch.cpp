@@ -183,8 +183,7 @@ bool is_meant_for_another(const std::string& warning, const GalleryJob& job, std
     }
     return std::any_of(jobs.begin(), jobs.end(), [&](const GalleryJob& other) {
         const auto format = print_format(other.file());
-        return other.pattern == job.pattern && other.place == job.place && format &&
-               info(*format).kind == FormatKind::pixels;
+        return other.name == job.name && format && info(*format).kind == FormatKind::pixels;
     });
 }
 

@@ -206,7 +206,12 @@ TEST(LinkProgram, LinksSetNeitherCommandsForMachinesNorFiles) {
     refused(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "frame.scl"}}))}), names_file);
     // Links may set the look, also by options whose other values are files.
     EXPECT_EQ(draw(shared("hilbert", {}, {{"border", "kaavi"}}, {}), "x.svg").status, 0);
-    EXPECT_EQ(draw(shared("hilbert", {}, {{"profile", "grbl"}, {"pen-width", "0.5mm"}}, {}), "x.gcode").status, 0);
+    EXPECT_EQ(draw(shared("hilbert", {}, {{"pen-width", "0.5mm"}}, {}), "x.gcode").status, 0);
+    // A bundled profile may turn a laser on, and speeds are those of a machine.
+    for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+             {"profile", "grbl-laser"}, {"pen-speed", "10000"}, {"lift-time", "3600"}, {"resume", "1m"}}) {
+        refused(draw(shared("hilbert", {}, {{name, value}}, {}), "x.gcode"), "the link sets commands for a plotter");
+    }
     EXPECT_EQ(run({"play", link_to(shared("hilbert", {}, {}, {{"scale", "dorian"}}))}).status, 0);
 }
 
