@@ -4,8 +4,7 @@
 import { build, transform } from "esbuild";
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -89,21 +88,17 @@ async function style(names) {
     return (await transform(contents, { loader: "css", minify: !values.readable, charset: "utf8" })).code;
 }
 
-// Zopfli's deflate is 5 % smaller than zlib's.
-function deflated(contents) {
-    const folder = mkdtempSync(join(tmpdir(), "sikku-page-"));
-    try {
-        const file = join(folder, "contents");
-        writeFileSync(file, contents);
-        return execFileSync("zopfli", ["--deflate", "--i25", "-c", file], { maxBuffer: 1 << 28 });
-    } finally {
-        rmSync(folder, { recursive: true });
-    }
+// LZMA, a quarter smaller than deflate: the properties and the data, without the sizes in the header.
+function compressed(contents) {
+    const options = ["--format=lzma", "--lzma1=preset=9e,lc=4,pb=0", "-c"];
+    const file = execFileSync("xz", options, { input: contents, maxBuffer: 1 << 28 });
+    return Buffer.concat([file.subarray(0, 1), file.subarray(13)]);
 }
 
-// Data that the page unpacks when it opens: deflated, with six bytes in seven characters. See page/embedded.ts.
+// Data that the page unpacks when it opens: compressed, with six bytes in seven characters. See page/embedded.ts.
 function packed(contents) {
-    const bytes = deflated(contents);
+    const whole = Buffer.from(contents);
+    const bytes = compressed(whole);
     const padded = Buffer.concat([bytes, Buffer.alloc(5)]);
     const letters = Buffer.alloc(7 * Math.ceil(bytes.length / 6));
     for (let from = 0, to = 0; from < bytes.length; from += 6, to += 7) {
@@ -112,7 +107,7 @@ function packed(contents) {
             number = Math.floor(number / alphabet.length);
         }
     }
-    return `${bytes.length} ${letters.toString("latin1")}`;
+    return `${bytes.length} ${whole.length} ${letters.toString("latin1")}`;
 }
 
 const boot = await bundle("boot.ts");

@@ -10,7 +10,7 @@ test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf po
     pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)
 # For the studio: the compiler to WebAssembly, a library for what its C++ library lacks, a compressor for the page, and
 # browsers for the tests. npm may already be installed from elsewhere, with a newer version of node.
-studio_packages=(emscripten libfast-float-dev zopfli)
+studio_packages=(emscripten libfast-float-dev xz-utils)
 browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth

@@ -250,7 +250,7 @@ std::vector<Colour> border_colours(const Border& border, const std::optional<Col
         }
         return colours;
     }
-    if (is_light) return {deep_earth, border.kind == BorderKind::kaavi ? pale_earth : kaavi};
+    if (is_light) return {deep_earth, kaavi};
     return {white, colour_distance(kaavi, under) >= least ? kaavi : pale_earth};
 }
 

@@ -1,11 +1,10 @@
 // The compressed data in the page: the libraries, the worker and the script itself.
 import { alphabet } from "./alphabet";
+import { unpackLzma } from "./lzma";
 
-function decode(text: string): Uint8Array<ArrayBuffer> {
+function decode(text: string, start: number, size: number): Uint8Array<ArrayBuffer> {
     const values = new Uint8Array(128);
     for (let index = 0; index < alphabet.length; ++index) values[alphabet.charCodeAt(index)] = index;
-    const start = text.indexOf(" ") + 1;
-    const size = Number.parseInt(text, 10);
     const words = new DataView(new ArrayBuffer(6 * Math.ceil(size / 6)));
     for (let from = start, to = 0; to < size; from += 7, to += 6) {
         let word = 0;
@@ -18,8 +17,9 @@ function decode(text: string): Uint8Array<ArrayBuffer> {
 
 /// Decompresses the contents of an element.
 export async function unpack(id: string): Promise<ArrayBuffer> {
-    const bytes = decode(document.getElementById(id)!.textContent!.trim());
-    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+    const text = document.getElementById(id)!.textContent!.trim();
+    const [packed, whole] = text.split(" ", 2).map(Number) as [number, number];
+    return unpackLzma(decode(text, text.lastIndexOf(" ") + 1, packed), whole).buffer;
 }
 
 /// Decompresses a script, and returns a Blob address for it.
