@@ -238,10 +238,9 @@ public:
         return (*back_)(pixel)-map_.shift() + map_.offset() - lattice_point(grid_.lattice(), grid_.dots().front());
     }
     bool is_regular() const { return back_.has_value(); }
-    /// Whether a pixel lies close to a dot, or between dots: not in a hole, as that of a frame.
-    bool contains(glm::dvec2 pixel) const {
+    /// Whether a pixel lies close to a dot, within some spacings, or between dots: not in a hole, as that of a frame.
+    bool contains(glm::dvec2 pixel, double reach = 1.45) const {
         if (!back_) return false;
-        constexpr double reach = 1.45;
         const glm::dvec2 at = from_first(pixel);
         if (!(std::fabs(at.x) < 1e6 && std::fabs(at.y) < 1e6)) return false;
         const GridDot first = grid_.dots().front();
@@ -438,6 +437,15 @@ struct Findings {
     }
 };
 
+/// Whether no dot of a part lies in or at the loops of an area, as those of its coarser lattices do.
+bool lies_outside(const Part& part, const Area& area) {
+    const std::vector<GridDot>& dots = part.kolam.grid.dots();
+    return std::none_of(dots.begin(), dots.end(), [&](GridDot dot) {
+        constexpr double loop = 0.6;
+        return area.contains(part.reading.grid.map.dot(dot), loop);
+    });
+}
+
 /// Kolams that can be read first, those with most dots before the others, frames behind what they surround.
 void sort_parts(std::vector<Part>& parts) {
     const auto rank = [](const Part& part) { return part.is_kolam() ? 0 : part.is_counted() ? 1 : 2; };
@@ -449,8 +457,9 @@ void sort_parts(std::vector<Part>& parts) {
     std::vector<char> is_frame(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
-            is_frame[i] = k != i && (parts[i].is_kolam() || parts[i].has_lines()) && parts[k].is_kolam() &&
-                          areas[i].surrounds(areas[k]) && 10 * parts[k].dots() > parts[i].dots();
+            if (k == i || !parts[k].is_kolam() || !areas[i].surrounds(areas[k])) continue;
+            if (10 * parts[k].dots() <= parts[i].dots()) continue;
+            is_frame[i] = parts[i].is_kolam() || (parts[i].has_lines() && lies_outside(parts[i], areas[k]));
         }
     }
     std::vector<Part> frames;

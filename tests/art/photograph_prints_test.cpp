@@ -110,6 +110,7 @@ TEST(PhotographPrints, AllKolamsOfASheetAreReadable) {
                 const Photograph read = read_photograph(folder.path() / "sheet.png", {.number = number});
                 EXPECT_EQ(read.kolams, count) << notes_of(read);
                 EXPECT_EQ(read.readable, count) << notes_of(read);
+                EXPECT_EQ(notes_of(read).find("border"), std::string::npos) << notes_of(read);
                 EXPECT_EQ(read.kolam.grid.text(), kolam.dots.text());
                 EXPECT_EQ(read.kolam.states, kolam.states);
                 const glm::dvec2 corner = read.in_file(read.kolam.grid.dots().front());
