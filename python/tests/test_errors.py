@@ -127,7 +127,7 @@ def test_surrogates_are_invalid_utf8() -> None:
 
 
 # Long words that are not stored.
-TURNS = "sikku.load(text='axiom: f\\nf --> f+f\\n')"
+TURNS = "sikku.load(text='axiom: f\\nf --> f+f\\nforward: F\\n')"
 CHANCE = "sikku.load(text='axiom: F\\nF --> FF : 1\\nF --> F+F : 1\\nderivation length: 60\\n')"
 
 LONG_CALLS = [
@@ -174,7 +174,7 @@ def test_exceptions_of_other_signals_arrive() -> None:
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(Alarm):
-            sikku.load(text="axiom: f\nf --> f+f\n").path(38, budget=1e14)
+            sikku.load(text="axiom: f\nf --> f+f\nforward: F\n").path(38, budget=1e14)
     finally:
         signal.signal(signal.SIGALRM, before)
 
@@ -190,7 +190,7 @@ def test_other_threads_run_during_long_calls() -> None:
             time.sleep(0.001)
 
     thread = threading.Thread(target=count, daemon=True)
-    pattern = sikku.load(text="axiom: f\nf --> f+f\n")
+    pattern = sikku.load(text="axiom: f\nf --> f+f\nforward: F\n")
     thread.start()
     before = ticks
     pattern.path(26, budget=1e9)
