@@ -229,7 +229,7 @@ namespace {
 constexpr double samples = 16;       // of a pixel
 constexpr double facet_bytes = 160;  // of a polygon of a divided surface
 
-/// Of all pixels of a drawing in space.
+/// Processor time of a pixel of a drawing in space, drawn on or not.
 constexpr double sampled_pixel_seconds = 40e-9;
 constexpr double lit_pixel_seconds = 100e-9;
 constexpr double question_seconds = 3e-9;  // whether light of one direction reaches a place

@@ -14,7 +14,7 @@ struct JobForecast {
     Cost cost;            ///< on one thread, in a program that makes nothing else
     std::string problem;  ///< why it cannot be made, as far as that is known already
 
-    /// What the job adds to a program that has made others.
+    /// The cost of the job in a program that has already made others.
     double own_seconds() const { return cost.seconds - cost.shared_seconds; }
     double own_memory() const { return cost.memory - cost.shared_memory; }
 };

@@ -23,7 +23,6 @@ namespace {
 
 /// Agreement of a gap that a kolam has.
 constexpr double good = 0.84;
-constexpr double fair = 0.79;
 constexpr double certain = 0.93;
 /// Lattices whose gaps agree less on average, before and after a displacement is looked for, are chance.
 constexpr double hopeless_here = 0.25;
@@ -524,8 +523,8 @@ private:
         return places;
     }
 
-    /// Of the ink within a spacing of the dots, the share that lies around gaps that agree with a state, or around
-    /// dots, where loops turn.
+    /// The share of the ink near the dots, up to a spacing away, that lies around gaps that agree with a state or
+    /// around dots, where loops turn.
     double explained(const Reading& reading) const {
         const DotGrid& dots = reading.grid.grid();
         const DotLattice lattice = dots.lattice();
@@ -608,7 +607,7 @@ struct InkReader::Store {
 InkReader::InkReader(const GreyPicture& ink) : ink_(ink), store_(std::make_unique<Store>()) {}
 InkReader::~InkReader() = default;
 
-std::vector<Reading> InkReader::read(FoundGrid grid, const Monitor& monitor) {
+std::vector<Reading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
     // Pages have kolams of similar sizes.
     const double blur = std::exp2(std::round(4 * std::log2(0.018 * grid.spacing)) / 4);
     if (!store_->smooth || store_->smooth->first != blur) store_->smooth.emplace(blur, blurred(ink_, blur));

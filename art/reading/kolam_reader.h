@@ -39,7 +39,7 @@ public:
     /// first, then the one with more dots.
     /// @param grid  its map has to fit the picture
     /// Cost: about 0.1 s for 200 dots.
-    std::vector<Reading> read(FoundGrid grid, const Monitor& monitor);
+    std::vector<Reading> read(const FoundGrid& grid, const Monitor& monitor);
 
 private:
     struct Store;

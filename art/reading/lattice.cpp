@@ -17,12 +17,6 @@ namespace {
 
 using Place = std::pair<std::int32_t, std::int32_t>;  // steps along the two vectors of a basis
 
-/// Converts a whole number to an integer, limited to ±10^8: wrong fits can reach infinity, where there are no points.
-std::int32_t whole(double number) {
-    constexpr double farthest = 1e8;
-    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
-}
-
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }

@@ -118,7 +118,7 @@ Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
     const double around = 0.06 * static_cast<double>(std::min(grey.width, grey.height));
     Ink ink{blurred(grey, around)};
     monitor.check();
-    // Data that is no longer needed is overwritten, because pictures are large.
+    // Pictures are large: each step overwrites the data of the step before.
     GreyPicture& squares = grey;
     double sum = 0;
     double cubes = 0;

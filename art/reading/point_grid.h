@@ -14,6 +14,12 @@
 
 namespace sikku {
 
+/// Converts a whole number to an integer, limited to ±10^8, because wrong fits can reach infinity.
+inline std::int32_t whole(double number) {
+    constexpr double farthest = 1e8;
+    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
+}
+
 /// Finds points by their place, in cells of a given size.
 class PointGrid {
 public:
@@ -54,12 +60,7 @@ private:
     using Cell = std::pair<std::int32_t, std::int32_t>;
 
     Cell cell(glm::dvec2 point) const { return {cell(point.x), cell(point.y)}; }
-    /// Limited to ±10^8: wrong fits can reach infinity, where there are no points.
-    std::int32_t cell(double coordinate) const {
-        constexpr double farthest = 1e8;
-        const double number = std::floor(coordinate / size_);
-        return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
-    }
+    std::int32_t cell(double coordinate) const { return whole(std::floor(coordinate / size_)); }
     template <class Visit>
     void visit(glm::dvec2 at, int rings, Visit&& see) const {
         const Cell middle = cell(at);

@@ -324,7 +324,7 @@ std::string error_of(const std::string& line) {
     for (int names = 0;; ++names) {
         Diagnostics diagnostics;
         const Pattern pattern = parse_pattern("", text, diagnostics);
-        // What values of keys may be is not a matter of the language alone.
+        // Only productions and axioms are compiled, because interpreters check the values of other keys.
         if (is_word && !diagnostics.has_errors()) compile_grammar(pattern, diagnostics);
         const auto& list = diagnostics.list();
         const auto error = std::find_if(list.begin(), list.end(), [](const Diagnostic& one) { return !one.warning; });

@@ -191,7 +191,7 @@ TEST(PhotographMarks, SeveralKolamsAreCountedAndChosen) {
     EXPECT_EQ(read, (std::vector<std::string>{"1-3-5-7-5-3-1", "5x5", "1-3-5-3-1", "3x4"}));
     try {
         read_made(made, {.number = 5});
-        ADD_FAILURE() << "there is no fifth";
+        ADD_FAILURE() << "a fifth kolam was read";
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(), "kolam 5 does not exist: the picture has 4 kolams that can be read");
     }

@@ -284,7 +284,7 @@ TEST(Confinement, EndsAfterItsProcessorTimeAndWithItsParent) {
     ASSERT_EQ(::waitpid(child, &state, 0), child);
     EXPECT_TRUE(WIFSIGNALED(state) && WTERMSIG(state) == SIGXCPU);
 
-    // Of another parent than it expects, it ends at once.
+    // A child with an unexpected parent ends at once.
     child = ::fork();
     if (child == 0) {
         confine({.memory = 100'000'000, .seconds = 1}, parent + 1);

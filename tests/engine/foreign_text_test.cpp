@@ -269,7 +269,7 @@ TEST(ForeignLine, WhatIsOfferedIsAccepted) {
         "length as a parameter: F(1.36*x)\n");
     EXPECT_EQ(answer("F = >F<").find("write"), std::string::npos);
     EXPECT_EQ(answer("<img src=\"a.png\" width=\"2\">").find("write"), std::string::npos);
-    // What can be offered of a list is; what other lines may define is accepted.
+    // The valid items of a list are offered; names that other lines may define are accepted.
     EXPECT_EQ(advice("rules: (F → >F<), (G → FF)"), std::vector<std::string>{"G --> FF"});
     EXPECT_NE(answer("rules: (F → >F<), (G → FF)").find("'>' is not a symbol"), std::string::npos);
     EXPECT_EQ(advice("A(x) : x > K → B(x/R)"), std::vector<std::string>{"A(x) : x > K --> B(x/R)"});
