@@ -211,11 +211,11 @@ std::vector<Reading> read_lattice(InkReader& reader, const SpotFinder& finder, c
     if (!found || found->grid().dots().size() < 3) return {};
     const double angle = found->angle;
     const DotLattice first = found->grid().lattice();
-    std::vector<Reading> readings = reader.read(std::move(*found), monitor);
+    std::vector<Reading> readings = reader.read(*found, monitor);
     if (lattice || angle <= 64 || angle >= 84) return readings;
     const DotLattice other = first == DotLattice::square ? DotLattice::triangular : DotLattice::square;
     if (auto again = find_grid(finder, spots, other, monitor, spacing)) {
-        std::vector<Reading> second = reader.read(std::move(*again), monitor);
+        std::vector<Reading> second = reader.read(*again, monitor);
         if (agreement_of(second) > agreement_of(readings) + 0.3 && 2 * dots_of(second) > dots_of(readings)) {
             return second;
         }
@@ -506,7 +506,7 @@ DecodedPicture large_enough(DecodedPicture picture) {
     if (std::min(picture.width, picture.height) < 16) throw std::runtime_error("the picture is too small");
     const int longest = std::max(picture.width, picture.height);
     const int times = std::min(4, (least_side + longest - 1) / longest);
-    return times > 1 ? enlarged(picture, times) : picture;
+    return times > 1 ? enlarged(picture, times) : std::move(picture);
 }
 
 /// Pixels of the file for one of the picture as it was read.
