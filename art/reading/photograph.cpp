@@ -1,5 +1,6 @@
 #include "art/reading/photograph.h"
 
+#include "art/reading/kolam_edge.h"
 #include "art/reading/kolam_reader.h"
 #include "art/reading/picture.h"
 #include "art/reading/spots.h"
@@ -81,8 +82,9 @@ struct Part {
     ReadKolam kolam;
     std::string refusal;  ///< why it is not a kolam that can be read; empty for those that are
     bool is_dark = true;
-    std::size_t beside = 0;  ///< dots between the places of the lattice
-    bool is_border = false;  ///< of the kolams within it
+    std::size_t beside = 0;        ///< dots between the places of the lattice
+    bool is_border = false;        ///< of the kolams within it
+    bool has_more_within = false;  ///< a frame around ink that was not read
 
     std::size_t dots() const { return kolam.grid.dots().size(); }
     bool is_kolam() const { return refusal.empty(); }
@@ -256,6 +258,13 @@ public:
     }
     /// Pixels of the box around the dots.
     double box() const { return std::max(0.0, high_.x - low_.x) * std::max(0.0, high_.y - low_.y); }
+    /// Calls a function with points of that box, a step in pixels apart.
+    template <class Visit>
+    void visit_box(double step, Visit visit) const {
+        for (double y = low_.y; y <= high_.y; y += step) {
+            for (double x = low_.x; x <= high_.x; x += step) visit(glm::dvec2(x, y));
+        }
+    }
     bool surrounds(const Area& other) const { return surrounds_box(low_, high_, other); }
     /// Whether a box contains the dots of an area.
     static bool surrounds_box(glm::dvec2 low, glm::dvec2 high, const Area& other) {
@@ -480,6 +489,28 @@ void sort_parts(std::vector<Part>& parts) {
     parts = std::move(others);
 }
 
+/// Whether the hole of a frame has as much ink as a few loops of it, lighter or darker than the ground, beside the
+/// kolams that were found.
+bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const GreyPicture& ink) {
+    const FoundGrid& found = frame.reading.grid;
+    const Area area(frame.reading);
+    if (!area.is_regular()) return false;
+    std::vector<Area> known;
+    for (const Part& part : parts) {
+        if (part.is_counted()) known.emplace_back(part.reading);
+    }
+    const double level = std::fabs(line_level(ink, found));
+    const double step = std::max(1.0, found.spacing / 12);
+    constexpr double away = 1.45;
+    double inked = 0;
+    area.visit_box(step, [&](glm::dvec2 pixel) {
+        inked +=
+            std::fabs(ink.at(pixel)) > 0.5 * level &&
+            std::none_of(known.begin(), known.end(), [&](const Area& each) { return each.contains(pixel, away); });
+    });
+    return inked * step * step > 4 * found.spacing * found.spacing;
+}
+
 Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, const Monitor& monitor) {
     Findings found{std::move(picture)};
     InkSpots ink(find_ink(found.picture, monitor), monitor);
@@ -495,6 +526,9 @@ Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, c
         find_parts(ink, options.lattice, found.parts, monitor);
     }
     sort_parts(found.parts);
+    for (Part& part : found.parts) {
+        if (part.is_kolam() && part.is_narrow()) part.has_more_within = has_ink_within(part, found.parts, ink.ink);
+    }
     if (!found.parts.empty() && found.parts[0].is_dark == ink.is_dark) {
         found.spots = ink.spots;
         found.is_dark = ink.is_dark;
@@ -595,6 +629,9 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
     if (stray.is_border ||
         std::any_of(found.parts.begin(), found.parts.end(), [](const Part& each) { return each.is_border; })) {
         notes.emplace_back("a border around the kolam was left out");
+    }
+    if (part.has_more_within) {
+        notes.emplace_back("the dots lie in single rows, as in a border: lines within it were not read");
     }
     if (reading.left_out > 0) {
         notes.push_back(

@@ -81,6 +81,24 @@ TEST(PhotographPrints, BordersAreNotPartsOfKolams) {
     expect_as_drawn({"11-1", 5}, "rope", {100, 130});
 }
 
+/// The strands of a rope and its dots are a kolam, which is read if the one within it is not found.
+TEST(PhotographPrints, FramesAroundOtherLinesAreReported) {
+    const DotGrid dots = parse_dot_grid("7x7");
+    const GapStates states = random_states(dots, {.seed = 2, .symmetry = GridSymmetry::d4, .connects = true});
+    const Document document = parse("kolam.lsys", kolam_pattern(dots, states, {}).text);
+    const ScratchFolder folder;
+    for (const bool is_filled : {false, true}) {
+        OptionValues options = {{"dots", ""}, {"border", "rope"}, {"dpi", "100"}};
+        if (is_filled) options.emplace_back("fields", "chessboard");
+        folder.write("print.png", draw(document, "png", options));
+        const Photograph read = read_photograph(folder.path() / "print.png");
+        const bool is_whole = read.kolam.grid.text() == dots.text();
+        const bool is_reported = notes_of(read).find("lines within it were not read") != std::string::npos;
+        EXPECT_NE(is_whole, is_reported) << notes_of(read);
+        EXPECT_TRUE(is_whole || is_filled);
+    }
+}
+
 TEST(PhotographPrints, AllBordersInTheFullCheck) {
     if (!std::getenv("SIKKU_FULL")) GTEST_SKIP() << "some minutes; SIKKU_FULL=1 runs it";
     for (const char* grid : {"5x5", "7-1", "9-1", "11-1", "15-1", "9-5 idukku"}) {
