@@ -94,10 +94,12 @@ Number number(const char* text) {
 // C decoders react to failed allocations in any way from a message to a crash; here the first failure is reported.
 // These replace the functions of the C library in all libraries of the process.
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier): names of the C library
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
+// NOLINTEND(bugprone-reserved-identifier)
 }
 namespace {
 bool is_confined = false;

@@ -14,6 +14,7 @@ namespace sikku {
 namespace {
 
 constexpr double most_lines = 1e6;
+constexpr std::size_t most_meetings = 20'000'000;  // of lines with sides of a shape and obstacles: some 500 MB
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -116,6 +117,28 @@ private:
         return {row(low), row(high)};
     }
 
+    std::pair<std::size_t, std::size_t> rows_at(const Obstacle& obstacle) const {
+        return rows_between(std::min(obstacle.from.y, obstacle.to.y) - obstacle.radius,
+                            std::max(obstacle.from.y, obstacle.to.y) + obstacle.radius);
+    }
+    /// Refuses hatching that would not fit in memory, before any is used.
+    void limit_meetings() {
+        std::size_t meetings = 0;
+        const auto add = [&](std::pair<std::size_t, std::size_t> rows) {
+            pulse_();
+            meetings += rows.second - rows.first + 1;
+            if (meetings > most_meetings) {
+                throw std::runtime_error(
+                    "hatching meets the lines around one shape over 20 million times; use a wider spacing");
+            }
+        };
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            const auto [low, high] = std::minmax(vertices_[i].y, vertices_[(i + 1) % vertices_.size()].y);
+            add(rows_between(low, high));
+        }
+        for (const Obstacle& obstacle : obstacles_) add(rows_at(obstacle));
+    }
+
     void find_rows() {
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
@@ -129,6 +152,7 @@ private:
         first_ = static_cast<std::int64_t>(std::floor(low / spacing_));
         rows_.resize(static_cast<std::size_t>(std::ceil(high / spacing_) - std::floor(low / spacing_)) + 1);
         near_.resize(rows_.size());
+        limit_meetings();
 
         std::vector<std::vector<std::pair<double, int>>> crossings(rows_.size());
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
@@ -143,9 +167,7 @@ private:
         std::vector<std::vector<Interval>> kept(rows_.size());
         for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
             const Obstacle& obstacle = obstacles_[i];
-            const double bottom = std::min(obstacle.from.y, obstacle.to.y) - obstacle.radius;
-            const double top = std::max(obstacle.from.y, obstacle.to.y) + obstacle.radius;
-            const auto [begin, end] = rows_between(bottom, top);
+            const auto [begin, end] = rows_at(obstacle);
             // Between a row and the next.
             for (std::size_t row = begin > 0 ? begin - 1 : 0; row < end; ++row) near_[row].push_back(i);
             for (std::size_t row = begin; row < end; ++row) {

@@ -16,6 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr double most_lines = 1e6;
+constexpr std::size_t most_crossings = 5'000'000;  // some 500 MB
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// A crossing of a line with the outline; crossings are numbered along the outline.
@@ -76,6 +77,10 @@ private:
             // A half-open interval, so that a line through a vertex crosses once.
             const auto first = static_cast<std::int64_t>(std::ceil(std::min(from, to) / spacing_ - 0.5));
             const auto last = static_cast<std::int64_t>(std::ceil(std::max(from, to) / spacing_ - 0.5));
+            if (static_cast<std::size_t>(last - first) > most_crossings - crossings_.size()) {
+                throw std::runtime_error(
+                    "hatching crosses the outline of one shape over 5 million times; use a wider spacing");
+            }
             for (std::int64_t k = 0; k < last - first; ++k) {
                 pulse_();
                 const std::int64_t line = to > from ? first + k : last - 1 - k;

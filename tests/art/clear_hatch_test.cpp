@@ -4,6 +4,7 @@
 #include "art/draw_settings.h"
 #include "art/drawing/drawing.h"
 #include "art/plotter/plot.h"
+#include "art/plotter/shading.h"
 #include "art/prints.h"
 #include "engine/base/output.h"
 #include "tests/plot_tools.h"
@@ -111,6 +112,33 @@ TEST(ClearHatch, AShapeWithRoundSidesIsOneZigzag) {
     std::reverse(outline.begin(), outline.end());
     const auto lines = clear_hatch_lines(outline, rim(outline, 0.4), {1, 0}, 0.5, 0.01);
     EXPECT_EQ(lines.size(), 1u);
+}
+
+/// Every line crosses every tooth of a comb: memory would be used up although both numbers are moderate.
+TEST(ClearHatch, TooManyCrossingsAreRefusedBeforeTheyAreStored) {
+    std::vector<glm::dvec2> comb;
+    for (int tooth = 0; tooth < 3000; ++tooth) {
+        comb.emplace_back(2 * tooth, tooth % 2 == 0 ? 0 : 10000);
+        comb.emplace_back(2 * tooth + 1, tooth % 2 == 0 ? 0 : 10000);
+    }
+    const auto error_of = [](auto hatch) -> std::string {
+        try {
+            hatch();
+            return "no error";
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+    };
+    EXPECT_EQ(error_of([&] {
+                  clear_hatch_lines(comb, rim(comb, 0.1), {1, 0}, 0.5, 0.01);
+              }),
+              "hatching meets the lines around one shape over 20 million times; use a wider spacing");
+    EXPECT_EQ(error_of([&] {
+                  hatch_lines(comb, {1, 0}, 0.5, 0.1);
+              }),
+              "hatching crosses the outline of one shape over 5 million times; use a wider spacing");
+    comb.resize(10);
+    EXPECT_FALSE(clear_hatch_lines(comb, rim(comb, 0.1), {1, 0}, 5, 0.01).empty());
 }
 
 TEST(ClearHatch, WaysToHolesAreNotInk) {
