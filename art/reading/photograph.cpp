@@ -634,15 +634,16 @@ void add_notes(Part& part, const Findings& found, const PhotographOptions& optio
         notes.emplace_back("the dots lie in single rows, as in a border: lines within it were not read");
     }
     if (reading.left_out > 0) {
-        notes.push_back(
-            fmt::format("{} beside the kolam that no line joins to it left out", counted(reading.left_out, "dot")));
+        notes.push_back(fmt::format("{} beside the kolam left out: no line joins {} to it",
+                                    counted(reading.left_out, "dot"), reading.left_out == 1 ? "it" : "them"));
     }
     if (part.beside > 0) {
         notes.push_back(fmt::format("{} between the places of the grid left out", counted(part.beside, "dot")));
     }
     if (!reading.added.empty()) {
-        notes.push_back(fmt::format("{} without a visible dot counted as a dot, because lines run around it",
-                                    places_text(reading.added.size())));
+        notes.push_back(fmt::format("{} without a visible dot, but lines run around {}: {} added",
+                                    places_text(reading.added.size()), reading.added.size() == 1 ? "it" : "them",
+                                    reading.added.size() == 1 ? "a dot was" : "dots were"));
     }
     if (!reading.open_ends.empty()) {
         notes.push_back(fmt::format("{}: lines lead to {} beside the grid where no dot was seen",
