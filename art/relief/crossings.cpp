@@ -31,8 +31,8 @@ public:
         side_ = std::max({sum / count, std::sqrt(width * height / (2 * count)), 1.0});
         columns_ = static_cast<std::size_t>(width / side_) + 1;
         begin_.assign(columns_ * (static_cast<std::size_t>(height / side_) + 1) + 1, 0);
-        for (std::uint32_t i = 0; i < segments.size(); ++i) {
-            each_square(segments[i], [&](std::size_t square) { ++begin_[square + 1]; });
+        for (const OutlineEdge& segment : segments) {
+            each_square(segment, [&](std::size_t square) { ++begin_[square + 1]; });
         }
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
         entries_.resize(begin_.back());
