@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <iterator>
 #include <new>
 #include <sstream>
@@ -140,6 +141,8 @@ int run(int argc, char** argv) {
         return fail(1, with_dashes(error.what()));
     } catch (const std::bad_alloc&) {
         return fail(1, "not enough memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(1, fmt::format("{}: {}", printable(error.path1().string(), 2000), error.code().message()));
     } catch (const std::exception& error) {
         return fail(1, with_force(error.what()));
     }

@@ -166,10 +166,13 @@ private:
     [[noreturn]] void refuse_drawing() const {
         const HpglPaper& paper = *options_.paper;
         const glm::dvec2 reach = paper.high - paper.low;
-        throw std::runtime_error(fmt::format(
-            "the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; a margin of {:.1f}mm keeps it "
-            "inside",
-            reach.x, reach.y, sheet_name(), hpgl_margin(paper, print_.page)));
+        const double margin = hpgl_margin(paper, print_.page);
+        const bool has_room = 2 * margin < std::min(print_.page.width, print_.page.height);
+        throw std::runtime_error(
+            fmt::format("the drawing exceeds the {:.0f} x {:.0f} mm that the plotter reaches{}; {}", reach.x, reach.y,
+                        sheet_name(),
+                        has_room ? fmt::format("a margin of {:.1f}mm keeps it inside", margin)
+                                 : std::string("choose a smaller page")));
     }
 
     void to(glm::dvec2 millimetres) {

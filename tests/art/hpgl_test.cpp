@@ -211,6 +211,21 @@ TEST_F(Hpgl, WhatThePlotterDoesNotReachIsRefused) {
             "keeps it inside");
     }
     EXPECT_EQ(folder_.names(), std::vector<std::string>{});
+
+    const Print poster = sheet_print({841, 1189, 0});
+    const auto wide = arranged(poster, [](PathSink& sink) {
+        sink.begin_stroke({100, 100}, Pen{});
+        sink.lines(std::vector<glm::dvec2>{{700, 1000}});
+        sink.end_stroke(false);
+    });
+    try {
+        text(*wide, poster);
+        ADD_FAILURE() << "is accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(),
+                     "the drawing exceeds the 276 x 193 mm that the plotter reaches on a4 (HP 7475A); choose a "
+                     "smaller page");
+    }
 }
 
 TEST_F(Hpgl, APlaceBesideThePageIsNamedIfThePlotterDoesNotReachIt) {

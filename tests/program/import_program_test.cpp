@@ -118,6 +118,16 @@ TEST(ImportProgram, BadInput) {
     refused(fed("Lsystem: 1\n", "#define a b\n", 16 << 20), "no 'Axiom:'");
 }
 
+TEST(ImportProgram, AFileIsNoFolder) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("some.l", "Koch {\n angle 6\n axiom F\n}\nLine {\n angle 6\n axiom F\n}\n");
+    const std::string other = folder.write("other", "mine");
+    const Outcome outcome = run({"import", file, "-o", other});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.errors, "sikku: " + other + ": Not a directory\n");
+    EXPECT_EQ(contents(other), "mine");
+}
+
 TEST(ImportCorpus, EveryFileGoesThroughTheFuzzTarget) {
     std::size_t files = 0;
     for (const auto& entry :
