@@ -214,6 +214,16 @@ TEST(PolygonSvg, LimitsCopies) {
     EXPECT_NE(svg_refusal(chain + "</defs><use href=\"#l60\"/>").find("copies are nested more than 50 levels deep"),
               std::string::npos);
     EXPECT_EQ(read_polygons_svg(svg(chain + "</defs><use href=\"#l40\"/>")).size(), 1U);
+    // Few copies of a path that takes long to read, and style sheets that take long to apply.
+    const std::string path = "<path id=\"p\" d=\"M0 0 1 0 0 1z" + std::string(1 << 20, ' ') + "\"/>";
+    std::string copies;
+    for (int i = 0; i < 70; ++i) copies += "<use href=\"#p\"/>";
+    EXPECT_NE(svg_refusal("<defs>" + path + "</defs>" + copies).find("the copies have more than 64 MB of paths"),
+              std::string::npos);
+    std::string rules;
+    for (int i = 0; i <= 10'000; ++i) rules += fmt::format(".c{}{{fill:red}}", i);
+    EXPECT_NE(svg_refusal("<style>" + rules + "</style>" + path).find("have more than 10000 rules"),
+              std::string::npos);
 }
 
 /// The fill of one rectangle under a style sheet.
