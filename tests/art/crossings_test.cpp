@@ -53,8 +53,8 @@ TEST(Crossings, AreThoseOfAllPairs) {
             }
             // Upright and level ones, too.
             for (int i = 0; i < 20; ++i) {
-                edges.push_back({{i * reach / 40, -reach}, {i * reach / 40, reach}});
-                edges.push_back({{-reach, i * reach / 37 + 1}, {reach, i * reach / 37 + 1}});
+                edges.push_back({{i * (reach / 40), -reach}, {i * (reach / 40), reach}});
+                edges.push_back({{-reach, i * (reach / 37) + 1}, {reach, i * (reach / 37) + 1}});
             }
             const std::size_t expected = slowly_counted(edges);
             const std::size_t found = count_crossings(edges, 0, 10'000'000, {});
