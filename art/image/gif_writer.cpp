@@ -203,8 +203,9 @@ void GifWriter::put(std::initializer_list<unsigned> bytes) {
 }
 
 bool GifWriter::is_changed(std::span<const std::uint8_t> pixels, std::size_t pixel) const {
+    if (!is_begun_) return true;
     const std::uint8_t *now = &pixels[3 * pixel], *before = &shown_[3 * pixel];
-    return !is_begun_ || now[0] != before[0] || now[1] != before[1] || now[2] != before[2];
+    return now[0] != before[0] || now[1] != before[1] || now[2] != before[2];
 }
 
 GifWriter::Rectangle GifWriter::changed(std::span<const std::uint8_t> pixels) const {
