@@ -7,7 +7,7 @@ program=$(realpath "$1")
 screenshot=${2:+$(realpath "$2")}
 here=$(realpath "$(dirname "$0")")
 
-SIKKU_FULL=1 "$(dirname "$program")/art_tests" --gtest_filter='DotGridEnumeration.*:Photograph.*' --gtest_brief=1
+SIKKU_FULL=1 "$(dirname "$program")/art_tests" --gtest_filter='DotGridEnumeration.*:Photograph.*:PhotographPrints.*' --gtest_brief=1
 
 . "$here/browser.sh" "an animated kolam in a browser"
 "$program" --quiet draw snake-kolam -n 3 --dots --animate 8 --size 100x100mm -o snake.svg
