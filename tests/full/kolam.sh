@@ -7,7 +7,10 @@ program=$(realpath "$1")
 screenshot=${2:+$(realpath "$2")}
 here=$(realpath "$(dirname "$0")")
 
-SIKKU_FULL=1 "$(dirname "$program")/art_tests" --gtest_filter='DotGridEnumeration.*:Photograph.*:PhotographPrints.*' --gtest_brief=1
+# In a process of their own, whose memory those of decoders include.
+for tests in 'PictureProcess.*' 'DotGridEnumeration.*:Photograph.*:PhotographPrints.*'; do
+    SIKKU_FULL=1 "$(dirname "$program")/art_tests" --gtest_filter="$tests" --gtest_brief=1
+done
 
 . "$here/browser.sh" "an animated kolam in a browser"
 "$program" --quiet draw snake-kolam -n 3 --dots --animate 8 --size 100x100mm -o snake.svg
