@@ -269,13 +269,8 @@ public:
     }
     /// Pixels of the box around the dots.
     double box() const { return std::max(0.0, high_.x - low_.x) * std::max(0.0, high_.y - low_.y); }
-    /// Calls a function with points of that box, a step in pixels apart.
-    template <class Visit>
-    void visit_box(double step, Visit visit) const {
-        for (double y = low_.y; y <= high_.y; y += step) {
-            for (double x = low_.x; x <= high_.x; x += step) visit(glm::dvec2(x, y));
-        }
-    }
+    glm::dvec2 low() const { return low_; }  ///< corner of that box
+    glm::dvec2 high() const { return high_; }
     bool surrounds(const Area& other) const { return surrounds_box(low_, high_, other); }
     /// Whether a box contains the dots of an area.
     static bool surrounds_box(glm::dvec2 low, glm::dvec2 high, const Area& other) {
@@ -502,7 +497,8 @@ void sort_parts(std::vector<Part>& parts) {
 
 /// Whether the hole of a frame has as much ink as a few loops of it, lighter or darker than the ground, beside the
 /// kolams that were found.
-bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const GreyPicture& ink) {
+bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const GreyPicture& ink,
+                    const Monitor& monitor) {
     const FoundGrid& found = frame.reading.grid;
     const Area area(frame.reading);
     if (!area.is_regular()) return false;
@@ -512,14 +508,19 @@ bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const Gre
     }
     const double level = std::fabs(line_level(ink, found));
     const double step = std::max(1.0, found.spacing / 12);
-    constexpr double away = 1.45;
+    const double most = 4 * found.spacing * found.spacing / (step * step);
     double inked = 0;
-    area.visit_box(step, [&](glm::dvec2 pixel) {
-        inked +=
-            std::fabs(ink.at(pixel)) > 0.5 * level &&
-            std::none_of(known.begin(), known.end(), [&](const Area& each) { return each.contains(pixel, away); });
-    });
-    return inked * step * step > 4 * found.spacing * found.spacing;
+    for (double y = area.low().y; y <= area.high().y; y += step) {
+        monitor.check();
+        for (double x = area.low().x; x <= area.high().x; x += step) {
+            const glm::dvec2 pixel(x, y);
+            if (std::fabs(ink.at(pixel)) <= 0.5 * level) continue;
+            if (std::any_of(known.begin(), known.end(), [&](const Area& each) { return each.contains(pixel); }))
+                continue;
+            if (++inked > most) return true;
+        }
+    }
+    return false;
 }
 
 Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, const Monitor& monitor) {
@@ -538,7 +539,8 @@ Findings find_kolams(DecodedPicture picture, const PhotographOptions& options, c
     }
     sort_parts(found.parts);
     for (Part& part : found.parts) {
-        if (part.is_kolam() && part.is_narrow()) part.has_more_within = has_ink_within(part, found.parts, ink.ink);
+        if (part.is_kolam() && part.is_narrow())
+            part.has_more_within = has_ink_within(part, found.parts, ink.ink, monitor);
     }
     if (!found.parts.empty() && found.parts[0].is_dark == ink.is_dark) {
         found.spots = ink.spots;

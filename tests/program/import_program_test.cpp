@@ -118,7 +118,7 @@ TEST(ImportProgram, BadInput) {
     refused(fed("Lsystem: 1\n", "#define a b\n", 16 << 20), "no 'Axiom:'");
 }
 
-TEST(ImportProgram, AFileIsNoFolder) {
+TEST(ImportProgram, AFileInPlaceOfTheFolderIsKept) {
     const ScratchFolder folder;
     const std::string file = folder.write("some.l", "Koch {\n angle 6\n axiom F\n}\nLine {\n angle 6\n axiom F\n}\n");
     const std::string other = folder.write("other", "mine");
