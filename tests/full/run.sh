@@ -12,35 +12,38 @@ seconds=${FUZZ_SECONDS:-60}
 
 targets=(pattern_fuzz derivation_fuzz import_fuzz surface_fuzz scl_fuzz kbm_fuzz gallery_toml_fuzz gallery_jsonl_fuzz show_fuzz
     midi_fuzz icc_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz photograph_fuzz)
+# One target for $seconds. What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
+fuzz() {
+    local target=$1 corpus=build/fuzz/corpus-$1 timeout=10 seeds
+    mkdir -p "$corpus"
+    case $target in
+        show_fuzz) seeds=(tests/corpus/show tests/corpus/midi) ;;
+        midi_fuzz) seeds=(tests/corpus/midi) ;;
+        icc_fuzz) seeds=(tests/corpus/icc) ;;
+        link_fuzz) seeds=(tests/corpus/link) ;;
+        grid_fuzz) seeds=(tests/corpus/grids) ;;
+        reading_fuzz) seeds=(tests/corpus/reading) ;;
+        svg_fuzz) seeds=(tests/corpus/svg) ;;
+        photograph_fuzz) seeds=(tests/corpus/pictures) timeout=60 ;; # of a kolam, 4 s with sanitizers
+        surface_fuzz) seeds=(tests/corpus/surfaces) ;;
+        scl_fuzz | kbm_fuzz) seeds=(tests/corpus/scales) ;;
+        gallery_*) seeds=(tests/corpus/gallery patterns/posters) ;;
+        *) seeds=(-dict=tests/fuzz/words.dict tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/) ;;
+    esac
+    build/fuzz/bin/"$target" -max_total_time="$seconds" -max_len=4096 -timeout="$timeout" -rss_limit_mb=2048 \
+        -artifact_prefix="build/fuzz/$target-" "$corpus" "${seeds[@]}" > "build/fuzz/$target.log" 2>&1 ||
+        { tail -n 60 "build/fuzz/$target.log"; echo "$target failed: see build/fuzz/"; exit 1; }
+    echo "$target: $(tail -n 1 "build/fuzz/$target.log")"
+}
+
 if command -v clang++ > /dev/null; then
     mkdir -p build
     cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
     cmake --build --preset fuzz -j "$(nproc)" --target "${targets[@]}"
-    for target in "${targets[@]}"; do
-        corpus=build/fuzz/corpus-$target
-        timeout=10
-        mkdir -p "$corpus"
-        case $target in
-            show_fuzz) seeds=(tests/corpus/show tests/corpus/midi) ;;
-            midi_fuzz) seeds=(tests/corpus/midi) ;;
-            icc_fuzz) seeds=(tests/corpus/icc) ;;
-            link_fuzz) seeds=(tests/corpus/link) ;;
-            grid_fuzz) seeds=(tests/corpus/grids) ;;
-            reading_fuzz) seeds=(tests/corpus/reading) ;;
-            svg_fuzz) seeds=(tests/corpus/svg) ;;
-            photograph_fuzz) seeds=(tests/corpus/pictures) timeout=60 ;; # of a kolam, 4 s with sanitizers
-            surface_fuzz) seeds=(tests/corpus/surfaces) ;;
-            scl_fuzz | kbm_fuzz) seeds=(tests/corpus/scales) ;;
-            gallery_*) seeds=(tests/corpus/gallery patterns/posters) ;;
-            *) seeds=(-dict=tests/fuzz/words.dict tests/corpus/good tests/corpus/bad tests/corpus/import patterns/*/) ;;
-        esac
-        echo "fuzzing: $target for $seconds s"
-        # What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
-        build/fuzz/bin/"$target" -max_total_time="$seconds" -max_len=4096 -timeout="$timeout" -rss_limit_mb=2048 \
-            -artifact_prefix="build/fuzz/$target-" "$corpus" "${seeds[@]}" > "build/fuzz/$target.log" 2>&1 ||
-            { tail -n 60 "build/fuzz/$target.log"; echo "$target failed: see build/fuzz/"; exit 1; }
-        tail -n 1 "build/fuzz/$target.log"
-    done
+    echo "fuzzing: ${#targets[@]} targets for $seconds s each"
+    export -f fuzz
+    export seconds
+    printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'fuzz {}'
 else
     echo "skipped: fuzzing (clang is not installed)"
 fi
