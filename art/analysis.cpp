@@ -1,6 +1,9 @@
 #include "art/analysis.h"
 
+#include "art/drawing/seen_drawing.h"
+#include "art/product/draw_settings.h"
 #include "art/style/style.h"
+#include "engine/derivation/forecast.h"
 
 namespace sikku {
 namespace {
@@ -39,6 +42,18 @@ KolamExamination examine_kolam(const Document& document, double budget, const Mo
     options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     options.monitor = monitor;
     return examine_kolam(document.grammar(), options);
+}
+
+bool has_view(const Document& document) {
+    try {
+        DrawOptions options;
+        options.window = parse_window("0,0,1,1");
+        std::string why;
+        const Grammar grammar = shorten(document.grammar());
+        return seen_parts(grammar, read_print_style(document, {}), options, why).has_value();
+    } catch (const std::runtime_error&) {
+        return false;
+    }
 }
 
 }  // namespace sikku

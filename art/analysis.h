@@ -22,4 +22,7 @@ DrawnLines drawn_lines(const Document& document, double budget, const Monitor& m
 /// @throws PatternError, BudgetError, WordError, Stopped; std::runtime_error if no segment is drawn
 KolamExamination examine_kolam(const Document& document, double budget, const Monitor& monitor);
 
+/// True if a window of any depth shows the drawing at the cost of its visible part.
+bool has_view(const Document& document);
+
 }  // namespace sikku

@@ -1,11 +1,11 @@
 #include "art/sheets.h"
 
-#include "art/draw_settings.h"
 #include "art/image/image_file.h"
 #include "art/kolam/dot_grid_pattern.h"
-#include "art/plot_remarks.h"
-#include "art/print_cell.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
+#include "art/product/plot_remarks.h"
+#include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
 #include "art/style/length.h"
 #include "engine/base/text.h"
@@ -135,15 +135,14 @@ OptionValues take(OptionValues& values, std::span<const OptionInfo* const> table
 /// Options of prints that a sheet cannot have.
 void refuse_alone(const OptionValues& values) {
     for (const OptionValue& value : values) {
-        if (value.name == "tile" || value.name == "overlap") {
-            refuse_option(value.name, "", "a sheet of several drawings cannot be cut into tiles");
-        }
-        if (value.name == "window") refuse_option("window", "", "a place on a sheet shows a whole drawing");
-        if (value.name == "lesson") refuse_option("lesson", "", "a lesson has pages of its own; draw makes it");
-        for (const char* growth : {"generations", "frames", "frame-time", "hold", "fit-frames", "divide"}) {
-            if (value.name == growth)
-                refuse_option(growth, "", "a sheet shows one derivation length of each drawing");
-        }
+        const OptionInfo* option = find_option(prints().options(), value.name);
+        if (!option) continue;
+        const char* why = option->scope == Scope::sheets   ? "a sheet of several drawings cannot be cut into tiles"
+                          : option->scope == Scope::lesson ? "a lesson has pages of its own; draw makes it"
+                          : option->scope == Scope::time   ? "a sheet shows one derivation length of each drawing"
+                          : value.name == "window"         ? "a place on a sheet shows a whole drawing"
+                                                           : nullptr;
+        if (why) refuse_option(value.name, "", why);
     }
 }
 
@@ -161,7 +160,7 @@ std::vector<std::string> kolam_caption(const Document& document, const std::stri
 /// Settings that the sheet and its prints share.
 struct Shared {
     SheetSettings sheet;
-    DrawSettings page;
+    DrawSettings print;
     OptionValues cells;  ///< options of each drawing
 };
 
@@ -173,8 +172,8 @@ Shared read_shared(OptionValues values, const std::filesystem::path* folder = nu
     OptionValues wide;
     for (OptionValue& value : values) (is_sheet_wide(value.name) ? wide : shared.cells).push_back(value);
     check_names(prints().options(), shared.cells);
-    shared.page = read_draw_settings(wide, folder);
-    shared.sheet.dpi = shared.page.dpi;
+    shared.print = read_draw_settings(wide, folder);
+    shared.sheet.dpi = shared.print.page.dpi;
     apply_options(std::span<const Option<S>>(sheet_rows), own, shared.sheet);
     return shared;
 }
@@ -195,9 +194,9 @@ public:
               const std::filesystem::path& folder)
         : format_(known_format(format)), shared_(read_shared(values, &folder)) {
         if (items.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
-        DrawSettings& page = shared_.page;
-        if (!page.press.cmyk.empty()) page.press.cmyk = folder / page.press.cmyk;
-        check_draw_settings(page, format_);
+        DrawSettings& print = shared_.print;
+        if (!print.press.cmyk.empty()) print.press.cmyk = folder / print.press.cmyk;
+        check_draw_settings(print, format_);
         for (const SheetItem& item : items) add_named_cell(item, folder);
         set_options(items);
     }
@@ -213,9 +212,9 @@ public:
         options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
         Made made;
         const SheetLayout layout = draw_sheet(cells_, options, name, destination);
-        if (layout.plot) report_plot(*layout.plot, shared_.page.speeds, shared_.page.pen_rules, made);
+        if (layout.plot) report_plot(*layout.plot, shared_.print.plot.speeds, shared_.print.plot.pen_rules, made);
         if (layout.plot && format_ == PrintFormat::hpgl) {
-            report_hpgl(*layout.plot, shared_.page, options_.hpgl, made);
+            report_hpgl(*layout.plot, shared_.print, options_.hpgl, made);
         }
         report_drawings(layout, made);
         return made;
@@ -253,10 +252,10 @@ private:
         }
         warn_of_letters(layout.missing_letters, made);
         for (const auto& [text, titles] : warnings) made.warn(fmt::format("{}: {}", titles, text));
-        if (layout.plot && shared_.page.hatch && layout.plot->fills == 0 && !has_fields) {
+        if (layout.plot && shared_.print.plot.hatch && layout.plot->fills == 0 && !has_fields) {
             made.warn("'hatch' has no effect: these drawings have no fills");
         }
-        warn_of_no_tiles(layout.polygons, shared_.page, made);
+        warn_of_no_tiles(layout.polygons, shared_.print, made);
     }
 
     /// add_cell(), whose errors name the drawing.
@@ -273,7 +272,7 @@ private:
     void add_cell(const SheetItem& item, const std::filesystem::path& folder) {
         OptionValues own = item.values;
         PlaceSettings place;
-        place.dpi = shared_.page.dpi;
+        place.dpi = shared_.print.page.dpi;
         apply_options(std::span<const Option<P>>(place_rows), take(own, place_options()), place);
         refuse_alone(own);
         for (const OptionValue& value : own) {
@@ -288,12 +287,12 @@ private:
                                [&](const OptionValue& other) { return other.name == value.name; });
         });
         values.insert(values.end(), assigned.options.begin(), assigned.options.end());
-        values.push_back({"dpi", fmt::format("{}", shared_.page.dpi)});
+        values.push_back({"dpi", fmt::format("{}", shared_.print.page.dpi)});
         const DrawSettings settings = read_draw_settings(values);
         check_draw_settings(settings, format_);
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
         SheetCell cell = print_cell(document, settings, folder);
-        cell.dot_spacing = settings.dot_spacing;
+        cell.dot_spacing = settings.place.dot_spacing;
         const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
         if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;
@@ -308,7 +307,7 @@ private:
         set_slot(place, cell);
         cells_.push_back(std::move(cell));
         settings_.push_back(settings);
-        settings_.back().hatch = shared_.page.hatch;
+        settings_.back().plot.hatch = shared_.print.plot.hatch;
     }
 
     void set_slot(const PlaceSettings& place, SheetCell& cell) const {
@@ -317,7 +316,7 @@ private:
             if (place.height) refuse_option("height", "", "needs 'x' and 'y'");
             return;
         }
-        const Page& page = shared_.page.page;
+        const Page& page = shared_.print.page.sheet;
         Window slot;
         slot.left = place.x.value_or(page.margin);
         slot.top = place.y.value_or(page.margin);
@@ -333,23 +332,23 @@ private:
     }
 
     void set_options(const std::vector<SheetItem>& items) {
-        const DrawSettings& page = shared_.page;
+        const DrawSettings& print = shared_.print;
         options_.is_centred = true;
         options_.format = format_;
-        options_.page = page.page;
-        options_.dpi = page.dpi;
+        options_.page = print.page.sheet;
+        options_.dpi = print.page.dpi;
         options_.title = shared_.sheet.heading;
         options_.subtitle = shared_.sheet.subheading;
         options_.columns = shared_.sheet.columns;
         options_.gap = shared_.sheet.gutter;
         options_.same_scale = shared_.sheet.same_scale;
-        options_.press = page.press;
-        options_.animation = page.animation;
-        options_.names_tiles = page.names_tiles;
-        options_.threads = page.threads;
+        options_.press = print.press;
+        options_.animation = print.time.animation;
+        options_.names_tiles = print.look.names_tiles;
+        options_.threads = print.work.threads;
         const bool has_hand =
             std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return cell.style.hand > 0; });
-        options_.compression = page.compression.value_or(has_hand ? 4 : 6);
+        options_.compression = print.work.compression.value_or(has_hand ? 4 : 6);
         const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
             return item.document.source().text() == items.front().document.source().text();
         });
@@ -357,7 +356,7 @@ private:
         if (is_one) options_.pattern = items.front().document.source().text();
         options_.made = fmt::format("sikku {}, sheet of {}", SIKKU_VERSION, counted(items.size(), "drawing"));
         set_ground();
-        static_cast<PlotSetup&>(options_) = plot_setup(page, format_);
+        static_cast<PlotSetup&>(options_) = plot_setup(print, format_);
     }
 
     /// One ground under all drawings if they share it; texts stand out from it.
@@ -396,17 +395,28 @@ std::span<const OptionInfo* const> place_options() {
 }
 
 bool is_sheet_wide(std::string_view option) {
-    constexpr std::array<std::string_view, 7> page = {"size",    "landscape", "margin",    "animate",
-                                                      "plotter", "dpi",       "name-tiles"};
-    constexpr std::array<std::string_view, 3> groups = {"Plotters", "Press", "Pictures"};
     const OptionInfo* row = find_option(prints().options(), option);
-    return std::find(page.begin(), page.end(), option) != page.end() ||
-           (row && std::find(groups.begin(), groups.end(), row->group) != groups.end());
+    if (!row) return false;
+    switch (row->scope) {
+        case Scope::page:
+        case Scope::file:
+        case Scope::plot:
+        case Scope::pens:
+        case Scope::gcode:
+        case Scope::hpgl:
+        case Scope::machine:
+        case Scope::press:
+        case Scope::trim:
+        case Scope::pixels:
+            return true;
+        default:
+            return false;
+    }
 }
 
 void check_sheet(std::string_view format, const OptionValues& values) {
     const Shared shared = read_shared(values);
-    check_draw_settings(shared.page, known_format(format));
+    check_draw_settings(shared.print, known_format(format));
     check_draw_settings(read_draw_settings(shared.cells), known_format(format));
 }
 

@@ -73,7 +73,7 @@ std::vector<std::filesystem::path> files_of_arrangement(const std::string& name)
             }
         }
     } catch (const std::runtime_error&) {
-        // Errors are reported where it is read.
+        // Errors are reported when the arrangement is read.
     }
     return files;
 }

@@ -16,7 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_midi_bytes = std::size_t{128} << 20;
-/// The texts come first; what surrounds them is small.
+/// The texts come first; the data around them are small.
 constexpr std::size_t texts_bytes = most_pattern_bytes + (std::size_t{2} << 20);
 
 std::span<const std::uint8_t> span_of(const std::string& bytes) {

@@ -1,6 +1,5 @@
 #include "cli/command.h"
 
-#include "art/gallery/shards.h"
 #include "art/prints.h"
 #include "cli/link_argument.h"
 #include "cli/options.h"
@@ -119,7 +118,7 @@ std::string foreign_message(const std::string& pattern, const NamedText& text) {
         const bool is_one = kind == ForeignKind::cpfg;
         std::string output = pattern == "-" ? "imported" : std::filesystem::path(pattern).stem().string();
         if (is_one) output += pattern.ends_with(".lsys") ? "-imported.lsys" : ".lsys";
-        message += fmt::format("; `sikku import {} -o {}` makes {}", sikku::quoted(pattern), sikku::quoted(output),
+        message += fmt::format("; `sikku import {} -o {}` makes {}", shell_word(pattern), shell_word(output),
                                is_one ? "a pattern of it" : "patterns of its entries");
     }
     return message;

@@ -1,4 +1,4 @@
-// cli/command.h: what the commands share: finding and loading patterns, progress, errors.
+// cli/command.h: functions shared by the commands: finding and loading patterns, progress, errors.
 #pragma once
 
 #include "art/link/link.h"
@@ -56,7 +56,7 @@ struct NamedText {
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);
 
-/// Refuses to replace a file that is read. @param option  `-o` or `--overlay`, for the message
+/// Refuses to overwrite an input file. @param option  `-o` or `--overlay`, for the message
 /// @throws UsageError
 void keep_input(std::string_view option, const std::string& output, const std::string& input);
 
@@ -74,14 +74,14 @@ struct PatternOptions {
     bool trusts_link = false;  ///< a link may name files and set commands for machines
 };
 void add_pattern_options(CLI::App& command, PatternOptions& options);
-/// `--trust-link`.
+/// Adds `--trust-link`.
 void add_trust_option(CLI::App& command, bool& trusts_link);
 /// The value of `--seed`; 0 if it was not given. @throws UsageError
 std::uint64_t seed_of(const PatternOptions& options);
-/// The same without PATTERN.
+/// Adds the options without PATTERN.
 void add_override_options(CLI::App& command, PatternOptions& options);
 
-/// `--budget`, with its default of 200 million nodes.
+/// Adds `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
 /// The interpreters: prints, then scores.
@@ -92,7 +92,7 @@ std::span<const Interpreter* const> interpreters();
 /// @throws PatternError; UsageError for an unknown name, a damaged link, and one that names files without being
 /// trusted
 Document load(const PatternOptions& options, bool quiet);
-/// Does the same for a PATTERN that was already read as a link; null if it is not one.
+/// Loads a pattern likewise. @param link  PATTERN if it was already read as a link; null if it is not one
 Document load(const PatternOptions& options, const SharedWork* link, bool quiet);
 
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
@@ -136,7 +136,7 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 /// no pattern or is damaged
 Provenance read_score_provenance(const std::string& file);
 
-/// Runs `sikku check` on a MIDI file of up to 128 MB: prints its faults; true if there are none.
+/// Runs `sikku check` on a MIDI file of up to 128 MB: prints its faults; returns true if there are none.
 /// @throws UsageError if the file cannot be read or is larger
 bool check_midi_file(const std::string& file);
 

@@ -44,7 +44,7 @@ public:
         for (const std::string& text : texts_) bytes_ += text.substr(0, 1);
         buffer_.reserve(buffer_size + 4096);
 #ifdef F_SETPIPE_SZ
-        // A larger pipe means fewer turns between writer and reader; where it is refused, the old size serves.
+        // A larger pipe means fewer turns between writer and reader; if it is refused, the old size remains.
         fcntl(descriptor, F_SETPIPE_SZ, 1 << 20);
 #endif
     }
@@ -113,7 +113,7 @@ private:
     int descriptor_;
     std::vector<std::string> texts_;
     bool are_bytes_ = false;
-    std::string bytes_;  ///< if they are, that of each symbol
+    std::string bytes_;  ///< the byte of each symbol, if are_bytes_
     bool has_names_ = false;
     bool has_last_ = false;
     Symbol last_ = 0;

@@ -1,11 +1,13 @@
-// cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, to be gone on with at any time.
+// cli/gallery.cpp: `sikku gallery`: many prints and scores, in parallel, resumed at any time.
 #include "art/gallery/gallery.h"
-#include "art/gallery/process.h"
+#include "art/gallery/batch.h"
+#include "art/gallery/folder.h"
 #include "art/prints.h"
 #include "cli/arrangement_argument.h"
 #include "cli/command.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "engine/base/memory.h"
 #include "engine/base/text.h"
 #include "music/scores.h"
@@ -178,7 +180,7 @@ void write_script(const GalleryFolder& folder, const std::string& name, const st
     folder.write(name, text);
 }
 
-/// Writes the script beside the folder of the gallery, which holds nothing but the gallery, and hands it to Slurm.
+/// Writes the script beside the folder of the gallery, which contains only the gallery, and submits it to Slurm.
 void submit(const Options& options, std::size_t jobs) {
     std::filesystem::path folder = std::filesystem::absolute(options.output).lexically_normal();
     if (folder.filename().empty()) folder = folder.parent_path();
@@ -192,18 +194,18 @@ void submit(const Options& options, std::size_t jobs) {
     if (!options.memory.empty())
         common += fmt::format(" --mem={:.0f}M", std::ceil(read_memory(options.memory) / 0x1p20));
     const std::string array = fmt::format("{} --array=0-{} --output={} {}", common, tasks - 1,
-                                          quoted(folder.string() + ".%A_%a.log"), quoted(script));
+                                          shell_word(folder.string() + ".%A_%a.log"), shell_word(script));
     const std::string last = fmt::format("{} --kill-on-invalid-dep=yes --output={} --dependency=afterok:", common,
-                                         quoted(folder.string() + ".%j.log"));
+                                         shell_word(folder.string() + ".%j.log"));
     if (!is_in_path("sbatch")) {
         tell("sikku: sbatch is not available here; to submit {} where it is:\n  id=$({})\n  {}$id {}\n",
-             printable(script, 2000), array, last, quoted(script));
+             printable(script, 2000), array, last, shell_word(script));
         return;
     }
-    // Another cluster's name may follow behind a semicolon.
+    // Another cluster's name may follow after a semicolon.
     const auto number = [](const std::string& text) { return text.substr(0, text.find(';')); };
     const std::string id = number(output_of(array));
-    const std::string end = number(output_of(last + id + " " + quoted(script)));
+    const std::string end = number(output_of(last + id + " " + shell_word(script)));
     fmt::print("submitted job {} with {}, followed by job {}; their script is {}\n", id, counted(tasks, "task"), end,
                printable(script, 2000));
 }
@@ -438,9 +440,10 @@ void add_gallery(CLI::App& app, bool& quiet) {
         const std::string names = key.name == "n" ? "-n,--generations" : "--" + key.name;
         CLI::Option* option = nullptr;
         if (key.kind == OptionKind::flag) {
-            option = command->add_flag(names, options->flags[key.name], flag_help(key));
+            option = command->add_flag(names, options->flags[key.name], with_dashes(flag_help(key)));
         } else {
-            option = command->add_option(names, options->texts[key.name], key.help)->type_name(value_name(key));
+            option = command->add_option(names, options->texts[key.name], with_dashes(key.help))
+                         ->type_name(value_name(key));
         }
         if (key.use) option->group(key.use == &prints() ? "Prints" : "Scores");
     }

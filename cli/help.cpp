@@ -6,7 +6,7 @@
 namespace sikku {
 namespace {
 
-/// The placeholder of an option's value: `LENGTH`, without what CLI11 appends to it.
+/// The placeholder of an option's value: `LENGTH`, without the suffix of CLI11.
 std::string value_name(const CLI::Option& option) {
     if (option.get_expected_max() == 0) return {};
     std::string type = option.get_type_name();

@@ -1,4 +1,4 @@
-// cli/import.cpp: `sikku import`: systems that other programs keep become pattern files.
+// cli/import.cpp: `sikku import`: imports systems of other programs as pattern files.
 #include "engine/import/import.h"
 
 #include "cli/command.h"
@@ -41,7 +41,7 @@ SourcePointer view_of(const ImportOptions& options) {
     return read_source(beside.string());
 }
 
-/// Those that the command line names, in the order of the file; all if it names none.
+/// The systems that the command line names, in the order of the file; all if it names none.
 std::vector<std::size_t> chosen(const std::vector<ImportedSystem>& systems, const ImportOptions& options) {
     std::vector<std::size_t> indices;
     std::set<std::string> wanted;

@@ -1,4 +1,4 @@
-// cli/kolam.cpp: `sikku kolam`: what there is to know of a drawing as a kolam.
+// cli/kolam.cpp: `sikku kolam`: examines a drawing as a kolam.
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
 #include "cli/command.h"

@@ -45,7 +45,7 @@ std::string text_of(const std::string& value) {
     return value.starts_with('@') ? read_pattern_text(value.substr(1)).text : value;
 }
 
-/// A kolam and how it came about.
+/// A kolam and its origin.
 struct MadeKolam {
     GapStates states;
     GridSymmetry symmetry = GridSymmetry::none;
@@ -65,7 +65,7 @@ MadeKolam make_of_gaps(const KolamGridOptions& options, const DotGrid& grid) {
 
 MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, RandomKolam random,
                       const std::vector<GridSymmetry>& symmetries) {
-    // Large grids seldom have a symmetric line that can be found; seconds must do for all symmetries together.
+    // Large grids seldom have a symmetric line that can be found; all symmetries together take at most seconds.
     std::uint64_t steps = 100'000'000;
     for (const GridSymmetry symmetry : symmetries) {
         random.symmetry = symmetry;
@@ -93,8 +93,8 @@ MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
     return {random_states(grid, random), random.symmetry};
 }
 
-/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; sought only
-/// as long as that is quick.
+/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; searched for
+/// only as long as that is quick.
 std::optional<std::uint64_t> same_seed(const KolamGridOptions& options, const DotGrid& grid, const MadeKolam& made) {
     constexpr std::uint64_t most_seeds = 100;
     constexpr std::size_t most_gaps = 1000;
@@ -118,7 +118,7 @@ std::optional<std::uint64_t> same_seed(const KolamGridOptions& options, const Do
     return std::nullopt;
 }
 
-/// The second count, where it takes seconds at most.
+/// The second count, if it takes seconds at most.
 std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& states) {
     const std::vector<std::uint32_t> rows = grid.rows();
     const std::size_t longest = *std::max_element(rows.begin(), rows.end());
@@ -138,7 +138,7 @@ std::string gaps_told(const GapStates& states) {
     return text;
 }
 
-/// Refuses outputs that cannot hold the kolam, and JSON where the pattern goes.
+/// Refuses outputs that cannot represent the kolam, and JSON on the output of the pattern.
 void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json needs -o FILE for the pattern, because JSON goes to standard output");

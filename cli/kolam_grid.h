@@ -12,28 +12,28 @@ namespace sikku {
 /// Heading of these options in help.
 inline constexpr const char* grid_heading = "Kolams on a grid of dots";
 
-/// Every option, as it was given.
+/// The options as they were given.
 struct KolamGridOptions {
     std::string grid;
     std::string radial;  ///< arms and dots of a radial kolam, instead of a grid
-    std::string order;   ///< in which its lines visit the dots of an arm
+    std::string order;   ///< order in which its lines visit the dots of an arm
     std::uint64_t seed = 0;
     std::optional<std::string> symmetry;   ///< absent: the usual one
     std::optional<double> density;         ///< share of crossed gaps; absent: 0.7
     double joined = 0.0;                   ///< share of joined gaps among the others
     std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
     bool single_line = false;
-    int attempts = 1000;  ///< at a single line with a symmetry
+    int attempts = 1000;  ///< for a single line with a symmetry
     bool colours = false;
     bool dots = false;
     bool enumerate = false;
-    std::size_t limit = 100;  ///< most kolams that an enumeration lists
+    std::size_t limit = 100;  ///< maximum number of kolams that an enumeration lists
     int threads = 0;          ///< threads of an enumeration
     bool as_json = false;     ///< report it as JSON, on standard output
     std::string output;       ///< empty: standard output
 };
 
-/// `--grid` and all that belongs to it alone; `-o`, `--json` and `-j` are for the command to add.
+/// Adds `--grid` and the options that depend on it; the command adds `-o`, `--json` and `-j`.
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options);
 
 /// Writes the pattern of a radial kolam. @throws as kolam_grid()

@@ -92,7 +92,7 @@ std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, c
     return text;
 }
 
-/// Findings in a photograph beside the kolam that was read, as members of a JSON object.
+/// Findings in a photograph besides the kolam that was read, as members of a JSON object.
 std::string photograph_json(const Photograph& photograph) {
     const auto places = [&](const std::vector<GridDot>& list) {
         std::string text = "[";

@@ -13,7 +13,7 @@ namespace sikku {
 /// Heading of these options in help.
 inline constexpr const char* read_heading = "Kolams from drawings, tables, gestures and photographs";
 
-/// Every option, as it was given.
+/// The options as they were given.
 struct KolamReadOptions {
     std::string file;
     std::size_t number = 1;
@@ -26,7 +26,7 @@ struct KolamReadOptions {
     double budget = 200e6;
 };
 
-/// `--read` and all that belongs to it alone; `-o` and `--json` are for the command to add.
+/// Adds `--read` and the options that depend on it; the command adds `-o` and `--json`.
 void add_kolam_read_options(CLI::App& command, KolamReadOptions& options);
 
 /// True for the name of a pattern file: `.lsys`, or no extension.

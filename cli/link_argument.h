@@ -25,21 +25,21 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
 OptionValues options_with(const OptionValues& shared, const OptionValues& given, const PatternOptions& options);
 
 /// Refuses links whose pattern names files of this machine by a key that the command line does not replace, unless
-/// `options` trusts the link. @param variant  that will be used  @throws UsageError
+/// `options` trusts the link. @param variant  variant that will be used  @throws UsageError
 void check_pattern_of_link(const SharedWork& link, const std::string& variant, const PatternOptions& options);
 
-/// The same for commands without options: no variant may name files either. @throws UsageError
+/// Refuses such links for commands without options: variants may not name files either. @throws UsageError
 void check_text_of_link(const SharedWork& link);
 
-/// The same of draw or play options: files, and commands for machines.
-/// @param table  of the options  @param shared  those of the link  @param given  options on the command line
+/// Refuses draw or play options of a link that name files or set commands for machines, likewise.
+/// @param table  table of the options  @param shared  options of the link  @param given  options on the command line
 void check_options_of_link(std::span<const OptionInfo* const> table, const OptionValues& shared,
                            const OptionValues& given, const PatternOptions& options);
 
 /// True if the option has a value.
 bool has_option(const OptionValues& values, std::string_view name);
 
-/// Lists what a link sets, for messages: `n 4, seed 7; draw: size A3`. Empty if it sets nothing.
+/// Lists the values and options of a link, for messages: `n 4, seed 7; draw: size A3`. Empty if there are none.
 std::string describe_settings(const SharedWork& link);
 
 /// Calls `work`. Adds a note to a SettingError about an option that the link sets and the command line does not.

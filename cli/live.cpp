@@ -94,7 +94,7 @@ private:
                 if (over_.wait_for(lock, polling, [this] { return is_over_; })) return;
             }
             auto now = stamps();
-            // Editors write in several steps: the last one is waited for.
+            // Editors write in several steps: waits for the last one.
             const bool is_still = now == last;
             last = now;
             if (!is_still || now == stamps_) continue;
@@ -116,13 +116,13 @@ private:
     }
 
     const LiveScore& score_;
-    std::map<std::filesystem::path, Stamp> stamps_;  // of the version that was read last
+    std::map<std::filesystem::path, Stamp> stamps_;  // of the last version read
     std::mutex mutex_;
     std::condition_variable over_;
     bool is_over_ = false;
     std::atomic<bool> has_newer_{false};
     std::unique_ptr<NoteStream> stream_;
-    std::thread thread_;  // last: it uses the others
+    std::thread thread_;  // declared last: it uses the others
 };
 
 std::int64_t times_of(const LiveOptions& options) {

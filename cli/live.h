@@ -16,7 +16,7 @@ namespace sikku {
 /// The options of live music.
 struct LiveOptions {
     std::string port;
-    std::vector<std::string> repeat;  ///< perhaps with a number
+    std::vector<std::string> repeat;  ///< optionally with a number
     CLI::Option* repeat_option = nullptr;
     std::string clock;
 };
@@ -27,10 +27,10 @@ void add_live_options(CLI::App& command, LiveOptions& options);
 /// @param output  file of `-o`, or empty
 bool is_live(const LiveOptions& options, const std::string& output);
 
-/// What is played, read anew after each change of a file.
+/// The score that is played, read again after each change of a file.
 struct LiveScore {
     std::function<std::unique_ptr<NoteStream>(const Monitor& monitor)> open;
-    std::function<std::vector<std::filesystem::path>()> files;  ///< whose changes are heard
+    std::function<std::vector<std::filesystem::path>()> files;  ///< files whose changes are heard
 };
 
 /// Plays to the port until the end, or until it is interrupted. @throws what opening throws; PortError; Stopped

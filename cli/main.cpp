@@ -1,10 +1,10 @@
 // cli/main.cpp: the program: its commands and its errors.
-#include "art/gallery/values.h"
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
 #include "cli/signals.h"
+#include "engine/base/toml_file.h"
 #include "engine/derivation/derivation.h"
 #include "music/score/score.h"
 
@@ -36,7 +36,7 @@ int fail(int status, std::string_view message) {
 
 using Adder = void (*)(CLI::App& app, bool& quiet);
 
-/// Adapts the commands that have nothing to be quiet about.
+/// Adapts the commands without messages to suppress.
 template <void (*Add)(CLI::App&)>
 void add_without_quiet(CLI::App& app, bool& /*quiet*/) {
     Add(app);
@@ -69,8 +69,8 @@ constexpr CommandRow commands[] = {
     {"manual", sikku::add_manual},
 };
 
-/// Adds the command that the arguments begin with. Adds all of them where it cannot be told or where the command
-/// describes the others: they have some 600 options, which take longer to set up than a small drawing.
+/// Adds the command that the arguments begin with. Adds all of them if it is unknown or if the command describes the
+/// others: they have some 600 options, which take longer to set up than a small drawing.
 void add_commands(CLI::App& app, bool& quiet, const std::vector<std::string>& arguments) {
     const std::string_view first = arguments.empty() ? "" : std::string_view(arguments.front());
     const bool describes_all = first == "completion" || first == "manual";
@@ -116,7 +116,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::ParseError& error) {
-        // Help and the version are errors of CLI11, too; it prints them without looking whether it can.
+        // Help and the version are errors of CLI11, too; it prints them without checking for failure.
         if (error.get_exit_code() != 0) return fail(2, parse_message(app, error, arguments));
         std::ostringstream help;
         app.exit(error, help, help);
@@ -133,7 +133,7 @@ int run(int argc, char** argv) {
         return fail(2, option_message(error));
     } catch (const UsageError& error) {
         return fail(2, error.what());
-    } catch (const GalleryError& error) {
+    } catch (const FileError& error) {
         return fail(2, with_force(error.what()));
     } catch (const Stopped& stopped) {
         return fail(interruption_status(), stopped.what());
@@ -150,7 +150,7 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): only for want of memory, before anything is done
+// NOLINTNEXTLINE(bugprone-exception-escape): only if memory is exhausted, before anything is done
 int main(int argc, char** argv) {
     sikku::catch_signals();
     const int status = run(argc, argv);

@@ -32,7 +32,7 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
     }
     const std::string given = argument.substr(0, argument.find('='));
     std::string_view near = nearest(given, {names.begin(), names.end()});
-    // Other words for the same thing.
+    // Synonyms of options.
     constexpr std::array<std::array<std::string_view, 2>, 9> words = {{{"--tile-overlap", "--overlap"},
                                                                        {"--paper", "--size"},
                                                                        {"--paper-size", "--size"},

@@ -8,13 +8,13 @@
 
 namespace sikku {
 
-/// Checks what CLI11 would misread, before it parses. @throws UsageError
-/// - an unknown command
-/// - an option that lacks its value, and would take the next option for it
+/// Finds mistakes that CLI11 would misread, before it parses. @throws UsageError
+/// - for an unknown command
+/// - for an option that lacks its value, and would take the next option for it
 /// @param arguments  without the name of the program
 void check_arguments(const CLI::App& app, const std::vector<std::string>& arguments);
 
-/// The message for what CLI11 refused.
+/// The message for a command line that CLI11 refused.
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error,
                           const std::vector<std::string>& arguments);
 

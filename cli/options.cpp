@@ -19,9 +19,9 @@ void TableOptions::add(CLI::App& command, std::span<const OptionInfo* const> tab
         if (info->letter != 0) names = fmt::format("-{},{}", info->letter, names);
         if (info->kind == OptionKind::flag) {
             if (info->is_on) names += ",!--no-" + name;
-            one->option = command.add_flag(names, one->flag, std::string(info->help));
+            one->option = command.add_flag(names, one->flag, with_dashes(std::string(info->help)));
         } else {
-            one->option = command.add_option(names, one->texts, std::string(info->help));
+            one->option = command.add_option(names, one->texts, with_dashes(std::string(info->help)));
             // Brackets mark an optional value.
             one->option->expected(info->value.starts_with('[') ? 0 : 1, info->is_list ? 1'000 : 1);
             one->option->allow_extra_args(false);

@@ -33,19 +33,19 @@ private:
     std::shared_ptr<Given> given_;
 };
 
-/// Warns of a compression for a format that has none.
+/// Warns of a compression level for a format without compression.
 void report_compression(std::string_view format, const OptionValues& values, bool quiet);
 
 /// Formats a SettingError for the command line: `--size 3x: expected …`. Quoted names of options in the message,
 /// 'plotter', become `--plotter`.
 std::string option_message(const SettingError& error);
-/// The same of any text of a library: quoted names of options become options.
+/// Replaces quoted names of options by options in any text of a library.
 std::string with_dashes(const std::string& text);
-/// The same of messages of galleries, whose other quoted names are keys of files.
+/// Replaces only 'force' and 'name' in messages of galleries, whose other quoted names are keys of files.
 std::string with_force(std::string message);
-/// Errors of a pattern; those in values of options begin with the option: `--scale dorain: …`.
+/// Formats the errors of a pattern; those in values of options begin with the option: `--scale dorain: …`.
 std::string pattern_message(const PatternError& error);
-/// The same of one warning or error.
+/// Formats one warning or error likewise.
 std::string diagnostic_message(const Diagnostic& diagnostic);
 
 }  // namespace sikku

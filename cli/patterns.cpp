@@ -1,4 +1,4 @@
-// cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: pattern files themselves.
+// cli/patterns.cpp: `sikku patterns`, `sikku show`, `sikku check`: lists, shows and checks pattern files.
 #include "art/provenance/provenance.h"
 #include "cli/arrangement_argument.h"
 #include "cli/command.h"
@@ -46,7 +46,7 @@ void list_patterns(const std::string& kind, bool names_only) {
     std::string last;
     bool any = false;
     const auto& patterns = PatternLibrary::bundled().patterns();
-    std::vector<std::array<std::string, 3>> rows;  // of one kind
+    std::vector<std::array<std::string, 3>> rows;  // rows of one kind
     for (const LibraryPattern& known : patterns) {
         if (!kind.empty() && known.kind != kind) continue;
         any = true;
@@ -123,7 +123,7 @@ bool check_arrangement(const std::string& file) {
     return false;
 }
 
-/// Adds the bundled arrangements to the list. False if the kind is another.
+/// Adds the bundled arrangements to the list. Returns false if the kind is another.
 bool list_arrangements(const std::string& kind, bool names_only) {
     if (!kind.empty() && kind != "arrangements") return false;
     std::vector<std::array<std::string, 3>> rows;
@@ -156,7 +156,7 @@ bool check_scale_file(const std::string& file) {
     return !diagnostics.has_errors();
 }
 
-constexpr std::size_t most_shown_errors = 50;  // of a pattern, as Diagnostics keep them
+constexpr std::size_t most_shown_errors = 50;  // errors of a pattern, as Diagnostics keep them
 
 /// True if the file is without mistakes.
 bool check(const std::string& file) {

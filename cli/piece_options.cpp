@@ -2,10 +2,10 @@
 
 #include "art/cutting/cutting_sheets.h"
 #include "art/cutting/tile_templates.h"
-#include "art/draw_settings.h"
 #include "art/drawing/drawing.h"
-#include "art/plot_remarks.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
+#include "art/product/plot_remarks.h"
 #include "art/style/length.h"
 #include "engine/geometry/lettering.h"
 #include "engine/tiling/cut_list.h"
@@ -76,11 +76,11 @@ PieceWriting writing_of(const PieceOptions& options, const PieceSource& source, 
     PieceWriting writing;
     writing.title = source.title;
     writing.pattern = source.pattern;
-    writing.dpi = settings.dpi;
+    writing.dpi = settings.page.dpi;
     static_cast<PlotSetup&>(writing.drawing) = plot_setup(settings, format);
     writing.drawing.format = format;
-    writing.drawing.threads = settings.threads;
-    writing.drawing.compression = settings.compression.value_or(6);
+    writing.drawing.threads = settings.work.threads;
+    writing.drawing.compression = settings.work.compression.value_or(6);
     writing.drawing.monitor = monitor;
     return writing;
 }
@@ -90,7 +90,7 @@ void report(const PieceOptions& options, const std::vector<DrawReport>& reports,
     const DrawSettings settings = read_draw_settings(options.print.values());
     Made made;
     for (const DrawReport& each : reports) {
-        if (each.plot) report_plot(*each.plot, settings.speeds, settings.pen_rules, made);
+        if (each.plot) report_plot(*each.plot, settings.plot.speeds, settings.plot.pen_rules, made);
     }
     for (const Remark& remark : made.remarks) {
         tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", printable_lines(with_dashes(remark.text), 2000));
@@ -200,8 +200,8 @@ void check_piece_options(const CLI::App& command, const PieceOptions& options) {
     length_in("gap", options.gap, 0, 100);
     DrawSettings settings = read_draw_settings(options.print.values());
     if (!options.sheet.empty()) {
-        settings.page = sheet_of(options);
-        settings.page.margin = 0;
+        settings.page.sheet = sheet_of(options);
+        settings.page.sheet.margin = 0;
     }
     check_draw_settings(settings, format);
 }
@@ -231,7 +231,7 @@ void cut_pieces(const PieceOptions& options, const PieceSource& source, const Ti
 std::function<std::string(std::int32_t)> colour_as_drawn(const Document& document, TilingResult& result,
                                                          double budget, const Monitor& monitor) {
     DrawSettings settings;
-    settings.budget = budget;
+    settings.work.budget = budget;
     Style style = read_print_style(document, settings);
     TileSet& all = result.patch.tiles;
     if (style.tile_colours == TileColours::blank) {

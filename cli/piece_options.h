@@ -31,7 +31,7 @@ struct PieceOptions {
     bool any() const { return lists || draws(); }
 };
 
-/// Where the pieces come from.
+/// The source of the pieces.
 struct PieceSource {
     std::string title;
     std::optional<std::int64_t> n;  ///< derivation length, if there is one
@@ -41,7 +41,7 @@ struct PieceSource {
 
 void add_piece_options(CLI::App& command, PieceOptions& options);
 
-/// Checks what can be checked before anything is derived. @throws UsageError, SettingError
+/// Checks the options as far as possible before anything is derived. @throws UsageError, SettingError
 void check_piece_options(const CLI::App& command, const PieceOptions& options);
 
 /// Prints the list of pieces, or draws their templates or cutting sheets.

@@ -17,7 +17,7 @@ namespace sikku {
 namespace {
 
 struct PlayCommand {
-    PatternOptions pattern;  ///< but for its name
+    PatternOptions pattern;  ///< except its name
     std::vector<std::string> patterns;
     std::string output;
     LiveOptions live;
@@ -39,7 +39,7 @@ std::string score_format_of(const std::string& output) {
         output, extension.empty() ? "no extension" : "unknown extension"));
 }
 
-/// Uses the seed of the pattern for the options of the score, too. Those of a link have it already: see assign().
+/// Uses the seed of the pattern for the options of the score, too. Those of a link contain it already: see assign().
 void add_seed(const PatternOptions& options, OptionValues& values) {
     if (options.seed.empty() || has_option(values, "seed")) return;
     values.push_back({"seed", std::to_string(seed_of(options))});
@@ -75,7 +75,7 @@ std::vector<Setting> part_settings(const std::string& name, std::string_view tex
     return settings;
 }
 
-/// Where the values of a part begin in its name; its length if there are none.
+/// The index at which the values of a part begin in its name; its length if there are none.
 std::size_t end_of_name(const std::string& name) {
     const std::size_t at = name.rfind('@');
     if (at == std::string::npos || at == 0 || is_link(name) || std::filesystem::exists(name)) return name.size();

@@ -1,4 +1,4 @@
-// cli/plotters.cpp: `sikku plotters`: the plotters that are known by name.
+// cli/plotters.cpp: `sikku plotters`: the bundled profiles of plotters.
 #include "art/plotter/profile.h"
 #include "cli/command.h"
 #include "engine/base/text.h"

@@ -1,4 +1,4 @@
-// cli/scales.cpp: `sikku scales`: the scales that come along, and those in Scala files.
+// cli/scales.cpp: `sikku scales`: the bundled scales, and those in Scala files.
 #include "music/scale/scale.h"
 #include "music/score/scale_text.h"
 
@@ -43,7 +43,7 @@ void show_scales(const ScalesOptions& options) {
 
     const std::string wanted = fmt::format("{}", fmt::join(options.words, " "));
     if (lower_case(wanted).ends_with(".scl")) return show(read_scale_file(wanted));
-    // `pentatonic` is a scale to others; here it is the group.
+    // `pentatonic` is a scale elsewhere; here it is the group.
     std::vector<const Scale*> found = scales_of_group(wanted);
     if (!options.words.empty() && found.empty()) {
         if (const Scale* scale = find_scale(wanted)) return show(*scale);

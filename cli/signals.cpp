@@ -59,7 +59,7 @@ extern "C" void suspend_signal(int) {
     has_pause = true;
 }
 
-/// Unless the signal is ignored.
+/// Handles a signal unless it is ignored.
 void handle(int signal, void (*handler)(int)) {
     struct sigaction action = {};
     if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;

@@ -10,9 +10,9 @@ class Interrupted : public Stopped {
     using Stopped::Stopped;
 };
 
-/// Call once, first. The first SIGINT, SIGTERM or SIGHUP asks the work to stop; the program ends half a second later
-/// if the work continues, or at once on a second signal. Temporary files are removed. Signals ignored at program
-/// start (nohup, background jobs of a script) stay ignored.
+/// Handles signals. Call once, first. The first SIGINT, SIGTERM or SIGHUP asks the work to stop; the program ends
+/// half a second later if the work continues, or at once on a second signal. Temporary files are removed. Signals
+/// ignored at program start (nohup, background jobs of a script) stay ignored.
 void catch_signals();
 
 /// True if work should stop.
@@ -22,10 +22,10 @@ bool interrupted();
 /// still cut short, but without a second message.
 int interruption_status();
 
-/// From now on a closed pipe is an error of the one who writes, not the end of the program.
+/// Makes writing to a closed pipe an error instead of ending the program.
 void ignore_closed_pipes();
 
-/// From now on ctrl-Z (SIGTSTP) asks for a pause.
+/// Makes ctrl-Z (SIGTSTP) ask for a pause.
 void catch_pause();
 /// True after ctrl-Z.
 bool pause_wanted();

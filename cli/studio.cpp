@@ -1,7 +1,7 @@
 // cli/studio.cpp: `sikku studio`, which opens the studio page or writes a copy with patterns in it.
-#include "art/gallery/process.h"
 #include "cli/command.h"
 #include "cli/link_argument.h"
+#include "cli/process.h"
 #include "cli/studio_page.h"
 #include "engine/base/input_file.h"
 #include "engine/base/installation.h"
@@ -38,12 +38,8 @@ struct StudioCommand {
 /// Finds the studio page, in the build folder or as installed. @throws std::runtime_error if it has not been built
 fs::path find_page() {
     std::error_code error;
-    const fs::path beside = binary_folder();
-    if (!beside.empty()) {
-        auto page = (beside / SIKKU_STUDIO_RELATIVE).lexically_normal();
-        if (fs::is_regular_file(page, error)) return page;
-    }
-    if (fs::is_regular_file(SIKKU_STUDIO_INSTALLED, error)) return SIKKU_STUDIO_INSTALLED;
+    fs::path page = installed_file("sikku-studio.html");
+    if (fs::is_regular_file(page, error)) return page;
     throw std::runtime_error("the studio page has not been built; run `./demo --studio` to build it");
 }
 

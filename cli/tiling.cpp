@@ -12,7 +12,7 @@
 namespace sikku {
 namespace {
 
-/// How a file of polygons is named.
+/// True for the name of a file of polygons.
 bool has_polygons(const std::string& name) {
     const std::string extension = lower_case(std::filesystem::path(name).extension().string());
     return extension == ".json" || extension == ".svg";

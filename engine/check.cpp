@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_variant_bytes = std::size_t{256} << 20;  // of all variants together
 constexpr std::size_t most_errors = 50;
-constexpr double most_compositions = 100'000;  // of symbols and steps: a few milliseconds
+constexpr double most_compositions = 100'000;  // symbols times steps, which take a few milliseconds
 
 /// True if each bracket in the text has its counterpart.
 bool is_balanced(std::string_view text) {
@@ -27,7 +27,7 @@ bool is_balanced(std::string_view text) {
     return depth == 0;
 }
 
-/// The first successor with brackets that do not balance, else the axiom.
+/// The axiom or the first successor whose brackets do not balance; else the axiom.
 Span unbalanced_span(const Pattern& pattern) {
     std::vector<const std::vector<ProductionText>*> lists = {&pattern.common};
     for (const TableText& table : pattern.tables) lists.push_back(&table.productions);
@@ -84,7 +84,7 @@ private:
         }
     }
 
-    /// Each is compiled in full: many variants of a large pattern would take minutes.
+    /// Compiles and checks each variant; rejects too many variants of a large pattern, which would take minutes.
     void check_variants(const Pattern& pattern) {
         const std::size_t size = pattern.source->text().size();
         if (pattern.variants.size() > 1 && size > most_variant_bytes / pattern.variants.size()) {

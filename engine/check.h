@@ -14,8 +14,8 @@ namespace sikku {
 void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
 
 /// Checks a pattern with each of its variants: the language, the keys of the interpreters, and whether the brackets
-/// of the word balance. Sorted by place; what several variants share is reported once. Past 50 errors variants are
-/// skipped.
+/// of the word balance. Diagnostics are sorted by place; those that several variants share are reported once. After
+/// 50 errors, further variants are skipped.
 /// @throws Stopped
 std::vector<Diagnostic> check_pattern(std::string name, std::string text,
                                       std::span<const Interpreter* const> interpreters, const Monitor& monitor);

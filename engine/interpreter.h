@@ -1,6 +1,10 @@
 // engine/interpreter.h: the interface that turns a document into files: prints in art, scores in music.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "Sikku needs C++20: compile with -std=c++20"
+#endif
+
 #include "engine/base/cost.h"
 #include "engine/base/keys.h"
 #include "engine/base/monitor.h"
@@ -34,7 +38,7 @@ struct Made {
 class Work {
 public:
     virtual ~Work() = default;
-    /// @throws what make() would throw before it writes anything
+    /// @throws exceptions that make() throws before it writes anything
     virtual Cost forecast() const = 0;
     /// Names and contents of the files besides the pattern that determine the output.
     virtual std::vector<std::pair<std::string, std::string>> read_files() const { return {}; }
@@ -65,7 +69,7 @@ public:
     virtual KeyOwner owner() const = 0;
     /// Reports errors in the values of those keys.
     virtual void check_keys(const Pattern& pattern, Diagnostics& diagnostics) const = 0;
-    /// Reports keys that would fail with this grammar, whatever is made. Options may still change them.
+    /// Reports keys that would fail with this grammar for every output. Options may still change them.
     virtual void check_grammar(const Pattern& /*pattern*/, const Grammar& /*grammar*/,
                                Diagnostics& /*diagnostics*/) const {}
     virtual std::span<const FormatName> formats() const = 0;

@@ -35,7 +35,7 @@ std::string toml_string(std::string_view text) {
     return result + '"';
 }
 
-/// Text as a TOML string that keeps its lines, where its letters allow that.
+/// Text as a TOML string that keeps its lines, if its characters allow that.
 std::string toml_text(std::string_view text) {
     const bool is_plain = std::none_of(text.begin(), text.end(), [](char letter) {
         return (static_cast<unsigned char>(letter) < 0x20 && letter != '\n' && letter != '\t') || letter == 0x7F;
@@ -48,8 +48,7 @@ std::string pattern_table(std::string_view name, std::string_view text) {
     return fmt::format("\n[[pattern]]\nname = {}\ntext = {}\n", toml_string(name), toml_text(text));
 }
 
-/// Hyphens and underscores are blanks; other names of keys are replaced. The symbol of a key such as `note SYMBOL`
-/// stays as it is.
+/// The main name of a key, with blanks for hyphens and underscores. Keeps the symbol of keys such as `note SYMBOL`.
 std::string folded(std::string_view key) {
     std::string result = lower_case(key);
     std::replace(result.begin(), result.end(), '-', ' ');
@@ -99,8 +98,7 @@ public:
         for (const auto& [key, value] : root.table) {
             if (key != "item") continue;
             fail(value,
-                 "a gallery file has [[item]], an arrangement has [[track]]; `sikku gallery --file` takes "
-                 "a gallery file");
+                 "a gallery file has [[item]], an arrangement has [[track]]; `sikku gallery` takes a gallery file");
         }
         for (const auto& [key, value] : root.table) {
             const std::string name = folded(key);
@@ -155,7 +153,7 @@ private:
         }
     }
 
-    /// Settings of the head apply to every track, so their errors recur.
+    /// Adds an error unless it is known: settings of the head apply to every track, so their errors recur.
     void add(const FileError& error) {
         const std::string_view text = error.what();
         const bool is_new =
@@ -263,7 +261,7 @@ private:
                                 key == "tempo" ? "; `speed = \"3:2\"` gives a track a tempo of its own" : ""));
     }
 
-    /// What a track states.
+    /// Keys and values of a track.
     struct TrackKeys {
         std::vector<PlacedSetting> settings;
         Overrides overrides;
@@ -407,7 +405,7 @@ private:
         }
     }
 
-    /// Tempo and meter of the head.
+    /// Reads tempo and meter of the head.
     void read_frame() {
         Document head = result_.tracks.front().document;
         for (const PlacedSetting& one : shared_) head = head.with({one.setting});
@@ -435,7 +433,7 @@ private:
 Setting part_setting(std::string_view key, std::string value) {
     std::string name = folded(key);
     if (name == "n" || name == "generations") name = "derivation length";
-    // Defines keep their letters.
+    // Names of defines keep their case.
     const bool is_known = find_language_key(name) != nullptr || name == "seed";
     return {name == "derivation length" ? "-n"
             : is_known                  ? name
@@ -449,7 +447,7 @@ Arrangement read_arrangement(const std::string& file, const std::string& text, c
 
 Arrangement arrangement_of(std::span<const Document> documents) {
     Arrangement result;
-    std::map<std::string, std::string> texts;  // of patterns, by name
+    std::map<std::string, std::string> texts;  // texts of patterns, by name
     std::string patterns;
     for (const Document& document : documents) {
         std::string name = document.source().name();
@@ -461,8 +459,8 @@ Arrangement arrangement_of(std::span<const Document> documents) {
         result.text += fmt::format("{}[[track]]\npattern = {}\n", result.text.empty() ? "" : "\n", toml_string(name));
         const Overrides& overrides = document.overrides();
         if (!overrides.variant.empty()) result.text += fmt::format("variant = {}\n", toml_string(overrides.variant));
-        std::map<std::string, std::string> own;   // the last value of a key holds
-        std::map<std::string, std::string> more;  // of keys of the curve, and defines
+        std::map<std::string, std::string> own;   // the last value of a key counts
+        std::map<std::string, std::string> more;  // keys of the curve, and defines
         std::string shared;
         for (const Setting& setting : overrides.settings) {
             const std::string key = setting.key;

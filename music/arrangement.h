@@ -19,9 +19,9 @@ namespace sikku {
 /// A part of an arrangement: a pattern with its keys.
 struct Track {
     Document document;
-    std::string pattern;  ///< as the arrangement names it
+    std::string pattern;  ///< its name in the arrangement
     char section = 0;     ///< `A` to `Z`; 0: it plays from the beginning of the piece
-    std::string name;     ///< of its staff and its MIDI track; empty: that of the instrument
+    std::string name;     ///< name of its staff and MIDI track; empty: that of the instrument
 };
 
 /// Several patterns as one piece.
@@ -40,25 +40,26 @@ struct Arrangement {
 /// Largest number of tracks.
 constexpr std::size_t most_tracks = 500;
 
-/// Takes the name of a pattern, as a track names it, and returns its name in messages and its text.
+/// A pattern that was read: its name in messages, and its text.
 struct NamedPattern {
     std::string name;
     std::string text;
 };
+/// Reads the pattern that a track names.
 using PatternReader = std::function<NamedPattern(const std::string& pattern)>;
 
 /// Reads an arrangement and compiles its patterns. Those in `[[pattern]]` tables of the file come first; `read` reads
 /// the others.
-/// @param file  its name, for places
+/// @param file  name of the file, for places
 /// @throws FileError for errors of the arrangement, one line for each, with its place; PatternError for errors in
-/// patterns; what `read` throws
+/// patterns; exceptions of `read`
 Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read);
 
-/// The arrangement in which these documents play together, as on the command line; the first sets tempo and meter.
+/// An arrangement that plays these documents together, as on the command line; the first sets tempo and meter.
 Arrangement arrangement_of(std::span<const Document> documents);
 
-/// A key of a part, as tracks and the command line name it: `n` is the derivation length, and hyphens and underscores
-/// are blanks.
+/// Setting of a part for a key of a track or the command line: `n` is the derivation length, and hyphens and
+/// underscores count as blanks.
 Setting part_setting(std::string_view key, std::string value);
 
 }  // namespace sikku

@@ -19,13 +19,13 @@ namespace {
 
 constexpr std::int64_t most_score_bars = 1'000'000;
 
-/// From ticks of a part to ticks of the score.
+/// Ratio that converts ticks of a part to ticks of the score.
 Ratio to_score(const Player& player) {
     const Ratio tempo = player.melody.layout.tempo;
     return {tempo.below, tempo.above};
 }
 
-/// Hands the notes of one part on, as voices after those of the parts before it; the end waits for the last part.
+/// Forwards the notes of one part, as voices after those of the parts before it, but not finish().
 class PartSink : public NoteSink {
 public:
     /// @param later  ticks added to every onset, after `ratio`
@@ -77,7 +77,7 @@ void add(PlayReport& all, const PlayReport& one) {
                                        : fmt::format("before bar {}", player.melody.layout.first_bar)));
 }
 
-/// Passes the parts on as they are read.
+/// Forwards the parts as they are read.
 EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink) {
     EnsembleReport all;
     all.past = true;
@@ -137,7 +137,7 @@ struct CommonEnds {
     }
 
 private:
-    /// The number by which `value` has to be multiplied to leave 1, divided by `modulus`, to which it is coprime.
+    /// The inverse of `value` modulo `modulus`, to which it is coprime.
     static std::int64_t inverse(std::int64_t value, std::int64_t modulus) {
         std::int64_t before = 0;
         std::int64_t here = 1;
@@ -149,7 +149,7 @@ private:
     }
 };
 
-/// A part that is known to its end.
+/// A part held in memory as a whole.
 struct WholePart {
     const Player* player = nullptr;
     Block block;
@@ -162,7 +162,7 @@ struct WholePart {
     std::int64_t last() const { return start + repeats * period; }
 };
 
-/// Plays parts to their ends and puts them together.
+/// Plays whole parts and combines them.
 class WholeScore {
 public:
     WholeScore(const Ensemble& ensemble, const PlayOptions& playing) : ensemble_(ensemble), playing_(playing) {}
@@ -208,7 +208,7 @@ private:
                                     1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
             }
             cut_excerpt(player, options);
-            // A drone goes on evenly, whatever becomes of the melody.
+            // A drone continues evenly, independently of the form of the melody.
             const bool has_drone = player.melody.harmony == Harmony::drone;
             Melody alone = player.melody;
             if (has_drone) alone.harmony = Harmony::none;
@@ -242,9 +242,9 @@ private:
         }
     }
 
-    /// Settles how often each part is played within its section.
+    /// Determines how often each part is played within its section.
     void repeat() {
-        std::map<char, std::int64_t> longest;  // of each section, without those that fill it
+        std::map<char, std::int64_t> longest;  // end of each section, without parts that fill it
         std::map<char, CommonEnds> common;
         for (WholePart& part : parts_) {
             const Layout& layout = part.player->melody.layout;
@@ -319,7 +319,7 @@ private:
         }
     }
 
-    /// Adds all repetitions of a part. @param ending  of the last
+    /// Adds all repetitions of a part. @param ending  ending of the last
     void place(WholePart& part, std::int64_t at, Ending ending) const {
         for (std::int64_t i = 0; i < part.repeats; ++i) {
             const std::int64_t from = part.start + i * part.period;
@@ -355,7 +355,7 @@ private:
                          [&](const FormNote& note) { return !is_drum(parts_[before], note); });
         }
         const Melody& melody = parts_[i].player->melody;
-        // Drums make no intervals.
+        // Drums are left out, as they form no intervals.
         std::vector<FormNote>& notes = parts_[i].notes;
         const auto first = std::stable_partition(notes.begin(), notes.end(),
                                                  [&](const FormNote& note) { return !is_drum(parts_[i], note); });
@@ -398,7 +398,7 @@ private:
     EnsembleReport report_;
 };
 
-/// The line that a voice belongs to, for HeldEnding: a melody, what accompanies it, or drums.
+/// The line of a voice for HeldEnding: a melody or its accompaniment; -1 for drums.
 int line_of(const Ensemble& ensemble, int voice) {
     int line = -1;
     for (const Player& player : ensemble.players) {

@@ -18,7 +18,7 @@ struct Ensemble {
     Meter meter;
     Close close = Close::none;
 
-    /// True if parts have to be known to their ends before the first note is played.
+    /// True if whole parts must be known before the first note is played.
     bool needs_whole() const;
     /// True if a key of a part makes velocity, tempo, pan or pitch follow the curve.
     bool has_expression() const;
@@ -30,15 +30,15 @@ struct Ensemble {
     bool has_tempo_ratio() const;
 };
 
-/// What playing all parts reports.
+/// Report about playing all parts.
 struct EnsembleReport : PlayReport {
     std::vector<std::uint64_t> moved_of;  ///< `moved`, by player
     CounterpointReport counterpoint;
-    bool is_strict = false;  ///< some part is
+    bool is_strict = false;  ///< a part is strict
     double seconds = 0;      ///< with all changes of tempo; 0: unknown
 };
 
-/// The piece that is wanted, in ticks. @throws SettingError
+/// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);
 
 /// Tick of the score at which a part begins.
@@ -47,12 +47,12 @@ std::int64_t start_of(const Player& player, const Meter& meter);
 /// The piece of the score in ticks of a part. If `from` is not below `to`, the part is silent there.
 PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOptions& playing);
 
-/// Plays all parts into `sink`, as play_all(), but silence is no error, and finish() is not called.
+/// Plays all parts into `sink` like play_all(), but accepts silence and does not call finish().
 EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink);
 
 /// Plays all parts into `sink`. Parts that are reversed, looped, strict, in a form or in sections are held in memory,
 /// with at most 4,000,000 notes together; others are passed on as they are read.
-/// @throws ScoreError if there are no notes, or too many; as play()
+/// @throws as play(); ScoreError if there are no notes, or too many
 EnsembleReport play_all(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink);
 
 }  // namespace sikku

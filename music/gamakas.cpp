@@ -12,13 +12,13 @@ constexpr std::int64_t bend_ticks = ticks_per_quarter / 32;
 constexpr std::int64_t most_points = 1'000'000;  // for one note
 constexpr double widest_bend = 12;               // semitones
 
-/// From 0 to 1, level at both ends. Plain arithmetic, so that every machine gives the same bytes.
+/// A smooth step from 0 to 1, level at both ends, in plain arithmetic, so that all machines write the same bytes.
 double smooth(double part) {
     const double within = std::clamp(part, 0.0, 1.0);
     return within * within * (3 - 2 * within);
 }
 
-/// Points of a function of the part of a stretch of a note.
+/// Adds points of a bend between two ticks of a note. @param offset  function of the position, from 0 to 1
 template <class Offset>
 void add(const Note& note, std::int64_t begin, std::int64_t end, Offset offset, std::vector<ControlPoint>& points) {
     if ((end - begin) / bend_ticks > most_points) {

@@ -11,12 +11,12 @@
 
 namespace sikku {
 
-/// Notes begin a little late and are a little louder or softer, as a player's are; where they end stays.
+/// Makes notes begin slightly late and sound slightly louder or softer, like a player's; their ends stay.
 class Humaniser : public NoteSink {
 public:
-    /// @param amount  0 to 1: of 60 ticks and of 24 steps of velocity
-    /// @param from    ticks before the first: a piece from the middle sounds as it does in the whole, but for notes
-    ///                that its edges cut
+    /// @param amount  0 to 1: share of 60 ticks, and of 24 steps of velocity
+    /// @param from    ticks of the score before the piece, which then sounds as in the whole, except for notes that
+    ///                its edges cut
     Humaniser(NoteSink& sink, double amount, std::uint64_t seed, std::int64_t from)
         : sink_(sink), amount_(amount), seed_(seed), from_(from) {}
     void curves(const Curves& curves) override { sink_.curves(curves); }
@@ -40,7 +40,7 @@ public:
     void finish(std::int64_t end) override { sink_.finish(end); }
 
 private:
-    /// Steele, Lea and Flood 2014: SplitMix64.
+    /// Source: Steele, Lea and Flood 2014, SplitMix64.
     static std::uint64_t next(std::uint64_t value) { return scrambled(value + 0x9E3779B97F4A7C15); }
     NoteSink& sink_;
     double amount_;

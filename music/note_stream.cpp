@@ -27,13 +27,6 @@ bool is_earlier(const Note& a, const Note& b) {
     return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
 }
 
-/// Only counts.
-class Nobody : public NoteSink {
-public:
-    void notes(std::span<const Note>) override {}
-    void finish(std::int64_t) override {}
-};
-
 class Stream : public NoteStream {
 public:
     Stream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
@@ -42,7 +35,7 @@ public:
     const MidiOptions& midi() const override { return score_.midi; }
 
 protected:
-    /// What plays notes into a sink, perhaps as a player would.
+    /// Plays notes into a sink, humanised if the score is.
     template <class Play>
     auto play_into(NoteSink& sink, const PlayOptions& playing, Play play) const {
         Humaniser human(sink, score_.humanise, score_.seed, playing.from);
@@ -50,7 +43,7 @@ protected:
     }
     /// @throws ScoreError with the reason
     void refuse_silence() const {
-        Nobody nobody;
+        NullSink nobody;
         play_all(ensemble_, playing_, nobody);
     }
 
@@ -76,7 +69,7 @@ bool comes_before(const ControlPoint& a, const ControlPoint& b) {
     return a.tick < b.tick;
 }
 
-/// Adds the values that controllers have at a tick.
+/// Remembers the last values of controllers, to add them at a tick.
 class LastControls {
 public:
     void add(const ControlPoint& point) {
@@ -93,7 +86,7 @@ private:
     std::map<std::pair<int, int>, ControlPoint> last_;  // by voice and number
 };
 
-/// Adds the changes of tempo within a window to it; the first one holds where it begins.
+/// Adds the changes of tempo within a window to it; the first applies at its beginning.
 void add_tempos(const std::vector<TempoPoint>& tempos, NoteWindow& window) {
     const auto is_before = [](std::int64_t tick, const TempoPoint& point) { return tick < point.tick; };
     auto next = std::upper_bound(tempos.begin(), tempos.end(), window.from, is_before);
@@ -101,7 +94,7 @@ void add_tempos(const std::vector<TempoPoint>& tempos, NoteWindow& window) {
     for (; next != tempos.end() && next->tick < window.to; ++next) window.tempos.push_back(*next);
 }
 
-/// All notes in memory.
+/// Streams a score whose notes are all in memory.
 class WholeStream final : public Stream {
 public:
     WholeStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
@@ -169,11 +162,11 @@ private:
 /// Keeps the notes of one window, and the ends of notes that were not known before.
 class WindowSink : public NoteSink {
 public:
-    /// @param open         of each voice: whether its last note has no known end
+    /// @param open         by voice: true if the end of its last note is not known
     /// @param begin        tick of the first note that may come
     /// @param known_until  ends from here on were not known before
     /// @param until        tick after which nothing is known; INT64_MAX if the score ends there
-    /// @param is_sought    whether the window does not follow on the one before
+    /// @param is_sought    true if the window does not continue the one before
     WindowSink(NoteWindow& window, std::vector<char> open, double tempo, std::int64_t begin, std::int64_t known_until,
                std::int64_t until, bool is_sought)
         : window_(window),
@@ -227,9 +220,9 @@ public:
     }
     void finish(std::int64_t) override {}
 
-    /// Sorts what was kept. @return voices whose last note has no known end
+    /// Sorts the contents of the window. @return voices whose last note has no known end
     std::vector<char> complete() {
-        // A note that did not come again ends where it was last seen.
+        // An open note that did not come again ends at the beginning of the window.
         for (std::size_t voice = 0; voice < open_.size(); ++voice) {
             if (open_[voice] != 0) window_.ends.push_back({window_.from, static_cast<std::int16_t>(voice)});
         }
@@ -275,8 +268,8 @@ private:
     LastControls before_;
 };
 
-/// Plays one window at a time. It is read a little before and after, so that what leads up to it is known, and where
-/// its notes end.
+/// Plays one window at a time. The score is read from a little before it to a little after it, for the context of its
+/// first notes and the ends of its last.
 class WindowStream final : public Stream {
 public:
     WindowStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing, std::int64_t grid)
@@ -337,9 +330,9 @@ public:
     }
 
 private:
-    /// Learns the ranges that curves of expression follow. @throws as play_all()
+    /// Measures the ranges of the sources of curves of expression. @throws as play_all()
     void measure() {
-        constexpr std::int64_t tempo_margin = 4 * ticks_per_quarter;  // it is smoothed over two quarters
+        constexpr std::int64_t tempo_margin = 4 * ticks_per_quarter;  // tempo is smoothed over two quarters
         constexpr double many_notes = 16e6;                           // more than these are not played in advance
         lead_ = std::max(lead_, tempo_margin);
         grid_ = std::lcm(grid_, ticks_per_quarter);
@@ -355,7 +348,7 @@ private:
         } catch (const BudgetError& error) {
             throw BudgetError(
                 fmt::format("curves of expression need the least and greatest value in the whole score before it "
-                            "begins, but {}; `--bars 64` plays a piece",
+                            "begins, but {}; 'bars' 64 plays a piece of it",
                             error.what()));
         }
     }
@@ -375,7 +368,7 @@ private:
     }
 
     std::optional<ExpressionSink> measured_;
-    std::int64_t grid_;  // of ticks at which all parts have whole ticks
+    std::int64_t grid_;  // distance of ticks at which all parts have whole ticks
     std::int64_t lead_ = ticks_per_quarter;
     std::int64_t span_ = 0;
     std::int64_t after_ = 0;
@@ -383,15 +376,15 @@ private:
     std::int64_t end_ = 0;
     std::int64_t known_until_ = 0;
     bool is_silent_ = true;
-    bool is_sought_ = true;   // the next window does not follow on one before
+    bool is_sought_ = true;   // the next window does not continue the one before
     std::vector<char> open_;  // voices whose last note has no known end
 };
 
 /// Largest distance of ticks at which all parts have whole ticks.
 constexpr std::int64_t most_grid = 64 * ticks_per_quarter;
 
-/// The ticks of the score, counted from the beginning of the piece, at which all parts have whole ticks of their own
-/// are the multiples of the result; 0 if there are none.
+/// Distance of the ticks of the score, from the beginning of the piece on, at which all parts have whole ticks of
+/// their own; 0 if there are none.
 std::int64_t grid_of(const Ensemble& ensemble, const PlayOptions& playing) {
     std::int64_t grid = 1;
     for (const Player& player : ensemble.players) {
@@ -423,7 +416,7 @@ bool has_windows(const Player& player) {
     }
 }
 
-/// With `anchor: piece` the first note of the piece is the tonic; windows after it have to know its height.
+/// Replaces `anchor: piece` by the height of the first note of the piece, which later windows do not contain.
 void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) {
     Melody& melody = player.melody;
     if (melody.anchor != Anchor::piece) return;
@@ -433,7 +426,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
     plain.progression.clear();
     plain.articulation = Articulation::legato;
     plain.swing = 0.5;
-    // Degrees are kept as they are, however far away.
+    // Degrees are not changed, even far from the tonic.
     plain.lowest = -std::numeric_limits<double>::infinity();
     plain.highest = std::numeric_limits<double>::infinity();
     const PlayOptions whole = piece_of_part(player, meter, playing);
@@ -444,7 +437,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
             std::vector<std::int64_t> degrees;
             options.degrees = &degrees;
             plain.anchor = anchor;
-            Nobody nobody;
+            NullSink nobody;
             play(player.document.grammar(), plain, nobody, options);
             return degrees.empty() ? std::optional<std::int64_t>() : degrees.front();
         };

@@ -21,7 +21,7 @@ namespace sikku {
 struct NoteWindow {
     std::int64_t from = 0;
     std::int64_t to = 0;  ///< the next window begins here
-    /// By onset, then by voice. A duration of 0 means that the note sounds beyond what is known.
+    /// By onset, then by voice. A duration of 0 means that the end of the note is not known yet.
     std::vector<Note> notes;
     /// Ends of notes of earlier windows whose duration was 0, by tick.
     struct End {
@@ -29,7 +29,7 @@ struct NoteWindow {
         std::int16_t voice = 0;
     };
     std::vector<End> ends;
-    /// Slides of the notes that sound, by tick; some may lie beyond the window. They stand for Note::glide.
+    /// Slides of the sounding notes, by tick; some may lie beyond the window. They replace Note::glide.
     struct Pitch {
         std::int64_t tick = 0;
         std::int16_t voice = 0;
@@ -39,21 +39,21 @@ struct NoteWindow {
     /// Controllers and bends of the notes, by tick; some may lie beyond the window. After seek() also those in effect
     /// at the beginning of the window.
     std::vector<ControlPoint> controls;
-    /// Changes of tempo along the curve within the window, by tick; the first holds where it begins.
+    /// Changes of tempo along the curve within the window, by tick; the first applies at its beginning.
     std::vector<TempoPoint> tempos;
-    /// Where the score ends, rests included: known at least two bars before.
+    /// End of the score, rests included; known at least two bars before.
     std::optional<std::int64_t> end;
     bool is_last = false;  ///< the next window begins at tick 0 again
 };
 
-/// The notes of a score from any tick on, again and again.
+/// Provides the notes of a score from any tick on, repeatedly.
 class NoteStream {
 public:
     virtual ~NoteStream() = default;
     virtual const ScoreHead& head() const = 0;
-    /// How its voices use channels.
+    /// Use of channels by the voices.
     virtual const MidiOptions& midi() const = 0;
-    /// The next window begins at this tick, 0 or more; notes that began before it are left out.
+    /// Makes the next window begin at a tick, 0 or more; notes that began before it are left out.
     virtual void seek(std::int64_t tick) = 0;
     /// True if next() returns at once.
     virtual bool is_ready() { return true; }
@@ -76,7 +76,7 @@ std::unique_ptr<NoteStream> stream_notes(const Arrangement& arrangement, const O
 struct Ensemble;
 struct PlayOptions;
 
-/// What a stream plays.
+/// Contents and options of a streamed score.
 struct StreamedScore {
     ScoreHead head;
     MidiOptions midi;

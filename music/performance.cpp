@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t control_ticks = ticks_per_quarter / 16;  // between points of a ramp
 constexpr std::size_t held_back = 2;  // notes of a voice that are held back, if the next may bend them
 
-/// -1 to the right, 1 to the left, 0 straight on.
+/// Direction of the turn before a note: -1 to the right, 1 to the left, 0 straight on.
 double turn_into(const Note* before, const Note& note) {
     if (!before) return 0;
     const bool has_risen = before->glide.rise != 0;
@@ -44,13 +44,13 @@ std::pair<double, double> values_of(ExpressionSource source, const Note* before,
     return both(0);
 }
 
-/// False for accompaniments, which have no place on the curve.
+/// True for notes of the curve; accompaniments have no place on it.
 bool is_of_curve(const Note& note) {
     return note.from != note.end_point();
 }
 
 /// Adds the points of a note where the rounded value changes.
-/// @param part  of the source, from 0 to 1, where the note begins and ends
+/// @param part  position in the range of the source, from 0 to 1, where the note begins and ends
 /// @param last  value of the voice so far
 void add_control(const Note& note, std::pair<double, double> part, const ExpressionCurve& curve, int number,
                  std::optional<int>& last, std::vector<ControlPoint>& points) {
@@ -204,7 +204,7 @@ void ExpressionSink::express(Line& line, Note& note, std::vector<ControlPoint>& 
     if (has_turns_[line.player] != 0) line.before = note;
 }
 
-/// The next note may bend this one, and mark the one before.
+/// Holds a note back, as the next one may bend it and mark the one before it.
 void ExpressionSink::hold(Line& line, const Note& note) {
     Line::Held next{note, {}};
     express(line, next.note, next.points);

@@ -1,4 +1,4 @@
-// music/performance.h: adds to the notes of a score what its keys of expression say.
+// music/performance.h: applies the keys of expression of a score to its notes.
 #pragma once
 
 #include "music/ensemble.h"
@@ -14,10 +14,10 @@
 
 namespace sikku {
 
-/// Sets the velocities of notes by the curve and forwards them, preceded by the points of pan, controllers and
-/// gamakas, and all by the tempo. The parts are played twice: before write_to() for the least and greatest values of
-/// their sources and for the tempo, after it for the notes. The tempo follows the first part. Memory: O(voices), and
-/// as TempoCurve if there is a tempo.
+/// Sets the velocities of notes by the curve and forwards them after their points of pan, controllers and gamakas;
+/// the tempo comes first. The parts are played twice: before write_to() for the least and greatest values of their
+/// sources and for the tempo, after it for the notes. The tempo follows the first part. Memory: O(voices), and as
+/// TempoCurve if there is a tempo.
 class ExpressionSink : public NoteSink {
 public:
     enum class Use {
@@ -37,13 +37,13 @@ public:
     void fold_ranges(const PlayOptions& playing, bool is_far = false);
     /// True if the parts have to be played once before write_to().
     bool needs_ranges() const;
-    /// @throws ScoreError for a score that is too long for a curve of its tempo; what the sink throws
+    /// @throws ScoreError for a score that is too long for a curve of its tempo; exceptions of the sink
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override;
-    /// The notes that follow go to this sink.
+    /// Passes the notes that follow to this sink.
     void write_to(NoteSink& sink);
 
-    /// The curve of the tempo, after write_to(); tempos() is that of the notes so far, of a piece that ends at `end`.
+    /// The curve of the tempo, after write_to(); tempos() returns that of the notes so far, in a piece until `end`.
     const std::vector<TempoPoint>& tempo() const { return curves_.tempo; }
     std::vector<TempoPoint> tempos(std::int64_t end) const;
 
@@ -61,7 +61,7 @@ private:
     struct Line {
         std::size_t player = 0;
         bool is_bent = false;
-        std::optional<Note> before;            ///< where turns are wanted
+        std::optional<Note> before;            ///< the note before, if a curve follows turns
         std::vector<std::optional<int>> last;  ///< values of the controllers
         struct Held {
             Note note;
@@ -85,7 +85,7 @@ private:
     std::vector<char> has_turns_;                  // by player
     std::vector<std::optional<Bender>> benders_;   // by player
     std::vector<std::optional<Line>> lines_;       // by voice
-    std::optional<TempoCurve> tempo_;              // until it is known
+    std::optional<TempoCurve> tempo_;              // until the tempo is known
     std::int64_t end_ = 0;
     Curves curves_;  // only the tempo
     std::vector<Note> changed_;

@@ -19,16 +19,9 @@
 namespace sikku {
 namespace {
 
-constexpr int acoustic_bass = 32;  // of General MIDI, counted from 0
+constexpr int acoustic_bass = 32;  // program of General MIDI, counted from 0
 
-/// Only counts.
-class Nobody : public NoteSink {
-public:
-    void notes(std::span<const Note>) override {}
-    void finish(std::int64_t) override {}
-};
-
-/// @param first, then  folders where it is looked for
+/// @param first, then  folders to search, in this order
 std::string read_small_file(const std::filesystem::path& first, const std::filesystem::path& then,
                             const std::string& name) {
     constexpr std::size_t most_bytes = std::size_t{1} << 20;
@@ -45,7 +38,7 @@ std::string read_small_file(const std::filesystem::path& first, const std::files
 /// Length of a melody in ticks, by composition or otherwise by playing it. @throws BudgetError
 Integer length_of(const Grammar& grammar, const Melody& melody) {
     if (const auto known = census(grammar, melody)) return known->ticks;
-    Nobody nobody;
+    NullSink nobody;
     return play(grammar, melody, nobody, {}).end;
 }
 
@@ -118,7 +111,7 @@ Player bass_of(const Player& player) {
     transpose(bass.melody, -two_octaves);
     bass.melody.lowest = std::max(0.0, melody.lowest - two_octaves);
     bass.melody.highest = std::max(0.0, melody.highest - two_octaves);
-    // Where both breathe, they breathe as often.
+    // If both breathe, they breathe equally often.
     Melody whole = melody;
     if (bass.melody.phrase_order > 0) whole.breath = 0;
     Melody plain = bass.melody;
@@ -195,7 +188,7 @@ int voices_of(const Player& player, const PlayOptions& playing) {
     if (melody.branches != Branches::voices || !has_brackets(player.document.grammar())) {
         return melody.own_voices();
     }
-    Nobody nobody;
+    NullSink nobody;
     return std::max(1, play(player.document.grammar(), melody, nobody, playing).voices);
 }
 
@@ -289,7 +282,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         PlayOptions of_part = playing;
         cut_excerpt(player, of_part);
         try {
-            Nobody nobody;
+            NullSink nobody;
             played = is_arranged ? play_whole(player) : play(player.document.grammar(), melody, nobody, of_part);
         } catch (const BudgetError&) {
             if (!known) throw;

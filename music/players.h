@@ -27,17 +27,17 @@ struct Player {
     int chords_from = 0;  ///< number of its voices before those of drone or chords
     int drums_from = 0;   ///< offset of the voices of drums
     bool has_drums = false;
-    bool is_bass = false;               ///< of the player before it: `harmony: bass`
-    bool is_follower = false;           ///< in the canon of a player before it
-    char section = 0;                   ///< of the score, `A` to `Z`; 0: it plays from the beginning
-    std::string name;                   ///< of its part; empty: that of the instrument
+    bool is_bass = false;               ///< bass of the player before it: `harmony: bass`
+    bool is_follower = false;           ///< follows a player before it in canon
+    char section = 0;                   ///< section of the score, `A` to `Z`; 0: it plays from the beginning
+    std::string name;                   ///< name of its part; empty: that of the instrument
     std::vector<std::string> warnings;  ///< warnings about values of options
 };
 
-/// Takes the name of a file that was read and what it holds.
+/// Receives the name and the text of a file that was read.
 using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
 
-/// Reads the melody of a document with the keys of `settings`. @param folder  of files that options name
+/// Reads the melody of a document with the keys of `settings`. @param folder  folder of files that options name
 /// @throws SettingError, PatternError; std::runtime_error if a file cannot be read
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness);
@@ -48,7 +48,7 @@ void check_phrases(const Pattern& pattern, const Grammar& grammar, Diagnostics& 
 /// True if only some bars of the melody are played.
 bool has_excerpt(const Player& player);
 
-/// Limits a piece, in ticks of the part, to the bars of the melody that are played at all.
+/// Limits a piece, in ticks of the part, to the excerpt of the melody that is played.
 void cut_excerpt(const Player& player, PlayOptions& options);
 
 /// The voices that follow a player in canon.
@@ -60,7 +60,7 @@ Player bass_of(const Player& player);
 /// True if the word may contain brackets.
 bool has_brackets(const Grammar& grammar);
 
-/// How many voices sound; where brackets make them, only playing tells.
+/// Number of voices that sound, counted by playing the part if brackets are voices.
 int voices_of(const Player& player, const PlayOptions& playing);
 
 /// The scale in words, with its tonic.
@@ -69,7 +69,7 @@ std::string scale_of(const Melody& melody);
 /// The reason why a part has no notes, and a remedy; empty if unknown. @param lost  notes without a length or a key
 std::string reason_of_silence(const Player& player, std::uint64_t lost);
 
-/// Number of bars that so many ticks begin.
+/// Number of bars begun within a number of ticks.
 Integer bars_of(const Integer& ticks, const Meter& meter);
 
 /// Duration in words. @param tempo  quarters a minute

@@ -54,7 +54,7 @@ namespace {
 enum class ScoreFormat { midi, musicxml, mxl, lilypond, pdf, abc, wav, flac, csd, sco, strudel, svg, html };
 
 constexpr int widest_bend = 12;    // semitones, for gamakas
-constexpr int most_channels = 15;  // but the drums'
+constexpr int most_channels = 15;  // without the one of drums
 
 struct ScoreFormatInfo {
     FormatName name;
@@ -78,20 +78,13 @@ constexpr std::array<ScoreFormatInfo, 13> format_table = {
      {{.extension = "notes.svg", .label = "the notes", .alias = "svg", .is_text = true}, ScoreFormat::svg},
      {{.extension = "html", .label = "play", .is_text = true}, ScoreFormat::html}}};
 
-/// Only counts.
-class Nobody : public NoteSink {
-public:
-    void notes(std::span<const Note>) override {}
-    void finish(std::int64_t) override {}
-};
-
 // Programs of General MIDI, counted from 0.
 constexpr int strings = 48;
 constexpr int sitar = 104;
 
 std::string made_with(const PlaySettings& settings, const std::vector<Player>& players, bool is_arrangement) {
     std::string text;
-    // The document of a single pattern has the keys itself.
+    // The document of a single pattern contains the keys itself.
     for (const Setting& setting : settings.keys) {
         if (is_arrangement) text += fmt::format(" --{} '{}'", setting.key, setting.value);
     }
@@ -108,7 +101,7 @@ std::string made_with(const PlaySettings& settings, const std::vector<Player>& p
     }
     const Document& first = players.front().document;
     const std::string made = recipe(first, first.grammar(), "", text);
-    // An arrangement holds the settings of its patterns.
+    // An arrangement contains the settings of its patterns.
     return is_arrangement ? made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text : made;
 }
 
@@ -132,7 +125,7 @@ Part drum_part(const std::string& name, int voices, bool has_chords) {
 }
 
 /// @param arrangement  null for a single pattern
-/// @param most         voices that the format can hold
+/// @param most         limit of voices of the format
 ScoreHead head_of(const PlaySettings& options, Ensemble& ensemble, const Arrangement* arrangement,
                   const PlayOptions& playing, int most) {
     ScoreHead head;
@@ -224,7 +217,7 @@ bool has_drum_voices(const ScoreHead& head) {
     return voices > 1;
 }
 
-/// What became of notes beyond the range of a melody.
+/// Treatment of notes beyond the range of a melody, for a remark.
 std::string_view fate_of(const Melody& melody) {
     const double period = std::fabs(melody.scale.period) / 100;
     if (melody.range == Range::reflect) return "reflected";
@@ -233,13 +226,13 @@ std::string_view fate_of(const Melody& melody) {
                                                                                    : "held at the last key";
 }
 
-/// A remark for each range that notes were beyond.
+/// Adds a remark for each range that notes lay beyond.
 void report_moved(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
     struct Moved {
         const Melody* melody;
         std::uint64_t notes;
         std::vector<std::string_view> instruments;
-        bool is_anchored;  // on the first note of the whole
+        bool is_anchored;  // by the first note of the whole melody
     };
     std::vector<Moved> ranges;
     for (std::size_t i = 0; i < report.moved_of.size(); ++i) {
@@ -299,7 +292,7 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
     }
 }
 
-/// A key that would let notes begin and end where note values do; empty if none is known.
+/// Suggests a key with which notes would begin and end on note values; empty if none is known.
 std::string_view remedy_for_moved(const Ensemble& ensemble) {
     for (const Player& player : ensemble.players) {
         const Melody& melody = player.melody;
@@ -389,7 +382,7 @@ public:
         score.midi = midi_;
         score.midi.share_channels =
             !is_limited && midi_.tuning != Tuning::mpe && pitched_voices(score.head) > most_channels;
-        if (score.midi.share_channels) channel_slots(score.head);  // refuses what has too many instruments
+        if (score.midi.share_channels) channel_slots(score.head);  // refuses too many instruments
         score.humanise = settings_.humanise;
         score.seed = settings_.seed;
         return stream_notes(std::move(score), ensemble_, playing);
@@ -402,7 +395,7 @@ public:
                                        settings_.from_bar == 1 && settings_.bars == 0 && settings_.seconds == 0,
                                        [&](const Player& player) { return play_alone(player, playing); });
         if (!is_arranged) return text;
-        Nobody nobody;
+        NullSink nobody;
         Made made;
         const bool has_tempo = ensemble_.players.front().melody.expression.tempo.is_on();
         EnsembleReport report = has_tempo ? play_into(nobody, playing) : play_all(ensemble_, playing, nobody);
@@ -452,7 +445,7 @@ private:
         part.section = 0;
         part.first_voice = 0;
         part.melody.layout.start = 0;
-        Nobody nobody;
+        NullSink nobody;
         return play_parts(alone, playing, nobody);
     }
 
@@ -515,7 +508,7 @@ private:
         return head_of(settings_, ensemble_, arrangement_ ? &*arrangement_ : nullptr, playing, most);
     }
 
-    /// True for MIDI files and for sound, which is made of them.
+    /// True for MIDI files and for sound, which is rendered from them.
     bool is_midi() const {
         return format_ == ScoreFormat::midi || format_ == ScoreFormat::wav || format_ == ScoreFormat::flac;
     }
@@ -552,7 +545,7 @@ private:
         report.seconds = seconds_of(report.end, curves);
         return report;
     }
-    /// With all changes of tempo.
+    /// Seconds until a tick, with all changes of tempo.
     double seconds_of(std::int64_t end, const Curves& curves) const {
         ScoreHead times;
         times.ritardando = ensemble_.close != Close::none && !is_printed(format_) ? 2 * ensemble_.meter.bar() : 0;
@@ -567,7 +560,7 @@ private:
     std::vector<std::pair<std::string, std::string>> files_;
     MidiOptions midi_;
     Monitor monitor_;
-    std::filesystem::path name_;  // of the output, for messages
+    std::filesystem::path name_;  // name of the output, for messages
 };
 
 /// @throws BudgetError for more notes than a MIDI file can contain
@@ -711,7 +704,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
         if (!names.empty()) {
             made.warn(fmt::format("voices of {} share MIDI channels, and with them pan and controllers{}",
                                   fmt::join(names, ", "),
-                                  midi_.share_channels ? "; `--tuning mpe` gives each note a channel" : ""));
+                                  midi_.share_channels ? "; 'tuning' mpe gives each note a channel" : ""));
         }
     }
     const auto output = destination.open(name);
@@ -768,7 +761,7 @@ ScoreFormatCost cost_of(ScoreFormat format) {
 Cost ScoreWork::forecast() const {
     constexpr double program_seconds = 0.003, program_memory = 7e6;
     constexpr double node_seconds = 15e-9, player_memory = 0.5e6;
-    constexpr double nodes_read = 50'000;  // at most, of words whose length only deriving determines
+    constexpr double nodes_read = 50'000;  // limit, for words whose length only a derivation determines
     const ScoreFormatCost each = cost_of(format_);
     Cost result;
     result.seconds = result.shared_seconds = program_seconds;
@@ -802,7 +795,7 @@ ScoreFormat known(std::string_view format) {
     refuse_option("format", std::string(format), "unknown format");
 }
 
-/// Several documents are an arrangement.
+/// Plans a single document, or an arrangement of several.
 ScoreWork work_of(std::span<const Document> documents, ScoreFormat format, const OptionValues& values,
                   const std::filesystem::path& folder) {
     if (documents.size() == 1) return {documents.front(), format, read_play_settings(values), folder};

@@ -54,7 +54,7 @@ NoteList list_notes(const Arrangement& arrangement, const OptionValues& values, 
 
 /// Describes the music without writing a score: notes, bars, time and range, in a block of lines for each document.
 std::string describe_score(std::span<const Document> documents, const OptionValues& values, const Monitor& monitor);
-/// Likewise, for each track and for all together.
+/// Describes the music of each track and of all together.
 std::string describe_score(const Arrangement& arrangement, const OptionValues& values, const Monitor& monitor,
                            const std::filesystem::path& folder = {});
 

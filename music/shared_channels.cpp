@@ -23,7 +23,7 @@ std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, con
         const MelodicExpression& expression = std::prev(next)->melody.expression;
         return expression.pan.is_on() || expression.control.is_on();
     };
-    // Voices of a part go to one channel if they share, those of drums always.
+    // Voices of a part use one channel if channels are shared; those of drums always do.
     const auto each_shared = [&](const auto& visit) {
         int voice = 0;
         for (std::size_t i = 0; i < head.parts.size(); voice += head.parts[i].voices, ++i) {

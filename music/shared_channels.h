@@ -9,9 +9,8 @@
 
 namespace sikku {
 
-/// The names of the parts whose voices meet others on a channel of MIDI where one of them has pan or a controller of
-/// its own.
-/// @param head            of the ensemble, whose voices are numbered
+/// Names of the parts that share a MIDI channel on which a voice has pan or a controller of its own.
+/// @param head            head of the ensemble, whose voices are numbered
 /// @param share_channels  as in MidiOptions
 std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, const ScoreHead& head,
                                                    bool share_channels);

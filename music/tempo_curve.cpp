@@ -12,7 +12,7 @@ namespace {
         fmt::format("a tempo that follows the curve needs fewer than {} quarters; limit the bars", TempoCurve::most));
 }
 
-/// Each value becomes the mean of its neighbours and twice itself.
+/// Replaces each value by the mean of its neighbours and twice itself.
 void smooth(std::vector<double>& values) {
     double before = values.front();
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -50,7 +50,7 @@ std::vector<TempoPoint> TempoCurve::points(const SourceRange& range, std::int64_
     }
     smooth(values);
     smooth(values);
-    // Repeated values are left out. There is none at the end.
+    // A value at the very end is left out, and so are repeated ones.
     if (values.size() > 1 && end % ticks_per_quarter == 0) values.pop_back();
     for (double& value : values) value = curve_.at(value) / tempo_;
     std::size_t changes = 1;

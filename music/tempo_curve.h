@@ -19,9 +19,9 @@ public:
 
     /// @param tempo  quarters a minute that the factors of points refer to
     TempoCurve(const ExpressionCurve& curve, double tempo) : curve_(curve), tempo_(tempo) {}
-    /// Adds a note. @param value  of the source in the middle of the note. @throws ScoreError beyond `most` quarters
+    /// Adds a note. @param value  value of the source at its middle. @throws ScoreError beyond `most` quarters
     void add(std::int64_t onset, double value);
-    /// The changes of tempo before `end`; one at the beginning. @param range  of the source. @throws ScoreError
+    /// The changes of tempo before `end`, one at the beginning. @param range  range of the source. @throws ScoreError
     std::vector<TempoPoint> points(const SourceRange& range, std::int64_t end) const;
 
 private:

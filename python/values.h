@@ -18,7 +18,7 @@ using TextPairs = std::vector<std::pair<std::string, std::string>>;
 OptionValues to_values(const TextPairs& pairs);
 std::vector<Setting> to_settings(const TextPairs& pairs);
 
-/// prints() or scores(). @throws pybind11::value_error for other names
+/// Returns prints() or scores(). @throws pybind11::value_error for other names
 const Interpreter& interpreter_of(const std::string& name);
 
 /// Returns a list of (is a warning, text).

@@ -41,8 +41,8 @@ private:
     pybind11::object type_;
     std::vector<pybind11::object> constants_;  ///< by symbol; none for symbols with arity
     WordPiece piece_;
-    std::size_t symbol_ = 0;    ///< next in piece_
-    std::size_t argument_ = 0;  ///< next in piece_
+    std::size_t symbol_ = 0;    ///< next symbol in piece_
+    std::size_t argument_ = 0;  ///< next argument in piece_
 };
 
 }  // namespace sikku

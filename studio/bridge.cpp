@@ -1,9 +1,9 @@
 #include "studio/bridge.h"
 
 #include "art/analysis.h"
-#include "art/gallery/json.h"
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
+#include "engine/base/json.h"
 #include "engine/base/keys.h"
 #include "engine/check.h"
 #include "engine/language/command_table.h"

@@ -1,4 +1,4 @@
-// studio/bridge_answers.h: reading requests, and the answers that need more than a few lines.
+// studio/bridge_answers.h: reads requests, and answers those that need more than a few lines.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -25,11 +25,11 @@ const Json& member(const Json& request, const std::string& name);
 std::string text_of(const Json& request, const std::string& name);
 std::string text_of(const Json& request, const std::string& name, const std::string& otherwise);
 double number_of(const Json& request, const std::string& name, double otherwise);
-/// A whole number in decimal digits.
+/// Parses a whole number in decimal digits.
 std::uint64_t whole_of(const Json& value, const std::string& name);
 bool flag_of(const Json& request, const std::string& name);
 
-/// Pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
+/// Reads pairs of strings: `[["size", "A3"], …]`; empty if the member is missing.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Json& request, const std::string& name);
 
 /// The interpreter that a request names: `draw` or `play`. @throws BadRequest
@@ -38,7 +38,7 @@ const Interpreter& interpreter_of(const Json& request);
 OptionValues options_of(const Json& request);
 /// The compiled pattern of a request, which is cached. @throws PatternError
 Document document_of(const Json& request);
-/// `curve.svg` for curve.lsys.
+/// Names an output: `curve.svg` for curve.lsys.
 std::string output_name(const Document& document, const std::string& format);
 
 Json json_of(const std::vector<Remark>& remarks);

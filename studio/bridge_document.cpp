@@ -1,8 +1,7 @@
 // studio/bridge_document.cpp: requests about a pattern: facts, pictures, and files of other programs.
-#include "art/draw_settings.h"
-#include "art/drawing/seen_drawing.h"
-#include "art/gallery/shards.h"
+#include "art/analysis.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/text.h"
 #include "engine/check.h"
@@ -224,22 +223,6 @@ void add_measures(const Document& document, const Monitor& monitor, Json& answer
     answer["cost"] = std::move(cost);
 }
 
-bool has_view(const Document& document) {
-    try {
-        DrawOptions options;
-        options.window = parse_window("0,0,1,1");
-        std::string why;
-        const Grammar grammar = shorten(document.grammar());
-        return seen_parts(grammar, read_print_style(document, {}), options, why).has_value();
-    } catch (const std::runtime_error&) {
-        return false;
-    }
-}
-
-}  // namespace
-
-namespace {
-
 /// Warnings, and errors of the word.
 Json warnings_of(const Document& document) {
     Diagnostics diagnostics;
@@ -351,17 +334,15 @@ namespace {
 
 /// Selects the options that affect the look of a drawing and, for the whole page, its layout.
 OptionValues shown_options(const OptionValues& all, bool is_page) {
-    static constexpr std::array look = {"mirror", "rotate", "dots", "dot-spacing", "colour-by", "budget", "view"};
-    static constexpr std::array page = {"size",   "margin", "landscape", "fit",        "step",   "window",
-                                        "border", "repeat", "compose",   "title-line", "edition"};
-    const auto is_in = [](const auto& names, const std::string& name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    };
     OptionValues shown;
     for (const OptionValue& value : all) {
         const OptionInfo* option = find_option(prints().options(), value.name);
-        const bool is_look = !option || option->is_key || is_in(look, value.name);
-        if (is_in(page, value.name) ? is_page : is_look) shown.push_back(value);
+        const Scope scope = option ? option->scope : Scope::look;
+        const bool is_look =
+            scope == Scope::look || scope == Scope::space || scope == Scope::kolam || scope == Scope::cost;
+        const bool is_layout = scope == Scope::page || scope == Scope::place || scope == Scope::scale ||
+                               scope == Scope::extras || scope == Scope::copies;
+        if (is_look || (is_page && is_layout)) shown.push_back(value);
     }
     return shown;
 }
@@ -400,7 +381,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
         OptionValues own;  // without keys and defines of the pattern
         std::copy_if(values.begin(), values.end(), std::back_inserter(own),
                      [](const OptionValue& value) { return find_option(prints().options(), value.name) != nullptr; });
-        const Page page = read_draw_settings(own).page;
+        const Page page = read_draw_settings(own).page.sheet;
         const double dpi = std::min(width / page.width, height / page.height) * mm_of_inch;
         values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
     }
@@ -488,7 +469,7 @@ namespace {
 
 /// A file of that name rather than an option.
 std::string quoted_file(const std::string& name) {
-    return quoted(name.starts_with('-') ? "./" + name : name);
+    return shell_word(name.starts_with('-') ? "./" + name : name);
 }
 
 }  // namespace
@@ -502,27 +483,27 @@ Json answer_command(const Json& request) {
     const std::string source = text_of(request, "source", name);
     std::string command = "sikku " + text_of(request, "interpreter") + " " + quoted_file(source);
     const std::string variant = text_of(pattern, "variant", "");
-    if (!variant.empty()) command += " --variant " + quoted(variant);
+    if (!variant.empty()) command += " --variant " + shell_word(variant);
     for (const auto& [key, value] : pairs_of(pattern, "settings")) {
         if (key == "derivation length") {
-            command += " -n " + quoted(value);
+            command += " -n " + shell_word(value);
         } else if (key == "seed") {
-            command += " --seed " + quoted(value);
+            command += " --seed " + shell_word(value);
         } else {
-            command += fmt::format(" --set {}", quoted(fmt::format("{}={}", key, value)));
+            command += fmt::format(" --set {}", shell_word(fmt::format("{}={}", key, value)));
         }
     }
     for (const OptionValue& value : options_of(request)) {
         const OptionInfo* option = find_option(interpreter.options(), value.name);
         if (!option) {  // a key or a define of the pattern
-            command += fmt::format(" --set {}", quoted(fmt::format("{}={}", value.name, value.text)));
+            command += fmt::format(" --set {}", shell_word(fmt::format("{}={}", value.name, value.text)));
         } else if (option->kind == OptionKind::flag) {
             command += (value.text == "false" ? " --no-" : " --") + value.name;
         } else if (option->value.starts_with('[')) {  // may be left out: `--dots[=SIZE COLOUR]`
             command += " --" + value.name;
-            if (!value.text.empty()) command += "=" + quoted(value.text);
+            if (!value.text.empty()) command += "=" + shell_word(value.text);
         } else {
-            command += fmt::format(" --{} {}", value.name, quoted(value.text));
+            command += fmt::format(" --{} {}", value.name, shell_word(value.text));
         }
     }
     const std::string stem = std::filesystem::path(name).stem().string();

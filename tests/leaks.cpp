@@ -5,7 +5,7 @@
 #include <string_view>
 
 // OpenImageIO leaves threads behind, over which LeakSanitizer crashes when the process ends.
-extern "C" int __lsan_is_turned_off();
+extern "C" __attribute__((visibility("default"))) int __lsan_is_turned_off();
 extern "C" int __lsan_is_turned_off() {
     return dl_iterate_phdr(
         [](dl_phdr_info* info, std::size_t, void*) {

@@ -95,7 +95,7 @@ private:
             throw std::runtime_error(fmt::format("piece {}: {}", piece.name, error.what()));
         }
     }
-    /// Half a gap around an outline. Notches that are too narrow for that are closed, with all others.
+    /// Adds half a gap to an outline, or to its convex hull if notches are too narrow for that.
     std::vector<glm::dvec2> with_gap(const std::vector<glm::dvec2>& cut) const {
         try {
             return offset_outline(cut, options_.gap / 2);
@@ -113,7 +113,7 @@ private:
                         options_.sheet.width - margins, options_.sheet.height - margins));
     }
 
-    /// Adds copies to a sheet and keeps the areas that they leave; copies of a sheet have no room for others.
+    /// Adds copies to a sheet and keeps the areas that they leave; repeated sheets are full.
     void add(std::size_t kind, const std::vector<glm::dvec2>& cut, std::size_t sheet, const LaidPieces& laid) {
         std::map<double, std::size_t> forms;
         for (const PieceCopy& copy : laid.copies) {

@@ -13,7 +13,7 @@ namespace sikku {
 
 /// Lengths are millimetres.
 struct CuttingOptions {
-    Page sheet;          ///< the material; nothing is laid into its margin
+    Page sheet;          ///< the material; its margin stays empty
     double seam = 0;     ///< allowance around each piece, 0 to 100
     double kerf = 0;     ///< width of a cut, 0 to 10; outlines grow by half of it
     double gap = 0;      ///< distance between the outlines of neighbours, 0 to 100; at 0 they share cuts
@@ -61,7 +61,7 @@ std::string piece_counts(const CuttingPlan& plan, const CuttingSheet& sheet);
 /// A table with one line for each sheet. @param materials, files  names of the colours and the files of the sheets
 std::string cutting_text(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
                          const std::vector<std::string>& materials, const std::vector<std::string>& files);
-/// The same as one line of JSON.
+/// The plan as one line of JSON.
 std::string cutting_json(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
                          const std::vector<std::string>& materials, const std::vector<std::string>& files);
 

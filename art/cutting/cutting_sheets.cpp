@@ -10,7 +10,7 @@
 namespace sikku {
 namespace {
 
-/// The description of a sheet, in its upper margin; none if that is too narrow.
+/// The description of a sheet, in its upper margin; empty if that is too narrow.
 std::vector<PieceSheet::Heading> headings(const std::string& title, const CuttingPlan& plan, std::size_t index,
                                           const std::string& material, const Page& page) {
     constexpr double least_margin = 4, most_height = 3.5;

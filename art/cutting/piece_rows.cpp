@@ -184,7 +184,7 @@ private:
         }
         return few(std::move(values), size_, most_alignments(corners_[0].size()));
     }
-    /// How far an upper row must be lifted above a lower one; infinity if that takes too long to find.
+    /// The distance by which an upper row must be lifted above a lower one; infinity if that takes too long to find.
     /// @param most  results above it may be too small
     double rise_of(const std::vector<Copy>& lower, const std::vector<Copy>& upper, double period, double shift,
                    double most) {

@@ -37,7 +37,7 @@ public:
     /// Finds the densest arrangements. Cost: some 10^7 steps for a dozen corners, 10^9 for hundreds; less than 1 ms
     /// for a piece that does not fit.
     /// @param outline  anticlockwise, with half of the gap between pieces  @param keeps_direction  pieces are turned
-    /// by 180 degrees only  @param area  the largest that will be filled: directions in which the piece has no room
+    /// by 180 degrees only  @param area  the largest that will be filled: directions in which the piece does not fit
     /// there are not searched  @throws Stopped
     PieceRows(std::span<const glm::dvec2> outline, bool keeps_direction, const Box& area, const Monitor& monitor);
 

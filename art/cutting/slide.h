@@ -1,4 +1,4 @@
-// art/cutting/slide.h: how far a piece slides towards another until they touch.
+// art/cutting/slide.h: the distance by which a piece slides towards another until they touch.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_templates = 1'000;
 constexpr std::size_t most_corners = 2'000;
-constexpr double least_width = 190;  // of a row, in millimetres
+constexpr double least_width = 190;  // width of a row, in millimetres
 constexpr double longest_side = 10'000;
 constexpr double gap = 6;  // between templates
 
@@ -21,7 +21,7 @@ struct Template {
     std::vector<glm::dvec2> cut, seam;  ///< millimetres
     std::string label;
     Box box;
-    glm::dvec2 at{0.0};  ///< where the low corner of the box lies on the page, y up
+    glm::dvec2 at{0.0};  ///< place of the box's low corner on the page, y up
 };
 
 std::vector<Template> make_templates(const std::vector<CutKind>& kinds, const TemplateOptions& options) {

@@ -7,7 +7,7 @@
 namespace sikku {
 namespace {
 
-/// Turns a picture as its EXIF orientation says (1 to 8). Source: Exif 2.32, tag 274.
+/// Turns a picture by its EXIF orientation (1 to 8). Source: Exif 2.32, tag 274.
 void turn(DecodedPicture& picture, int orientation) {
     if (orientation < 2 || orientation > 8) return;
     const bool is_transposed = orientation >= 5;

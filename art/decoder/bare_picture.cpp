@@ -20,7 +20,7 @@ namespace {
     throw std::runtime_error(reason);
 }
 
-/// Numbers in a file; reading past its end refuses it.
+/// Numbers in a file; reading past its end rejects the file.
 class Bytes {
 public:
     Bytes(std::string_view bytes, bool is_big_endian) : bytes_(bytes), is_big_(is_big_endian) {}
@@ -116,7 +116,7 @@ struct PngHeader {
     bool interlaced = false;
 
     PngHeader() = default;
-    /// @param at  of the data of IHDR
+    /// @param at  position of the data of IHDR
     PngHeader(const Bytes& file, std::size_t at, std::uint64_t most_pixels) {
         check_size(file.number(at, 4), file.number(at + 4, 4), most_pixels);
         width = static_cast<std::uint32_t>(file.number(at, 4));
@@ -128,7 +128,7 @@ struct PngHeader {
         const bool is_known = colour == 0   ? depth == 1 || depth == 2 || depth == 4 || is_deep
                               : colour == 3 ? depth == 1 || depth == 2 || depth == 4 || depth == 8
                                             : is_deep && (colour == 2 || colour == 4 || colour == 6);
-        constexpr std::uint32_t most_side = 1'000'000;  // of libpng
+        constexpr std::uint32_t most_side = 1'000'000;  // limit of libpng
         if (!is_known || file.number(at + 10, 2) != 0 || file.number(at + 12, 1) > 1 || width > most_side ||
             height > most_side) {
             refuse("the picture is damaged: its header is wrong");
@@ -156,7 +156,7 @@ public:
         }
     }
     bool is_complete() const { return passes_.empty(); }
-    /// @throws std::runtime_error for a filter that does not exist, and for bytes behind the last row
+    /// @throws std::runtime_error for a filter that does not exist, and for bytes after the last row
     void take(std::string_view bytes) {
         while (!bytes.empty()) {
             if (passes_.empty()) refuse("the picture is damaged: it has more pixels than its size says");
@@ -179,13 +179,13 @@ private:
     };
     void add(std::uint64_t row_bytes, std::uint32_t rows) { passes_.push_back({row_bytes, rows}); }
     std::vector<Pass> passes_;
-    std::uint64_t left_ = 0;  // of the current row
+    std::uint64_t left_ = 0;  // bytes left in the current row
 };
 
 /// Inflates the pixels of a PNG piece by piece. @throws std::runtime_error if they are damaged
 void check_png_pixels(const std::vector<std::string_view>& parts, const PngHeader& header) {
     z_stream stream{};
-    // The window that the stream states, as libpng has it.
+    // The window that the stream states, as in libpng.
     if (inflateInit2(&stream, 0) != Z_OK) refuse("there is no memory for the picture");
     const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
     PngRows rows(header);
@@ -217,7 +217,7 @@ void append_png_chunk(std::string& bytes, const std::string& name, std::string_v
     number(crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[begin]), bytes.size() - begin));
 }
 
-/// The parts of a PNG that its pixels need.
+/// The parts of a PNG that are needed for its pixels.
 struct PngParts {
     std::optional<PngHeader> header;
     std::string_view header_bytes, palette, transparency;
@@ -263,7 +263,7 @@ BarePicture bare_png(const std::string& bytes, std::uint64_t most_pixels) {
         if (parts.palette.size() % 3 != 0 || entries == 0 || entries > most) {
             refuse("the picture is damaged: its palette is wrong");
         }
-        // Pixels may name colours that the palette lacks.
+        // Pixels may refer to colours that the palette does not contain.
         std::string palette(parts.palette);
         palette.resize(3 * most);
         append_png_chunk(bare.bytes, "PLTE", palette);

@@ -10,13 +10,13 @@ namespace sikku {
 struct BarePicture {
     const char* format = "";  ///< name of OpenImageIO's reader, or `heif`
     std::string bytes;
-    int orientation = 1;  ///< EXIF, 1 to 8; of JPEG
+    int orientation = 1;  ///< EXIF orientation of a JPEG, 1 to 8
 };
 
 /// Removes colour profiles, EXIF, comments and other metadata from JPEG, PNG, WebP and TIFF, whose readers parse them
 /// without sufficient checks, and checks the sizes that the file claims before a decoder reserves memory for them: a
-/// progressive JPEG holds all its coefficients, and each further scan visits them again. BMP and HEIF stay as they
-/// are; the header of BMP is checked. Cost: linear in the file.
+/// progressive JPEG holds all its coefficients, and each further scan visits them again. BMP and HEIF are unchanged;
+/// the header of BMP is checked. Cost: linear in the file.
 /// @throws std::runtime_error for other files, damaged headers, more than `most_pixels`, and too many scans
 BarePicture bare_picture(std::string bytes, std::uint64_t most_pixels);
 

@@ -96,7 +96,7 @@ constexpr auto permitted_calls = std::to_array<std::uint32_t>({SYS_read,
                                                                SYS_membarrier});
 
 /// Refuses all other system calls with EPERM. Threads can be started, processes cannot. Source: seccomp(2), bpf(4).
-/// @returns false if the kernel has no filters
+/// @returns false if the kernel does not support filters
 bool filter_calls() {
     if (architecture == 0) return true;
     constexpr auto word = [](std::size_t at) {

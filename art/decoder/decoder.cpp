@@ -19,7 +19,7 @@
 namespace sikku {
 namespace {
 
-/// Largest file.
+/// Maximum size of a file in bytes.
 constexpr std::size_t most_file_bytes = 256'000'000;
 
 void send(std::string_view bytes) {

@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-/// Largest side; the sides of AV1 and of HEVC at its highest level are smaller.
+/// Maximum side; the sides of AV1 and of HEVC at its highest level are smaller.
 constexpr int most_side = 65'535;
 
 template <auto release>

@@ -18,9 +18,9 @@
 namespace sikku {
 namespace {
 
-/// Largest memory for one decoded picture.
+/// Maximum memory for one decoded picture.
 constexpr std::uint64_t most_bytes = 800'000'000;
-/// Readers quote it.
+/// Readers quote this name.
 constexpr const char* name_in_messages = "picture";
 
 /// An opened picture, with the sizes that it claims checked.

@@ -68,7 +68,8 @@ private:
     }
     glm::dvec2 way(std::uint32_t piece) const { return lines_[piece].to - lines_[piece].from; }
 
-    /// The piece around the same tiles: the first one clockwise from the way back, as they lie on the left.
+    /// The next piece around the same tiles: the first one clockwise from the reversed piece, as tiles lie on the
+    /// left.
     std::uint32_t next(std::uint32_t piece) const {
         const glm::dvec2 back = -way(piece);
         std::uint32_t best = none;

@@ -7,8 +7,8 @@
 
 namespace sikku {
 
-/// Moves the pieces of the border outwards, into gaps between tiles, too; corners are mitred. Other lines stay, and
-/// so do pieces that do not form loops. @param lines  of UnitedLines::Kept::cuts  @param distance  in their unit
+/// Moves the pieces of the border outwards, into gaps between tiles, too; corners are mitred. Other lines, and pieces
+/// that do not form loops, stay. @param lines  of UnitedLines::Kept::cuts  @param distance  in their unit
 /// @throws std::runtime_error if a notch of the border is too narrow
 std::vector<UnitedLines::Line> with_wider_border(const std::vector<UnitedLines::Line>& lines, double distance);
 

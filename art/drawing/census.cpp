@@ -217,7 +217,7 @@ DrawnCensus by_counts(const Grammar& grammar, const Forecast& known, const Style
     return census;
 }
 
-/// The census of a word whose length only deriving determines, by the growth of shorter ones.
+/// The census of a word whose length only derivation determines, by the growth of shorter ones.
 DrawnCensus by_growth(const Grammar& grammar, const Style& style, const glm::dmat3x2& orientation, double most) {
     std::optional<DrawnCensus> last;
     std::int64_t steps = grammar.steps();

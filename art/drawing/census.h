@@ -20,26 +20,26 @@ struct BentPatches {
 
 /// The shapes drawn in one pass. Lengths are in turtle steps.
 struct DrawnCensus {
-    double nodes = 0;                 ///< of the derivation that are visited
+    double nodes = 0;                 ///< visited nodes of the derivation
     double strokes = 0;               ///< lines without a lift
     double lines = 0;                 ///< segments of strokes
-    double length = 0;                ///< of all lines
-    double polygons = 0;              ///< and areas
-    double corners = 0;               ///< of polygons
-    double discs = 0;                 ///< and spheres
-    double patches = 0;               ///< of surfaces in space
-    double area = 0;                  ///< of polygons, discs and patches
-    Box box;                          ///< of all points, after orientation(), or as they are seen in space
+    double length = 0;                ///< length of all lines
+    double polygons = 0;              ///< polygons and areas
+    double corners = 0;               ///< corners of polygons
+    double discs = 0;                 ///< discs and spheres
+    double patches = 0;               ///< patches of surfaces in space
+    double area = 0;                  ///< area of polygons, discs and patches
+    Box box;                          ///< box of all points, after orientation(), or projected if in space
     double widest = 0;                ///< widest pen, in the unit of the style's stroke
-    double mean_width = 0;            ///< of lines, by their length, in the same unit
+    double mean_width = 0;            ///< width of lines, weighted by length, in the same unit
     double deepest = 0;               ///< extent along the line of sight, in space
-    std::vector<BentPatches> bent{};  ///< the patches, with bends that differ by less than a fifth together
+    std::vector<BentPatches> bent{};  ///< the patches; bends that differ by less than a fifth are grouped
     bool is_read = false;             ///< the word itself was read, and not a shorter one
 };
 
 /// Reads at most about `most` nodes. For a longer word it reads the largest shorter one that is known to cost
 /// less, and extrapolates by the numbers of symbols or, where these are unknown, by growth.
-/// Cost: 20 ns a node. @param grammar  has no map
+/// Cost: 20 ns a node. @param grammar  without a map
 /// @throws WordError
 DrawnCensus drawn_census(const Grammar& grammar, const Style& style, const glm::dmat3x2& orientation, double most);
 

@@ -114,7 +114,7 @@ void Composition::add_stroke_colours() {
 }
 
 void Composition::add_field_colours() {
-    std::vector<Colour> lines;  // and the ground
+    std::vector<Colour> lines;  // colours of the lines and the ground
     for (const int colour : stroke_colours_) lines.push_back(style_.palette[static_cast<std::size_t>(colour)]);
     if (lines.empty() && drawn_.stroked) lines.push_back(drawn_.line_colour({}));
     if (drawn_.ground) lines.push_back(*drawn_.ground);
@@ -175,7 +175,7 @@ void Composition::read_parallel(const Print& print, PathSink& sink) const {
     parallel_ = {look.spacing * step, look.wanted * step, look.width * step};
 }
 
-/// @param drawn  by the pattern itself: these are not repeated
+/// @param drawn  dots drawn by the pattern itself, which are not repeated
 void Composition::read_dots(const Print& print, const std::vector<glm::dvec2>& drawn, PathSink& sink) const {
     const double radius = dot_radius(print);
     std::optional<PointTree> own;
@@ -205,7 +205,7 @@ double Composition::room_of_dot(const Print& print) const {
     return least > 0 ? least : unlimited;
 }
 
-/// In steps.
+/// Radius of a dot in steps.
 double Composition::dot_radius(const Print& print) const {
     if (!print.style.dots) return 0;
     const auto& size = print.style.dots->size;

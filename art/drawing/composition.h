@@ -51,7 +51,7 @@ private:
     Style drawn_;  ///< the style of the drawing, with its own palette
     Style style_;  ///< with the colours of dots and strands added
     std::vector<glm::dvec2> dots_;
-    double distance_ = 0;  ///< between the nearest dots, in steps
+    double distance_ = 0;  ///< distance between the nearest dots, in steps
     bool has_dots_on_lines_ = false;
     Pen dot_pen_;
     std::vector<std::uint32_t> orbit_of_stroke_;  ///< orbit of the stroke's line

@@ -90,7 +90,7 @@ private:
     bool is_drawn_ = false;
 };
 
-/// The style without what surrounds a drawing or belongs to its page.
+/// The options without the surroundings of a drawing and the settings of its page.
 DrawOptions alone(DrawOptions options) {
     options.window.reset();
     options.frame.reset();

@@ -17,14 +17,14 @@ namespace sikku {
 
 /// A generation of tiles, in coordinates and steps of its own.
 struct DivisionStage {
-    /// How a tile comes out of the one that divides.
+    /// How a tile emerges from the one that divides.
     struct Part {
         glm::dvec2 middle{0.0};  ///< centre of its change of size
         glm::dvec2 way{0.0};     ///< vector from there to where it begins, or towards its family
         Colour from;             ///< colour of its parent
     };
     std::int64_t steps = 0;
-    RecordedPath picture;  ///< all that is drawn
+    RecordedPath picture;  ///< the complete drawing
     PolygonList tiles;
     std::vector<Colour> colours;  ///< colours of the tiles
     glm::dmat3x2 place{1.0};      ///< map to the coordinates of the last stage
@@ -43,7 +43,7 @@ struct Division {
     double scale = 1;                   ///< share of the page that it fills
 };
 
-/// The tiles of a drawing do not divide; the message gives the reason.
+/// Thrown if the tiles of a drawing do not divide; the message gives the reason.
 class DivisionError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -103,7 +103,7 @@ void DivisionDrawing::add_picture(const DivisionStage& stage, double lines, doub
     stage.picture.draw(has_polygons ? static_cast<PathSink&>(moved) : bare);
 }
 
-/// Mixed with the ground, so that no seams are visible.
+/// Adds fills mixed with the ground, so that seams are invisible.
 void DivisionDrawing::add_fills(const DivisionStage& stage, double opacity) {
     if (!(opacity > 0)) return;
     Colour ground = style_.ground.value_or(Colour{255, 255, 255, 255});

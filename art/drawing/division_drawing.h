@@ -15,7 +15,7 @@ struct DivisionMoment {
     double fade = 0;        ///< share of the time in which the last stage fades into the first
 };
 
-/// All that is drawn at a moment, in the coordinates of the last stage and with colours added for this moment.
+/// The drawing at a moment, in the coordinates of the last stage and with colours added for this moment.
 class DivisionDrawing : public Drawing {
 public:
     DivisionDrawing(std::shared_ptr<const Division> division, const DivisionMoment& moment,
@@ -28,7 +28,7 @@ public:
     void read(const Print& print, const Window& window, PathSink& sink) const override;
 
 private:
-    /// @param lines  opacity of lines  @param fills  that of everything else
+    /// @param lines  opacity of lines  @param fills  opacity of everything else
     void add_picture(const DivisionStage& stage, double lines, double fills, bool has_polygons);
     void add_parts(const DivisionStage& stage, double share);
     void add_fills(const DivisionStage& stage, double opacity);

@@ -27,7 +27,7 @@ std::unique_ptr<Drawing> framed(std::shared_ptr<const Division> division, const 
     return drawing;
 }
 
-/// Draws the frame of a print and nothing within it.
+/// Draws only the frame of a print.
 class EmptyDrawing : public Drawing {
 public:
     EmptyDrawing(const Division& division, const DrawOptions& options) : Drawing(options), division_(division) {}
@@ -39,14 +39,6 @@ public:
 
 private:
     const Division& division_;
-};
-
-/// Passes only polygons on.
-class OnlyPolygons : public WithoutStrokes<PathFilter> {
-public:
-    using WithoutStrokes::WithoutStrokes;
-    void area(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 };
 
 class DivisionFile {

@@ -20,7 +20,7 @@ public:
     explicit CssFrames(double total) : total_(total) {}
 
     void add(double time, const std::string& values) { frames_[std::llround(time / total_ * parts)] += values + ";"; }
-    /// Changes at once.
+    /// Adds an immediate change.
     void change(double time, const std::string& before, const std::string& after) {
         const std::int64_t at = std::llround(time / total_ * parts);
         if (at > 0) frames_[at - 1] += before + ";";
@@ -54,7 +54,7 @@ double outline_width(const Division& division, const DivisionStage& stage, const
     return division.style.line_width(*stage.outline, placement.step * stage.scale) * 1000;
 }
 
-/// Visible from when its tiles appear until they have divided.
+/// Key frames that show a stage from the appearance of its tiles until they have divided.
 std::string stage_frames(const Division& division, std::size_t i, const DivisionClock& clock) {
     const auto number_of_stage = static_cast<int>(i);
     const bool is_first = i == 0, is_last = i + 1 == division.stages.size();
@@ -89,7 +89,7 @@ std::string stage_frames(const Division& division, std::size_t i, const Division
     return frames.text(fmt::format("g{}", i));
 }
 
-/// How the tiles of a stage appear.
+/// Key frames for the appearance of a stage's tiles.
 std::string tile_frames(const Division& division, std::size_t i, const DivisionClock& clock,
                         const Placement& placement) {
     const DivisionStage& stage = division.stages[i];

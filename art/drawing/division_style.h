@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// Placement of a stage on the page. @param placement  of the last stage
+/// Placement of a stage on the page. @param placement  placement of the last stage
 Placement stage_placement(const DivisionStage& stage, const Placement& placement);
 
 /// The attributes that animate a stage. The last stage is visible without animation.

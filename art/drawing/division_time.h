@@ -27,7 +27,7 @@ double eased(double share);
 /// How parts of tiles appear, come apart and settle.
 struct DivisionTracks {
     Track size;     ///< size of a part, about its middle
-    Track way;      ///< share of the way from where it rests to where it lies
+    Track way;      ///< share of DivisionStage::Part::way by which a part is moved
     Track outline;  ///< width of its outline
     Track colour;   ///< mix of the colour of its parent, 0, and its own, 1
     Track opacity;  ///< opacity of parts
@@ -35,25 +35,25 @@ struct DivisionTracks {
     Track arrival;  ///< opacity of lines and discs of this generation, besides outlines
 };
 
-/// How parts come out of their parents: they are cut out of them; they appear in their places, across the edges of
+/// How parts emerge from their parents: they are cut out of them; they appear in their places, across the edges of
 /// their parents; or they spread out of them, where the places of parents and parts agree only roughly.
 enum class DivisionKind { cut, across, spread };
 
 const DivisionTracks& division_tracks(DivisionKind kind);
 
-/// Time of one repetition of generations that divide one after the other.
+/// Times of one repetition of generations that divide one after the other.
 class DivisionClock {
 public:
     /// @param generations  at least 2
     DivisionClock(int generations, const DivisionTimes& times) : generations_(generations), times_(times) {}
 
-    /// When the tiles of a generation begin to appear; 0 for the first, number 0.
+    /// Time at which the tiles of a generation begin to appear; 0 for the first, number 0.
     double begin(int generation) const {
         return generation == 0 ? 0 : generation * times_.rest + (generation - 1) * times_.division;
     }
-    /// When its tiles have come to rest.
+    /// Time at which its tiles have come to rest.
     double rest(int generation) const { return generation == 0 ? 0 : begin(generation) + times_.division; }
-    /// When the last generation begins to fade into the first.
+    /// Time at which the last generation begins to fade into the first.
     double fade() const;
     double total() const { return fade() + times_.fade; }
     int generations() const { return generations_; }

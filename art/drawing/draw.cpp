@@ -55,14 +55,6 @@ private:
     std::map<int, std::size_t> places_;
 };
 
-/// Forwards only polygons.
-class OnlyPolygons : public WithoutStrokes<PathFilter> {
-public:
-    using WithoutStrokes::WithoutStrokes;
-    void area(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
-};
-
 }  // namespace
 
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
@@ -132,7 +124,7 @@ namespace {
 /// Draws on one page. Sets `is_blank` of the report for pictures in which nothing is visible.
 void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& options, Output& output,
                const std::filesystem::path& file, DrawReport& report) {
-    // Only PDF knows the sheet from its bleed.
+    // Only PDF distinguishes the sheet from its bleed.
     const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
     if (is_vector(options.format)) {
         const auto writer = write_vectors(options.format, print, output);

@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Draws into `file`, which appears whole or not at all. `print` comes with page, style, dpi and texts; its placement
+/// Draws into `file`, which appears whole or not at all. `print` contains page, style, dpi and texts; its placement
 /// is computed here: from the fold if only straight lines are drawn and all are visible, else in one pass over the
 /// word. Invisible ink (`stroke: none`, transparent colours) does not count. The style's camera views drawings in
 /// space (Grammar::is_spatial()).

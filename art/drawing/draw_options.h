@@ -48,7 +48,7 @@ struct Cell {
 
 class LessonMemo;
 
-/// Options of a drawing that hold for a page of its own and for a cell of a sheet.
+/// Options of a drawing that apply both to a page of its own and to a cell of a sheet.
 struct DrawingOptions {
     PlacementOptions placement;
     std::optional<ViewWindow> window;  ///< the part of the drawing that fills the page within its margins
@@ -56,11 +56,11 @@ struct DrawingOptions {
     bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
     bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
     std::optional<std::size_t> lesson_step;                ///< show this step of a lesson, from 0: see LessonDrawing
-    std::size_t most_steps = 40;                           ///< of a lesson; more are joined
+    std::size_t most_steps = 40;                           ///< maximum steps of a lesson; more are joined
     std::shared_ptr<LessonMemo> lesson_memo{};             ///< shared by the drawings of all steps; null: none
     std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
     std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
-    std::optional<Repeat> repeat{};                        ///< draw it many times
+    std::optional<Repeat> repeat{};                        ///< copies of the drawing
     std::optional<Cell> cell{};                            ///< draw only this part, and the ground only there
     /// Colours of tiles by their neighbours repeat under these translations, in steps.
     std::optional<std::array<glm::dvec2, 2>> tile_period{};
@@ -84,7 +84,7 @@ struct PlotSetup {
 struct DrawOptions : DrawingOptions, PlotSetup {
     PrintFormat format = PrintFormat::svg;
     std::shared_ptr<MapFrames> map_frames{};  ///< shared by all generations of a map; absent: made for each drawing
-    double map_share = 1;                     ///< how far a map is on its way from the step before, for animations
+    double map_share = 1;                     ///< progress of a map from the step before, for animations
     std::optional<DrawnExtent> frame;         ///< extent to place on the page instead of the drawing's own
     glm::dvec2 stretch{1.0};  ///< scale of the placed drawing, across and down, about the middle of the page
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
@@ -129,7 +129,7 @@ struct FaintInk {
     Colour ink, ground;
 };
 
-/// The kinds of shapes that a drawing has, and the palette indices they are drawn in.
+/// The kinds of shapes in a drawing, and the palette indices they are drawn in.
 struct Contents {
     bool has_polygons = false, has_areas = false, has_discs = false;
     std::vector<int> lines, fills;  ///< sorted
@@ -143,12 +143,12 @@ struct DrawReport {
     glm::dvec2 room{0.0};                    ///< room on the page, within margins and border
     std::size_t dots = 0;                    ///< number of kolam dots drawn
     double covered = 0;                      ///< share of a wallpaper that the copies cover, by their convex hulls
-    double covered_by_moves = 0;             ///< the same if the copies were only moved (p1)
+    double covered_by_moves = 0;             ///< the same if the copies were only translated (p1)
     std::size_t copies = 0;                  ///< number of copies of a repeated drawing
     std::optional<std::size_t> strokes;      ///< number of lines of all copies, or of a weave before it is cut
     std::size_t fields = 0;                  ///< number of fields between lines, filled or not
     std::optional<std::size_t> woven;        ///< number of crossings of a weave
-    std::optional<ParallelReport> parallel;  ///< of lines drawn as several parallel lines
+    std::optional<ParallelReport> parallel;  ///< report of parallel lines
     bool overflows = false;          ///< the drawing is larger than the page within its margins (a step was given)
     int sheets = 0;                  ///< number of sheets of a tiled print
     int sheet_rows = 0;              ///< rows of sheets

@@ -90,7 +90,7 @@ public:
     virtual void report(DrawReport&) const {}
 
 protected:
-    /// @param points  whose convex hull is that of the drawing @param centre  of its mass; both in its coordinates
+    /// @param points  with the same convex hull as the drawing @param centre  centre of mass; both in its coordinates
     Balance balance_of(const std::vector<glm::dvec2>& points, glm::dvec2 centre) const;
 
     DrawOptions options_;

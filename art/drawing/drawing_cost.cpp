@@ -24,24 +24,24 @@
 namespace sikku {
 namespace {
 
-constexpr double nodes_read = 50'000;   // at most, of a word whose drawing is forecast: a millisecond
-constexpr double edges_made = 300'000;  // of maps likewise
+constexpr double nodes_read = 50'000;   // maximum for a word whose drawing is forecast: a millisecond
+constexpr double edges_made = 300'000;  // maximum for maps, likewise
 
 // Memory that is kept, in bytes.
-constexpr double picture_bytes = 6e6;  // of the library, for a file
+constexpr double picture_bytes = 6e6;  // for the library, for each file
 constexpr double writer_bytes = 1e6;
 constexpr double map_edge_bytes = 250;
 constexpr double scene_line_bytes = 60;
-constexpr double lit_line_bytes = 80;        // of a line in space that casts a shadow
-constexpr double worked_line_bytes = 900;    // of a line that is intersected for fields or a weave
-constexpr double ornament_line_bytes = 250;  // of a line that is examined for dots or strands
-constexpr double tile_edge_bytes = 500;      // of a line whose tiles are coloured or whose edges are united
-constexpr double hand_line_bytes = 3200;     // of a line that is drawn by hand
+constexpr double lit_line_bytes = 80;        // for a line in space that casts a shadow
+constexpr double worked_line_bytes = 900;    // for a line that is intersected for fields or a weave
+constexpr double ornament_line_bytes = 250;  // for a line that is examined for dots or strands
+constexpr double tile_edge_bytes = 500;      // for a line whose tiles are coloured or whose edges are united
+constexpr double hand_line_bytes = 3200;     // for a line that is drawn by hand
 constexpr double plot_line_bytes = 400;
 constexpr double band_pixel_bytes = 10;
 
 // Processor time, in seconds.
-constexpr double node_seconds = 6e-9;  // of a symbol that is read
+constexpr double node_seconds = 6e-9;  // for each symbol that is read
 constexpr double point_seconds = 15e-9;
 constexpr double curve_seconds = 60e-9;
 constexpr double map_edge_seconds = 1.5e-6;
@@ -177,7 +177,7 @@ DrawingCost cost_of_reading(const Grammar& grammar, const Print& print, const Dr
     return cost;
 }
 
-/// The contents of a window are unknown before they are drawn: as many tiles as a page shows well.
+/// The contents of a window are unknown before they are drawn: assumes as many tiles as a page shows well.
 DrawingCost cost_of_window(const Print& print, const DrawOptions& options) {
     DrawingCost cost;
     cost.nodes = std::min(1e6, options.budget);
@@ -226,16 +226,16 @@ namespace {
 
 // --- pictures of drawings in space
 
-constexpr double samples = 16;       // of a pixel
-constexpr double facet_bytes = 160;  // of a polygon of a divided surface
+constexpr double samples = 16;       // for each pixel
+constexpr double facet_bytes = 160;  // for each polygon of a divided surface
 
 /// Processor time of a pixel of a drawing in space, drawn on or not.
 constexpr double sampled_pixel_seconds = 40e-9;
 constexpr double lit_pixel_seconds = 100e-9;
-constexpr double question_seconds = 3e-9;  // whether light of one direction reaches a place
+constexpr double question_seconds = 3e-9;  // for testing whether light of one direction reaches a place
 constexpr double map_square_seconds = 5.5e-9;
 constexpr double shadowed_square_seconds = 6e-9;
-constexpr double ground_block_seconds = 1.45e-6;  // whether sun and sky reach the ground there
+constexpr double ground_block_seconds = 1.45e-6;  // for testing whether sun and sky reach the ground there
 constexpr double map_triangle_seconds = 20e-9;
 constexpr double triangle_seconds = 200e-9;
 constexpr double sample_seconds = 3e-9;
@@ -422,7 +422,7 @@ namespace {
 constexpr double relief_triangle_seconds = 1.1e-6, relief_triangle_bytes = 100;
 constexpr double coloured_triangle_seconds = 1.2e-6, coloured_triangle_bytes = 120;
 constexpr double model_triangle_seconds = 0.25e-6;
-constexpr double written_triangle_seconds = 2.6e-6;  // of a text
+constexpr double written_triangle_seconds = 2.6e-6;  // for each triangle of a text
 constexpr double frame_pixel_seconds = 8e-9;
 constexpr double frame_ink_seconds = 25e-9;
 

@@ -1,4 +1,4 @@
-// art/drawing/extent_sink.h: the extent of what can be seen of a drawing.
+// art/drawing/extent_sink.h: the visible extent of a drawing.
 #pragma once
 
 #include "art/drawing/draw_options.h"
@@ -11,8 +11,8 @@
 
 namespace sikku {
 
-/// Collects the box of what can be seen of a drawing as it will lie on the page, and its widest pen. Boxes of curves
-/// are exact.
+/// Collects the box of the visible parts of a drawing in its orientation on the page, and its widest pen. Boxes of
+/// curves are exact.
 class ExtentSink : public PathSink {
 public:
     ExtentSink(const Style& style, const glm::dmat3x2& orientation) : style_(style), orientation_(orientation) {}
@@ -27,7 +27,7 @@ public:
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
     Box box;
-    double widest = 0.0;  ///< of pens and dots, in the measure of the style's stroke
+    double widest = 0.0;  ///< width of pens and dots, in the unit of the style's stroke
 
 private:
     glm::dvec2 turned(glm::dvec2 point) const;
@@ -46,7 +46,7 @@ private:
 DrawnExtent window_extent(const ViewWindow& window, const glm::dmat3x2& orientation);
 
 /// The extent to be placed: that of the whole drawing, or of the options' window. @param is_outside  set to true if
-/// nothing of the drawing lies in the window
+/// the drawing lies outside the window
 DrawnExtent placed_extent(const DrawnExtent& whole, const DrawingOptions& options, bool& is_outside);
 
 }  // namespace sikku

@@ -65,7 +65,7 @@ private:
 };
 
 /// Finds faint ink. Faint lines along the edges of visible fills are seen as joints, and faint fills by visible lines
-/// or fills along their edges; fields of powders are meant to be seen themselves.
+/// or fills along their edges; fields of powders have to be visible themselves.
 class FaintSink : public PathSink {
 public:
     explicit FaintSink(const Print& print) : print_(print), ground_(*print.style.ground) {
@@ -107,7 +107,7 @@ private:
     using Places = std::unordered_set<std::uint64_t>;
     static constexpr std::size_t most_places = 1'000'000;
 
-    /// Notes the ends of lines or curves: each `stride`th point, from the last one.
+    /// Records the ends of lines or curves: each `stride`th point, from the last one.
     void put(Places& places, std::span<const glm::dvec2> points, std::size_t stride) {
         for (std::size_t i = stride - 1; i < points.size() && places.size() < most_places; i += stride) {
             const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value * 1e5)); };

@@ -15,9 +15,9 @@
 namespace sikku {
 namespace {
 
-constexpr double motif_budget = 1e5;  // nodes of a pattern that is repeated along a border
+constexpr double motif_budget = 1e5;  // maximum nodes of a pattern that is repeated along a border
 constexpr double letter_stem = 0.085;
-constexpr double foot_share = 2.6;  // of the height of letters, above the line they stand on
+constexpr double foot_share = 2.6;  // share of the height of letters, above their baseline
 
 /// Height of capitals in millimetres.
 double letters_of(const Page& page) {
@@ -28,7 +28,7 @@ bool has_text(const DrawOptions& options) {
     return !options.title_line.empty() || !options.edition.empty();
 }
 
-/// Draws no lines: of drawings without a pen, whose frame has one.
+/// Omits lines, for drawings without a pen whose frame has one.
 class WithoutLines : public PathFilter {
 public:
     using Forwarding::Forwarding;

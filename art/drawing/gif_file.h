@@ -13,11 +13,11 @@ namespace sikku {
 /// The options for drawings of frames: reading them reports no progress, only activity.
 DrawOptions for_frames(DrawOptions options);
 
-/// Failures to write are std::runtime_error and name the file.
+/// Writes frames into an animated GIF. Failures to write throw std::runtime_error and name the file.
 class GifFile {
 public:
-    /// All are kept by reference. Page, resolution and texts are those of `print`.
-    /// @param frames  their number, for the monitor of the options, to which each is reported
+    /// All arguments are kept by reference. Page, resolution and texts are those of `print`.
+    /// @param frames  number of frames, each of which is reported to the monitor of the options
     GifFile(const Print& print, const DrawOptions& options, std::size_t frames, Output& output,
             const std::filesystem::path& file);
     /// Adds a placed drawing, on white if its ground is not opaque, with its display time.

@@ -74,7 +74,7 @@ void set_step(const Grammar& grammar, const Style& style, DrawOptions& options, 
     }
 }
 
-/// With the frame of this generation alone, if each is to have its own and it draws anything.
+/// The options with the frame of this generation alone, if each is to have its own and it draws anything.
 DrawOptions framed(const Grammar& grammar, const Style& style, const DrawOptions& options,
                    const GrowthOptions& growth, std::int64_t n) {
     DrawOptions result = options;
@@ -160,7 +160,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     // All generations show the same window.
     if (!options.window) options.frame = frame;
     if (print.style.camera.distance && bounds && !growth.fits_each) {
-        // Only now it is known where a camera with perspective stands.
+        // The position of a camera with perspective is known only now.
         print.style.camera.aim = bounds;
         options.frame = frame_of(grammar, print.style, options, growth, bounds);
     }

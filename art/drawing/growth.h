@@ -23,7 +23,7 @@ struct GrowthOptions {
     std::function<std::string(const Grammar& generation)> made{};
 };
 
-/// `growth.png` becomes `growth-07.png`, with as many digits as `last` has.
+/// Names the file of a generation: `growth.png` becomes `growth-07.png`, with as many digits as `last` has.
 std::filesystem::path frame_file(const std::filesystem::path& file, std::int64_t generation, std::int64_t last);
 
 /// Draws each generation like draw(), but all with one scale and position, chosen for the largest of them and the

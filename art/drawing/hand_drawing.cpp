@@ -12,7 +12,7 @@ namespace sikku {
 namespace {
 
 constexpr double nodes_of_curve = 400;     // memory and time of a curve that is kept, in derivation nodes
-constexpr double grain_share = 0.07;       // of a line's width
+constexpr double grain_share = 0.07;       // share of a line's width
 constexpr double least_powder_pixels = 3;  // narrower lines show no grain
 constexpr double crossing_height = 1.5, dot_height = 1.3;
 constexpr double flatness = 0.15;  // pixels
@@ -142,7 +142,7 @@ std::unique_ptr<Rendering> HandDrawing::rendering(const Print& print, const Wind
     if (!(hand_.strength > 0)) return Drawing::rendering(print, window);
     auto raster = make_raster(print);
     const HandStrokes strokes = this->strokes(print, window, *raster);
-    const double pixels = print.placement.step * print.dpi / 25.4;  // of a step
+    const double pixels = print.placement.step * print.dpi / 25.4;  // pixels of a step
     double sum = 0, length = 0;
     for (const HandLine& line : strokes.lines) {
         for (std::size_t i = 0; i < line.size(); ++i) {

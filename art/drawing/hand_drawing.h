@@ -18,11 +18,11 @@ struct HandStrokes {
 };
 
 /// Lets the lines and dots of another drawing waver and swell (see draw_by_hand()), by the `hand` of its style.
-/// Vector formats get outlines, pictures powder, plotters the middle of the lines. The same whatever part of it is
-/// seen. Memory: all lines.
+/// Vector formats get outlines, pictures powder, plotters the middle of the lines. The visible part does not affect
+/// the result. Memory: all lines.
 class HandDrawing : public Drawing {
 public:
-    /// @param drawing  in the plane  @param seed  decides all chance
+    /// @param drawing  in the plane  @param seed  seed of all random choices
     HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options);
 
     const DrawnExtent& seen() override;
@@ -39,7 +39,7 @@ public:
     std::vector<int> hatched_colours() const override { return drawing_->hatched_colours(); }
     void report(DrawReport& report) const override { drawing_->report(report); }
 
-    /// The strokes of a placed print. Fills pass on to a sink. @param steps  if not null, receives those of a lesson
+    /// The strokes of a placed print. Fills are passed on. @param steps  if not null, receives the steps of a lesson
     /// @throws BudgetError, for a lesson also over its limits
     HandStrokes strokes(const Print& print, const Window& window, PathSink& fills,
                         std::vector<LessonStep>* steps = nullptr) const;

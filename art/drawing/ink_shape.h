@@ -25,7 +25,7 @@ public:
 
     /// The convex hull, anticlockwise; empty if nothing is visible.
     const std::vector<glm::dvec2>& hull();
-    /// The mean of all lines by their length, if there are any; otherwise of the fills by their area.
+    /// The mean of all lines, weighted by length; without lines, of the fills, weighted by area.
     glm::dvec2 centre();
     std::size_t strokes() const { return strokes_; }  ///< number of visible strokes
 

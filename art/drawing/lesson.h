@@ -9,14 +9,14 @@
 namespace sikku {
 
 struct LessonOptions {
-    double seconds = 2.0;  ///< in which an animation draws a stretch
-    double pause = 1.0;    ///< after each
+    double seconds = 2.0;  ///< time in which an animation draws a stretch
+    double pause = 1.0;    ///< pause after each stretch
     double hold = 4.0;     ///< minimum display time of the whole drawing
 };
 
-/// Draws a lesson (LessonDrawing): a PDF of a page for each step, an SVG that shows one step after the other and
-/// draws each stretch, or, for PNG options, an animated GIF. Readers that know no animation show the whole drawing of
-/// the SVG. @throws as draw()
+/// Draws a lesson (LessonDrawing): a PDF with a page for each step, an SVG that shows one step after the other and
+/// draws each stretch, or, for PNG options, an animated GIF. Viewers without animation show the whole drawing of the
+/// SVG. @throws as draw()
 DrawReport draw_lesson(const Grammar& grammar, Print print, const DrawOptions& options, const LessonOptions& lesson,
                        const std::filesystem::path& file, Destination& destination = file_system());
 

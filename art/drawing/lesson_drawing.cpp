@@ -19,16 +19,16 @@
 namespace sikku {
 namespace {
 
-constexpr double pale_share = 0.62;                        // of the ground in earlier lines
+constexpr double pale_share = 0.62;                        // share of the ground in earlier lines
 constexpr double arrow_loops = 3.5;                        // between two arrow heads
 constexpr double least_letters = 1.5, most_letters = 9.0;  // millimetres
-constexpr double letters_share = 0.42;                     // of the pitch
-constexpr double most_arm = 1.5, arm_share = 0.26;         // of arrow heads: millimetres, and of the pitch
+constexpr double letters_share = 0.42;                     // share of the pitch
+constexpr double most_arm = 1.5, arm_share = 0.26;         // of arrow heads: millimetres, and share of the pitch
 constexpr double most_mark = 0.8, mark_share = 0.16;       // radius of the mark at a start
-constexpr std::size_t most_numbers = 20;                   // of the lines of a step; the others follow each other
+constexpr std::size_t most_numbers = 20;                   // numbered lines of a step; the others follow them
 constexpr double caption_letters = 3.2;
-constexpr double stem = 0.13;  // of letters, by their height
-constexpr double halo = 0.6;   // around them, by their stem, on either side
+constexpr double stem = 0.13;  // share of the height of letters
+constexpr double halo = 0.6;   // share of the stem of letters, on either side
 
 Colour mixed(Colour a, Colour b, double share) {
     const auto channel = [&](std::uint8_t from, std::uint8_t to) {
@@ -37,7 +37,7 @@ Colour mixed(Colour a, Colour b, double share) {
     return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue), a.alpha};
 }
 
-/// Adds a colour above all others. Equal colours share a layer, so that it becomes another one that looks the same.
+/// Adds a colour above all others. Equal colours share a layer, so a different one that looks the same is added.
 void add_layer(Style& style, Colour colour) {
     const int step = colour.blue < 128 ? 1 : -1;
     const auto is_known = [&] {
@@ -49,14 +49,14 @@ void add_layer(Style& style, Colour colour) {
     style.palette.push_back(colour);
 }
 
-/// Takes nothing.
+/// Ignores polygons.
 class NoAreas : public PolygonSink {
 public:
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void area(std::span<const glm::dvec2>, const Pen&) override {}
 };
 
-/// Takes points in millimetres of the page, y up from its top left corner.
+/// Converts points in millimetres of the page, y up from its top left corner, into the drawing.
 class OnPage : public PathFilter {
 public:
     OnPage(PathSink& sink, const Print& print)
@@ -233,7 +233,7 @@ void LessonDrawing::draw_heads(const Print& print, const HandLine& line, double 
     }
 }
 
-/// Writes where nothing else is, as near to the start of a line as it can.
+/// Writes a number in free space, as near to the start of a line as possible.
 /// @param mark  radius of the mark at the start, in millimetres
 void LessonDrawing::write_number(const std::string& text, const HandLine& line, double mark, const Print& print,
                                  const Window& window, const LessonPlan& plan, PathSink& sink) const {

@@ -17,13 +17,13 @@ namespace sikku {
 struct LessonPlan {
     HandStrokes strokes;
     std::vector<LessonStep> steps;
-    double pitch = 1;  ///< of the drawing, in steps: the distance between neighbouring dots, or the size of its loops
+    double pitch = 1;  ///< distance between neighbouring dots, or size of the drawing's loops, in steps
 };
 
 /// Keeps the plan of a lesson for the drawings of its steps, which may be made in several threads.
 class LessonMemo {
 public:
-    /// The plan for lines of that width, if it is the last one; otherwise a new one. @param step, width  millimetres
+    /// Returns the last plan if it is for lines of that width; otherwise a new one. @param step, width  millimetres
     template <class Make>
     std::shared_ptr<const LessonPlan> plan(double step, double width, Make&& make) {
         const std::lock_guard lock(mutex_);

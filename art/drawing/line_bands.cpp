@@ -14,12 +14,12 @@
 namespace sikku {
 namespace {
 
-constexpr double accuracy = 0.005;      // of parallel curves, in widths of a strand
-constexpr double tightest = 0.75;       // of the radius of a turn: how far the innermost strand may go in
-constexpr double least_share = 0.55;    // of the spacing: the widest strand
-constexpr double beside = 0.6;          // of a spacing: more room between bands than between strands
+constexpr double accuracy = 0.005;      // accuracy of parallel curves, in widths of a strand
+constexpr double tightest = 0.75;       // share of a turn's radius by which the innermost strand may be inside
+constexpr double least_share = 0.55;    // share of the spacing: the widest strand
+constexpr double beside = 0.6;          // share of a spacing: more room between bands than between strands
 constexpr double least_spacing = 1e-3;  // in steps
-constexpr int samples = 4;              // of each piece, for distances
+constexpr int samples = 4;              // points of each piece, for distances
 
 glm::dvec2 left_of(glm::dvec2 along) {
     return {-along.y, along.x};
@@ -28,8 +28,8 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Where two straight strands meet that run `offset` to the left of a corner. False where that is far away, or far
-/// outside of the corner.
+/// Finds the point where two straight strands meet that run `offset` to the left of a corner. Returns false if it is
+/// far away, or far outside of the corner.
 bool mitre(glm::dvec2 corner, glm::dvec2 before, glm::dvec2 after, double offset, glm::dvec2& found) {
     // 1 + the cosine of the turn: about 148 and 95 degrees
     constexpr double sharpest = 0.15;
@@ -108,12 +108,12 @@ void LineBands::measure_crossings() {
     }
 }
 
-/// Finds the tightest turn, and the corners that come soonest after one another.
+/// Finds the tightest turn, and the corners that are closest to each other along a line.
 void LineBands::measure_turns(const Monitor& monitor) {
     Pulse pulse(monitor);
     constexpr int places = 8;
     for (const CurvedLines::Line& line : lines_.lines) {
-        double run = 0;          // of straight pieces in one direction
+        double run = 0;          // length of straight pieces in one direction
         double turn_before = 0;  // half the turn at its beginning, as a tangent
         const std::uint32_t count = line.count();
         for (std::uint32_t i = 0; i < count + (line.is_closed ? count : 0); ++i) {
@@ -148,7 +148,7 @@ void LineBands::measure_turns(const Monitor& monitor) {
     }
 }
 
-/// Finds the least distance, up to `most`, of points of lines that lie beside each other: where the way between them
+/// Finds the least distance, up to `most`, of points of lines that lie beside each other: where the line between them
 /// is at right angles to both.
 void LineBands::measure_distance(const Monitor& monitor, double most) {
     std::vector<glm::dvec2> points;
@@ -212,7 +212,7 @@ double LineBands::cut(std::size_t line, std::size_t pass, bool is_forward, doubl
     const CurvedLines::Line& own = lines_.lines[line];
     const double at = meetings_.marks[marks[pass]].position;
     const double count = own.count();
-    // Halfway to the next crossing at most.
+    // At most halfway to the next crossing.
     double room = is_forward ? count - at : at;
     if (is_forward && (pass + 1 < marks.size() || own.is_closed)) {
         const bool is_last = pass + 1 == marks.size();
@@ -309,7 +309,8 @@ void LineBands::draw_section(std::size_t line, std::pair<double, double> section
         return offset == 0 ? point_of(part.curve, t)
                            : point_of(part.curve, t) + offset * left_of(tangent_of(part.curve, t));
     };
-    // Where the strand passes from one part to the next: one point in a smooth line or a corner of straight ones.
+    // The point where the strand passes from one part to the next: one point in a smooth line or a corner of straight
+    // ones.
     const auto corner = [&](const Part& before, const Part& after, glm::dvec2& at) {
         if (offset == 0) return at = before.curve[3], true;
         const glm::dvec2 in = tangent_of(before.curve, 1);

@@ -19,7 +19,7 @@ struct BandLook {
     double wanted = 0.0;   ///< the spacing that the style requests
     double width = 0.0;    ///< width of a line
     double thinner = 1.0;  ///< factor of the widths of pens, where the lines would run into each other
-    double gap = 0.0;      ///< beside an upper band
+    double gap = 0.0;      ///< gap beside an upper band
     double band() const { return (count - 1) * spacing + width; }
 };
 
@@ -34,7 +34,7 @@ public:
     LineBands(const CurvedLines& lines, const CurveMeetings& meetings, const Style& style, const Monitor& monitor);
 
     /// @param print  placed
-    /// @throws std::runtime_error if parallel lines have no room
+    /// @throws std::runtime_error if there is no room for parallel lines
     BandLook look(const Print& print) const;
     /// Draws all lines. @param colour  palette index of a line's number, or -1 for that of its pen
     void draw(const Print& print, const std::function<int(std::size_t)>& colour, PathSink& sink) const;

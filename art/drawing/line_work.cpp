@@ -27,7 +27,7 @@ std::vector<std::size_t> colours_of_class(std::uint32_t number, FieldsBy by, std
 /// Finds the ink near a field.
 class ObstacleGrid {
 public:
-    /// @param more  added to the radius of each
+    /// @param more  added to the radius of each obstacle
     ObstacleGrid(const std::vector<Obstacle>& ink, double more, const Monitor& monitor) : ink_(ink), more_(more) {
         if (ink.empty()) return;
         glm::dvec2 low = ink.front().from, high = low;
@@ -115,7 +115,7 @@ void LineWork::add_colours(std::vector<Colour>& palette, std::span<const Colour>
     }
 }
 
-/// The fields that are filled, by colour, as layers and pens are.
+/// The fields that are filled, sorted by colour, like layers and pens.
 std::vector<std::size_t> LineWork::fields_by_colour() const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < fields_.size(); ++i) {

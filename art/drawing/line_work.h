@@ -23,7 +23,7 @@ bool has_line_work(const Style& style);
 /// Cost of a segment of line work in nodes, by memory and time.
 constexpr double nodes_of_worked_segment = 400;
 
-/// The lines of a drawing as curves, and what is made of them.
+/// The lines of a drawing as curves, with their fields, weave and parallel lines.
 class LineWork {
 public:
     /// Reads the drawing once and finds where its lines meet, and its fields.
@@ -91,7 +91,7 @@ private:
     const Print& print_;
     double pen_;
     glm::dvec2 at_{0.0};
-    double radius_ = 0;  ///< of the line that is drawn; 0: it is invisible
+    double radius_ = 0;  ///< radius of the current line; 0: it is invisible
 };
 
 /// Forwards only polygons, discs and labels.

@@ -45,7 +45,7 @@ std::vector<glm::dvec2> inset(std::vector<glm::dvec2> corners, double share) {
     return corners;
 }
 
-/// Draws a wall from both of its ends. @param share  of its length
+/// Draws a wall from both of its ends. @param share  share of its length
 void draw_growing(glm::dvec2 from, glm::dvec2 to, double share, const Pen& pen, PathSink& sink) {
     if (!(share > 0)) return;
     for (const auto& [start, end] : {std::pair(from, to), std::pair(to, from)}) {

@@ -1,4 +1,4 @@
-// art/drawing/map_drawing.h: maps whose vertices have places: cells, walls and tissue.
+// art/drawing/map_drawing.h: maps with placed vertices: cells, walls and tissue.
 #pragma once
 
 #include "art/drawing/drawing.h"
@@ -11,8 +11,9 @@
 
 namespace sikku {
 
-/// Draws the tissue, then cells, then walls, as the style's `map` says. Each wall is drawn once, and edges that alone
-/// meet in a vertex become one stroke. Source: Prusinkiewicz & Lindenmayer, Fractals and plants, section 5.
+/// Draws the tissue, then cells, then walls, according to the style's `map`. Each wall is drawn once, and two edges
+/// that meet in a vertex without others become one stroke. Source: Prusinkiewicz & Lindenmayer, Fractals and plants,
+/// section 5.
 class MapDrawing : public Drawing {
 public:
     /// @param scale_percent  share of the page that a fitted drawing fills
@@ -30,7 +31,7 @@ public:
 private:
     struct WallStroke {
         std::vector<std::uint32_t> vertices;
-        std::uint32_t age = 1;  ///< of its walls in steps, counted from 1
+        std::uint32_t age = 1;  ///< age of its walls in steps, counted from 1
         bool is_closed = false;
         bool is_growing = false;  ///< one new wall, drawn in part
     };

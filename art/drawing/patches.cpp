@@ -116,7 +116,7 @@ public:
     using Heading = QuadVector;
     struct Bound {
         glm::dvec2 centre{0.0};
-        double radius = -1;  ///< below 0: nothing is drawn
+        double radius = -1;  ///< below 0: empty
     };
 
     FreeHeadings(const Grammar& grammar, const Lattice&)
@@ -191,7 +191,7 @@ private:
     Heading first_;
 };
 
-/// How a symbol with some tables still to come is drawn.
+/// How a symbol with a number of remaining tables is drawn.
 enum class Kind : std::uint8_t {
     unknown,
     composed,    ///< from its children, each of which is a complete drawing
@@ -199,7 +199,8 @@ enum class Kind : std::uint8_t {
     incomplete,  ///< as a part of a larger one
 };
 
-/// True if the action of a symbol has the same effect wherever it stands: it opens nothing and changes no pen.
+/// True if the action of a symbol has the same effect in every place: it does not open or close anything, or change
+/// the pen.
 bool is_independent(Action action) {
     return action == Action::pass || action == Action::draw || action == Action::move || action == Action::turn ||
            action == Action::disc || action == Action::mark;
@@ -239,7 +240,7 @@ public:
     void read_samples(PathSink& sink) const override;
 
 private:
-    /// A symbol with some tables still to come, in one heading: its displacement, and the bound of what it draws,
+    /// A symbol with a number of remaining tables, in one heading: its displacement, and the bound of its drawing,
     /// relative to its start.
     struct Piece {
         QuadVector way;
@@ -411,7 +412,7 @@ void PatchesOf<Headings>::record(Symbol symbol, std::size_t level, const Word& w
     turtle->finish();
 }
 
-/// What a word draws, in that heading.
+/// The drawing of a word in a heading.
 template <class Headings>
 typename PatchesOf<Headings>::Piece PatchesOf<Headings>::composed(const Word& word, std::size_t level,
                                                                   const Heading& heading) {

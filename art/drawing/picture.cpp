@@ -68,7 +68,7 @@ std::span<const std::uint8_t> Picture::screened(int rows, std::span<const std::u
     screened_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* pixel = &pixels[i * channels_];
-        // Rec. 709 weights on the values as they are, in which coverage is mixed.
+        // Rec. 709 weights of sRGB values, in which coverage is mixed.
         const unsigned grey =
             channels_ == 1 ? pixel[0] : (2126U * pixel[0] + 7152U * pixel[1] + 722U * pixel[2] + 5000U) / 10000U;
         const unsigned alpha = channels_ == 4 ? pixel[3] : 255U;

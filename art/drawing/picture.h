@@ -17,7 +17,7 @@
 
 namespace sikku {
 
-/// Failures are std::runtime_error and name the file.
+/// Writes one picture file. Failures throw std::runtime_error and name the file.
 class Picture {
 public:
     Picture(const Print& print, const DrawOptions& options, int channels, Output& output, std::filesystem::path file);

@@ -15,7 +15,7 @@ namespace sikku {
 /// Polygons, spheres, and stems wider than 0.5 mm and one pen hide lines behind them: see HiddenLines. Limits: a stem
 /// hides lines as a flat band through its middle that faces the eye; a polygon that is not flat is replaced by the
 /// triangles of triangulate(), and its hatching lies on them, or in its mean plane if it appears folded; folds are
-/// not drawn. Thinner stems hide nothing: their ink covers the lines behind them.
+/// not drawn. Thinner stems do not hide lines: their ink covers the lines behind them.
 /// @param print  placed, in a style that draws lines
 /// Cost: 1 to 5 µs for each line and each surface in the plants measured; up to lines times surfaces where many large
 /// surfaces overlap. @throws Stopped

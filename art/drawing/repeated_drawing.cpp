@@ -14,7 +14,7 @@ namespace sikku {
 
 void make_one_copy(const DrawOptions& options, const std::function<void(const DrawOptions& one)>& make) {
     if (!options.repeat) return make(options);
-    // How many fill a page is known when it is placed; with a step of the user's, they may be as many as are allowed.
+    // The number of copies that fill a page is known after placement; with a given step, it may reach the maximum.
     const bool has_step = options.placement.step || options.dot_spacing;
     const int copies = options.repeat->fills && has_step ? most_copies : options.repeat->copies();
     DrawOptions one = options;
@@ -102,7 +102,7 @@ void RepeatedDrawing::read_filling(const Print& print, const Window& window, Pat
     const double step = print.placement.step;
     const double pen = extent_.widest * (print.style.stroke.in_steps ? step : 1.0);
     const bool is_plot = options_.plot || is_for_plotters(options_.format);
-    // Beyond the trim and the bleed, where the ends of lines are not seen.
+    // Beyond the trim and the bleed, where the ends of lines are invisible.
     const double around = window.clips ? 0.0 : is_plot ? -window.margin : print.press.bleed + pen;
     const glm::dvec2 low = glm::dvec2(window.left, window.top) - around;
     const glm::dvec2 high = glm::dvec2(window.left + window.width, window.top + window.height) + around;

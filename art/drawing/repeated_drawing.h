@@ -16,7 +16,7 @@ namespace sikku {
 void make_one_copy(const DrawOptions& options, const std::function<void(const DrawOptions& one)>& make);
 
 /// Reads another drawing once for each copy. The step and the extent are those of all copies together, or of a row of
-/// cells if they fill the page: then read() covers its window, or, of a plot, the part within its margin, and cuts
+/// cells if they fill the page: then read() covers its window, or, in a plot, the part within its margin, and cuts
 /// copies off there.
 class RepeatedDrawing : public Drawing {
 public:
@@ -45,11 +45,11 @@ private:
     std::optional<Wallpaper> filling_;
     mutable std::atomic<std::size_t> drawn_ = 0;  ///< number of copies
     DrawnExtent extent_;
-    std::vector<glm::dvec2> hull_;  ///< of one copy
-    glm::dvec2 centre_{0.0};        ///< of its mass
+    std::vector<glm::dvec2> hull_;  ///< hull of one copy
+    glm::dvec2 centre_{0.0};        ///< centre of mass of one copy
     double covered_ = 0;            ///< see DrawReport
     double covered_by_moves_ = 0;
-    std::size_t strokes_ = 0;  ///< of one copy
+    std::size_t strokes_ = 0;  ///< strokes of one copy
 };
 
 }  // namespace sikku

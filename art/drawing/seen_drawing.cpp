@@ -34,15 +34,15 @@
 namespace sikku {
 namespace {
 
-constexpr double nodes_a_pixel = 32;  // that are always allowed for
-constexpr double strip_chords = 4e6;  // about as many are kept at a time
+constexpr double nodes_a_pixel = 32;  // always allowed
+constexpr double strip_chords = 4e6;  // approximate number kept at a time
 constexpr double strip_pixels = 4e6;
 constexpr int row_block = 32;  // strips are multiples of it: TIFF compresses this many rows at a time
 
-constexpr double picture_bytes = 6e6;  // of the library, for a file
-constexpr double clump_share = 0.6;    // of clumps, in the symbols that they hold
+constexpr double picture_bytes = 6e6;  // for the library, for each file
+constexpr double clump_share = 0.6;    // share of clumps in the symbols that they contain
 
-/// Takes blots for nothing: for writers of lines, to whom none is sent.
+/// Ignores blots, for writers of lines, which never receive any.
 class LinesOnly : public Forwarding<BlotSink> {
 public:
     using Forwarding::Forwarding;
@@ -59,7 +59,7 @@ public:
     void blot(std::size_t, glm::dvec2) override {}
 };
 
-/// Length of what passes; of curves by chords of an eighth.
+/// Measures the length of lines; of curves by chords of an eighth.
 class LengthSink : public PathSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
@@ -92,8 +92,8 @@ private:
     glm::dvec2 at_{0.0};
 };
 
-/// Ratio of the length of splines to that of the lines through their control points: of the largest derivation length
-/// that costs little.
+/// Ratio of the length of splines to that of the lines through their control points, computed for the largest
+/// derivation length that costs little.
 double spline_share(const Grammar& grammar) {
     constexpr double little = 3e5;
     for (std::int64_t n = std::min<std::int64_t>(grammar.steps(), 64); n >= 0; --n) {
@@ -114,7 +114,7 @@ double spline_share(const Grammar& grammar) {
     return 1;
 }
 
-/// Longest part, in millimetres, that is replaced; by chords under a pen of a pixel and more.
+/// Longest part, in millimetres, that is replaced; with pens of a pixel or more, by chords.
 double longest_replaced(double width, double pixel) {
     const double pixels = width / pixel;
     return pixels < 1 ? pixel / 2 : pixels < 2 ? width / 8 : width / 4;
@@ -129,12 +129,12 @@ int strip_rows(double width, double pixel, PixelSize size) {
     return row_block * static_cast<int>(std::clamp(pixels / size.width / row_block, 1.0, 64.0));
 }
 
-/// All nodes that a budget allows for, whatever it is.
+/// Number of nodes allowed: by the budget, or at least some for each pixel.
 double most_nodes(PixelSize size, double budget) {
     return std::max(budget, nodes_a_pixel * size.width * size.height);
 }
 
-/// True if more is to be drawn than a View shows.
+/// True if the drawing contains more than a View shows.
 bool is_composed(const Style& style, const DrawOptions& options) {
     return has_ornaments(style, options) || has_tile_work(style) || style.hand > 0 || options.lesson_step ||
            has_frame(style, options) || options.repeat || options.plot || options.tiles ||
@@ -160,7 +160,7 @@ DrawReport place_seen(Print& print, const DrawnExtent& seen, const Grammar& gram
 
 /// Costs of a walk that replaces parts up to some extent.
 struct WalkCount {
-    double nodes = 0;     ///< looked at
+    double nodes = 0;     ///< examined
     double lines = 0;     ///< drawn, steps and chords
     double blots = 0;     ///< drawn
     double children = 0;  ///< children of all parts that may be entered
@@ -345,7 +345,7 @@ SeenDrawing::SeenDrawing(std::shared_ptr<const Grammar> grammar, Parts<double> p
       longest_step_(longest_step(*grammar_)) {
     if (options.begin) options.begin(1);
     if (!options.window) {
-        // Closer than the box of all its headings.
+        // Tighter than the box of all its headings.
         const auto folded = fold(*grammar_);
         if (!folded) throw std::runtime_error("the drawing is too large for its extent to be computed");
         const glm::dmat3x2 turned = orientation(options_.placement);
@@ -367,8 +367,7 @@ Sight SeenDrawing::sight_of(const Print& print, const Window& window, double pix
     Sight sight;
     sight.box = seen_box(print, window, width + 2 * pixel + print.press.bleed);
     (has_blots ? sight.blot : sight.chord) = (pixel > 0 ? longest_replaced(width, pixel) : width / 4) / step;
-    // A line that leaves nothing to see: a hundred thousandth of a pixel, or what is that much shorter than a line is
-    // wide.
+    // An invisible amount of ink: a hundred thousandth of a pixel, or a line shorter than 1/256 of its width.
     sight.least = (has_blots ? 1e-5 * pixel * pixel / width : width / 256) / step;
     return sight;
 }
@@ -402,7 +401,7 @@ double SeenDrawing::expected_nodes(const Print& print, const Window& window, dou
             const double more = whole / of_all(tries == 0 && by_steps ? -1.0 : longest);
             return seen * (std::isfinite(more) ? more : (longest / fine) * (longest / fine));
         } catch (const BudgetError&) {
-            // At a coarser level.
+            // Continues at a coarser level.
         }
     }
     return whole;
@@ -450,7 +449,7 @@ void SeenDrawing::read(const Print& print, const Window& window, PathSink& sink)
 
 namespace {
 
-/// A page of some rows of the page.
+/// A print of some rows of the page.
 struct Strip {
     Strip(const Print& whole, int first, int count) : print(whole) {
         print.page.height = count * 25.4 / print.dpi;

@@ -17,12 +17,12 @@ namespace sikku {
 constexpr double most_read_symbols = 4e6;
 
 /// Composes the parts of a grammar with resolved contexts that is to be drawn through a view: lines in one pen,
-/// straight or splines, for a window, or for a picture of a word over `most_read_symbols`. Nullopt if the word must
-/// be read; `why` then receives the reason if there is a window.
+/// straight or splines, for a window, or for a picture of a word over `most_read_symbols`. Returns nullopt if the
+/// word must be read; `why` then receives the reason if there is a window.
 std::optional<Parts<double>> seen_parts(const Grammar& grammar, const Style& style, const DrawOptions& options,
                                         std::string& why);
 
-/// False if seen_parts() returns nothing, whatever the grammar's parts are.
+/// False if seen_parts() returns nullopt regardless of the grammar's parts.
 bool may_be_seen(const Grammar& grammar, const Style& style, const DrawOptions& options);
 
 /// Forecasts the cost of a drawing through a view and one print. @param parts  seen_parts() of the grammar

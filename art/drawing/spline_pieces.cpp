@@ -72,7 +72,7 @@ void SplinePieces::end_line(glm::dvec2 at) {
     if (!first_.empty()) {
         const std::span<const glm::dvec2> rest = std::span(first_).subspan(1);
         if (is_open_ && is_closed) {
-            // Over the line's end into its beginning.
+            // Continues over the line's end into its beginning.
             spline_.lines(rest);
         } else {
             end_last();

@@ -34,15 +34,15 @@ private:
     void begin(glm::dvec2 start, bool closed);
     void end_last();
 
-    std::vector<bool> closed_;  // of the strokes begun
+    std::vector<bool> closed_;  // for each stroke begun
     SplineSink spline_;
     double tolerance_;
     Pen pen_;
     glm::dvec2 line_start_{0.0};
-    std::vector<glm::dvec2> first_;  // points of the piece with which the line begins, if that is seen
-    bool is_first_ = false;          // such a piece is being gathered,
-    bool is_open_ = false;           // or another, which has been begun and not ended
-    bool may_be_first_ = false;      // no piece of this line has been seen
+    std::vector<glm::dvec2> first_;  // points of the piece with which the line begins, if it is visible
+    bool is_first_ = false;          // that piece is being gathered
+    bool is_open_ = false;           // another piece has been begun and not ended
+    bool may_be_first_ = false;      // no piece of this line has been visible
     glm::dvec2 at_{0.0};
 };
 

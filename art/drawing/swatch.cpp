@@ -81,7 +81,7 @@ private:
         if (style_.hand > 0) throw SwatchError("lines drawn by hand do not repeat; set hand to 0");
     }
 
-    /// False if there are too many tiles.
+    /// Returns false if there are too many tiles.
     bool examine(std::int64_t steps) {
         const auto grammar = grammar_.with_steps(steps);
         if (!grammar) return true;
@@ -111,7 +111,7 @@ private:
         }
     }
 
-    /// Numbers for tiles that look alike if they are congruent.
+    /// Numbers of tiles: equal for congruent tiles that look the same.
     std::vector<std::uint32_t> kinds_of(const Grammar& grammar, const TilingPatch& patch) const {
         const TileSet& tiles = patch.tiles;
         std::vector<std::uint32_t> kinds(tiles.tiles(), 0);
@@ -285,7 +285,7 @@ private:
         return pixels;
     }
 
-    /// Everything else that is drawn has to repeat, too.
+    /// All other parts of the drawing have to repeat, too.
     void compare_pictures() const {
         constexpr int same = 24;              // levels
         constexpr double differing = 0.0001;  // share of all values

@@ -24,7 +24,7 @@ struct Swatch {
     ViewWindow window() const;
 };
 
-/// The tiling or its drawing does not repeat; the message gives the reason.
+/// Thrown if the tiling or its drawing does not repeat; the message gives the reason.
 class SwatchError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -11,11 +11,11 @@
 
 namespace sikku {
 
-/// colours_of_neighbours() of the engine. @param neighbours  as of UnitedLines::Result
+/// colours_of_neighbours() of the engine. @param neighbours  as in UnitedLines::Result
 std::vector<std::uint32_t> colours_of_neighbours(std::uint32_t tiles, std::span<const UnitedLines::Pair> neighbours);
 
-/// The same for tiles that repeat: those that two vectors translate onto each other get the same number.
-/// @param middles  of the tiles. Nullopt if a tile is its own neighbour
+/// colours_of_neighbours() for tiles that repeat: tiles that two vectors translate onto each other get the same
+/// number. Returns nullopt if a tile is its own neighbour. @param middles  middles of the tiles
 std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const glm::dvec2> middles,
                                                               std::span<const UnitedLines::Pair> neighbours,
                                                               const std::array<glm::dvec2, 2>& vectors);

@@ -129,7 +129,7 @@ private:
         }
         graph.points = std::move(nodes.points);
         const PlotStrokes strokes = join_segments(graph, monitor);
-        std::vector<double> lengths;  // of strokes
+        std::vector<double> lengths;  // lengths of strokes
         for (const PlotStroke& stroke : strokes.strokes) {
             double length = 0;
             for (const PlotEnd end : strokes.ends(stroke)) length += graph.length(end);
@@ -231,7 +231,7 @@ std::vector<std::vector<TileDecorator::Side>> TileDecorator::cut_sides(const Mon
     return sides;
 }
 
-/// Curves that the pattern gives to tiles of a colour.
+/// Draws the curves that the pattern defines for tiles of a colour.
 void TileDecorator::draw_own(Curves& curves) const {
     for (std::size_t i = 0; i < colours_.size(); ++i) {
         const std::span<const glm::dvec2> corners = tiles_[i];
@@ -240,7 +240,7 @@ void TileDecorator::draw_own(Curves& curves) const {
             const auto side = std::min(static_cast<std::size_t>(at), corners.size() - 1);
             const glm::dvec2 from = corners[side];
             const glm::dvec2 along = corners[(side + 1) % corners.size()] - from;
-            // The way into the tile; from a corner, that at a right angle to the side which begins there.
+            // The direction into the tile; at a corner, the one at a right angle to the side which begins there.
             const glm::dvec2 into = turned_left(along) * (inwards / std::max(glm::length(along), 1e-300));
             return std::pair(from + along * (at - static_cast<double>(side)), into);
         };

@@ -16,20 +16,20 @@
 namespace sikku {
 
 /// Collects tiles and draws their decoration. An arc leaves the sides at right angles, so that arcs which meet in a
-/// side pass it smoothly; between two sides, with both ends as far from their common corner, it is a circular arc
-/// around the corner, to about 0.03 % of its radius. The strands of a kolam pass the middles of inner sides at 45
+/// side pass it smoothly; between two sides, with both ends equally far from their common corner, it is a circular
+/// arc around the corner, to about 0.03 % of its radius. The strands of a kolam pass the middles of inner sides at 45
 /// degrees.
 /// The sides of `kolam` and `truchet` are those between the corners of all tiles: where a corner of one tile lies in
 /// a side of another, it divides the side.
 class TileDecorator {
 public:
-    /// @param seed  of the chances of `truchet`  @param most  sides of tiles kept
+    /// @param seed  seed of `truchet`  @param most  maximum number of sides
     TileDecorator(const Style& style, std::uint64_t seed, double most) : style_(style), seed_(seed), most_(most) {}
 
-    /// Adds a tile with its vertices in drawing order. @throws BudgetError; std::runtime_error if a place lies behind
+    /// Adds a tile with its vertices in drawing order. @throws BudgetError; std::runtime_error if a place lies beyond
     /// its last side
     void add(std::span<const glm::dvec2> vertices, const Pen& pen);
-    /// Draws all curves: those of a colour in as few strokes as possible, smooth ones of curves. Cost: n log n for n
+    /// Draws all curves: those of a colour joined smoothly into as few strokes as possible. Cost: n log n for n
     /// sides. @returns true if it drew worms @throws BudgetError, Stopped
     bool draw(PathSink& sink, const Monitor& monitor) const;
 
@@ -48,7 +48,7 @@ private:
     std::uint64_t seed_;
     double most_;
     TileOutlines tiles_;
-    std::vector<int> colours_;  ///< of tiles, as indices into the palette
+    std::vector<int> colours_;  ///< colours of tiles, as indices into the palette
 };
 
 }  // namespace sikku

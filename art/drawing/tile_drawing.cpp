@@ -75,7 +75,7 @@ private:
 
 namespace {
 
-/// True if the colours of tiles follow from all of them.
+/// True if the colours of tiles depend on other tiles.
 bool depends_on_others(TileColours colours) {
     return colours == TileColours::distance || colours == TileColours::neighbours ||
            colours == TileColours::generation || colours == TileColours::worms;
@@ -112,10 +112,10 @@ private:
 
 }  // namespace
 
-/// Hands on polygons in the colours of their numbers and, if edges are drawn afterwards, no straight lines.
+/// Passes on polygons in the colours of their numbers, without straight lines if edges are drawn afterwards.
 class TilePainter : public PathFilter {
 public:
-    /// @param numbers  of the polygons in their order; absent: by their classes
+    /// @param numbers  numbers of the polygons in order; null: by their classes
     TilePainter(PathSink& sink, const Style& drawn, std::size_t first, std::size_t colours,
                 const std::vector<std::uint32_t>* numbers, const Drawing& drawing)
         : Forwarding(sink), drawn_(drawn), first_(first), colours_(colours), numbers_(numbers) {
@@ -132,9 +132,9 @@ public:
         if (!first_number_) first_number_ = number;
         sink_.polygon(vertices, Pen{.colour = static_cast<int>(first_ + number % colours_)});
     }
-    /// Several tiles were coloured.
+    /// True if several tiles were coloured.
     bool is_several() const { return is_several_; }
-    /// Their numbers differ.
+    /// True if their numbers differ.
     bool differs() const { return differs_; }
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         if (draws_lines()) sink_.begin_stroke(start, pen);

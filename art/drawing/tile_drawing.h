@@ -16,7 +16,7 @@ namespace sikku {
 class TileGatherer;
 class TilePainter;
 
-/// True if a style requests colours or decorations of tiles, or their edges otherwise than each tile draws them.
+/// True if a style requests colours or decorations of tiles, or edges other than those of each tile.
 bool has_tile_work(const Style& style);
 
 /// Cost of a tile's edge in nodes, by memory and time.
@@ -27,7 +27,7 @@ constexpr double nodes_of_tile_edge = 20;
 /// decoration.
 class TileDrawing : public Drawing {
 public:
-    /// @param seed  of the chances of decorations  @throws std::runtime_error if the lines are splines
+    /// @param seed  seed of decorations  @throws std::runtime_error if the lines are splines
     TileDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options);
 
     const DrawnExtent& seen() override { return drawing_->seen(); }
@@ -54,8 +54,8 @@ private:
     std::uint64_t seed_;
     Style drawn_;                   ///< style of the other drawing
     Style style_;                   ///< with the colours of tiles added
-    std::size_t first_colour_ = 0;  ///< index of the first of these
-    std::size_t colours_ = 0;       ///< number of these
+    std::size_t first_colour_ = 0;  ///< index of the first of these colours
+    std::size_t colours_ = 0;       ///< number of these colours
     /// The findings of the reads so far.
     mutable std::atomic<bool> has_tiles_{false}, differs_{false}, has_worms_{false};
     std::optional<int> layers_;  ///< colour of inner edges in layers for cutting; that of the border is the next

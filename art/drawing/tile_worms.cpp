@@ -19,7 +19,7 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// A corner of a rhomb, and where its two sides lead.
+/// A corner of a rhomb, and the nodes to which its two sides lead.
 struct RhombCorner {
     std::uint32_t tile = 0;
     double angle = 0;
@@ -56,7 +56,7 @@ public:
         for (const RhombCorner& corner : corners_) sum += corner.angle;
         if (std::fabs(sum - 2 * std::numbers::pi) > 3 * accuracy) return;
         for (std::size_t i = 0; i < 3; ++i) {
-            // Is the third rhomb between two congruent ones?
+            // The third rhomb has to lie between two congruent ones.
             const RhombCorner &a = corners_[(i + 1) % 3], &b = corners_[(i + 2) % 3];
             if (std::fabs(a.angle - b.angle) > accuracy) continue;
             const auto shared = std::find_first_of(a.sides.begin(), a.sides.end(), b.sides.begin(), b.sides.end());

@@ -31,7 +31,7 @@ public:
           marks_(std::move(marks)),
           channels_(base_->channels() == 4 ? 4 : 3) {}
 
-    /// 4 if the ground of the print, and therefore the paper, is transparent.
+    /// Number of channels: 4 if the ground of the print, and therefore the paper, is transparent.
     int channels() const override { return channels_; }
     void watch(std::function<void()> watch) override { base_->watch(std::move(watch)); }
     void render(int threads, const RowSink& rows) override {

@@ -44,7 +44,7 @@ public:
 private:
     static constexpr int cells = 1000;
     static constexpr double same = 1e-6;
-    /// On a circle of length 1.
+    /// Distance on a circle of length 1.
     static double apart(double a, double b) {
         const double gap = std::fabs(a - b);
         return std::fmin(gap, 1 - gap);

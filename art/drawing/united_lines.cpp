@@ -16,7 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr double direction_tolerance = 1e-8;  // radians
-constexpr double place_tolerance = 1e-9;      // of the size of the drawing
+constexpr double place_tolerance = 1e-9;      // share of the drawing's size
 
 /// A piece as an interval of the infinite line on which it lies.
 struct Interval {

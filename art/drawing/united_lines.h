@@ -19,15 +19,15 @@ namespace sikku {
 /// Lines count as one if they deviate by less than a billionth of the drawing's size.
 class UnitedLines {
 public:
-    /// Pieces that remain: all of them, also with those that do not lie between two tiles `apart` from the others,
-    /// those that do not lie between two tiles, or none; `sides`: no pieces of lines, but those of the edges of
-    /// tiles. `cuts`: all, with each piece of the border by itself.
+    /// Pieces to keep. `all`; `apart`: all, without joining pieces between two tiles to others; `border`: those that
+    /// do not lie between two tiles; `none`; `sides`: pieces of the edges of tiles, without lines; `cuts`: all, with
+    /// each piece of the border by itself.
     enum class Kept : std::uint8_t { all, apart, border, none, sides, cuts };
     struct Line {
         glm::dvec2 from, to;
         Pen pen;
         bool is_inner = false;   ///< between two tiles
-        bool is_border = false;  ///< of Kept::cuts: on the edge of one tile, which lies on its left
+        bool is_border = false;  ///< with Kept::cuts: on the edge of one tile, which lies on its left
     };
     /// A piece of an edge, with the tiles on either side of it; at least one.
     struct Side {
@@ -39,19 +39,19 @@ public:
         std::vector<Line> lines;  ///< in the order in which they were drawn first, with the pen that drew them first
         std::vector<Pair> neighbours;  ///< tiles that share a piece, the smaller number first; ascending, each once
         std::vector<std::uint32_t> border;  ///< tiles with a piece that no other tile shares, ascending
-        std::vector<Side> sides;            ///< of Kept::sides, line by line
+        std::vector<Side> sides;            ///< with Kept::sides, line by line
     };
 
-    /// @param most  edges and lines kept
+    /// @param most  maximum number of edges and lines
     explicit UnitedLines(double most) : most_(most) {}
 
-    /// @throws BudgetError, if there are too many
+    /// @throws BudgetError if there are too many
     void add_line(glm::dvec2 from, glm::dvec2 to, const Pen& pen);
     /// Adds the edges of a polygon, whose number is the number of tiles so far. @throws BudgetError
     void add_tile(std::span<const glm::dvec2> corners);
     std::uint32_t tiles() const { return tiles_; }
 
-    /// Cost: n log n. Memory: 80 bytes for each line and edge. @throws Stopped
+    /// Unites all pieces. Cost: n log n. Memory: 80 bytes for each line and edge. @throws Stopped
     Result unite(Kept kept, const Monitor& monitor) const;
 
 private:
@@ -69,7 +69,7 @@ private:
     std::vector<Pen> pens_;
 };
 
-/// Draws lines, those of each pen joined into as few strokes as there can be. @throws Stopped
+/// Draws lines, those of each pen joined into as few strokes as possible. @throws Stopped
 void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink, const Monitor& monitor);
 
 }  // namespace sikku

@@ -46,7 +46,8 @@ struct Frame {
     int level;
 };
 
-/// What a symbol with `level` tables to come is a level below; `self`: where the symbol itself stands.
+/// The successor of a symbol with `level` remaining tables, one level below, or the symbol itself. @param self  the
+/// symbol
 template <class Number>
 Frame frame_below(const Parts<Number>& parts, const Symbol* self, int level) {
     const Word* successor = parts.successor(*self, level);
@@ -91,7 +92,7 @@ public:
                 frames_.pop_back();
             } else {
                 const Clump& clump = *frame.clump++;
-                // One that holds a single symbol is looked at as that symbol.
+                // A clump of a single symbol is examined as that symbol.
                 if (clump.end - clump.begin > 1 && take(clump.part, frame.level, blots_of_clumps_,
                                                         static_cast<std::size_t>(&clump - clumps_.all().data()))) {
                     continue;
@@ -110,7 +111,7 @@ public:
         is_down_ = false;
     }
 
-    /// One line ends and another begins.
+    /// Ends one line and begins another.
     void next_line(glm::dvec2 end, glm::dvec2 start) {
         lift();
         sink_.end_line(end);
@@ -157,7 +158,7 @@ private:
         frames_.push_back({nullptr, nullptr, below.data(), below.data() + below.size(), level - 1});
     }
 
-    /// False if the part must be looked at more closely.
+    /// Skips or draws a part; returns false if it must be examined more closely.
     bool take(const DrawnPart<double>& part, int level, std::vector<std::size_t>& blots, std::size_t index) {
         count();
         if (!part.draws()) {
@@ -202,7 +203,7 @@ private:
         return true;
     }
 
-    /// Leaves out no more of a line than cannot be seen at its next corner.
+    /// True if a part with this ink can be left out: all omissions up to the line's next corner are invisible.
     bool is_little(double ink) {
         if (ink >= sight_.least || (sight_.blot < 0 && !is_down_)) return false;
         if (sight_.blot >= 0) return true;
@@ -234,13 +235,13 @@ private:
     std::vector<Frame> frames_;
     std::vector<Place<double>> stack_;
     std::vector<glm::dvec2> points_;
-    std::vector<std::size_t> blots_;  // what the sink calls them, by part
+    std::vector<std::size_t> blots_;  // their numbers in the sink, by part
     std::vector<std::size_t> blots_of_clumps_;
-    double left_out_ = 0;  // of the line, since its last corner
+    double left_out_ = 0;  // ink of the line left out since its last corner
     bool is_down_ = false;
 };
 
-/// Finds its way in as many bits as it takes to the parts that a Drawer can draw in doubles.
+/// Walks in as many bits as necessary to the parts that a Drawer can draw in doubles.
 template <class Number>
 class NumberView final : public View {
 public:
@@ -259,7 +260,7 @@ public:
     ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                     const std::function<void(std::uint64_t)>& watch) const override {
         Drawer drawer(rough_, clumps_, brackets_, moves_draw_, sight, sink, budget, watch);
-        // Doubles place what is that large within a millionth of a millionth of the window.
+        // Doubles place parts of that size within a millionth of a millionth of the window.
         const double largest =
             0x1p12 * std::max(sight.box.high.x - sight.box.low.x, sight.box.high.y - sight.box.low.y);
         Place<Number> at{-x_, -y_, 0};
@@ -313,7 +314,7 @@ private:
     Clumps clumps_;
     BracketTable brackets_;
     bool moves_draw_;
-    Number x_, y_;  // of the origin
+    Number x_, y_;  // coordinates of the origin
 };
 
 template <class Number>
@@ -365,7 +366,7 @@ std::optional<ViewWindow> parse_window(std::string_view text) {
         while (part.starts_with(' ')) part.remove_prefix(1);
         while (part.ends_with(' ')) part.remove_suffix(1);
         const auto number = parse_decimal(part);
-        // Beyond that no drawing goes.
+        // Drawings do not extend beyond that.
         if (!number || !(*number > -1e300 && *number < 1e300)) return std::nullopt;
         numbers[i] = *number;
         text.remove_prefix(i == 3 ? text.size() : comma + 1);

@@ -19,8 +19,8 @@ struct ViewWindow {
     Quad x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// `X0,Y0,X1,Y1`: four decimal numbers of any length; digits beyond 34 are rounded. Nullopt for anything else
-/// and for rectangles without area.
+/// Parses `X0,Y0,X1,Y1`: four decimal numbers of any length; digits beyond 34 are rounded. Returns nullopt for
+/// anything else and for rectangles without area.
 std::optional<ViewWindow> parse_window(std::string_view text);
 
 /// The resolution of a view, in turtle steps; an extent is the longer side of a part's box.
@@ -33,13 +33,13 @@ struct Sight {
 };
 
 struct ViewReport {
-    std::uint64_t visited = 0;  ///< nodes of the derivation
-    std::uint64_t lines = 0;    ///< that were drawn, chords included
-    std::uint64_t chords = 0;   ///< parts of several steps that became chords,
-    std::uint64_t blots = 0;    ///< and blots
+    std::uint64_t visited = 0;  ///< nodes of the derivation visited
+    std::uint64_t lines = 0;    ///< lines drawn, chords included
+    std::uint64_t chords = 0;   ///< parts of several steps that became chords
+    std::uint64_t blots = 0;    ///< parts of several steps that became blots
 };
 
-/// Thrown after visiting more than `budget` nodes.
+/// The error after visiting more than `budget` nodes.
 BudgetError too_much(double budget);
 
 /// A drawing of lines in one pen, prepared for walks.
@@ -47,20 +47,20 @@ class View {
 public:
     virtual ~View() = default;
 
-    /// The whole drawing in doubles or, with a window, what is seen from its lower left corner, with places in as
-    /// many bits as it takes (up to 113; exact where steps are whole and turns are quarters).
-    /// With `moves_draw`, what is seen are the control points of a spline: see Turtle::drawing().
-    /// `grammar` must outlive it. Nullptr where Parts cannot be made.
+    /// Prepares the whole drawing in doubles or, with a window, relative to its lower left corner, with places in as
+    /// many bits as necessary (up to 113; exact where steps are whole and turns are quarters). With `moves_draw`, the
+    /// lines are the control points of a spline: see Turtle::drawing(). `grammar` must outlive the result. Returns
+    /// nullptr where Parts cannot be made.
     static std::unique_ptr<View> make(const Grammar& grammar, const std::optional<ViewWindow>& window,
                                       bool moves_draw = false);
 
-    /// The same of parts that were made with `moves_draw` from that grammar.
+    /// The same for parts that were made with `moves_draw` from that grammar.
     static std::unique_ptr<View> make(const Grammar& grammar, Parts<double> parts,
                                       const std::optional<ViewWindow>& window, bool moves_draw);
 
-    /// One walk. Several threads may walk at once.
-    /// @param budget  most nodes to visit; more is a BudgetError
-    /// @param watch   called every 65,536 nodes with as many; may throw to stop
+    /// Draws the visible parts in one walk. Several threads may walk at once.
+    /// @param budget  maximum number of nodes; more throw BudgetError
+    /// @param watch   called every 65,536 nodes with that number; may throw to stop
     /// Cost: the visible parts; 20 ns a node or less.
     virtual ViewReport read(const Sight& sight, BlotSink& sink, double budget,
                             const std::function<void(std::uint64_t)>& watch) const = 0;

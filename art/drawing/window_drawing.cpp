@@ -33,7 +33,8 @@ std::shared_ptr<const Grammar> plain_of(const std::shared_ptr<const Grammar>& gr
     return nullptr;
 }
 
-/// The parts of a drawing. Nullptr, with the reason in `why`, if there are none, or if their places are not precise.
+/// The parts of a drawing. Returns nullptr, with the reason in `why`, without parts, or if their places are not
+/// precise.
 /// @param has_parameters  lengths were computed
 std::unique_ptr<Patches> make_patches(const Grammar& plain, bool has_parameters, const Style& style,
                                       std::string& why) {

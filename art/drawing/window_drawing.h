@@ -14,15 +14,15 @@ namespace sikku {
 
 class Patches;
 
-/// Draws what the window of the options shows, from the window's lower left corner. Parts whose boxes miss the window
-/// are skipped; the others are followed down to their smallest parts that are drawings by themselves (a tile), which
-/// are recorded once and drawn again at each of their places. Places have 113 bits: to a millionth of a step up to
-/// 10^27 steps from the start.
+/// Draws the part within the window of the options, from the window's lower left corner. Parts whose boxes miss the
+/// window are skipped; the others are followed down to the smallest parts that are drawings by themselves (a tile),
+/// which are recorded once and drawn again at each of their places. Places have 113 bits: to a millionth of a step up
+/// to 10^27 steps from the start.
 /// Cost: the visible parts, times the derivation length; 0.1 us a node.
 class WindowDrawing : public Drawing {
 public:
-    /// Nullptr, with the reason in `why`, if the parts cannot be composed: for words that depend on contexts or
-    /// chance, for brackets, polygons and colours that span more than 10,000 symbols, for places or decimal
+    /// Returns nullptr, with the reason in `why`, if the parts cannot be composed: for words that depend on contexts
+    /// or chance, for brackets, polygons and colours that span more than 10,000 symbols, for places or decimal
     /// lengths whose errors add up to a thousandth of a step, for splines, and for ornaments that need the whole
     /// drawing. Also, with `why` unchanged, without a window and for short words, which are better read whole.
     /// @param grammar  with resolved contexts; in the plane
@@ -57,9 +57,9 @@ struct FilledPage {
 };
 
 /// Searches for the least derivation length at which polygons cover a window of `size` steps with `around` steps on
-/// each side, and for a place where they do. Tries 40 places for each length, by the seed of the grammar.
-/// Nullopt, with the reason in `why`, as of WindowDrawing::make(), or if no such place is found up to a length of
-/// 500. Cost: the tiles of a page, times the tries.
+/// each side, and for a place where they do. Tries 40 places for each length, by the seed of the grammar. Returns
+/// nullopt, with the reason in `why`, like WindowDrawing::make(), or if no place is found up to a length of 500.
+/// Cost: the tiles of a page, times the tries.
 std::optional<FilledPage> find_filled_page(const Grammar& grammar, const Style& style, glm::dvec2 size, double around,
                                            const DrawOptions& options, std::string& why);
 

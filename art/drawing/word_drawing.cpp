@@ -158,7 +158,7 @@ DrawnExtent WordDrawing::measured() {
         return {found.box, found.widest};
     }
     // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
-    // one stroke, and is folded for whether it closes.
+    // one stroke, and the fold determines whether it closes.
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && !has_labels_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && !has_edges_ && style_.moves_draw();
@@ -213,7 +213,7 @@ bool WordDrawing::is_plot() const {
     return options_.plot || is_for_plotters(options_.format);
 }
 
-/// In every colour that may occur.
+/// True if lines are visible in every colour that may occur.
 bool WordDrawing::all_lines_are_seen() const {
     const int colours = has_colours_ ? static_cast<int>(style_.palette.size()) : 1;
     for (int colour = 0; colour < colours; ++colour) {

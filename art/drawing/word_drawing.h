@@ -12,15 +12,15 @@ namespace sikku {
 
 class WordDrawing : public Drawing {
 public:
-    /// Resolves contexts and estimates what the drawing costs. `style` sets visibility and how lines are drawn.
-    /// The options' format and threads have no effect in the plane. @throws BudgetError, WordError
+    /// Resolves contexts and estimates the cost of the drawing. `style` sets visibility and how lines are drawn. The
+    /// options' format and threads have no effect in the plane. @throws BudgetError, WordError
     WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
 
     /// Calculated from the fold if only straight lines are drawn and all are visible, else in one pass over the word.
     const DrawnExtent& seen() override;
     const Style& style() const override { return drawn_style_; }
     double scale() const override { return options_.placement.scale * grammar_.scale_percent() / 100; }
-    /// Takes one pass over the word. In space, that of a full box.
+    /// Takes one pass over the word. In space, the balance of a full box.
     Balance balance() const override;
     std::optional<SpaceBounds> bounds() const override;
     /// Takes one pass over the word. Drawings in space are kept in memory and drawn from back to front.

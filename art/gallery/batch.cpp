@@ -16,8 +16,8 @@
 namespace sikku {
 namespace {
 
-/// Pictures are written by a library whose pool of threads must not grow while several are open: so large it is from
-/// the beginning.
+/// Pictures are written by a library whose pool of threads must not grow while several are open; it has this size
+/// from the beginning.
 constexpr int most_picture_threads = 3;
 
 }  // namespace

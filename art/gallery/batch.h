@@ -24,8 +24,8 @@ std::string too_much_memory(const JobForecast& forecast, double memory);
 using FileMaker = std::function<void(const std::filesystem::path& path, FinishedJob& file)>;
 
 /// Makes a file of the gallery and records it. The caller must ensure that no other run makes it at the same time.
-/// @param file  its `file`, `hash` and `job` are known
-/// @param replaces  replace an existing file even if it was not made by this gallery; otherwise that is a
+/// @param file  with `file`, `hash` and `job` set
+/// @param replaces  replace an existing file even if it was not made by this gallery; otherwise it causes a
 ///                  std::runtime_error. Anything that is neither a file nor a folder, such as a link, is removed
 ///                  first
 /// @throws what `make` throws; other errors than Stopped as std::runtime_error
@@ -39,36 +39,11 @@ struct Task {
     bool was_busy = false;  ///< another run was making it
 };
 
-/// A job that could not be made.
-struct Failure {
-    std::size_t job = 0;
-    std::string message;
-};
-
 struct BatchOptions {
     int threads = 0;        ///< 0: one for each core
     bool replaces = false;  ///< also replace files not made by this gallery
     bool redoes = false;    ///< also make jobs that another run finished meanwhile
     bool keep_going = false;
-};
-
-/// Receives progress reports of a gallery. Calls may come from several threads at once.
-class GalleryListener {
-public:
-    virtual ~GalleryListener() = default;
-    /// @param cost  seconds on one core, roughly
-    virtual void begin(std::size_t /*jobs*/, double /*cost*/) {}
-    /// A job has ended, successfully or not.
-    virtual void finish(double /*cost*/) {}
-    /// Called regularly while jobs are in progress.
-    virtual void watch() {}
-    virtual void end() {}
-    /// Another run is making that many jobs; this run waits for them.
-    virtual void wait_for_jobs(std::size_t /*jobs*/) {}
-    /// Another run is using the record; this run waits for it.
-    virtual void wait_for_record(const std::string& /*record*/) {}
-    /// A sheet or the page is being made.
-    virtual void sheet(const std::string& /*name*/) {}
 };
 
 /// Makes jobs in parallel within a memory budget. Jobs that another run is making wait until the end, by which time
@@ -87,10 +62,10 @@ public:
           listener_(listener),
           monitor_(monitor) {}
 
-    /// @param memory  bytes for all jobs that are under way
+    /// @param memory  bytes for all jobs in progress
     void run(std::vector<Task> tasks, double memory);
 
-    std::map<std::size_t, FinishedJob> finished;  ///< by this run
+    std::map<std::size_t, FinishedJob> finished;  ///< made by this run
     std::map<std::size_t, FinishedJob> found;     ///< finished by other runs meanwhile
     std::vector<Failure> failures;
     std::vector<std::string> begun;  ///< files whose making was interrupted

@@ -22,7 +22,7 @@ namespace {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
-/// Does the error mean that the file is missing or not accessible to this user?
+/// True if the error means that the file is missing or not accessible to this user.
 bool is_absent(int error) {
     return error == ENOENT || error == ENOTDIR || error == ELOOP || error == EACCES || error == EPERM;
 }

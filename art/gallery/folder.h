@@ -19,11 +19,11 @@ class GalleryPlace {
 public:
     GalleryPlace(Descriptor folder, std::string name, std::filesystem::path shown);
 
-    /// Path for code that opens files by name, `/proc/PID/fd/N/NAME`: it refers to the folder that is held open,
-    /// whatever has replaced that folder by now, and other programs can use it. OutputFile does not follow a link of
-    /// that name. Without /proc it is the plain path, which must not be exchanged during the run.
+    /// Path for code that opens files by name, `/proc/PID/fd/N/NAME`: it refers to the folder that is held open, even
+    /// if another folder has replaced that by now, and other programs can use it. OutputFile does not follow a link
+    /// of that name. Without /proc it is the plain path, which must not be exchanged during the run.
     const std::filesystem::path& path() const { return path_; }
-    /// The state of the file itself, be it a link; nullopt if it is not there.
+    /// The state of the file itself, even if it is a link; nullopt if it does not exist.
     std::optional<struct stat> status() const;
     void remove() const;
     /// Replaces that path with the name the user gave.
@@ -50,7 +50,7 @@ public:
     /// Path of `file` as the user sees it, for messages.
     std::string shown(const std::string& file) const { return (path_ / file).string(); }
 
-    /// The state of the file itself, be it a link; nullopt if it is not there or behind a link.
+    /// The state of the file itself, even if it is a link; nullopt if it does not exist or lies behind a link.
     /// @throws std::runtime_error, as all below, if the state cannot be determined, as with too many open files
     std::optional<struct stat> status(const std::string& file) const;
     /// Opens a regular file for reading; no descriptor if it is not a regular file or may not be read.

@@ -1,5 +1,7 @@
 #include "art/gallery/gallery.h"
 
+#include "art/gallery/batch.h"
+#include "art/gallery/record.h"
 #include "art/gallery/summary.h"
 #include "art/image/image_file.h"
 #include "art/print/format.h"
@@ -19,7 +21,7 @@
 namespace sikku {
 namespace {
 
-/// Bytes that a job takes in the list of all.
+/// Bytes of a job in the list of all jobs.
 constexpr double job_bytes = 700;
 
 /// Calls `work` with every number below `count`, on several threads.
@@ -47,7 +49,7 @@ bool is_picture(const GalleryJob& job) {
     return &job.interpreter() == &prints() && format && !is_vector(*format);
 }
 
-/// The page and the sheets: made anew where what they show has changed.
+/// The page and the sheets: remade if their contents have changed.
 class Summaries {
 public:
     Summaries(const std::vector<GalleryJob>& jobs, const std::map<std::size_t, FinishedJob>& finished,
@@ -118,7 +120,7 @@ private:
         listener_.end();
     }
 
-    std::vector<const GalleryJob*> jobs_;  ///< that are there
+    std::vector<const GalleryJob*> jobs_;  ///< jobs whose files exist
     TextHash held_;
     const GalleryFolder& folder_;
     GalleryRecord& record_;
@@ -181,7 +183,7 @@ void Gallery::select() {
 std::vector<std::pair<std::string, JobForecast>> Gallery::sheet_forecasts(
     const std::vector<const GalleryJob*>& jobs) const {
     std::vector<std::pair<std::string, JobForecast>> forecasts;
-    // Runs for a part of the jobs make no sheets.
+    // Runs for a part of the jobs do not make sheets.
     if (chosen_.size() != jobs_.size()) return forecasts;
     for (const SheetRequest& sheet : sheets_of(request_, options_.threads, memory_)) {
         for (const std::string& file : sheet_files(sheet)) {

@@ -1,8 +1,8 @@
 // art/gallery/gallery.h: makes a gallery: prints and scores in one folder, in parallel, resumed at any time.
 #pragma once
 
-#include "art/gallery/batch.h"
 #include "art/gallery/forecast.h"
+#include "art/gallery/job_result.h"
 #include "art/gallery/jobs.h"
 #include "art/gallery/shards.h"
 #include "engine/base/monitor.h"

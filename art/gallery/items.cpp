@@ -1,6 +1,6 @@
 #include "art/gallery/items.h"
 
-#include "art/draw_settings.h"
+#include "art/product/draw_settings.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -12,11 +12,11 @@
 namespace sikku {
 namespace {
 
-/// Keys with values of all items together.
+/// Maximum number of keys with values, in all items together.
 constexpr std::size_t most_settings = 10'000'000;
 constexpr std::size_t longest_line = std::size_t{16} << 20;
 
-/// `A:B` or `A:B:STEP`; nullopt for what is none.
+/// Parses `A:B` or `A:B:STEP`; nullopt for anything else.
 std::optional<GalleryRange> read_range(const std::string& key, const std::string& text, const std::string& place) {
     std::vector<double> numbers;
     for (std::size_t at = 0;;) {
@@ -115,7 +115,7 @@ void check_format(const GalleryKeys& keys, const std::string& format, const std:
                                          : fmt::format("; did you mean '{}'?", near)));
 }
 
-/// Commas part several, on the command line as in a file.
+/// Formats are separated by commas, on the command line as in a file.
 std::vector<std::string> read_formats(const GalleryKeys& keys, const std::vector<std::string>& words,
                                       const std::string& place) {
     std::vector<std::string> formats;
@@ -201,7 +201,7 @@ void GalleryItems::add(GalleryItem item) {
 
 GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const GalleryKey* known) {
     GalleryAxis axis(key, value.place, known == nullptr);
-    // These may hold a colon.
+    // These may contain a colon.
     const bool is_prose = !known && (key == "title" || key == "source" || key == "description");
     for (const std::string& word : words_of(value, key)) {
         const auto range = is_prose ? std::nullopt : read_range(key, word, value.place);

@@ -18,11 +18,11 @@
 
 namespace sikku {
 
-/// `60:90:5`, not written out.
+/// A range such as `60:90:5`, not expanded.
 struct GalleryRange {
     double first = 0;
     double step = 1;
-    double count = 1;  ///< perhaps infinite
+    double count = 1;  ///< may be infinite
 
     std::string value(std::uint64_t index) const;
 };
@@ -38,7 +38,7 @@ public:
 
     double count() const { return count_; }
     std::string value(std::uint64_t index) const;
-    /// Is it a single value, or the first or last of a range?
+    /// True for a single value, and for the first or last of a range.
     bool is_end(std::uint64_t index) const;
 
     std::string key;
@@ -102,10 +102,10 @@ GalleryAxis axis_of(const std::string& key, const GalleryValue& value, const Gal
 /// @throws GalleryError if the value is not a sheet size
 void check_sheet_size(const std::string& key, const std::string& size, const std::string& place);
 
-/// The defaults go into `defaults`; title and sizes of sheets into `request`, unless it has them already.
+/// Reads a gallery file: defaults into `defaults`; title and sizes of sheets into `request`, unless it contains them.
 void read_gallery(const GalleryKeys& keys, const std::string& file, const std::string& text, GalleryItem& defaults,
                   GalleryRequest& request, GalleryItems& items);
-/// Reads line by line.
+/// Reads a manifest, line by line.
 void read_manifest(const GalleryRequest& request, const GalleryKeys& keys, std::istream& stream,
                    const GalleryItem& defaults, GalleryItems& items);
 

@@ -1,10 +1,10 @@
 #include "art/gallery/jobs.h"
 
-#include "art/draw_settings.h"
 #include "art/gallery/items.h"
 #include "art/gallery/patterns.h"
 #include "art/gallery/summary.h"
 #include "art/gallery/values.h"
+#include "art/product/draw_settings.h"
 
 #include "engine/base/input_file.h"
 #include "engine/base/numbers.h"
@@ -32,7 +32,7 @@ bool is_record(const std::string& name, const std::string& file) {
     return first.starts_with("gallery") && first.ends_with(".jsonl");
 }
 
-/// As part of a file's name.
+/// Converts a value to a part of a file's name.
 std::string name_part(std::string_view value) {
     std::string part;
     for (const char letter : value) {
@@ -48,7 +48,7 @@ std::string name_part(std::string_view value) {
     return part;
 }
 
-/// Compiles patterns as jobs change them, each change once.
+/// Compiles patterns with the changes of jobs, each combination once.
 class Compilations {
 public:
     struct Result {
@@ -90,10 +90,10 @@ private:
 
     static constexpr std::size_t most_bytes = std::size_t{1} << 24;
     std::unordered_map<std::string, Result> known_;
-    std::size_t bytes_ = 0;  // of their keys
+    std::size_t bytes_ = 0;  // size of their keys
 };
 
-/// A key of jobs, with what it does to them.
+/// A key of jobs, with its effect on them.
 struct Choice {
     GalleryItem::Axis axis;
     std::string target;        ///< the pattern's key, where it sets one
@@ -105,7 +105,7 @@ struct Choice {
 class NameForm {
 public:
     struct Piece {
-        std::string text;  ///< as it is, or what stands between braces
+        std::string text;  ///< literal text, or the contents of braces
         bool is_placeholder = false;
     };
 
@@ -207,7 +207,7 @@ private:
             return all_;
         }
         if (item.patterns->size() == 1) return shelf_.find(item.patterns->front(), item.folder, item.patterns_place);
-        // Items that share a list of words share what was found.
+        // Items that share a list of words share the results.
         PatternShelf::List& list = found_[{item.patterns, item.folder}];
         if (list) return list;
         std::vector<PatternShelf::Pointer> found;
@@ -261,7 +261,7 @@ private:
         return name;
     }
 
-    /// The tracks of a piece set the keys of their patterns, and nothing of it is drawn. @throws GalleryError
+    /// The tracks of a piece set the keys of their patterns, and a piece is not drawn. @throws GalleryError
     void check_piece(const GalleryItem& item, const GalleryPattern& piece, const std::string& format) const {
         const Interpreter& player = *keys_.pieces().interpreter;
         const std::string name = printable(piece.shown, 200);
@@ -309,7 +309,7 @@ private:
             GalleryJob job = job_at(item, pattern, format, choices, at, choices.size());
             job.name = name_of(item, form, job, choices, at);
             check(item, job);
-            // Mistakes in values: of each axis all, the others at their first, and of ranges the ends.
+            // Checks values: all those of each axis, with the others at their first, and the ends of ranges.
             const auto others = std::count_if(at.begin(), at.end(), [](std::uint64_t value) { return value > 0; });
             if (others < 2) {
                 std::size_t axis = 0;
@@ -343,7 +343,7 @@ private:
         fail(place.empty() ? job.place : place, problem_with(bad));
     }
 
-    /// @param count  of the choices only so many are made
+    /// @param count  number of choices that are applied
     GalleryJob job_at(const GalleryItem& item, const PatternShelf::Pointer& pattern, const std::string& format,
                       const std::vector<Choice>& choices, const std::vector<std::uint64_t>& at,
                       std::size_t count) const {
@@ -480,7 +480,7 @@ std::string title_of(const std::vector<GalleryJob>& jobs) {
     return title;
 }
 
-/// What was asked for on the command line goes before what a file says.
+/// Applies the command line, which takes precedence over files.
 void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::vector<GalleryItem>& items) {
     GalleryItem asked;
     for (const auto& [key, text] : request.keys) {
@@ -571,7 +571,7 @@ std::string GalleryJob::hash() const {
     hash.add_piece(format);
     hash.add_piece(pattern->text ? pattern->text->text : "");
     for (const auto& [key, value] : keys) {
-        if (key == "budget") continue;  // it says whether there is a file, not what is in it
+        if (key == "budget") continue;  // it decides whether there is a file, not its contents
         hash.add_piece(key);
         hash.add_piece(value);
     }
@@ -659,7 +659,7 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys&
     }
     if (!request.manifest.empty()) read_manifest_of(request, keys, defaults, items);
     if (!request.patterns.empty()) {
-        // Seen from here, not from the gallery file.
+        // Relative to the current folder, not to the gallery file.
         GalleryItem item = defaults;
         item.folder.clear();
         item.place.clear();

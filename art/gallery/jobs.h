@@ -18,7 +18,7 @@
 
 namespace sikku {
 
-/// More jobs are refused before they are expanded.
+/// Maximum number of jobs; more are refused before they are expanded.
 constexpr double most_gallery_jobs = 1'000'000;
 
 /// Everything needed to make one file, on any machine at any time.

@@ -34,9 +34,9 @@ public:
     explicit GalleryKeys(std::vector<const Interpreter*> interpreters, PieceReader pieces = {});
 
     const std::vector<GalleryKey>& list() const { return keys_; }
-    /// Null if the name is unknown.
+    /// Finds a key by its name; null if it is unknown.
     const GalleryKey* find(std::string_view name) const;
-    /// Why an option of an interpreter is not a key; empty if there is no such option.
+    /// Reason why an option of an interpreter is not a key; empty if there is no such option.
     std::string not_a_key(std::string_view name) const;
     /// Names of all formats whose jobs are one file each, without aliases: `svg, pdf, …`.
     std::string format_list() const;
@@ -66,7 +66,7 @@ private:
     std::vector<GalleryKey> keys_;
 };
 
-/// As keys are compared: `from_bar` and `from bar` are `from-bar`; several forms of one are one.
+/// Normalises a key for comparison: `from_bar` and `from bar` become `from-bar`, and plurals singular.
 std::string folded_key(std::string key);
 
 }  // namespace sikku

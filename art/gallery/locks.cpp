@@ -99,7 +99,7 @@ GalleryLocks::Result GalleryLocks::require_lock(short type, std::int64_t byte, b
     return result;
 }
 
-/// Is it still the file of that name?
+/// True if the lock file is still the file of that name.
 bool GalleryLocks::is_named() const {
     struct stat opened {};
     const auto named = folder_.status(lock_name);

@@ -10,11 +10,11 @@ namespace sikku {
 
 /// Locks of the runs working in a folder: whole runs, shards and restarts alike. They lock bytes of the file
 /// `.gallery.lock` (one line per run: host and process), which the last run removes. The system drops the locks of a
-/// process however it ends, so a file whose lock is free has no living owner, and its unfinished parts may be
-/// removed. Network file systems pass the locks on to other hosts; without lock support, other runs cannot be
-/// detected. Whether locks are supported is found out once, at the start. A lock that fails later, as when a server
-/// has no memory for more locks, ends the run with an error: without the lock, another run could remove the
-/// unfinished file as that of a dead owner. Finished files stay, and the run can be started again.
+/// process however it ends, so a file whose lock is free does not have a living owner, and its unfinished parts may
+/// be removed. Network file systems pass the locks on to other hosts; without lock support, other runs cannot be
+/// detected. Support for locks is determined once, at the start. A lock that fails later, as when a server lacks
+/// memory for more locks, ends the run with an error: without the lock, another run could remove the unfinished file
+/// as that of a dead owner. Finished files stay, and the run can be started again.
 class GalleryLocks {
 public:
     /// @throws std::runtime_error if the file cannot be written or has the wrong type or contents
@@ -25,7 +25,7 @@ public:
 
     /// True if the file system supports locks.
     bool work() const { return static_cast<bool>(file_); }
-    /// Locks a file of the gallery; false if another run has it. Without lock support, always true.
+    /// Locks a file of the gallery; false if another run holds the lock. Without lock support, always true.
     /// @throws std::runtime_error if locks are supported and this one fails
     bool take(const std::string& file);
     void release(const std::string& file);

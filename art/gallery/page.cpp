@@ -22,7 +22,7 @@ std::string script_string(std::string_view text) {
     }
     std::string result;
     for (const char byte : json_string(clean)) {
-        if (byte == '<') {  // </script> and <!-- mean something to HTML
+        if (byte == '<') {  // </script> and <!-- have a meaning in HTML
             result += "\\u003c";
         } else {
             result += byte;

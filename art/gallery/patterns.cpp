@@ -210,7 +210,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     bool is_folder = false;
     std::vector<Pointer> found = find_files(word, folder, place, is_folder);
     if (found.empty()) {
-        // The folder of a gallery may be called as a kind is.
+        // The folder of a gallery may have the name of a kind.
         for (const LibraryPattern& pattern : known()) {
             const std::string full = pattern.kind + "/" + pattern.name;
             const bool is_full = word.find('/') != std::string::npos;
@@ -226,7 +226,7 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     }
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
-    // A kind of patterns, too: `kolams`.
+    // The word may also resemble a kind of patterns: `kolams`.
     const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
     const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};
     fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80), did_you_mean(similar)));

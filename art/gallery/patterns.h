@@ -25,29 +25,29 @@ struct PatternText {
 struct GalleryPiece {
     std::string title;
     std::string source;
-    std::string text;                 ///< with every pattern in it
-    std::vector<Document> documents;  ///< of its parts; at least one
-    /// Plans a work. The folder is that of files that `values` name. Thread-safe. @throws as Interpreter::plan()
+    std::string text;                 ///< including every pattern
+    std::vector<Document> documents;  ///< documents of its parts; at least one
+    /// Plans a work. `folder` contains the files that `values` name. Thread-safe. @throws as Interpreter::plan()
     std::function<std::unique_ptr<Work>(std::string_view format, const OptionValues& values,
                                         const std::filesystem::path& folder)>
         plan;
 };
 
-/// Reads pieces for galleries. This library knows no music, so its caller supplies one.
+/// Reads pieces for galleries. This library does not contain music, so its caller supplies a reader.
 struct PieceReader {
-    const Interpreter* interpreter = nullptr;  ///< makes their files; null: there are no pieces
-    /// Takes a file and its name in messages. @throws std::runtime_error with the place of the error
+    const Interpreter* interpreter = nullptr;  ///< makes their files; null: pieces are not supported
+    /// Reads a file, given with its name in messages. @throws std::runtime_error with the place of the error
     std::function<GalleryPiece(const std::filesystem::path& file, const std::string& name)> read{};
 };
 
 /// A pattern or a piece of a gallery, read once.
 struct GalleryPattern {
-    std::string name;                         ///< without folder and ending
-    std::string kind;                         ///< the folder it lies in
-    std::string path;                         ///< to read it, and to find what lies beside it
-    std::string shown;                        ///< as a manifest names it
+    std::string name;                         ///< name without folder and extension
+    std::string kind;                         ///< folder that contains it
+    std::string path;                         ///< path for reading it, and for finding files beside it
+    std::string shown;                        ///< name in manifests
     std::shared_ptr<const PatternText> text;  ///< null if it cannot be read
-    std::string problem;                      ///< then: why
+    std::string problem;                      ///< reason if it cannot be read
     bool is_piece = false;
     std::shared_ptr<const GalleryPiece> piece;  ///< null for patterns, and if it cannot be read
 };
@@ -88,7 +88,7 @@ private:
     Monitor monitor_;
     std::map<std::string, Pointer> read_;
     std::map<std::pair<std::filesystem::path, std::string>, List> found_;
-    std::size_t bytes_ = 0;    // of all texts
+    std::size_t bytes_ = 0;    // size of all texts
     std::size_t entries_ = 0;  // folder entries searched so far
 };
 

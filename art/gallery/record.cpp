@@ -1,6 +1,6 @@
 #include "art/gallery/record.h"
 
-#include "art/gallery/json.h"
+#include "engine/base/json.h"
 #include "engine/base/output_file.h"
 
 #include <fcntl.h>
@@ -22,11 +22,11 @@
 
 namespace sikku {
 
-/// What a record file holds, of each file the last line.
+/// The contents of a record file: the last line for each file.
 struct RecordText {
     std::map<std::string, FinishedJob> finished;
     std::set<std::string> claims;  ///< without a record after them
-    bool is_ours = true;           ///< it is empty, or one line at least is a record, be it torn
+    bool is_ours = true;           ///< it is empty, or at least one line is a record, even if torn
     bool is_cut = false;           ///< its last line has no end
 };
 
@@ -38,7 +38,7 @@ constexpr std::string_view whole_name = "gallery.jsonl";
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
-/// `gallery-3-of-8.jsonl`
+/// True for names such as `gallery-3-of-8.jsonl`.
 bool is_shard_name(std::string_view name) {
     const auto take_number = [&] {
         const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
@@ -90,14 +90,14 @@ RecordText read_record(const std::string& text) {
         } catch (const nlohmann::json::exception&) {
             // Another program's line, with keys of other kinds.
         } catch (const JsonError&) {
-            // Torn; what comes after it stands on a line of its own.
+            // A torn line; the text after it is on a line of its own.
         }
     }
     return record;
 }
 
-/// What OutputFile adds to a name until the file is whole: `.NAME.abc234.tmp`, and of sound another such behind it.
-/// Long names are cut to 200 bytes, not inside of a character.
+/// True for a name that OutputFile uses until the file is whole: `.NAME.abc234.tmp`, for sound with another such
+/// suffix. Long names are cut to 200 bytes, not inside of a character.
 bool is_unfinished(const std::string& name, const std::string& target) {
     // Several files may share a shortened name, and another run may be making one of them.
     if (target.size() > 200) return false;
@@ -175,7 +175,7 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
         throw std::runtime_error(fmt::format("'{}' already exists and was not made by a gallery; 'force' replaces it",
                                              folder_.shown(name_)));
     }
-    // What is appended begins on a line of its own.
+    // Appended records begin on a line of their own.
     if (own.is_cut) append("\n", false);
     arrivals_ = locks_.arrivals();
     others_were_present_ = locks_.others_present();
@@ -191,12 +191,12 @@ GalleryRecord::GalleryRecord(const GalleryFolder& folder, std::string name, bool
 Descriptor GalleryRecord::open(const std::function<void()>& waiting) const {
     while (true) {
         Descriptor record = folder_.create(name_, O_RDWR | O_APPEND);
-        // Some network file systems have no locks: then it goes without.
+        // Some network file systems do not support locks, and the record is used without.
         while (::flock(record.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             waiting();
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
-        // Whoever held it may have put another file in its place.
+        // The previous holder may have replaced the file.
         struct stat opened {};
         const auto named = folder_.status(name_);
         if (named && ::fstat(record.get(), &opened) == 0 && opened.st_ino == named->st_ino &&
@@ -207,7 +207,7 @@ Descriptor GalleryRecord::open(const std::function<void()>& waiting) const {
     }
 }
 
-/// The records of shards, and of the whole: all but the own one.
+/// The records of shards and of the whole, except that of this run.
 std::vector<std::string> GalleryRecord::others() const {
     std::vector<std::string> files = folder_.names();
     std::erase_if(files, [&](const std::string& file) {
@@ -344,10 +344,10 @@ void GalleryRecord::append(const std::string& line, bool durable) {
         const ssize_t written = ::write(descriptor_.get(), line.data(), line.size());
         if (written == static_cast<ssize_t>(line.size())) break;
         if (written < 0 && errno == EINTR) continue;
-        // A disk that is full may take a part: the rest of that line then counts for nothing.
+        // A full disk may accept part of the line, which then does not count.
         const int error = written < 0 ? errno : ENOSPC;
         if (written > 0 && ::write(descriptor_.get(), "\n", 1) != 1) {
-            // It is torn at its end, as read_record() expects.
+            // The line is torn at its end, as read_record() expects.
         }
         fail(folder_.shown(name_), error);
     }

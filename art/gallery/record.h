@@ -1,6 +1,7 @@
 // art/gallery/record.h: the record of a gallery's folder: one line of JSON for each finished job.
 #pragma once
 
+#include "art/gallery/job_result.h"
 #include "art/gallery/locks.h"
 
 #include <cstdint>
@@ -14,21 +15,6 @@
 
 namespace sikku {
 
-/// What is known of a file that was made. Nothing in it depends on when or how fast it was made.
-struct FinishedJob {
-    std::string file;         ///< path below the folder
-    std::string hash;         ///< GalleryJob::hash()
-    std::uint64_t bytes = 0;  ///< of the file
-    std::string content;      ///< hash of the file's bytes
-    std::string job;          ///< GalleryJob::text()
-    std::vector<std::string> warnings;
-    std::vector<std::string> told;  ///< facts
-
-    /// One line of JSON, with its line feed.
-    std::string line() const;
-    bool operator==(const FinishedJob&) const = default;
-};
-
 struct RecordText;
 
 /// The records of a folder. Each run appends to one file, `gallery.jsonl` or that of its shard, and reads all of
@@ -38,7 +24,7 @@ struct RecordText;
 class GalleryRecord {
 public:
     /// Locks the record against other runs of the same shard and removes the unfinished files of killed runs.
-    /// @param name      of the file of this run, in the folder
+    /// @param name      name of this run's file in the folder
     /// @param replaces  replace a file of that name not made by a gallery, which is an error otherwise
     /// @param waiting   called ten times a second while another run of the same shard is active; may throw to give up
     /// @throws std::runtime_error if the folder or the record cannot be written, or if it is a link
@@ -46,12 +32,12 @@ public:
     GalleryRecord(const GalleryRecord&) = delete;
     GalleryRecord& operator=(const GalleryRecord&) = delete;
 
-    /// The record of a file that is there as it was made, whatever it was made from. That it is as it was made its
-    /// size tells; it is read only where records contradict each other.
+    /// The record of a file that is unchanged, regardless of its settings. Its size decides whether it is unchanged;
+    /// the file is read only if records contradict each other or its name was claimed again.
     std::optional<FinishedJob> present(const std::string& file) const;
-    /// The same, if it was made from what has that hash.
+    /// The same, if the file was made from settings with that hash.
     std::optional<FinishedJob> finished(const std::string& file, const std::string& hash) const;
-    /// Was a file of this name made or begun by a gallery?
+    /// True if a file of this name was made or begun by a gallery.
     bool is_ours(const std::string& file) const;
     /// True if the file was begun but not finished, by an ended or an active run.
     bool is_begun(const std::string& file) const;
@@ -69,15 +55,15 @@ public:
     /// Rewrites the record beside the old one and renames it into place: the finished jobs of `order`, in that order,
     /// then all other made or begun files. As `sole`, it merges the current records of shards, including the
     /// unfinished files of killed ones, and removes those records unless they are in use. A shard record that adds
-    /// nothing to `gallery.jsonl` is removed. Add nothing after that.
+    /// nothing to `gallery.jsonl` is removed. Do not add records afterwards.
     /// @param begun  files that this run began and did not finish; the next run makes others first
     void complete(const std::vector<FinishedJob>& order, const std::vector<std::string>& begun, bool sole);
 
 private:
     struct Known {
         std::vector<FinishedJob> versions;  ///< different ones found in the records
-        bool claimed = false;               ///< after the last record, in one of them
-        bool kept = false;                  ///< it belongs into the record of this run
+        bool claimed = false;               ///< claimed after the last record, in one of the records
+        bool kept = false;                  ///< it belongs in the record of this run
     };
     /// Read position in the record of another run.
     struct Reading {

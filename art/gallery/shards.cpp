@@ -4,6 +4,7 @@
 #include "engine/base/option.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -104,23 +105,12 @@ std::vector<std::size_t> balance(const std::vector<double>& costs, std::size_t c
     return shards;
 }
 
-std::string quoted(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char letter) {
-        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-               std::string_view("/._-+=:,@%").find(letter) != std::string_view::npos;
-    });
-    if (plain) return word;
-    std::string text = "'";
-    for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    return text + "'";
-}
-
 std::string slurm_script(const std::vector<std::string>& arguments, const std::string& folder, std::size_t tasks,
                          const std::string& log) {
     std::string command;
-    for (const std::string& argument : arguments) command += (command.empty() ? "" : " ") + quoted(argument);
+    for (const std::string& argument : arguments) command += (command.empty() ? "" : " ") + shell_word(argument);
     // A line feed would end the comment.
-    std::string script = quoted(log);
+    std::string script = shell_word(log);
     std::replace(script.begin(), script.end(), '\n', ' ');
     return fmt::format(
         "#!/bin/sh\n"
@@ -131,7 +121,7 @@ std::string slurm_script(const std::vector<std::string>& arguments, const std::s
         "#SBATCH --requeue\n"
         "#SBATCH --open-mode=append\n"
         "cd {3} && exec {4}\n",
-        tasks, tasks - 1, script, quoted(folder), command);
+        tasks, tasks - 1, script, shell_word(folder), command);
 }
 
 }  // namespace sikku

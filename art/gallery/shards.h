@@ -19,21 +19,18 @@ struct Shard {
 /// The value of a variable of the environment, or null.
 using Environment = std::function<const char*(const char* name)>;
 
-/// From `i/N`, or from what a batch system says: an array of Slurm (whatever its first index), ranks of Open MPI, an
-/// indexed job of Kubernetes. `/N` leaves the index to them. Without any, the whole.
+/// Reads `i/N`, or the variables of a batch system: an array of Slurm (whatever its first index), ranks of Open MPI,
+/// an indexed job of Kubernetes. `/N` takes only the index from them. Without any, the shard is the whole gallery.
 /// @throws GalleryError
 Shard read_shard(const std::string& text, const Environment& environment);
 
-/// Which of `count` shards takes each job: the dearest first, each to the shard that has least to do. Depends on
-/// nothing but the costs.
+/// Assigns each job to one of `count` shards: the most expensive first, each to the shard with the least work so far.
+/// The result depends only on the costs.
 std::vector<std::size_t> balance(const std::vector<double>& costs, std::size_t count);
 
-/// A script for sbatch that runs `arguments` (a program and what follows), as a task of an array and, once more, for
-/// what is left to do when all are done.
+/// A script for sbatch that runs `arguments` (a program and its arguments) as each task of an array and, once more,
+/// for the remaining work when all tasks have ended.
 std::string slurm_script(const std::vector<std::string>& arguments, const std::string& folder, std::size_t tasks,
                          const std::string& log);
-
-/// As a word of a shell.
-std::string quoted(const std::string& word);
 
 }  // namespace sikku

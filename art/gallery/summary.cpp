@@ -1,10 +1,10 @@
 #include "art/gallery/summary.h"
 
-#include "art/draw_settings.h"
 #include "art/gallery/page.h"
 #include "art/gallery/values.h"
-#include "art/print_cell.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
+#include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
 #include "engine/base/output_file.h"
 #include "engine/derivation/forecast.h"
@@ -51,7 +51,7 @@ std::vector<NamedJobs> by_name(const std::vector<const GalleryJob*>& jobs) {
     return list;
 }
 
-/// What of a job's settings is told in one line: `angle increment = 60, size = A4`.
+/// The settings of a job in one line: `angle increment = 60, size = A4`.
 /// @param keys  options to list, below a caption that states the angle; null: all except the derivation length
 std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys) {
     std::string text;
@@ -68,8 +68,8 @@ std::string settings_of(const GalleryJob& job, const std::set<std::string>* keys
     return text;
 }
 
-/// How the word grows: with the step's number in the exponent, with a power of it, or not at all; empty where the
-/// grammar does not tell.
+/// The growth of the word: exponential, polynomial or bounded in the number of steps; empty if the grammar does not
+/// determine it.
 std::string growth_of(const Grammar& grammar) {
     std::array<double, 3> lengths{};
     for (std::size_t i = 0; i < lengths.size(); ++i) {
@@ -81,7 +81,8 @@ std::string growth_of(const Grammar& grammar) {
     const double first = lengths[1] - lengths[0];
     const double second = lengths[2] - lengths[1];
     if (second < 1e-9) return "bounded";
-    // Twice the steps add as much again to a power, and twice as much to an exponent.
+    // Doubling the steps adds the same again to the logarithm of a power, and twice as much to that of an
+    // exponential.
     return second > 1.5 * first ? "exponential" : "polynomial";
 }
 
@@ -113,7 +114,7 @@ GalleryEntry entry_of(const NamedJobs& item) {
     }
     entry.settings = settings_of(first, nullptr);
     entry.pattern = first.pattern->text ? first.pattern->text->text : std::string();
-    // What a browser shows comes first; a picture is the quickest thumbnail.
+    // Formats that browsers show come first; a picture is the quickest thumbnail.
     const GalleryJob* shown = nullptr;
     for (const std::string_view format : {"svg", "png", "jpg", "notes.svg", "pdf", "tif", "exr"}) {
         if (!shown) shown = item.find(format);
@@ -125,7 +126,7 @@ GalleryEntry entry_of(const NamedJobs& item) {
         if (small && entry.thumbnail.empty()) entry.thumbnail = small->file();
     }
     if (is_print(*shown)) {
-        const Page page = read_draw_settings(shown->values()).page;
+        const Page page = read_draw_settings(shown->values()).page.sheet;
         entry.width = static_cast<int>(std::lround(page.width));
         entry.height = static_cast<int>(std::lround(page.height));
     }
@@ -177,7 +178,7 @@ namespace {
 std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request) {
     std::vector<SheetCell> cells;
     std::map<const GalleryPattern*, std::set<std::int64_t>> lengths;
-    // What tells the prints of a pattern apart.
+    // Settings that distinguish the prints of a pattern.
     std::map<const GalleryPattern*, const GalleryJob*> first;
     std::map<const GalleryPattern*, std::set<std::string>> varying;
     std::vector<std::pair<const GalleryJob*, Document>> prints;
@@ -224,9 +225,9 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
 SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
     SheetOptions options;
     options.format = *print_format(file);
-    options.page = read_draw_settings({{"size", request.size}, {"margin", "0mm"}}).page;
+    options.page = read_draw_settings({{"size", request.size}, {"margin", "0mm"}}).page.sheet;
     options.page.margin = std::min(options.page.width, options.page.height) / 25;
-    // Large sheets are looked at from further away, and memory has an end.
+    // Large sheets are viewed from farther away, and memory is limited.
     options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);
     options.caption_lines = request.is_poster ? 5 : 1;
     options.made = fmt::format("sikku {}", SIKKU_VERSION);

@@ -1,6 +1,6 @@
 #include "art/gallery/values.h"
 
-#include "art/gallery/json.h"
+#include "engine/base/json.h"
 
 #include <fmt/format.h>
 
@@ -56,9 +56,9 @@ private:
     const std::string& line_;
     std::vector<std::size_t> keys_;
     nlohmann::ordered_json json_;
-    std::size_t met_ = 0;     // keys
+    std::size_t met_ = 0;     // keys reported so far
     std::size_t at_ = 0;      // in the line
-    std::size_t column_ = 1;  // of that
+    std::size_t column_ = 1;  // column of at_
 };
 
 }  // namespace

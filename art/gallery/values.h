@@ -8,7 +8,7 @@
 namespace sikku {
 
 using GalleryValue = FileValue;
-/// An error in a gallery file, a manifest, or in what was requested; what() begins with the place if there is one.
+/// An error in a gallery file, a manifest or a request; what() begins with the place if there is one.
 using GalleryError = FileError;
 
 /// Reads a line of a manifest.

@@ -18,21 +18,21 @@ namespace {
 constexpr double drift = 0.12, drift_knots = 1.25;
 constexpr double sway = 0.075, sway_wave = 1.7;
 constexpr double tremor = 0.012, tremor_wave = 0.4;
-constexpr double bend_window = 0.22;  // over which a hand changes its speed
+constexpr double bend_window = 0.22;  // length over which a hand changes its speed
 // Exponent of the width over curvature: a third for the speed, half of that for the width, and more at full strength
 // than measured.
 constexpr double swell = 0.3;
-constexpr double least_bend = 0.5;  // of a straight run, where the hand has a greatest speed
-constexpr double usual_bend = 0.6;  // where the line is as wide as its pen
+constexpr double least_bend = 0.5;  // bend of a straight run, which limits the speed of the hand
+constexpr double usual_bend = 0.6;  // bend where the line is as wide as its pen
 constexpr double pulse = 0.11, pulse_wave = 2.6;
 constexpr double ripple = 0.05, ripple_wave = 0.7;
 
 // Shares of the gap between two lines that each of them, and the drift, may take.
 constexpr double sway_share = 0.17, swell_share = 0.12, miss_share = 0.08, drift_share = 0.16;
-constexpr double nearest_gap = 0.03;  // of the distance: narrower gaps count as touching
+constexpr double nearest_gap = 0.03;  // share of the distance: narrower gaps count as touching
 constexpr double side_by_side = 0.7;  // cosine of the angle up to which lines run side by side
 constexpr double wedge = 0.6;         // gap, in widths, up to which lines that meet are in a wedge
-constexpr double own_arc = 1.7;       // a line is its own neighbour where its way is so much longer than the distance
+constexpr double own_arc = 1.7;       // least ratio of length to distance at which a line is its own neighbour
 
 constexpr double overlap_widths = 2.5;
 
@@ -233,7 +233,7 @@ void even_room(HandLine& line) {
 /// The sum of values within a window around each node, by the length of the window.
 std::vector<double> windowed(const HandLine& line, const std::vector<double>& values, double window) {
     const std::size_t count = line.size();
-    // Places go round a closed line: the one before, the line itself, the one after.
+    // Nodes are counted through three rounds of a closed line: before, on and after the line itself.
     const auto place = [&](std::size_t k) {
         const std::size_t rounds = k / count;
         return line.nodes[k % count].along + line.length * static_cast<double>(rounds);

@@ -12,7 +12,7 @@ namespace sikku {
 
 struct HandOptions {
     double strength = 0.4;   ///< above 0 and at most 1
-    std::uint64_t seed = 0;  ///< decides all chance
+    std::uint64_t seed = 0;  ///< seed of all random choices
     Monitor monitor = {};    ///< polled
 };
 
@@ -20,19 +20,19 @@ struct HandOptions {
 struct HandCrossing {
     glm::dvec2 at{0.0};
     double half = 0;
-    std::size_t line = 0, node = 0;  ///< one of the two, and the last node before the place
+    std::size_t line = 0, node = 0;  ///< one of the two lines, and its last node before the place
     std::size_t other = 0, other_node = 0;
 };
 
 /// Moves the nodes of lines and sets their widths, in turtle steps.
 ///
-/// - The hand draws where it thinks the line is: a drift of the whole ground, about two loops long, which takes
-///   neighbours and dots along, a sway along each line, about a loop long, and a small tremor.
-/// - It slows in bends, where more flour falls. The speed of hands is proportional to the cube root of the radius
-///   (Lacquaniti, Terzuolo & Viviani 1983); the cross-section of a heap of flour is inversely proportional to speed,
-///   and its width to the root of that. The width also pulses as the fingers refill.
-/// - Neighbouring lines keep their distance: of the gap between two lines that run side by side, sway, swell and
-///   drift take together less than the whole, so that lines that do not touch never do. Lines that cross still cross.
+/// - Lines drift with the whole ground, in waves about two loops long that move neighbours and dots together,
+///   sway along their course, in waves about a loop long, and tremble slightly.
+/// - The hand slows in bends, where more flour falls. The speed of hands is proportional to the cube root of the
+///   radius (Lacquaniti, Terzuolo & Viviani 1983); the cross-section of a heap of flour is inversely proportional to
+///   speed, and its width to the root of that. The width also pulses as the fingers refill.
+/// - Neighbouring lines keep their distance: sway, swell and drift together take less than the gap between two lines
+///   that run side by side, so that lines that do not touch never do. Lines that cross still cross.
 ///
 /// Cost: about 2 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
 void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, const HandOptions& options);
@@ -44,8 +44,8 @@ std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines);
 /// misses it slightly.
 HandLine drawn_stroke(const HandLine& line, const HandOptions& options);
 
-/// The outline of a part of an open line, from one node to another, as Béziers for PathSink::area(): with blunt round
-/// ends. Winding is never 0 inside of it.
+/// The outline of a part of an open line, from one node to another, with blunt round ends, as Béziers for
+/// PathSink::area(). Its winding number is not 0 anywhere inside.
 std::vector<glm::dvec2> hand_outline(const HandLine& stroke, std::size_t from, std::size_t to);
 
 /// The middle of a line as Béziers, three controls for each, from its first node.

@@ -19,7 +19,7 @@ class HandGrid {
 public:
     /// @param cell  side of a cell, above 0
     HandGrid(std::span<const glm::dvec2> points, double cell) : cell_(cell) {
-        // Columns and rows are counted to a thousand million: of points farther away, many would share a cell.
+        // Columns and rows are limited to 10^9: beyond them, many points would share a cell.
         for (const glm::dvec2 point : points) {
             cell_ = std::max({cell_, std::fabs(point.x) / 9e8, std::fabs(point.y) / 9e8});
         }

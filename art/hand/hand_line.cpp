@@ -16,9 +16,9 @@ namespace {
 
 constexpr double corner = 0.94;          // cosine of the angle from which a bend is a corner
 constexpr double nodes_of_loop = 16;     // samples for each loop diameter
-constexpr double least_loop_widths = 3;  // of the line, for its loops
+constexpr double least_loop_widths = 3;  // smallest loop, in widths of the line
 constexpr double most_loop_widths = 40;
-constexpr double least_seen_width = 0.02;  // millimetres; how a thinner line wavers cannot be seen
+constexpr double least_seen_width = 0.02;  // millimetres; the wavering of thinner lines is invisible
 
 glm::dvec2 point_at(const Bezier& b, double t) {
     const double u = 1 - t;
@@ -41,7 +41,7 @@ glm::dvec2 unit(glm::dvec2 way) {
     return length > 0 ? way / length : glm::dvec2(0.0);
 }
 
-/// Directions at the two ends; of the chord where control points coincide.
+/// Directions at the two ends; where control points coincide, that of the chord.
 glm::dvec2 start_of(const Bezier& b) {
     const glm::dvec2 way = b[1] - b[0];
     return unit(glm::length(way) > 1e-12 ? way : b[3] - b[0]);

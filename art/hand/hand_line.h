@@ -20,7 +20,7 @@ struct HandNode {
     glm::dvec2 at{0.0};
     double along = 0;     ///< length of the line up to here
     double half = 0;      ///< half of its width
-    double room = 1e300;  ///< to the nearest line that runs beside it
+    double room = 1e300;  ///< distance to the nearest line that runs beside it
 };
 
 /// A line of one colour. The nodes of a closed line do not repeat the first one at the end.
@@ -28,8 +28,8 @@ struct HandLine {
     std::vector<HandNode> nodes;
     double length = 0;  ///< length; for a closed line, back to its first node
     bool closed = false;
-    Pen pen;                   ///< pen at its beginning; the nodes have the widths
-    std::uint64_t number = 0;  ///< in the order of the drawing, which decides its chance
+    Pen pen;                   ///< pen at its beginning; nodes contain the widths
+    std::uint64_t number = 0;  ///< position in the drawing, which seeds its random choices
     double loop = 1;           ///< diameter of a circle that bends as much as the line does on average
 
     std::size_t size() const { return nodes.size(); }
@@ -52,14 +52,14 @@ struct HandDot {
 /// Direction of the line at a node, of length about 1.
 glm::dvec2 hand_direction(const HandLine& line, std::size_t i);
 
-/// Gathers the visible lines and dots of a drawing. Polygons and areas pass on to another sink, as they lie under all
-/// lines. Corners become short bends; a line ends where its colour changes.
+/// Gathers the visible lines and dots of a drawing. Polygons and areas are passed on to another sink, as they lie
+/// under all lines. Corners become short bends; a line ends where its colour changes.
 class HandGatherer : public PathSink {
 public:
-    /// @param step  millimetres of a turtle step  @param most  curves; more throw BudgetError
+    /// @param step  millimetres of a turtle step  @param most  maximum number of curves; more throw BudgetError
     HandGatherer(PathSink& fills, const Style& style, double step, double most)
         : fills_(fills), style_(style), step_(step), most_(most), most_points_(8 * most) {}
-    /// Refuses drawings that are too large for a lesson. @param lines, points  more throw BudgetError
+    /// Limits the size of a drawing for a lesson. @param lines, points  maximum numbers; more throw BudgetError
     void limit(std::size_t lines, double points) {
         most_lines_ = lines;
         most_points_ = std::min(most_points_, points);

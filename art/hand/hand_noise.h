@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Uniform in [-1, 1).
+/// Pseudorandom number in [-1, 1), uniform.
 inline double hand_chance(std::uint64_t seed, std::uint64_t number) {
     const std::uint64_t bits = scrambled(seed + 0x9E3779B97F4A7C15U * (number + 1)) >> 11;
     return static_cast<double>(bits) * 0x1p-52 - 1;
@@ -52,8 +52,7 @@ private:
     bool closed_;
 };
 
-/// Two such noises over the plane, as a displacement.
-/// @param spacing  of its knots
+/// Displacement by two such noises over the plane. @param spacing  distance between knots
 inline glm::dvec2 plane_noise(std::uint64_t seed, glm::dvec2 at, double spacing) {
     const glm::dvec2 scaled = at / spacing;
     const glm::dvec2 knot(std::floor(scaled.x), std::floor(scaled.y));

@@ -126,7 +126,7 @@ std::vector<glm::dvec2> hand_outline(const HandLine& stroke, std::size_t from, s
         const glm::dvec2 way = unit(hand_direction(stroke, i));
         const glm::dvec2 normal(-way.y, way.x);
         double inner = node.half;
-        double bend = 0;  // to the left, by the length of the line
+        double bend = 0;  // to the left, divided by length
         if (i > from && i < to) {
             const glm::dvec2 in = node.at - stroke.nodes[i - 1].at, out = stroke.nodes[i + 1].at - node.at;
             const double length = (glm::length(in) + glm::length(out)) / 2;

@@ -13,8 +13,8 @@ namespace sikku {
 namespace {
 
 constexpr double loops_of_stretch = 12;
-constexpr std::size_t most_parts = 8;     // of a line under a rotation
-constexpr std::size_t samples = 96;       // of a line, to compare it with its image
+constexpr std::size_t most_parts = 8;     // parts of a line under a rotation
+constexpr std::size_t samples = 96;       // points of a line that are compared with its image
 constexpr double image_tolerance = 0.06;  // loops
 
 glm::dvec2 place(const HandLine& line, double along) {
@@ -27,7 +27,7 @@ glm::dvec2 place(const HandLine& line, double along) {
     return line.nodes[i].at + t * (line.nodes[line.next(i)].at - line.nodes[i].at);
 }
 
-/// Into how many equal parts rotations about the centre of its box take the line.
+/// Number of equal parts into which rotations about the centre of its box divide the line.
 std::size_t equal_parts(const HandLine& line) {
     if (!line.closed) return 1;
     Box box;

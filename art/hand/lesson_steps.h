@@ -19,13 +19,13 @@ using LessonStep = std::vector<Stretch>;
 
 /// Maximum number of steps, and of cells in a picture, where a step is a cell.
 constexpr std::size_t most_lesson_steps = 40, most_lesson_cells = 10;
-/// Size of a drawing that can be a lesson: every step repeats the lines of those before it.
+/// Maximum size of a drawing for a lesson, in which every step repeats the lines of the steps before it.
 constexpr std::size_t most_lesson_lines = 1000;
 constexpr double most_lesson_points = 100'000;
 
 /// Cuts lines, in the order of the hand, into steps: a line that is its own image under a rotation into its equal
-/// parts, a long one into stretches of about a dozen loops, of equal length. More than `most` are joined.
-/// To be called before draw_by_hand(), which keeps the numbers of nodes.
+/// parts, a long one into stretches of about a dozen loops, of equal length. Joins steps if there are more than
+/// `most`. Call it before draw_by_hand(), which keeps the numbers of nodes.
 std::vector<LessonStep> lesson_steps(const std::vector<HandLine>& lines, std::size_t most = most_lesson_steps);
 
 /// The nodes of a stretch as an open line.

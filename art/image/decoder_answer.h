@@ -14,9 +14,9 @@ namespace sikku {
 constexpr const char* decoder_name = "sikku_decoder";
 constexpr const char* heif_decoder_name = "sikku_heif_decoder";
 
-/// Arguments of either: decoder_version(), the number of the process that starts it, the
-/// longest side, the largest number of pixels. Standard input is the file.
-/// It answers on standard output with one of these bytes and its data:
+/// Arguments of either: decoder_version(), the number of the process that starts it, the longest side, the largest
+/// number of pixels. Standard input is the file.
+/// The program answers on standard output with one of these bytes and its data:
 enum class DecoderAnswer : char {
     ready = 'r',    ///< it is confined and begins; another answer follows
     version = 'v',  ///< it belongs to another version of the libraries
@@ -29,7 +29,7 @@ enum class DecoderAnswer : char {
 /// Memory and processor time that decoding may take.
 constexpr std::uint64_t most_decoder_memory = 800'000'000;
 constexpr std::uint64_t most_decoder_seconds = 60;
-/// Bytes of a message.
+/// Maximum bytes of a message.
 constexpr std::size_t longest_refusal = 500;
 
 /// Changes with the program's version and the protocol.

@@ -9,7 +9,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_colours = 255;  // beside the transparent one
+constexpr std::size_t most_colours = 255;  // besides the transparent one
 
 /// A number for each distinct colour, in the order of their first pixels.
 class ColourNumbers {
@@ -35,7 +35,7 @@ private:
 
 /// Colours that agree in their five upper bits.
 struct ColourCell {
-    std::array<std::uint64_t, 3> sums{};  // of up to 100 million pixels
+    std::array<std::uint64_t, 3> sums{};  // sums over up to 100 million pixels
     std::uint64_t count = 0;
 
     int mean(std::size_t channel) const { return static_cast<int>((sums[channel] + count / 2) / count); }

@@ -22,10 +22,10 @@ namespace sikku {
 class GifWriter {
 public:
     /// Writes the header. Keeps a reference. @throws std::runtime_error for sides over 65,535 pixels, and for more
-    /// than 100 million of them
+    /// than 100 million pixels
     GifWriter(Output& output, int width, int height);
 
-    /// Adds a picture: all rows from the top, 3 channels. @param seconds  of its display, rounded to hundredths of a
+    /// Adds a picture: all rows from the top, 3 channels. @param seconds  display time, rounded to hundredths of a
     /// second, at least one and at most 655
     void frame(std::span<const std::uint8_t> pixels, double seconds);
     /// Adds a comment of pieces of at most 255 bytes.
@@ -35,13 +35,13 @@ public:
 
 private:
     struct Rectangle {
-        int left = 0, top = 0, right = 0, bottom = 0;  ///< the last two are outside
+        int left = 0, top = 0, right = 0, bottom = 0;  ///< `right` and `bottom` are exclusive
     };
     using Colour = std::uint32_t;  ///< 0xrrggbb
 
     Rectangle changed(std::span<const std::uint8_t> pixels) const;
     bool is_changed(std::span<const std::uint8_t> pixels, std::size_t pixel) const;
-    /// Index of the transparent colour.
+    /// Return the index of the transparent colour.
     std::size_t index_exactly(std::span<const std::uint8_t> pixels, const Rectangle& area);
     std::size_t index_diffused(std::span<const std::uint8_t> pixels, const Rectangle& area);
     void write_picture(const Rectangle& area, std::size_t transparent, double seconds);
@@ -53,8 +53,8 @@ private:
     int width_, height_;
     std::vector<std::uint8_t> shown_;  ///< the previous picture
     bool is_begun_ = false;
-    std::vector<Colour> palette_;        ///< of the frame
-    std::vector<std::uint8_t> indices_;  ///< of the pixels of the rectangle
+    std::vector<Colour> palette_;        ///< palette of the frame
+    std::vector<std::uint8_t> indices_;  ///< indices of the pixels of the rectangle
 };
 
 }  // namespace sikku

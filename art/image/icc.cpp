@@ -99,7 +99,7 @@ std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
     if (!profile || !cmsSaveProfileToMem(profile, nullptr, &size)) throw std::runtime_error("lcms2: out of memory");
     std::vector<std::uint8_t> bytes(size);
     if (!cmsSaveProfileToMem(profile, bytes.data(), &size)) throw std::runtime_error("lcms2: out of memory");
-    // The time at which it was made, ICC.1:2010, 7.2.8: that of the standard's year, so that it does not change.
+    // The time of creation, ICC.1:2010, 7.2.8: the standard's year, so that it does not change.
     constexpr std::uint8_t date[12] = {1999 >> 8, 1999 & 0xFF, 0, 1, 0, 1};
     std::copy(std::begin(date), std::end(date), bytes.begin() + 24);
     return bytes;
@@ -134,7 +134,7 @@ std::vector<std::uint8_t> srgb_profile() {
 
 std::vector<std::uint8_t> grey_profile() {
     const Context context;
-    // The curve of sRGB as lcms2 itself has it: type 4 is ((x + 0.055) / 1.055)^2.4, below 0.04045 x / 12.92.
+    // The curve of sRGB as in lcms2: type 4 is ((x + 0.055) / 1.055)^2.4, below 0.04045 x / 12.92.
     const cmsFloat64Number values[] = {2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045};
     const std::unique_ptr<cmsToneCurve, CurveFreer> curve(cmsBuildParametricToneCurve(context.handle, 4, values));
     if (!curve) throw std::runtime_error("lcms2: out of memory");
@@ -226,7 +226,7 @@ void InkTransform::convert(std::span<const std::uint8_t> rgb, std::span<std::uin
         while (next < pixels && runs < most) {
             const std::uint8_t* colour = &rgb[3 * next];
             std::memcpy(colours + 3 * runs, colour, 3);
-            // Three bytes on, pixels of a run look the same.
+            // Shifted by three bytes, pixels of a run look the same.
             const auto ends_at = std::mismatch(colour + 3, rgb.data() + 3 * pixels, colour).first;
             next += 1 + static_cast<std::size_t>(ends_at - (colour + 3)) / 3;
             ends[runs++] = next;

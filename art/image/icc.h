@@ -32,10 +32,10 @@ public:
     std::string name() const;
     /// True for a profile of an output device, such as a press.
     bool is_of_output() const;
-    /// 3 bytes a pixel into 4, 255 for full ink. May be called from several threads at a time. Runs of one colour
-    /// cost little more than to be copied.
+    /// Converts 3 bytes a pixel into 4, 255 for full ink. May be called from several threads at once. Runs of one
+    /// colour cost little more than copying.
     void convert(std::span<const std::uint8_t> rgb, std::span<std::uint8_t> inks) const;
-    /// One colour, its inks from 0 to 1.
+    /// Converts one colour, to inks from 0 to 1.
     std::array<double, 4> convert(std::array<std::uint8_t, 3> rgb) const;
 
 private:

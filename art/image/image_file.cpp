@@ -39,7 +39,7 @@ void require_resources(int threads) {
 
 /// Loads the module that comes with the running program, else the installed one. Never unloaded: OpenImageIO keeps
 /// threads of its own.
-/// @param threads  that pictures will have (0: one for each core), as far as the first caller knows
+/// @param threads  threads for pictures (0: one for each core), as known to the first caller
 const ImageModule& image_module(int threads = 0) {
     static const ImageModule& loaded = [threads]() -> const ImageModule& {
         require_resources(threads);

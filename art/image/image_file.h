@@ -24,31 +24,32 @@ struct ImageSpec {
     std::string description;       ///< ImageDescription
     std::string software;          ///< Software
     int compression = 6;           ///< level for PNG: 1, quick and large, to 9
-    bool icc = true;               ///< PNG, TIFF and JPEG hold the profile of their colours
-    std::filesystem::path cmyk{};  ///< ICC profile of inks, which the pixels are turned into; empty: none; TIFF alone
-    int bits = 8;                  ///< a channel; 1: pixels become black or white; TIFF alone
+    bool icc = true;               ///< PNG, TIFF and JPEG contain the profile of their colours
+    std::filesystem::path cmyk{};  ///< ICC profile of inks, to which pixels are converted; empty: none; only TIFF
+    int bits = 8;                  ///< bits per channel; 1: pixels become black or white; only TIFF
 };
 
 /// JPEG stores texts in one EXIF block of 64 kB; other TIFF readers accept as much. Longer patterns are left out
 /// rather than cut.
 constexpr std::size_t longest_short_text = 60'000;
-/// Does a file of that format (as in ImageSpec) hold that text?
+/// True if a file of that format (as in ImageSpec) can contain that text.
 inline bool keeps_text(std::string_view format, std::string_view text) {
     return (format != "jpg" && format != "tif") || text.size() <= longest_short_text;
 }
 
-/// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures are
-/// std::runtime_error; a full disk is one at the latest when the file is closed. The same rows make the same bytes.
+/// One raster file being written; rows from top to bottom, 8 bits a channel, sRGB with straight alpha. Failures throw
+/// std::runtime_error, a full disk at the latest when the file is closed. The same rows give the same bytes.
 ///
 /// PNG and TIFF keep the pixels; JPEG (quality 95), CMYK and one bit have no alpha and lie on white; EXR is 16-bit
-/// linear light with associated alpha. CMYK is relative colorimetric with black point compensation; of one bit white
-/// is what has at least half the luminance. JPEG and TIFF leave out texts that they cannot store: see keeps_text().
+/// linear light with associated alpha. CMYK is relative colorimetric with black point compensation; with one bit,
+/// pixels of at least half the luminance are white. JPEG and TIFF leave out texts that they cannot store: see
+/// keeps_text().
 class ImageWriter {
 public:
     virtual ~ImageWriter() = default;
-    /// In calls of a multiple of 32 rows, but for the last, TIFF compresses them in parallel.
+    /// Writes rows. TIFF compresses in parallel if all calls except the last have a multiple of 32 rows.
     virtual void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) = 0;
-    /// Completes the file. Without it the file is of no use.
+    /// Completes the file. Without it the file is useless.
     virtual void close() = 0;
 };
 
@@ -58,7 +59,8 @@ public:
 void prepare_images(int threads);
 
 /// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
-/// @throws std::runtime_error also for options that the format does not have, and for what is no profile of inks
+/// @throws std::runtime_error also for options that the format does not support, and if `cmyk` is not a profile of
+/// inks
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);
 
 /// The inks of a CMYK profile for output devices.
@@ -73,19 +75,19 @@ public:
     /// compensation.
     virtual std::array<double, 4> convert(std::array<std::uint8_t, 3> colour) const = 0;
 };
-/// Loads the module, too. @throws std::runtime_error, which names the file, as check_cmyk_profile(), and if the
-/// profile is not one of an output device
+/// Opens a profile; loads the module, too. @throws std::runtime_error, which names the file, as check_cmyk_profile(),
+/// and if the profile is not one of an output device
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file);
 
-/// @throws std::runtime_error, which names the file, if it is no ICC profile that turns colours into CMYK. Loads the
-/// module, too.
+/// @throws std::runtime_error, which names the file, if it is not an ICC profile that converts colours to CMYK. Loads
+/// the module, too.
 void check_cmyk_profile(const std::filesystem::path& file);
 
-/// A picture that was read: rows from top to bottom, 3 bytes a pixel, as people look at it.
+/// A picture that was read: upright, rows from top to bottom, 3 bytes a pixel.
 struct DecodedPicture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels = {};
-    int file_width = 0, file_height = 0;  ///< before it was made smaller; turned as the picture is
+    int file_width = 0, file_height = 0;  ///< before reduction, in the picture's orientation
 };
 
 /// True if a file begins as JPEG, PNG, TIFF, WebP, HEIF or BMP, which read_picture() reads.

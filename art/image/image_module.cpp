@@ -26,8 +26,8 @@
 namespace sikku {
 namespace {
 
-/// A file that remembers its first failure: some of the format writers do not look at what a write returns, and a
-/// full disk must not pass for success.
+/// A file that records its first failure: some format writers ignore the results of writes, and a full disk must not
+/// pass for success.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     explicit CheckedFile(const std::filesystem::path& path)
@@ -126,7 +126,7 @@ private:
     std::mutex mutex_;
 };
 
-/// A stream into a CheckedFile, for libjpeg by way of OpenImageIO: other proxies it serves from memory, with the
+/// A stream into a CheckedFile, for libjpeg by way of OpenImageIO, which serves other proxies from memory, with the
 /// whole file at the end. Failures are kept for CheckedFile::finish(), as libjpeg would end the program.
 class CheckedStream {
 public:
@@ -157,7 +157,7 @@ std::array<float, 256> linear_light() {
     return table;
 }
 
-// libjpeg ends the program for more.
+// Maximum side: libjpeg ends the program for more.
 constexpr int most_jpeg_pixels = 65'500;
 // A segment has 65,533 bytes; the numbers beside the texts have 200.
 constexpr std::size_t most_jpeg_texts = 65'300;
@@ -236,13 +236,14 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
                         profile.data());
     }
     // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's, and
-    // not in a PNG with a profile, which says the same.
+    // not in a PNG with a profile, which contains the same information.
     if (!tiff && !(png && spec.icc)) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
     if (channels == 4 && !exr && !inks_) image.attribute("oiio:UnassociatedAlpha", 1);
     image.attribute("XResolution", static_cast<float>(spec.dpi));
     image.attribute("YResolution", static_cast<float>(spec.dpi));
     image.attribute("ResolutionUnit", "in");
-    // TIFF and EXR are given the time of day if there is none; one that is no text counts, and is not written.
+    // OpenImageIO adds the time of day to TIFF and EXR if it is missing; one that is not a text counts, and is not
+    // written.
     if (tiff || exr) image.attribute("DateTime", 0);
     image.attribute("compression", jpeg ? "jpeg:95" : "zip");
     if (png) {
@@ -305,7 +306,7 @@ void FileWriter::rows(int first_row, int rows, std::span<const std::uint8_t> pix
             std::transform(on_white.begin(), on_white.end(), converted_.begin(),
                            [](std::uint8_t grey) { return static_cast<std::uint8_t>(grey < 128 ? 0 : 255); });
         } else {
-            // Rec. 709 weights on the values as they are, in which coverage is mixed.
+            // Rec. 709 weights of sRGB values, in which coverage is mixed.
             for (std::size_t i = 0; i < converted_.size(); ++i) {
                 const std::uint8_t* colour = &on_white[3 * i];
                 const int luminance = 2126 * colour[0] + 7152 * colour[1] + 722 * colour[2];

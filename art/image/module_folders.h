@@ -1,4 +1,4 @@
-// art/image/module_folders.h: where the module and the program of pictures are installed.
+// art/image/module_folders.h: where the module and the programs for pictures are installed.
 #pragma once
 
 #include "engine/base/installation.h"
@@ -8,14 +8,12 @@
 
 namespace sikku {
 
-/// The folder that comes with the running program or library, then the installed one.
+/// Candidates, best first: they lie beside the data folders.
 inline std::vector<std::filesystem::path> module_folders() {
     std::vector<std::filesystem::path> folders;
-    const std::filesystem::path beside = binary_folder();
-    if (!beside.empty()) folders.push_back((beside / SIKKU_MODULES_RELATIVE).lexically_normal());
-#ifdef SIKKU_MODULES_INSTALLED
-    folders.emplace_back(SIKKU_MODULES_INSTALLED);
-#endif
+    for (const std::filesystem::path& data : data_folders()) {
+        folders.push_back((data / SIKKU_MODULES_FROM_DATA).lexically_normal());
+    }
     return folders;
 }
 

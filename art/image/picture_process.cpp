@@ -73,7 +73,7 @@ public:
         }
         return done;
     }
-    /// The state of the process, as of waitpid(), after its last answer; nothing if it is not known.
+    /// The state of the process, as of waitpid(), after its last answer; nullopt if unknown.
     std::optional<int> end() {
         const auto patience = Clock::now() + std::chrono::seconds(2);
         while (Clock::now() < patience) {

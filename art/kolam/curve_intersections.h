@@ -13,13 +13,13 @@ public:
     /// Receives the parameters of a meeting on the first and the second curve.
     using Note = std::function<void(double, double)>;
 
-    /// Meetings of two curves, ends included. @throws std::runtime_error if they run along each other
+    /// Reports the meetings of two curves, ends included. @throws std::runtime_error if they run along each other
     void of_two(const Bezier& a, const Bezier& b, const Note& note);
-    /// Meetings of two curves, the second of which begins where the first ends, besides that point.
+    /// Reports the meetings of two curves, the second of which begins where the first ends, except that point.
     void of_neighbours(const Bezier& a, const Bezier& b, const Note& note);
-    /// Where a curve crosses itself.
+    /// Reports where a curve crosses itself.
     void of_one(const Bezier& curve, const Note& note);
-    /// Meetings of two segments, ends included. Of segments that overlap, the ends of each on the other.
+    /// Reports the meetings of two segments, ends included; if they overlap, the ends of each on the other.
     static void of_segments(const Bezier& a, const Bezier& b, const Note& note);
 
 private:

@@ -174,7 +174,7 @@ private:
                std::fabs(kolam_plane::cross(a, b)) <= 1e-9 * std::hypot(a.x, a.y) * std::hypot(b.x, b.y);
     }
 
-    /// Visits of one line to one vertex that are one place of the line become one mark.
+    /// Merges visits of one line to one vertex at one place of the line into one mark.
     void sort_marks() {
         std::vector<CurveMark>& marks = found_.marks;
         std::sort(marks.begin(), marks.end(), stoppable(monitor_, [](const CurveMark& a, const CurveMark& b) {
@@ -207,7 +207,7 @@ private:
     const CurvedLines& lines_;
     std::size_t most_;
     const Monitor& monitor_;
-    std::vector<std::uint32_t> line_of_;  // of each piece
+    std::vector<std::uint32_t> line_of_;  // line of each piece
     kolam_plane::RoughPlane vertices_;
     CurveIntersections intersections_;
     std::array<std::uint32_t, 2> noted_{};  // the pieces being intersected

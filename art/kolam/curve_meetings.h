@@ -19,7 +19,7 @@ struct CurveMark {
     std::uint32_t vertex = 0;
 };
 
-/// Vertices where lines meet or cross, themselves included. Points within 1e-6 steps of each other are one vertex.
+/// Vertices where lines meet or cross others or themselves. Points within 1e-6 steps of each other are one vertex.
 struct CurveMeetings {
     std::vector<glm::dvec2> places;   ///< positions of the vertices
     std::vector<CurveMark> marks;     ///< sorted by line, then by position
@@ -38,7 +38,7 @@ struct CurveMeetings {
 CurveMeetings find_meetings(const CurvedLines& lines, std::size_t most, const Monitor& monitor);
 
 /// Directions in which lines leave a vertex, all measured on one small circle around it, so that their order around
-/// the vertex is right even where curves touch.
+/// the vertex is correct even where curves touch.
 class VertexHeadings {
 public:
     VertexHeadings(const CurvedLines& lines, const CurveMeetings& meetings);
@@ -52,17 +52,17 @@ private:
 
     const CurvedLines& lines_;
     const CurveMeetings& meetings_;
-    std::vector<double> radius_;  // of the circle around each vertex
+    std::vector<double> radius_;  // radius of the circle around each vertex
 };
 
-/// A diagram of drawn lines, and where its passes are.
+/// A diagram of drawn lines, and the positions of its passes.
 struct CurveDiagram {
     LinkDiagram diagram;
     std::vector<std::vector<std::size_t>> marks;  ///< for each line and pass, the mark
-    std::uint64_t multiple = 0;                   ///< points where more than two strands meet, which are left out
+    std::uint64_t multiple = 0;                   ///< omitted points where more than two strands meet
 };
 
-/// The crossings of drawn lines; points where two strands only touch are left out. Without upper strands.
+/// Makes the diagram of drawn lines, without upper strands. Points where two strands only touch are left out.
 CurveDiagram make_curve_diagram(const CurvedLines& lines, const CurveMeetings& meetings);
 
 }  // namespace sikku

@@ -91,7 +91,7 @@ void CurveReader::append(CurvedLines& result, const Stroke& stroke, bool is_reve
     for (std::size_t i = stroke.begin; i < stroke.end; ++i) {
         CurvePiece piece = pieces_[is_reversed ? stroke.end - 1 - (i - stroke.begin) : i];
         if (is_reversed) std::reverse(piece.curve.begin(), piece.curve.end());
-        // Exactly where the one before ends.
+        // Exactly at the end of the piece before.
         const bool is_first = result.pieces.size() == result.lines.back().begin;
         if (!is_first) piece.curve[0] = result.pieces.back().curve[3];
         result.pieces.push_back(piece);

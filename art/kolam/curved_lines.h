@@ -1,4 +1,4 @@
-// art/kolam/curved_lines.h: the lines of a drawing as they are drawn, as Béziers.
+// art/kolam/curved_lines.h: the lines of a drawing as Béziers.
 #pragma once
 
 #include "art/kolam/kolam.h"
@@ -40,7 +40,7 @@ struct CurvedLines {
     std::vector<Line> lines;
 
     const CurvePiece& piece(const Line& line, std::uint32_t number) const { return pieces[line.begin + number]; }
-    /// The place at a position, which may lie up to one round before or behind a closed line's pieces.
+    /// The place at a position, which may lie up to one round before or after a closed line's pieces.
     LinePlace place(const Line& line, double position) const;
     glm::dvec2 at(const Line& line, double position) const;
     glm::dvec2 derivative(const Line& line, double position) const;
@@ -63,7 +63,7 @@ struct CurvedLines {
 /// Collects the visible strokes of a drawing; everything else is ignored.
 class CurveReader : public PathSink {
 public:
-    /// @param draws  true for visible pens  @param most  pieces; more are a BudgetError
+    /// @param draws  true for visible pens  @param most  maximum number of pieces; more throw BudgetError
     CurveReader(std::function<bool(const Pen&)> draws, std::size_t most) : draws_(std::move(draws)), most_(most) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
@@ -76,7 +76,8 @@ public:
     void disc(glm::dvec2, double, const Pen&) override {}
     void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
-    /// The lines, in the order of the examination of the same drawing, which knows the continuations of strokes.
+    /// Returns the lines in the order of the examination of the same drawing, which contains the continuations of
+    /// strokes.
     CurvedLines finish(const KolamExamination& examination);
 
 private:

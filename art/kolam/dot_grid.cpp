@@ -42,7 +42,7 @@ DotLattice lattice_of(const std::vector<std::uint32_t>& rows) {
     return lattice;
 }
 
-/// The symmetric grid in which rows become shorter by `less` from the longest to the last, as `A to B`.
+/// True for the symmetric grid in which rows become shorter by `less` from the longest to the last, as in `A to B`.
 bool is_spindle(const std::vector<std::uint32_t>& rows, std::uint32_t less) {
     if (rows.size() % 2 == 0 || rows.size() < 3) return false;
     const std::size_t middle = rows.size() / 2;
@@ -106,7 +106,7 @@ void DotGrid::place(DotLattice lattice, const std::vector<std::vector<std::int32
         left = std::min(left, row.front());
         right = std::max(right, row.back());
     }
-    // The middle of the box; if it lies between the units, one half of a half spacing to its left.
+    // The middle of the box; if it lies between units, half a unit to its left.
     const std::int32_t middle = left + (right - left) / 2;
     const auto rows = static_cast<std::int32_t>(bottom - top);
     for (std::size_t r = top; r < bottom; ++r) {

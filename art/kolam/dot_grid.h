@@ -1,4 +1,4 @@
-// art/kolam/dot_grid.h: grids of dots, the gaps between them, and the ways people write them down.
+// art/kolam/dot_grid.h: grids of dots, the gaps between them, and their notations.
 #pragma once
 
 #include <array>
@@ -33,36 +33,35 @@ struct GridGap {
 /// Dots of a lattice, one spacing apart, in rows from the top.
 class DotGrid {
 public:
-    static constexpr std::uint64_t most_dots = 4'000'000;  ///< about 100 bytes each with all that is made of them
+    static constexpr std::uint64_t most_dots = 4'000'000;  ///< about 100 bytes each, derived data included
 
-    /// Centred rows without holes. Square if all numbers are odd or all even, triangular if odd and even ones
+    /// Makes centred rows without holes: square if all numbers are odd or all even, triangular if odd and even ones
     /// alternate.
     /// @param rows  dots in each row, from the top
     /// @throws std::runtime_error for no rows, an empty row, other numbers, and over most_dots
     explicit DotGrid(std::vector<std::uint32_t> rows);
 
-    /// Any set of dots.
-    /// @param columns  x of the dots of each row from the top, ascending, in half spacings from anywhere. In the
-    /// square
-    ///     lattice all are odd or all even, in the triangular lattice odd and even rows alternate.
+    /// Makes a grid from any set of dots.
+    /// @param columns  x of the dots of each row from the top, ascending, in half spacings from any origin. In the
+    ///     square lattice all are odd or all even, in the triangular lattice odd and even rows alternate.
     /// @throws std::runtime_error for no dots, places off the lattice, and over most_dots
     DotGrid(DotLattice lattice, const std::vector<std::vector<std::int32_t>>& columns);
 
     DotLattice lattice() const { return lattice_; }
-    /// Neighbours of a dot that has all of them: 4 or 6.
+    /// Number of neighbours of an inner dot: 4 or 6.
     std::uint32_t sides() const { return lattice_ == DotLattice::square ? 4 : 6; }
     /// Number of dots in each row, from the top.
     std::vector<std::uint32_t> rows() const;
-    /// From the top, each row from the left.
+    /// All dots, from the top, each row from the left.
     const std::vector<GridDot>& dots() const { return dots_; }
-    /// For each row from the top: those within the row, then those to the next row, each from the left.
+    /// All gaps: for each row from the top, those within the row, then those to the next row, each from the left.
     const std::vector<GridGap>& gaps() const { return gaps_; }
     /// Index of the gap on that side of a dot, or -1 at the border.
     std::int32_t gap(std::uint32_t dot, std::uint32_t side) const { return gap_at_[sides() * dot + side]; }
     std::optional<std::uint32_t> dot_at(GridDot place) const;
-    /// From a dot to its neighbour on that side.
+    /// Offset from a dot to its neighbour on that side.
     GridDot step(std::uint32_t side) const;
-    /// Number of groups of dots that no gap connects.
+    /// Number of connected groups of dots.
     std::size_t groups() const;
     /// True for centred rows without holes, which the numbers of dots determine.
     bool is_solid() const;
@@ -95,8 +94,8 @@ private:
 /// @throws std::runtime_error for anything else, and as DotGrid does
 DotGrid parse_dot_grid(std::string_view text);
 
-/// A note about a notation that users write for a diamond and that means a few rows here, such as `1-15-1` and `15
-/// dots`; empty for others.
+/// Returns a note about notations such as `1-15-1` and `15 dots`, which users write for a diamond but which mean a
+/// few rows here; empty for others.
 std::string dot_grid_note(std::string_view text);
 
 }  // namespace sikku

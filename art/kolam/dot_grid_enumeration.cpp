@@ -14,7 +14,7 @@
 namespace sikku {
 namespace {
 
-/// Gaps as pairs of bits, the first gap the highest: in the order of the digits. 36 orbits of 12 gaps are the most.
+/// Gaps as pairs of bits, the first gap the highest: in the order of the digits. At most 36 orbits of 12 gaps.
 using Mask = std::array<std::uint64_t, 14>;
 constexpr std::size_t most_gaps = 448;
 
@@ -46,7 +46,7 @@ struct Plan {
     std::uint64_t state_count;
     std::vector<Choice> choices;
     std::vector<Joint> border;
-    std::vector<std::vector<std::uint32_t>> symmetries;  // of the grid, without the identity
+    std::vector<std::vector<std::uint32_t>> symmetries;  // symmetries of the grid, without the identity
 };
 
 Plan make_plan(const DotGrid& grid, const EnumerationOptions& options) {
@@ -134,8 +134,8 @@ private:
         for (const std::uint32_t gap : plan_.choices[choice].gaps) toggle(mask_, gap, state);
     }
 
-    /// partner_ of a loose end is the other loose end of its stretch of line; of an end that was joined it stays what
-    /// it was, so that a joint can be undone.
+    /// partner_ of a loose end is the other loose end of its stretch of line; that of a joined end keeps its value,
+    /// so that a joint can be undone.
     void join(const Joint& joint) {
         const std::uint32_t a = partner_[joint.first];
         const std::uint32_t b = partner_[joint.second];

@@ -42,7 +42,7 @@ std::string gap_states_text(const DotGrid& grid, const GapStates& states) {
     std::string text;
     for (std::size_t i = 0; i < states.size(); ++i) {
         const GridGap& gap = grid.gaps()[i];
-        // A new word for each row of gaps: from within a row to the next row, or another row of the upper dot.
+        // Begins a word for each row of gaps: those within a row of dots, or those between two rows.
         if (i > 0) {
             const GridGap& before = grid.gaps()[i - 1];
             const bool is_within = gap.side == 0;
@@ -152,7 +152,7 @@ std::size_t count_lines(const DotGrid& grid, const GapStates& states, const Moni
 
 namespace {
 
-/// A graph of which only the edges are listed.
+/// A graph as a list of edges.
 struct EdgeList {
     std::size_t vertices = 0;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;

@@ -22,14 +22,14 @@ enum class GapState : std::uint8_t {
 /// One state for each gap, in the order of DotGrid::gaps().
 using GapStates = std::vector<GapState>;
 
-/// `all` or `none` (crossed), or for each gap a digit: 0 turned, 1 crossed, 2 joined; blanks, commas and slashes
-/// between them are skipped. @throws std::runtime_error
+/// Parses `all` or `none` (crossed), or a digit for each gap: 0 turned, 1 crossed, 2 joined; skips blanks, commas and
+/// slashes between them. @throws std::runtime_error
 GapStates parse_gap_states(const DotGrid& grid, std::string_view text);
-/// The digits, each row of gaps a word.
+/// Formats the states as digits, with each row of gaps as a word.
 std::string gap_states_text(const DotGrid& grid, const GapStates& states);
 
-/// The end of an arc at a side of a dot. Arc number s of a dot lies between its sides s and s + 1: the part of a line
-/// that passes it there. Numbers count over all dots: sides() * dot + arc.
+/// The end of an arc at a side of a dot. Arc s of a dot is the part of a line that passes it between its sides s and
+/// s + 1. Arcs are numbered over all dots: sides() * dot + s.
 struct ArcEnd {
     std::uint32_t arc = 0;
     std::uint32_t end = 0;  ///< 0 at side s, 1 at side s + 1
@@ -42,7 +42,7 @@ struct ArcJoint {
 };
 /// The two joints in a gap.
 std::array<ArcJoint, 2> joints(const DotGrid& grid, const GridGap& gap, GapState state);
-/// Where a line turns back at a side, as it does at the border.
+/// The joint where a line turns back at a side, as at the border.
 ArcJoint turning_back(const DotGrid& grid, std::uint32_t dot, std::uint32_t side);
 
 /// A step along a line, from the middle of one side of a dot to the middle of the next: along its arc.
@@ -64,13 +64,13 @@ ArcStep next_step(const DotGrid& grid, const GapStates& states, const ArcStep& s
 /// The first step of each line, in the order of the arcs they start with: by dot, then by number.
 std::vector<ArcStep> line_starts(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
 
-/// The number of closed lines, by following them. Cost: linear.
+/// Counts the closed lines by following them. Cost: linear.
 std::size_t count_lines(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
 
-/// The same number by another way: the nullity over GF(2) of the Laplacian of the graph whose edges are the crossings
-/// and whose vertices are the loops that remain when every crossing turns back: the dots, or where gaps are joined,
-/// the outlines of groups of dots. Time: O(dots * width^2 / 64), memory O(width^2), where width is the smaller of the
-/// grid's two, or with joined gaps anything up to the number of dots.
+/// Computes the number of lines in another way: as the nullity over GF(2) of the Laplacian of the graph whose edges
+/// are the crossings and whose vertices are the loops that remain when every crossing turns back: the dots, or where
+/// gaps are joined, the outlines of groups of dots. Time: O(dots * width^2 / 64), memory O(width^2), where width is
+/// the smaller of the grid's two, or with joined gaps anything up to the number of dots.
 /// Source: Godsil & Royle, Algebraic Graph Theory, 2001, section 17.5 (straight-ahead walks of the medial graph).
 std::size_t laplacian_nullity(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
 
@@ -78,7 +78,7 @@ std::size_t laplacian_nullity(const DotGrid& grid, const GapStates& states, cons
 struct LineLabels {
     std::vector<std::uint32_t> line;  ///< by arc
     std::vector<std::uint32_t>
-        entry;                    ///< by arc: twice its place on the line, and 1 if the line enters it at its end
+        entry;                    ///< by arc: twice its place on the line, plus 1 if the line enters it at its end
     std::vector<ArcStep> starts;  ///< by line
 };
 void label_lines(const DotGrid& grid, const GapStates& states, LineLabels& labels, const Monitor& monitor);

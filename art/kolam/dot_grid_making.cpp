@@ -12,7 +12,7 @@
 namespace sikku {
 namespace {
 
-/// Steele, Lea & Flood 2014 (SplitMix64).
+/// Pseudorandom numbers. Source: Steele, Lea & Flood 2014 (SplitMix64).
 class SplitMix {
 public:
     explicit SplitMix(std::uint64_t seed) : state_(seed) {}
@@ -20,9 +20,9 @@ public:
         state_ += 0x9E3779B97F4A7C15U;
         return scrambled(state_);
     }
-    /// In [0, 1).
+    /// A number in [0, 1).
     double fraction() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
-    /// 0 … bound - 1; the bias is below bound / 2^64.
+    /// A number from 0 to bound - 1; the bias is below bound / 2^64.
     std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
 
 private:
@@ -47,16 +47,16 @@ std::pair<std::uint32_t, std::uint32_t> strands(const DotGrid& grid, std::uint32
     return {first.first.arc, second.first.arc};
 }
 
-constexpr std::size_t most_images = 12;  // of a gap, in the largest group
+constexpr std::size_t most_images = 12;  // images of a gap in the largest group
 
-/// The number of lines gained if all those gaps, at most 12, change together. Only the ends of arcs that meet in them
-/// are looked at: on each line they follow each other as entries and exits, and between an entry and the next exit
-/// the line stays as it is.
+/// The number of lines gained if all those gaps, at most 12, change together. Examines only the ends of arcs that
+/// meet in them: along each line entries and exits alternate, and between an entry and the next exit the line does
+/// not change.
 int lines_gained(const DotGrid& grid, const GapStates& states, const LineLabels& labels,
                  const std::vector<std::uint32_t>& gaps) {
     struct End {
         std::uint32_t line;
-        std::uint32_t place;  // on its line: exits are odd
+        std::uint32_t place;  // on its line; odd for exits
         std::uint32_t joint;  // ends with the same number will meet
     };
     std::array<End, 4 * most_images> ends;
@@ -112,8 +112,8 @@ std::vector<std::vector<std::uint32_t>> members_of(const std::vector<std::uint32
     return members;
 }
 
-/// Changes each orbit of gaps whose gaps, one after the other, all join different lines: that leaves as many lines
-/// fewer as the orbit has gaps, and needs no line to be followed again.
+/// Changes each orbit of gaps whose gaps, one after the other, all join different lines: that removes as many lines
+/// as the orbit has gaps, and does not require following lines again.
 void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
                  GapStates& states, LineLabels& labels, const Monitor& monitor) {
     label_lines(grid, states, labels, monitor);
@@ -203,7 +203,7 @@ std::size_t make_single_line(const DotGrid& grid, GapStates& states, std::uint64
     UnionFind lines(labels.starts.size());
     SplitMix chance(seed);
     std::size_t count = 0;
-    // Once around is enough: afterwards the two lines of every gap are one, and the gaps connect all dots.
+    // One pass is enough: afterwards the two lines of every gap are one, and the gaps connect all dots.
     Pulse pulse(monitor);
     for (const std::uint32_t i : shuffled(states.size(), chance)) {
         pulse();
@@ -254,7 +254,7 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
             for (std::size_t i = 0; i < begun.size(); ++i) found.changed += begun[i] != found.states[i];
             return found;
         }
-        // Every gap was looked at several times.
+        // Every gap was examined several times.
         steps -= std::min<std::uint64_t>(steps, 16 * labels.line.size());
     }
     return std::nullopt;

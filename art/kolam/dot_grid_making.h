@@ -1,4 +1,4 @@
-// art/kolam/dot_grid_making.h: makes kolams on grids of dots, by chance and as single lines.
+// art/kolam/dot_grid_making.h: makes kolams on grids of dots, at random and as single lines.
 #pragma once
 
 #include "art/kolam/dot_grid_symmetry.h"
@@ -15,22 +15,22 @@ struct RandomKolam {
     double density = 0.7;  ///< share of crossed gaps, 0 to 1
     double joined = 0.0;   ///< share of joined gaps among the others, 0 to 1
     GridSymmetry symmetry = GridSymmetry::none;
-    /// Crosses further gaps, with their images, until lines around neighbouring dots connect all dots of a group: no
-    /// ring around a dot alone, and no piece apart.
+    /// Crosses further gaps, with their images, until lines around neighbouring dots connect all dots of a group,
+    /// without rings around single dots or separate pieces.
     bool connects = false;
 };
 
-/// Each gap, or each orbit of gaps, on its own. The same on every machine.
+/// Chooses the state of each gap, or each orbit of gaps, independently; the same on every machine.
 /// @throws std::runtime_error if the grid does not have the symmetry, or a share is not between 0 and 1
 GapStates random_states(const DotGrid& grid, const RandomKolam& kolam);
 
-/// The symmetries that people would choose for a kolam on this grid, the largest first, `none` last; for a single
-/// line those that nothing known speaks against.
+/// Usual symmetries of a kolam on this grid, the largest first, `none` last; for a single line, only those without a
+/// known obstacle.
 std::vector<GridSymmetry> usual_symmetries(const DotGrid& grid, bool single_line);
 
-/// Turns c lines into one by changing c - 1 gaps, the fewest that can do it; returns how many. Any two lines that
-/// pass a gap become one if it changes: the first ones in random order. Turned and joined gaps become crossings,
-/// crossings turn back. On a grid of several groups of dots each group keeps a line.
+/// Turns c lines into one by changing c - 1 gaps, the minimum; returns their number. Changing a gap that two lines
+/// pass joins them; gaps are tried in random order. Turned and joined gaps become crossings, crossings turn back. On
+/// a grid of several groups of dots, each group keeps a line.
 std::size_t make_single_line(const DotGrid& grid, GapStates& states, std::uint64_t seed, const Monitor& monitor = {});
 
 struct SingleLine {
@@ -39,10 +39,11 @@ struct SingleLine {
     int attempt = 1;
 };
 
-/// Without a symmetry random_states(), then make_single_line(). With one, whole orbits are changed as long as that
-/// leaves fewer lines; where that ends with several, the next attempt starts from another seed, made from the first.
-/// Nothing if `attempts` attempts, or 3 * 10^9 steps along lines, did not lead to one, or the dots are not connected.
-/// @param steps_left  instead of 3 * 10^9 steps, those that several calls share
+/// Finds a single-line kolam. Without a symmetry: random_states(), then make_single_line(). With one, whole orbits
+/// are changed as long as that reduces the number of lines; if several remain, the next attempt starts from another
+/// seed, derived from the first. Returns nullopt if `attempts` attempts or 3 * 10^9 steps along lines do not suffice,
+/// or the dots are not connected.
+/// @param steps_left  steps that several calls share, instead of 3 * 10^9
 /// @throws as random_states()
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,
                                            const Monitor& monitor = {}, std::uint64_t* steps_left = nullptr);

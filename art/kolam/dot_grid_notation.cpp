@@ -1,4 +1,4 @@
-// Reads grids of dots as people write them down.
+// art/kolam/dot_grid_notation.cpp: reads the notations of grids of dots.
 #include "art/kolam/dot_grid.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -51,12 +51,12 @@ bool is_row_end(char byte) {
 bool is_of_shape(char byte) {
     return is_drawn_dot(byte) || is_hole(byte) || is_row_end(byte) || byte == ' ' || byte == '\r';
 }
-/// Bytes within a character of UTF-8.
+/// True for bytes that continue a character of UTF-8.
 bool is_continuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80;
 }
 
-/// Text of more places than other characters, or of as many in several rows: words and numbers have fewer.
+/// True for texts with more places than other characters, or as many in several rows: words and numbers have fewer.
 bool is_shape(std::string_view text) {
     const auto places =
         std::count_if(text.begin(), text.end(), [](char byte) { return is_drawn_dot(byte) || is_hole(byte); });
@@ -103,7 +103,7 @@ DotGrid parse_shape(std::string_view text) {
                                   [&](char a, char b) { return is_place(a) && is_place(b); }) != line.end();
     });
     std::vector<std::vector<std::int32_t>> columns(lines.size());
-    std::optional<std::uint32_t> parity[2];  // of the columns of places in even and odd rows
+    std::optional<std::uint32_t> parity[2];  // parity of the columns of places in even and odd rows
     std::uint64_t count = 0;
     for (std::size_t r = 0; r < lines.size(); ++r) {
         for (std::size_t i = 0; i < lines[r].size(); ++i) {
@@ -245,7 +245,7 @@ private:
         return std::all_of(items_.begin() + 1, items_.end(),
                            [separator](const Item& item) { return item.separator == separator; });
     }
-    /// Limits a product before it is made; the grid itself counts its dots.
+    /// Limits a product before it is computed; the grid itself counts its dots.
     void check_size(std::uint64_t dots, std::uint64_t rows) const {
         if (dots > DotGrid::most_dots || rows > DotGrid::most_dots || dots * rows > 2 * DotGrid::most_dots) {
             made({static_cast<std::uint32_t>(DotGrid::most_dots), 1});
@@ -275,7 +275,7 @@ private:
     DotGrid spindle(std::uint32_t longest, std::uint32_t count, std::uint32_t last) const {
         if (last > longest) std::swap(longest, last);
         const std::uint32_t difference = longest - last;
-        // Without a word: the hexagons 3-2, 5-3, 7-4, … are interlaced, and so is what cannot be straight.
+        // Without a word, the hexagons 3-2, 5-3, 7-4, … and grids that cannot be straight are interlaced.
         const bool is_interlaced =
             sort_ == Sort::interlaced || (sort_ == Sort::unknown && (difference % 2 != 0 || longest + 1 == 2 * last));
         if (!is_interlaced && difference % 2 != 0) {

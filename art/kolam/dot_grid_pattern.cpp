@@ -61,7 +61,7 @@ HalfSteps side_middle(const DotGrid& grid, std::uint32_t dot, std::uint32_t side
     return place_of(grid, {2 * (at.x - from.x) + way.x, 2 * (at.y - from.y) + way.y});
 }
 
-/// Symbols, broken into lines where they may be.
+/// Writes symbols, with line breaks where they are allowed.
 class WordWriter {
 public:
     WordWriter(std::string& text, std::uint32_t headings) : text_(text), headings_(headings) {}
@@ -73,7 +73,7 @@ public:
         text_ += symbol;
         column_ += symbol.size();
     }
-    /// Anticlockwise, in full turns / headings.
+    /// Turns anticlockwise, in units of a full turn / headings.
     void turn(std::uint32_t count) {
         count %= headings_;
         if (2 * count == headings_) return put("|");
@@ -83,7 +83,7 @@ public:
             for (; count < headings_; ++count) put("+");
         }
     }
-    /// Moves with heading along the first axis, which it keeps.
+    /// Moves; the heading is along the first axis before and after.
     void move(const HalfSteps& way) {
         length(way.first);
         if (way.second == 0) return;
@@ -103,12 +103,12 @@ private:
 
     std::string& text_;
     std::uint32_t headings_;
-    std::size_t column_ = 7;  // behind `axiom: `
+    std::size_t column_ = 7;  // after `axiom: `
 };
 
 constexpr std::size_t colour_count = 8;
 
-/// The turns behind each step of a line, the last one back into the direction of the first.
+/// The turns after each step of a line, the last one back into the direction of the first.
 std::vector<std::uint8_t> turns_of(const DotGrid& grid, const GapStates& states, const ArcStep& start, Pulse& pulse) {
     std::vector<std::uint8_t> turns;
     ArcStep step = start;
@@ -187,7 +187,7 @@ private:
         text_ += fmt::format("\nderivation length: {}\nangle factor: {}\nheading: {}\naxiom: ", steps, walk_.headings,
                              walk_.heading);
     }
-    /// A line that a rotation leaves as it is repeats its first part, which becomes a production.
+    /// A line with rotational symmetry repeats its first part, which becomes a production.
     void write_single(const ArcStep& start, const std::vector<std::uint8_t>& turns) {
         const std::size_t period = period_of(turns);
         const bool repeats = period < turns.size();

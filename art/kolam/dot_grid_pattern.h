@@ -10,36 +10,36 @@
 
 namespace sikku {
 
-/// The number of gaps up to which a pattern lists its grid and gaps, so that the kolam can be read from it.
+/// Maximum number of gaps for which a pattern lists its grid and gaps, so that the kolam can be read back.
 constexpr std::size_t most_listed_gaps = 1000;
 
 struct KolamPatternOptions {
-    std::string title = {};        ///< any text: it becomes one line, as pattern_line() says
-    std::string description = {};  ///< the same
-    bool coloured = false;         ///< each class of lines that are images of each other in a colour, eight in turn
+    std::string title = {};        ///< any text; pattern_line() makes it one line
+    std::string description = {};  ///< likewise
+    bool coloured = false;         ///< one of eight colours for each class of lines that are images of each other
     bool dot_symbols = false;      ///< draws the dots, too, as `@.`
     Monitor monitor = {};
 };
 
 struct KolamPattern {
     std::string text;              ///< text of the pattern file
-    std::vector<glm::dvec2> dots;  ///< where the turtle's plane has the dots, in the order of DotGrid::dots()
+    std::vector<glm::dvec2> dots;  ///< their positions in turtle steps, in the order of DotGrid::dots()
     std::size_t lines = 0;
 };
 
-/// The turtle steps `F` from the middle of one side of a dot to the middle of the next, turning where the line does;
-/// the middles are the control points of a spline, which therefore runs straight through each crossing and rounds a
-/// dot where it turns back. In the square lattice steps are diagonal, lines cross at right angles, and dots are
-/// sqrt(2) steps apart; in the triangular one steps have six directions, lines cross at 60 degrees, and dots are 2
-/// steps apart. The first line starts at 0 0. Each line is one closed stroke. A single line is a word without
-/// brackets; if a rotation leaves it as it is, its repeated part is a production. Several lines are branches, and
-/// between them the turtle moves with a transparent pen, for a spline takes `f` as a control point as well. The grid
-/// and up to most_listed_gaps gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read them.
-/// Steps are whole (or halves, to dots), so that every position is exact.
-/// @throws std::runtime_error if the text were too long for a pattern file
+/// Writes a kolam as a pattern. The turtle steps `F` from the middle of one side of a dot to the middle of the next,
+/// turning where the line does; the middles are the control points of a spline, which therefore runs straight through
+/// each crossing and rounds a dot where it turns back. In the square lattice steps are diagonal, lines cross at right
+/// angles, and dots are sqrt(2) steps apart; in the triangular one steps have six directions, lines cross at 60
+/// degrees, and dots are 2 steps apart. The first line starts at 0 0. Each line is one closed stroke. A single line
+/// is a word without brackets; if it has rotational symmetry, its repeated part is a production. Several lines are
+/// branches, between which the turtle moves with a transparent pen, since `f` is a control point of a spline as well.
+/// The grid and up to most_listed_gaps gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read
+/// them. Steps are whole numbers (or halves, to dots), so that every position is exact.
+/// @throws std::runtime_error if the text is too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 
-/// The keys `title` and `description` of such a pattern; those that are empty are left out.
+/// The keys `title` and `description` of a pattern; empty ones are left out.
 std::string kolam_head(const KolamPatternOptions& options);
 
 /// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps), or empty.

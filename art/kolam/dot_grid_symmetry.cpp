@@ -86,7 +86,7 @@ public:
             sum_y_ += dot.y;
         }
     }
-    /// Where a place of the lattice goes, or nothing if that is between the places.
+    /// The image of a place of the lattice, or nullopt if it lies between the places.
     std::optional<GridDot> place(GridDot dot, const Isometry& isometry) const {
         const std::int64_t x = count_ * dot.x - sum_x_;
         const std::int64_t y = count_ * dot.y - sum_y_;
@@ -104,7 +104,7 @@ public:
         return std::all_of(grid_.dots().begin(), grid_.dots().end(),
                            [&](GridDot dot) { return image(dot, isometry).has_value(); });
     }
-    /// Where each gap goes.
+    /// The image of each gap.
     std::vector<std::uint32_t> gaps(const Isometry& isometry) const {
         std::vector<std::uint32_t> images;
         images.reserve(grid_.gaps().size());
@@ -114,7 +114,7 @@ public:
         }
         return images;
     }
-    /// Where an arc goes, numbered over all dots.
+    /// The image of an arc, numbered over all dots.
     std::uint32_t arc(std::uint32_t dot, std::uint32_t arc, const Isometry& isometry) const {
         const std::uint32_t sides = grid_.sides();
         const std::uint32_t first = isometry.is_mirror ? (arc + 1) % sides : arc;
@@ -131,7 +131,7 @@ public:
     bool has_dot_at_centre() const {
         return std::any_of(grid_.dots().begin(), grid_.dots().end(), [this](GridDot dot) { return is_centre(dot); });
     }
-    /// The centre lies in the middle of a gap.
+    /// True if the centre lies in the middle of a gap.
     bool has_gap_at_centre() const {
         return std::any_of(grid_.gaps().begin(), grid_.gaps().end(), [this](const GridGap& gap) {
             const GridDot a = grid_.dots()[gap.from];
@@ -139,7 +139,8 @@ public:
             return count_ * (a.x + b.x) == 2 * sum_x_ && count_ * (a.y + b.y) == 2 * sum_y_;
         });
     }
-    /// How often a mirror's axis meets the lines whatever the states of gaps are, and whether a gap lies along it.
+    /// The number of meetings of a mirror's axis with the lines in all states of gaps, and whether a gap lies along
+    /// it.
     struct Axis {
         std::size_t dots = 0;
         std::size_t meetings = 0;

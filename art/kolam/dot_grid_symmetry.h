@@ -32,51 +32,51 @@ enum class GridSymmetry : std::uint8_t {
     d6
 };
 
-/// `none`, `C2`, `C3`, `C4`, `C6`, `mirror-x` (D1), `mirror-y`, `diagonal`, `mirrors` (D2), `diagonals`, `D3`,
+/// Parses `none`, `C2`, `C3`, `C4`, `C6`, `mirror-x` (D1), `mirror-y`, `diagonal`, `mirrors` (D2), `diagonals`, `D3`,
 /// `D3-y`, `D4`, `D6`, in any case. @throws std::runtime_error
 GridSymmetry parse_grid_symmetry(std::string_view text);
 std::string_view grid_symmetry_name(GridSymmetry symmetry);
-/// All of them, `none` first.
+/// All symmetries, `none` first.
 std::span<const GridSymmetry> grid_symmetry_list();
 
 bool has_symmetry(const DotGrid& grid, GridSymmetry symmetry);
-/// @throws std::runtime_error if it does not
+/// @throws std::runtime_error if the grid does not have the symmetry
 void require_symmetry(const DotGrid& grid, GridSymmetry symmetry);
 
-/// Where each gap goes under each of the grid's own symmetries, the identity first: at most 12 permutations.
+/// Permutations of the gaps by the grid's own symmetries, the identity first: at most 12.
 std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid);
 
-/// Where each arc goes under them, in the same order. Arcs have the numbers of ArcEnd.
+/// Permutations of the arcs by the same symmetries, in the same order. Arcs are numbered as in ArcEnd.
 std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid);
 
-/// Gaps that the symmetry takes to each other have the same number; numbers from 0 in the order of their first gaps.
+/// The orbit of each gap under the symmetry; orbits are numbered from 0 in the order of their first gaps.
 /// @throws std::runtime_error if the grid does not have the symmetry
 std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
 
-/// Where the symmetry takes a place of the lattice, with or without a dot: at most 12 places, the place itself first.
+/// Images of a place of the lattice, with or without a dot: at most 12 places, the place itself first.
 /// @throws std::runtime_error if the grid does not have the symmetry
 std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry);
 
 bool is_symmetric(const DotGrid& grid, const GapStates& states, GridSymmetry symmetry);
 
-/// The first of the images of a kolam under the grid's own symmetries, written as digits: the same for kolams that
-/// are images of each other.
+/// The first of the images of a kolam under the grid's own symmetries, when written as digits: the same for kolams
+/// that are images of each other.
 GapStates canonical_states(const DotGrid& grid, const GapStates& states);
 
-/// For each line, in the order of line_starts(), the number of its class: lines that the kolam's own symmetries take
-/// to each other share one. Numbers from 0 in the order of their first lines.
+/// The class of each line, in the order of line_starts(): lines that the kolam's own symmetries map onto each other
+/// share a number. Classes are numbered from 0 in the order of their first lines.
 std::vector<std::uint32_t> line_orbits(const DotGrid& grid, const GapStates& states, const Monitor& monitor = {});
 
 /// A name for a kolam and all its images: 8 letters and digits (base 32) of a hash (FNV-1a, 64 bits) of the grid and
 /// its canonical states.
 std::string kolam_code(const DotGrid& grid, const GapStates& states);
 
-/// Why no single line on this grid has that symmetry, or nothing if none of the known reasons applies.
-/// The dots have to be connected. A rotation of even order carries the line along itself, so that it winds around the
-/// centre an odd number of times: a dot has to be there (or, for a half turn, a gap). A mirror that reverses the line
-/// meets it twice, and one that carries it along itself never: each dot on the axis meets it in every arc that the
-/// axis cuts and at every end of its row of dots.
-/// @param joined  gaps may be joined, too: then a mirror may meet the line there
+/// Returns the reason why no single line on this grid can have the symmetry, or nullopt if none of the known reasons
+/// applies. The dots have to be connected. A rotation of even order carries the line along itself, so that it winds
+/// around the centre an odd number of times: a dot has to be there (or, for a half turn, a gap). The axis of a mirror
+/// meets the line twice if the mirror reverses the line, and never otherwise; but it meets a line in every arc that
+/// it cuts around a dot, and at every end of a row of dots on it.
+/// @param joined  gaps may be joined, too: then an axis may meet the line there
 std::optional<std::string> single_line_obstacle(const DotGrid& grid, GridSymmetry symmetry, bool joined = false);
 
 /// single_line_obstacle() of a grid whose dots are connected.

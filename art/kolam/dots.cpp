@@ -169,7 +169,7 @@ public:
     }
 
 private:
-    /// A chord on the right of a dot, or around it.
+    /// Adds a chord on the right of a dot, or around it.
     void pass(std::size_t number, glm::dvec2 a, glm::dvec2 b, bool is_closed_stroke) {
         const glm::dvec2 at = dots_[number].at;
         if ((a.y > at.y) == (b.y > at.y)) return;

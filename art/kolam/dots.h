@@ -16,7 +16,7 @@ std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, con
 /// True if there are three discs or more and one of them lies where no dot is set.
 bool has_dots_elsewhere(std::span<const glm::dvec2> discs, const std::vector<KolamDot>& set);
 
-/// The discs of the pattern as dots, each once, sorted as above. Lines run through those within steps_are_one.
+/// Returns the discs of the pattern as dots, each once, sorted as above. A dot is on a line within steps_are_one.
 /// Cost: for each step, O(log n + the number of dots at its height).
 std::vector<KolamDot> own_dots(const PlanarGraph& graph, const Strokes& strokes, const Lines& lines,
                                const KolamOptions& options);

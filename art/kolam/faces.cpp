@@ -13,7 +13,7 @@ Faces::Faces(const PlanarGraph& graph, std::span<const char> closed_times, const
     breathe(options);
     const std::vector<std::uint32_t> lowest = find_components(areas, pulse);
 
-    // From below, so that what a component lies in is known before it.
+    // From below, so that the face around a component is known before the component.
     std::vector<std::uint32_t> order(lowest.size());
     std::iota(order.begin(), order.end(), 0u);
     sort(options, order, [&](std::uint32_t a, std::uint32_t b) { return is_lower(lowest[a], lowest[b]); });

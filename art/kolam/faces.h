@@ -28,8 +28,8 @@ public:
     bool is_odd(std::uint32_t cycle) const { return odd_[cycle] != 0; }
     bool has_holes(std::uint32_t cycle) const { return has_holes_[cycle] != 0; }
 
-    /// The bounded face that contains a point, which must not lie on an edge; none outside. Searches downwards for an
-    /// edge; an edge includes its left end but not its right one.
+    /// The bounded face that contains a point, which must not lie on an edge; `none` outside. Searches downwards for
+    /// an edge; an edge includes its left end but not its right one.
     std::uint32_t at(glm::dvec2 point) const;
 
 private:
@@ -38,12 +38,12 @@ private:
     bool is_lower(std::uint32_t a, std::uint32_t b) const;
 
     const PlanarGraph& graph_;
-    std::vector<std::uint32_t> cycle_;      // of a half-edge
+    std::vector<std::uint32_t> cycle_;      // cycle of each half-edge
     std::vector<std::uint32_t> begins_;     // one half-edge of each cycle
-    std::vector<std::uint32_t> component_;  // of a vertex
-    std::vector<std::uint32_t> outer_;      // cycle around a component
-    std::vector<std::uint32_t> container_;  // the face that a component lies in, or none
-    std::vector<char> odd_;                 // of a cycle's face
+    std::vector<std::uint32_t> component_;  // component of each vertex
+    std::vector<std::uint32_t> outer_;      // cycle around each component
+    std::vector<std::uint32_t> container_;  // face around each component, or none
+    std::vector<char> odd_;                 // parity of the face of each cycle
     std::vector<char> has_holes_;
 };
 

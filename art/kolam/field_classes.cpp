@@ -52,7 +52,7 @@ std::vector<std::uint32_t> sizes_of(const std::vector<Field>& fields, const Moni
 std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<Field>& fields, Pulse& pulse) {
     std::vector<double> away;
     for (const Field& field : fields) {
-        // To the nearest point of the outline; 0 inside.
+        // Distance to the nearest point of the outline; 0 inside.
         double least = std::numeric_limits<double>::max();
         double turn = 0;
         for (std::size_t i = 0; i + 3 < field.outline.size(); i += 3) {
@@ -86,7 +86,7 @@ std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<F
             front.push_back(other);
         }
     }
-    // Parts of the drawing that nothing joins to the centre.
+    // Parts of the drawing that are not connected with the centre.
     for (std::uint32_t i = 0; i < fields.size(); ++i) {
         if (distance[i] == none) distance[i] = fields[i].distance - 1;
     }

@@ -57,7 +57,7 @@ struct Moments {
     }
 };
 
-/// Where a ray downwards from a point first meets an edge.
+/// The first edge that a ray downwards from a point meets.
 struct Below {
     std::uint32_t half = none;  ///< the side that faces upwards
     double position = 0.0;      ///< on the line
@@ -68,7 +68,7 @@ struct Below {
 /// A component that lies in a field: its outer cycle is entered over a line from the edge below it.
 struct Hole {
     double position = 0.0;      ///< on the line of the edge
-    glm::dvec2 from{0.0};       ///< on that edge
+    glm::dvec2 from{0.0};       ///< a point of that edge
     std::uint32_t half = none;  ///< half-edge of the outer cycle that begins at the component's lowest vertex
 };
 
@@ -138,19 +138,19 @@ private:
     std::vector<Edge> edges_;
     std::vector<glm::dvec2> added_places_;      // added vertices, where lines are lowest
     std::vector<std::uint32_t> next_;           // half-edge along the face on the left
-    std::vector<std::uint32_t> cycle_;          // of a half-edge
+    std::vector<std::uint32_t> cycle_;          // cycle of each half-edge
     std::vector<std::uint32_t> begins_;         // one half-edge of each cycle
-    std::vector<double> areas_;                 // of cycles
-    std::vector<std::uint32_t> component_;      // of a vertex
-    std::vector<std::uint32_t> outer_;          // cycle around a component
+    std::vector<double> areas_;                 // areas of cycles
+    std::vector<std::uint32_t> component_;      // component of each vertex
+    std::vector<std::uint32_t> outer_;          // cycle around each component
     std::vector<std::uint32_t> container_;      // cycle of the field in which a component lies, or none
-    std::vector<char> odd_;                     // of a cycle's face
+    std::vector<char> odd_;                     // parity of each cycle's face
     std::multimap<std::uint32_t, Hole> holes_;  // by half-edge
     std::vector<std::pair<std::uint32_t, std::uint32_t>> buckets_;  // column and edge, sorted
     double left_ = 0, column_ = 1;
 };
 
-/// Where a line is lowest.
+/// The position at which a line is lowest.
 double FieldFinder::lowest_position(const CurvedLines::Line& line) {
     double lowest = std::numeric_limits<double>::max();
     double found = 0;
@@ -268,7 +268,7 @@ void FieldFinder::sort_around() {
     next_.resize(count());
     for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
         while (end < spokes.size() && spokes[end].vertex == spokes[begin].vertex) ++end;
-        // Arriving on the twin of a half-edge, the face on the left goes on along the one clockwise of it.
+        // After the twin of a half-edge, the face on the left continues along the half-edge clockwise of the twin.
         for (std::size_t i = begin; i < end; ++i) {
             next_[spokes[i].half ^ 1] = spokes[i == begin ? end - 1 : i - 1].half;
         }
@@ -355,7 +355,7 @@ Below FieldFinder::below(glm::dvec2 point, std::uint32_t component) {
             const double begin = position;
             const double share = std::min(edge.to, std::floor(begin + 1e-9) + 1) - begin;
             position = begin + share;
-            // In parts that go one way; a part includes its left end but not its right one.
+            // In monotone parts; a part includes its left end but not its right one.
             constexpr int parts = 8;
             for (int i = 0; i < parts; ++i) {
                 double low = static_cast<double>(i) / parts;
@@ -469,7 +469,7 @@ void FieldFinder::trace(std::uint32_t first, std::vector<glm::dvec2>& outline, b
 }
 
 void FieldFinder::measure(std::uint32_t cycle, Field& field) {
-    std::map<std::uint32_t, double> lengths;  // of each orbit of lines
+    std::map<std::uint32_t, double> lengths;  // length of each orbit of lines
     glm::dvec2 first(0.0), before(0.0);
     const auto turn_to = [&](glm::dvec2 tangent) {
         constexpr double bend = 0.05;  // sine of the turn of a corner

@@ -1,4 +1,4 @@
-// art/kolam/fields.h: the fields between the lines of a drawing, bounded by the lines as they are drawn.
+// art/kolam/fields.h: the fields between the drawn lines, bounded by their curves.
 #pragma once
 
 #include "art/kolam/curve_meetings.h"
@@ -11,7 +11,7 @@ namespace sikku {
 
 /// A bounded region between closed lines, without lines inside.
 struct Field {
-    /// Where the outline begins, then three control points for each Bézier, anticlockwise. Holes are part of it,
+    /// The start of the outline, then three control points for each Bézier, anticlockwise. Holes are part of it,
     /// joined by a line to and fro.
     std::vector<glm::dvec2> outline;
     bool is_straight = false;   ///< all Béziers are straight lines
@@ -24,13 +24,13 @@ struct Field {
     std::vector<std::uint32_t> beside;  ///< fields across a line, sorted
 };
 
-/// The fields of a drawing. Open lines divide nothing.
+/// Finds the fields of a drawing. Open lines do not bound fields.
 /// Cost: O(n log n) for n pieces and meetings.
 /// @throws Stopped
 std::vector<Field> find_fields(const CurvedLines& lines, const CurveMeetings& meetings, const Monitor& monitor);
 
 /// Divides fields into classes, numbered from 0. Neighbours across a line are in classes of different parity for
-/// chessboard, kind and symmetry: those with a dot in even ones.
+/// chessboard, kind and symmetry: fields with a dot are in even ones.
 std::vector<std::uint32_t> classify(const std::vector<Field>& fields, FieldsBy by, const KolamSymmetry& symmetry,
                                     glm::dvec2 centre, const Monitor& monitor);
 

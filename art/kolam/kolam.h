@@ -26,7 +26,7 @@ struct KolamSymmetry {
 /// A dot where tradition would set one, or where the pattern has it, in turtle steps.
 struct KolamDot {
     glm::dvec2 at{0.0};
-    bool is_enclosed = false;  ///< closed lines run around it: an odd number of times where tradition would set it
+    bool is_enclosed = false;  ///< closed lines enclose it; an odd number of times for dots set by tradition
     bool is_alone = false;     ///< the whole outline of its face is visible from it; true for dots of the pattern
     bool is_on_line = false;   ///< a line runs through it, as in radial kolams; only of dots of the pattern
 };
@@ -36,12 +36,13 @@ struct KolamDot {
 ///
 /// Dots: faces are coloured like a chessboard by the closed lines, the outside even; each odd face carries one dot,
 /// at its centroid or, where that lies outside of it, elsewhere inside. So every loop has its dot, and the gaps
-/// between loops have none. Open lines enclose nothing. A pattern that draws or marks three dots or more (`@.`), and
-/// one of them elsewhere, has its own dots: a line has to run around or through each, as lines of radial kolams do.
+/// between loops have none. Open lines do not enclose faces. A pattern that draws or marks three dots or more (`@.`),
+/// and one of them elsewhere, has its own dots: a line has to run around or through each, as lines of radial kolams
+/// do.
 ///
-/// A spline is examined by its control polygon, as the turtle walks it: the curve runs along it. It passes
-/// through a crossing where both strands go straight on; where they turn back (touchings) it keeps them apart.
-/// The curve itself decides whether dots are enclosed. Polygons and discs are ignored.
+/// A spline is examined by its control polygon, which the curve follows. The curve passes through a crossing where
+/// both strands continue straight, and keeps strands apart that turn back (touchings). The curve itself decides
+/// whether dots are enclosed. Polygons and discs are ignored.
 struct KolamExamination {
     bool is_exact = false;   ///< computed in whole numbers, except for the positions of dots
     double tolerance = 0.0;  ///< otherwise the distance in steps below which points are merged
@@ -81,7 +82,7 @@ struct KolamExamination {
     glm::dvec2 centre{0.0};  ///< centre of symmetry
 
     std::vector<KolamDot> dots;  ///< sorted by y, then by x
-    bool has_own_dots = false;   ///< they are those of the pattern
+    bool has_own_dots = false;   ///< the dots are those of the pattern
 
     std::uint64_t dots_on_lines() const;
     std::uint64_t loose_dots() const;  ///< dots not on a line that are not enclosed or not alone
@@ -108,7 +109,7 @@ struct KolamOptions {
     double nodes_of_segment = 40;  ///< memory and time of a segment, in nodes
 };
 
-/// Examines what the turtle draws: in Z[zeta], without rounding, where its angles and lengths allow that
+/// Examines the drawing of the turtle: in Z[zeta], without rounding, where its angles and lengths allow that
 /// (engine/geometry/lattice.h), else with a tolerance of 1e-6 steps.
 /// Cost: for n segments that are of similar length, O(n log n) time and O(n) memory; 3 s and 250 MB for a million.
 /// @throws BudgetError, WordError; std::runtime_error if no segment is drawn

@@ -28,7 +28,7 @@ __extension__ using Wide = __int128;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double steps_are_one = 1e-6;
-constexpr long double pi = 3.141592653589793238462643383279502884L;  // std::numbers of libc++ 13 has that of a double
+constexpr long double pi = 3.141592653589793238462643383279502884L;  // libc++ 13 has only double precision
 
 inline double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -56,13 +56,13 @@ struct Cut {
     double along = 0.0;  ///< roughly, in steps from the segment's beginning
 };
 
-/// Points of Z[zeta]; every question is answered without rounding.
+/// Points of Z[zeta]; all predicates are computed without rounding.
 class ExactPlane {
 public:
     explicit ExactPlane(const Lattice& lattice)
         : lattice_(lattice), numbers_(lattice), turn_(numbers_.roots()), rank_(numbers_.rank()), table_(64, none) {}
 
-    /// Thrown by node(): sums of coordinates would no longer fit into 64 bits.
+    /// Thrown by node() if sums of coordinates might not fit into 64 bits.
     struct OutOfRange {};
 
     static constexpr bool is_exact = true;
@@ -93,7 +93,7 @@ public:
         return table_[slot];
     }
 
-    /// Every step goes along a power of zeta.
+    /// Direction of a step, which is a power of zeta.
     double direction(std::uint32_t from, std::uint32_t to) const {
         const long double turned = numbers_.angle(between(from, to)) / (2 * pi) * turn_;
         return static_cast<double>((std::llround(turned) + turn_) % turn_);
@@ -118,8 +118,8 @@ public:
             const int node_is_behind = side(other, node) * sign_of_sine(index(line) - index(other));
             return a.is_crossing ? -node_is_behind : node_is_behind;
         }
-        // With y = the way to the other line, turned into it, and w = the direction of this one, turned likewise, a
-        // crossing lies Im y / Im w along; 2 Im y Im w = Re(y conj(w)) - Re(y w).
+        // Let y be the vector to the other line, and w the direction of this one, both turned by the direction of the
+        // other line: the crossing lies Im y / Im w along; 2 Im y Im w = Re(y conj(w)) - Re(y w).
         const Segment& first = segments[a.other];
         const Segment& second = segments[b.other];
         const Vector way_1 = rotated(between(line.from, first.from), -index(first));
@@ -135,7 +135,7 @@ public:
         return sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
     }
 
-    /// The nodes that the symmetries about the centroid of `nodes` map them onto.
+    /// Images of nodes under the symmetries about the centroid of `nodes`.
     class Images {
     public:
         Images(const ExactPlane& plane, std::span<const std::uint32_t> nodes)
@@ -156,7 +156,7 @@ public:
             }
             return divisors;
         }
-        /// With that many rotations known, the mirrors that remain to be tried.
+        /// Number of mirrors that remain to be tried once that many rotations are known.
         std::uint32_t mirrors(std::uint32_t rotations) const {
             return static_cast<std::uint32_t>(plane_.turn_) / rotations;
         }
@@ -332,7 +332,7 @@ public:
             const double angle = 2 * std::numbers::pi / order;
             return image(plane_.at(node) - centre, {std::cos(angle), std::sin(angle)});
         }
-        /// The mirror that maps the first of those alike onto another of them.
+        /// The mirror that maps the first of alike_ onto another of them.
         std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
             const glm::dvec2 from = plane_.at(alike_.front()) - centre;
             const glm::dvec2 to = plane_.at(alike_[which]) - centre;
@@ -378,8 +378,8 @@ private:
     }
 
     std::vector<glm::dvec2> places_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // the last node in each
-    std::vector<std::uint32_t> next_;                         // of the same cell
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // last node in each
+    std::vector<std::uint32_t> next_;                         // the node before each in its cell
 };
 
 }  // namespace sikku::kolam_plane

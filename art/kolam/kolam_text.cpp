@@ -12,7 +12,7 @@
 namespace sikku {
 namespace {
 
-/// In turtle steps, to a millionth of one.
+/// Formats turtle steps, to a millionth of one.
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0

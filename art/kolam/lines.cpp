@@ -192,7 +192,7 @@ private:
     Pulse pulse_;
     std::vector<std::uint32_t> uses_;        // half-edges
     std::vector<std::uint32_t> first_uses_;  // first use of each stroke
-    std::vector<std::uint32_t> link_;  // of end 2u, the beginning of use u, and 2u + 1: the end that continues it
+    std::vector<std::uint32_t> link_;  // for end 2u, the beginning of use u, and 2u + 1: the end that continues it
     Lines lines_;
 };
 
@@ -257,7 +257,7 @@ std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& l
     Pulse pulse(options.monitor);
     LinkDiagram diagram;
     std::vector<std::uint32_t> crossing(graph.places.size(), none);
-    std::vector<std::uint8_t> strand(2 * graph.edges.size(), no_strand);  // of the half-edges that leave a crossing
+    std::vector<std::uint8_t> strand(2 * graph.edges.size(), no_strand);  // by half-edge that leaves a crossing
     std::uint32_t crossings = 0;
     for (std::size_t begin = 0, end = 0; begin < lines.passes.size(); begin = end) {
         pulse();

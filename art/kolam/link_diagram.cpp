@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Crossings that follow each other along a line; `differ` if not both have strand 0 on top, or not both strand 1.
+/// Crossings that follow each other along a line; `differ` if their upper strands have different numbers.
 struct Constraint {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
@@ -61,7 +61,7 @@ public:
         const LinkDiagram::Pass& pass = passes_[end];
         const bool turns_left = diagram_.turns_left[pass.crossing];
         const std::uint32_t other = visit_of_[pass.crossing][1 - pass.strand];
-        // The one that follows clockwise upon the end of the arc.
+        // The arc that follows clockwise after the end of this one.
         const bool other_points_left = turns_left == (pass.strand == 0);
         return 2 * other + (is_forward == other_points_left ? 0 : 1);
     }

@@ -51,7 +51,7 @@ struct DiagramFacts {
     std::uint64_t linked_pairs = 0;
 
     bool is_reduced() const { return nugatory == 0; }
-    /// No diagram of the same link has fewer crossings: a reduced alternating diagram is minimal.
+    /// The crossing number of the link: a reduced alternating diagram is minimal.
     /// Source: Kauffman 1987, Murasugi 1987, Thistlethwaite 1987 (the first Tait conjecture).
     std::uint64_t crossing_number() const { return crossings - nugatory; }
 };

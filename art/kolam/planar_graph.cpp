@@ -8,7 +8,7 @@
 namespace sikku::kolam_plane {
 namespace {
 
-/// The ends of `begins` are where groups of a sorted list begin.
+/// The index at which each group of a sorted list begins, and the end of the list.
 template <class Item, class Key>
 std::vector<std::uint32_t> group_begins(std::span<const Item> sorted, std::size_t groups, const Monitor& monitor,
                                         Key key) {
@@ -112,8 +112,8 @@ private:
         });
         breathe(options_);
     }
-    /// As Plane::compare, computed exactly only where doubles do not decide; no angle is so small that they would be
-    /// off by more than this.
+    /// Plane::compare(), computed exactly only where doubles do not decide; angles are never so small that the error
+    /// of doubles exceeds this bound.
     int compare(const Cut& a, const Cut& b) const {
         if (Plane::is_exact && std::fabs(a.along - b.along) > 1000 * graph_.rounding)
             return a.along < b.along ? -1 : 1;
@@ -124,7 +124,7 @@ private:
         return Plane::is_exact ? compare(a, b) == 0 : std::fabs(a.along - b.along) <= steps_are_one;
     }
 
-    /// As Plane::side, computed exactly only where doubles do not decide.
+    /// Plane::side(), computed exactly only where doubles do not decide.
     int side(const Segment& line, std::uint32_t node) const {
         const glm::dvec2 along = plane_.at(line.to) - plane_.at(line.from);
         const glm::dvec2 way = plane_.at(node) - plane_.at(line.from);
@@ -274,7 +274,7 @@ private:
     Pulse pulse_;
     PlanarGraph graph_;
     std::vector<Cut> cuts_;
-    std::vector<glm::dvec2> crossings_;  // where segments cross within both
+    std::vector<glm::dvec2> crossings_;  // points where segments cross within both
 };
 
 }  // namespace

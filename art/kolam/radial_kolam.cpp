@@ -97,7 +97,7 @@ std::vector<glm::dvec2> control_points(const RadialKolam& kolam, std::uint32_t l
     return controls;
 }
 
-/// Walks to places with a turtle that knows its heading, in steps with ten decimals.
+/// Walks a turtle to places and records its heading, in steps with ten decimals.
 class Walker {
 public:
     explicit Walker(std::string& text) : text_(text) {}
@@ -185,7 +185,7 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
         }
         walker.put("]");
     }
-    // Dots that are not drawn are marked, for lines of radial kolams do not tell where their dots are.
+    // Dots that are not drawn are marked, since lines of radial kolams do not show where their dots are.
     const std::string dot_symbol = fmt::format("[;({})@.]", options.dot_symbols ? 0 : line_colours);
     const auto mark = [&](glm::dvec2 place) {
         pulse();

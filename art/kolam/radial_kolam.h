@@ -17,13 +17,13 @@ struct RadialKolam {
     std::vector<std::uint32_t> order;  ///< order of the dots of an arm, counted from 1 next to the centre
 
     std::uint32_t dots() const { return static_cast<std::uint32_t>(order.size()); }
-    /// The greatest common divisor of arms and dots: the line visits every dot only if it is 1, for it returns to its
-    /// beginning after as many steps as their least common multiple.
+    /// The number of lines: the greatest common divisor of arms and dots, since a line returns to its beginning after
+    /// as many steps as their least common multiple.
     /// Source: arXiv 2510.18907 (dots of arm r in the order (k arms + r) mod dots).
     std::uint32_t lines() const;
 };
 
-/// `ARMSxDOTS`, such as 8x5, and the order of the dots, such as 1-3-5-2-4; empty: the odd ones, then the even ones.
+/// Parses `ARMSxDOTS`, such as 8x5, and the order of the dots, such as 1-3-5-2-4; empty: odd numbers, then even ones.
 /// @throws std::runtime_error for fewer than 2 arms, over RadialKolam::most_dots dots, and orders that do not contain
 /// each dot once
 RadialKolam parse_radial_kolam(std::string_view size, std::string_view order = {});

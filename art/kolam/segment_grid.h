@@ -13,7 +13,7 @@
 
 namespace sikku::kolam_plane {
 
-/// A square grid over the drawing, and which segments come near each of its cells.
+/// A square grid over the drawing, with the segments near each of its cells.
 class SegmentGrid {
 public:
     struct Entry {
@@ -34,7 +34,7 @@ public:
         for (std::uint64_t x = first; x <= last; ++x) {
             double y0 = a.y;
             double y1 = b.y;
-            if (b.x > a.x) {  // what of it lies in this column
+            if (b.x > a.x) {  // the part in this column
                 const double left = low_.x + static_cast<double>(x) * cell_ - 2 * pad_;
                 const double slope = (b.y - a.y) / (b.x - a.x);
                 if (left > a.x) y0 = a.y + (std::min(left, b.x) - a.x) * slope;
@@ -53,7 +53,7 @@ public:
     double cell() const { return cell_; }
     std::uint64_t column(double x) const { return place(x, low_.x); }
     std::uint64_t row(double y) const { return place(y, low_.y); }
-    /// Entries of the cells of a column from that row on downwards are those before this one.
+    /// Index after the last entry of a column up to row `y`.
     std::size_t end_of(std::uint64_t x, std::uint64_t y) const {
         const auto above = [](std::uint64_t key, const Entry& entry) { return key < entry.key; };
         return static_cast<std::size_t>(std::upper_bound(entries_.begin(), entries_.end(), x << 32 | y, above) -

@@ -24,7 +24,7 @@ public:
         std::sort(pieces_.begin(), pieces_.end());
     }
 
-    /// Joins each line with the one onto which `map`, from node to node or none, puts most of it.
+    /// Joins each line with the one onto which `map`, from node to node or none, maps most of it.
     template <class Map>
     void join(const Map& map) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> images;
@@ -64,7 +64,7 @@ private:
         return {std::min(a, b), std::max(a, b), line};
     }
     std::vector<Piece> pieces_;
-    std::vector<std::uint64_t> lengths_;  // of lines, in pieces
+    std::vector<std::uint64_t> lengths_;  // lengths of lines, in pieces
     UnionFind joined_;
 };
 

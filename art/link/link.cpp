@@ -1,17 +1,17 @@
 #include "art/link/link.h"
 
-#include "art/gallery/json.h"
+#include "engine/base/base64.h"
+#include "engine/base/deflate.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/json.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <initializer_list>
-#include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace sikku {
@@ -23,57 +23,18 @@ constexpr std::string_view word = "sikku";
 constexpr std::string_view prefix = "sikku1.";  // includes the version of the format
 constexpr std::size_t longest_name = 255;       // bytes in a file name
 constexpr std::size_t most_pairs = 1000;        // settings, or options of one command
-constexpr std::size_t block_bytes = std::size_t{1} << 16;
-
-// --- base64url --------------------------------------------------------------------------------------------------
-
-constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr std::uint8_t not_a_digit = 64;
-
-constexpr std::array<std::uint8_t, 256> digits = [] {
-    std::array<std::uint8_t, 256> table{};
-    for (std::uint8_t& digit : table) digit = not_a_digit;
-    for (std::size_t i = 0; i < alphabet.size(); ++i) {
-        table[static_cast<unsigned char>(alphabet[i])] = static_cast<std::uint8_t>(i);
-    }
-    return table;
-}();
-
-std::string to_base64url(std::string_view bytes) {
-    std::string text;
-    text.reserve(bytes.size() / 3 * 4 + 4);
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        const std::size_t count = std::min<std::size_t>(bytes.size() - at, 3);
-        std::uint32_t group = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            group = group << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0U);
-        }
-        for (std::size_t i = 0; i <= count; ++i) text += alphabet[group >> (18 - 6 * i) & 63U];
-    }
-    return text;
-}
 
 [[noreturn]] void refuse_damaged() {
     throw LinkError("the link is damaged or incomplete");
 }
 
 std::string from_base64url(std::string_view text) {
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t group = 0;
-    int bits = 0;
-    for (const char letter : text) {
-        const std::uint8_t digit = digits[static_cast<unsigned char>(letter)];
-        if (digit == not_a_digit) throw LinkError("the link is damaged: it contains an invalid character");
-        group = (group << 6 | digit) & 0xFFFFFFU;
-        bits += 6;
-        if (bits < 8) continue;
-        bits -= 8;
-        bytes += static_cast<char>(group >> bits & 255U);
+    if (text.find_first_not_of(base64_letters(Base64::url)) != std::string_view::npos) {
+        throw LinkError("the link is damaged: it contains an invalid character");
     }
-    // The encoding is unique: a single final digit and bits after the last byte are refused.
-    if (text.size() % 4 == 1 || (group & ((1U << bits) - 1)) != 0) refuse_damaged();
-    return bytes;
+    auto bytes = from_base64(text, Base64::url);
+    if (!bytes) refuse_damaged();
+    return std::move(*bytes);
 }
 
 /// Decodes percent-encoding such as `%2D`, which other programs may add to addresses.
@@ -99,62 +60,14 @@ std::string percent_decoded(std::string_view text) {
     return decoded;
 }
 
-// --- compression ------------------------------------------------------------------------------------------------
-
-constexpr int raw_window_bits = -15;  // deflate without header and checksum
-
-// zlib does not write to its input.
-Bytef* input_of(std::string_view bytes) {
-    return const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
-}
-
-std::string compressed(std::string_view bytes) {
-    z_stream stream{};
-    constexpr int best_level = 9;
-    constexpr int most_memory = 9;
-    if (deflateInit2(&stream, best_level, Z_DEFLATED, raw_window_bits, most_memory, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::bad_alloc();
-    }
-    std::string packed;
-    std::string block(block_bytes, '\0');
-    stream.next_in = input_of(bytes);
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    int state = Z_OK;
-    while (state == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = deflate(&stream, Z_FINISH);
-        packed.append(block, 0, block.size() - stream.avail_out);
-    }
-    deflateEnd(&stream);
-    if (state != Z_STREAM_END) throw std::bad_alloc();
-    return packed;
-}
-
 std::string decompressed(std::string_view packed) {
-    struct Inflater : z_stream {
-        Inflater() : z_stream{} {
-            if (inflateInit2(this, raw_window_bits) != Z_OK) throw std::bad_alloc();
-        }
-        ~Inflater() { inflateEnd(this); }
-        Inflater(const Inflater&) = delete;
-        Inflater& operator=(const Inflater&) = delete;
-    };
-    Inflater stream;
-    std::string bytes;
-    std::string block(block_bytes, '\0');
-    stream.next_in = input_of(packed);
-    stream.avail_in = static_cast<uInt>(packed.size());
-    int state = Z_OK;
-    while (state == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = inflate(&stream, Z_NO_FLUSH);
-        bytes.append(block, 0, block.size() - stream.avail_out);
-        if (bytes.size() > most_link_bytes) throw LinkError("the link contains more than 64 MB");
+    try {
+        return inflated(packed, Deflate::raw, most_link_bytes);
+    } catch (const std::length_error&) {
+        throw LinkError("the link contains more than 64 MB");
+    } catch (const std::runtime_error&) {
+        refuse_damaged();
     }
-    if (state != Z_STREAM_END || stream.avail_in != 0) refuse_damaged();
-    return bytes;
 }
 
 // --- JSON -------------------------------------------------------------------------------------------------------
@@ -294,7 +207,7 @@ std::string link_of(const SharedWork& work) {
     }
     const std::string json = text_of_json(json_of(work, false));
     if (json.size() > most_link_bytes) throw LinkError("the work is too large for a link: at most 64 MB of JSON");
-    return std::string(prefix) + to_base64url(compressed(json));
+    return std::string(prefix) + to_base64(deflated(json, Deflate::raw), Base64::url);
 }
 
 SharedWork read_shared_json(const std::string& json) {

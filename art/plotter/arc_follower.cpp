@@ -20,7 +20,7 @@ double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// The circle through three points; nullopt if they lie too straight.
+/// The circle through three points; nullopt if they are almost on a line.
 std::optional<PlotArc> arc_through(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const glm::dvec2 to_b = b - a;
     const glm::dvec2 to_c = c - a;
@@ -81,7 +81,7 @@ std::size_t longest(std::size_t known, std::size_t count, std::size_t step, cons
 
 }  // namespace
 
-/// Lines and arcs along the points that wait; the last of them is kept if more may come.
+/// Passes on lines and arcs along the pending points; the last one is kept if more may come.
 void ArcFollower::follow(bool is_all) {
     const std::span<const glm::dvec2> all(points_);
     std::size_t done = 0;

@@ -28,7 +28,7 @@ public:
 
     /// Begins at a point.
     void begin(glm::dvec2 at) { points_ = {at}; }
-    /// The next point, at most `chord` off the curve's chords.
+    /// Adds the next point of a curve; chords between points deviate from it by at most `chord`.
     void add(glm::dvec2 point) {
         points_.push_back(point);
         if (points_.size() >= most_points) follow(false);
@@ -36,11 +36,11 @@ public:
     /// Passes on all pending points. A line or a curve may follow.
     void finish() { follow(true); }
 
-    /// Deviation from the curve of the chords between the points that add() expects.
+    /// Maximum deviation from a curve of the chords between the points passed to add().
     static constexpr double chord = 0.0005;
 
 private:
-    static constexpr std::size_t most_points = 8192;  // that wait for what comes next
+    static constexpr std::size_t most_points = 8192;  // pending
     void follow(bool is_all);
     bool is_short(std::span<const glm::dvec2> points) const;
 

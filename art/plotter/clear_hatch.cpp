@@ -14,7 +14,7 @@ namespace sikku {
 namespace {
 
 constexpr double most_lines = 1e6;
-constexpr std::size_t most_meetings = 20'000'000;  // of lines with sides of a shape and obstacles: some 500 MB
+constexpr std::size_t most_meetings = 20'000'000;  // meetings of lines with sides and obstacles: some 500 MB
 
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
@@ -228,7 +228,7 @@ private:
         return points;
     }
 
-    /// Finds the stretch of the next row that an end of another reaches, and adds the points of the way.
+    /// Finds the stretch of the next row that an end of another reaches, and adds the points of the path.
     Stretch* next(std::size_t row, const Stretch& stretch, int side, std::vector<glm::dvec2>& points) {
         constexpr std::size_t most_tried = 3;
         if (row + 1 == rows_.size()) return nullptr;
@@ -251,7 +251,7 @@ private:
         return nullptr;
     }
 
-    /// Adds a way to a point that keeps clear of all obstacles: straight, or bent inwards.
+    /// Adds a path to a point that keeps clear of all obstacles: straight, or bent inwards.
     bool join(std::size_t row, glm::dvec2 from, glm::dvec2 to, double inwards, int depth,
               std::vector<glm::dvec2>& points) {
         if (is_clear(row, from, to)) {
@@ -285,7 +285,7 @@ private:
     glm::dvec2 along_, across_;
     double spacing_, tolerance_;
     Pulse pulse_;
-    std::vector<glm::dvec2> vertices_;  ///< along and across the hatching, like all that follows
+    std::vector<glm::dvec2> vertices_;  ///< along and across the hatching, like all members below
     std::vector<Obstacle> obstacles_;
     std::int64_t first_ = 0;  ///< number of the first row
     std::vector<std::vector<Stretch>> rows_;

@@ -17,11 +17,11 @@ struct Obstacle {
 };
 
 /// Hatches the area within an outline (non-zero winding rule) with lines along the unit vector `along`, `spacing`
-/// apart, of which no point lies within an obstacle. All areas share one set of lines. Ends of successive lines are
-/// joined where a way between the two lines keeps clear of the obstacles, too, so that most areas become a few
-/// zigzags. Lines shorter than half a spacing are left out unless they are part of a zigzag.
+/// apart, outside all obstacles. All areas share one set of lines. Ends of successive lines are joined where a path
+/// between the two lines keeps clear of the obstacles, too, so that most areas become a few zigzags. Lines shorter
+/// than half a spacing are left out unless they are part of a zigzag.
 /// All lengths are in the units of the vertices.
-/// @param tolerance  joins may come nearer to an obstacle by as much
+/// @param tolerance  how much nearer joins may come to an obstacle
 /// Cost: O(k log k) for k crossings of hatch lines with edges and obstacles, times the obstacles between two
 /// lines. @throws std::runtime_error for over 10^6 lines in one area; Stopped
 std::vector<std::vector<glm::dvec2>> clear_hatch_lines(std::span<const glm::dvec2> vertices,

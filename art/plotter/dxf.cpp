@@ -160,11 +160,11 @@ public:
         for (const glm::dvec2 vertex : vertices.subspan(1)) to(on_page(vertex));
         if (vertices_.size() > 1 && vertices_.front().at == vertices_.back().at) vertices_.pop_back();
         const TileKind& kind = kinds_.at(numbers_of_kinds_.kind_of(vertices, colour));
-        // Rounding leaves little of tiny tiles.
+        // Tiny tiles may vanish by rounding.
         if (vertices_.size() > 2) write_polyline(kind.layer(), true);
         vertices_.clear();
     }
-    /// A file for machines without pens has nothing to dip.
+    /// Machines without pens have nothing to dip.
     void dip(glm::dvec2, const Pen&) override {}
     void finish() override {
         begin_entities();
@@ -202,7 +202,7 @@ private:
         return fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", name, colour);
     }
 
-    /// Only when something is drawn: a stroke may change its pen before.
+    /// Called only when something is drawn, since a stroke may change its pen before.
     void start() {
         if (!vertices_.empty()) return;
         put(on_page(here_));
@@ -236,8 +236,8 @@ private:
     TileKinds numbers_of_kinds_;
     bool begun_ = false;
     int pen_ = 0;
-    std::vector<Vertex> vertices_;  // of the stroke, in millimetres of the page
-    ArcFollower follower_;          // of its curves
+    std::vector<Vertex> vertices_;  // vertices of the stroke, in millimetres of the page
+    ArcFollower follower_;          // follows its curves
 };
 
 }  // namespace

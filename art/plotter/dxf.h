@@ -20,8 +20,8 @@ namespace sikku {
 /// because a laser has a fixed width. The recipe is stored in comments, which readers ignore. `print` and `file`
 /// are kept by reference. After finish() the file is complete, but not committed.
 /// @param kinds  kinds of all polygons that will be written, in the order in which TileKinds numbers them
-/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and for
-/// what lies off the page
+/// @throws std::runtime_error, from here and from every call of the writer, if the file cannot be written, and if the
+/// drawing leaves the page
 /// Source: Autodesk, DXF Reference, release 12: group codes; POLYLINE, bulge; CIRCLE; layer names and colour numbers;
 /// release 2000: $INSUNITS, $MEASUREMENT.
 std::unique_ptr<PlotWriter> write_dxf(const Print& print, Output& file, std::vector<TileKind> kinds = {});

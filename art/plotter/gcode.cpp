@@ -121,7 +121,7 @@ public:
     void finish() override { write_text(options_.end); }
 
 private:
-    /// Only when something is drawn: a stroke may change its pen before.
+    /// Called only when something is drawn, since a stroke may change its pen before.
     void start() {
         if (started_) return;
         started_ = true;
@@ -238,13 +238,13 @@ private:
     Output& file_;
     int pen_ = 0;
     Colour colour_;
-    PenSettings settings_;    // of the pen in hand
+    PenSettings settings_;    // settings of the current pen
     double lifted_to_ = 0;    // height of the raised pen
     bool started_ = false;    // the pen is down
     glm::dvec2 at_{0.0};      // where it is, as it was written
-    bool is_placed_ = false;  // commands of the machine have not moved it since
+    bool is_placed_ = false;  // its position as written
     std::string feed_;        // to be sent with the next command
-    ArcFollower follower_;    // of curves, from the last command's end
+    ArcFollower follower_;    // follows curves from the last command's end
 };
 
 }  // namespace
@@ -254,7 +254,7 @@ std::string gcode_comment(std::string_view label, std::string_view text, char ma
     const std::size_t most = comment.size() + longest_comment;
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool is_inside_character = (byte & 0xc0U) == 0x80U;  // of UTF-8
+        const bool is_inside_character = (byte & 0xc0U) == 0x80U;  // within a character of UTF-8
         if (is_inside_character || byte < 0x20 || byte == 0x7f) continue;
         if (std::string_view("!?~%();").find(c) != std::string_view::npos) continue;
         if (comment.size() == most) break;

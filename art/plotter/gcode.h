@@ -24,7 +24,7 @@ struct GcodeOptions {
     std::string pen_change = "T{pen}\nM0";  ///< between two pens, pen up
     std::string dwell = "G4 P{seconds}";    ///< after lifting and lowering the pen, unless the pause is 0
     char comment = '(';                ///< `(` for comments in parentheses, `;` for comments up to the line's end
-    double lift = 5.0;                 ///< height of the raised pen, in the measure of the machine
+    double lift = 5.0;                 ///< height of the raised pen, in the unit of the machine
     double down = 1000.0;              ///< height of the lowered pen, or the power that lowers it
     double pause = 0.2;                ///< seconds that the pen takes to move; 0: no pause
     double drawing_feed = 2400.0;      ///< mm/min, pen down
@@ -62,7 +62,7 @@ std::string gcode_comment(std::string_view label, std::string_view text, char ma
 /// complete, but not committed.
 /// @throws std::runtime_error for feeds that are not finite and above 0, heights that are not finite, a pause or a
 /// least arc that is not finite and at least 0, and commands with unknown placeholders; from here and from every call
-/// of the writer if the file cannot be written; and for what lies off the page
+/// of the writer if the file cannot be written; and if the drawing leaves the page
 /// Source: NIST RS274/NGC Interpreter, version 3, 2000; grbl 1.1.
 std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file);
 

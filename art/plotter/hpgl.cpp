@@ -21,7 +21,7 @@ namespace {
 
 /// Rounding moves a point by up to 0.71 units: this much is left for chords.
 constexpr double chord_units = 0.28;
-/// Plotters keep an instruction in a small memory.
+/// Plotters store an instruction in a small memory.
 constexpr std::size_t longest_instruction = 200;
 
 using Units = glm::ivec2;
@@ -132,7 +132,7 @@ private:
         return fmt::format("PU{},{};", at.x, at.y);
     }
 
-    /// Only when something is drawn: a stroke may change its pen before.
+    /// Called only when something is drawn, since a stroke may change its pen before.
     void start() {
         if (started_) return;
         started_ = true;
@@ -200,8 +200,8 @@ private:
     bool has_speeds_ = false;
     int pen_ = 0;
     bool started_ = false;     // the pen is down
-    bool moved_ = false;       // and has drawn something
-    std::optional<Units> at_;  // where the pen is, if that is known
+    bool moved_ = false;       // it has drawn something
+    std::optional<Units> at_;  // position of the pen, if known
     std::string instruction_;
 };
 
@@ -262,7 +262,7 @@ double hpgl_margin(const HpglPaper& paper, const Page& page) {
 }
 
 glm::dvec2 hpgl_origin(const Page& page, const HpglOptions& options) {
-    const glm::dvec2 corner = on_plotter({0.0, 0.0}, page, options);  // of the page
+    const glm::dvec2 corner = on_plotter({0.0, 0.0}, page, options);  // corner of the page
     return is_turned(page) ? glm::dvec2(-corner.y, corner.x) : -corner;
 }
 

@@ -27,24 +27,24 @@ struct HpglPaper {
     bool is_hp7475a = false;  ///< the limits are those of the HP 7475A
 };
 
-/// A4, A3, letter and tabloid: the sheets of the HP 7475A, whose origin lies inside the bottom left corner of the
-/// sheet and whose limits are 11,040 x 7,721 units on A4 (276 x 193 mm) and 16,158 x 11,040 units on A3. Any other
-/// size that parse_size() reads gives the limits themselves, in either orientation, with the origin in their bottom
-/// left corner. With `,centre`, as for large drafting plotters (HP 7585, DraftMaster), every size gives the limits,
-/// with the origin in the middle. Nullopt for anything else. Source: Hewlett-Packard, HP 7475A Interfacing and
-/// Programming Manual, 1983: hard-clip limits; the frame of the scaling points P1 and P2, which is centred on the
-/// sheet.
+/// Parses a paper. A4, A3, letter and tabloid are the sheets of the HP 7475A, whose origin lies inside the bottom
+/// left corner of the sheet and whose limits are 11,040 x 7,721 units on A4 (276 x 193 mm) and 16,158 x 11,040 units
+/// on A3. Any other size that parse_size() accepts gives the limits themselves, in either orientation, with the
+/// origin in their bottom left corner. With `,centre`, as for large drafting plotters (HP 7585, DraftMaster), every
+/// size gives the limits, with the origin in the middle. Returns nullopt for anything else. Source: Hewlett-Packard,
+/// HP 7475A Interfacing and Programming Manual, 1983: hard-clip limits; the frame of the scaling points P1 and P2,
+/// which is centred on the sheet.
 std::optional<HpglPaper> parse_hpgl_paper(std::string_view text, double dpi);
 
 /// The sheet of the HP 7475A that has the size of the page, if `paper` is one of its sheets; else `paper`.
 HpglPaper paper_for(const HpglPaper& paper, const Page& page);
 
-/// A sheet of the HP 7475A, whose limits are counted in units, on a machine with a unit of another length; other
-/// papers are unchanged.
+/// Converts a sheet of the HP 7475A, whose limits are counted in units, to a machine with a unit of another length;
+/// other papers are unchanged.
 HpglPaper with_unit(const HpglPaper& paper, double unit);
 
-/// The margin of the page, in whole tenths of a millimetre, within which the plotter reaches everything in either
-/// orientation.
+/// The margin of the page, in whole tenths of a millimetre, that lets the plotter reach everything inside it in
+/// either orientation.
 double hpgl_margin(const HpglPaper& paper, const Page& page);
 
 struct HpglOptions {
@@ -69,7 +69,7 @@ std::string describe_hpgl(const Page& page, const HpglOptions& options);
 /// not support the instruction `RO90`. Without a paper, the origin is the bottom left corner of the sheet, which
 /// suits cutters and plotters whose origin is set by hand; with one, the page is centred on the sheet or, if only
 /// limits are known, within them. Scaling is left off (no IP and SC), so that lengths are true.
-/// If pens have their own speeds, VS sets that of each, in cm/s.
+/// If pens have their own speeds, VS sets each, in cm/s.
 /// Otherwise only IN, SP, PU and PD are used, which every device of the family supports; devices older than HP-GL/2
 /// accept at most 32767 units, 819 mm. At the end SP0 returns the pen to its stall, near the origin. `print`,
 /// `options` and `file` are kept by reference. After finish() the file is complete, but not committed.

@@ -23,7 +23,7 @@ struct Refill {
 /// Settings of a pen; absent ones are those of all pens.
 struct PenSettings {
     std::optional<double> speed{};  ///< mm/s, pen down, 0.001 to 10^6
-    std::optional<double> lift{};   ///< height of the raised pen, in the measure of the machine: mm, %, degrees
+    std::optional<double> lift{};   ///< height of the raised pen, in the unit of the machine: mm, %, degrees
     std::optional<double> down{};   ///< height of the lowered pen, or the power that lowers it
     std::optional<double> pause{};  ///< seconds after the pen was lifted or lowered, up to an hour
     std::optional<Refill> refill{};

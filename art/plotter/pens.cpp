@@ -6,7 +6,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 1e9;  // of one round of exchanges
+constexpr double most_work = 1e9;  // maximum work of one round of exchanges
 
 class Medoids {
 public:

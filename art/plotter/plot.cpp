@@ -439,7 +439,7 @@ void PlotPlan::hatch(std::span<const glm::dvec2> vertices, const Pen& pen) {
     const double width = pen_steps(pen);
     const double spacing = options_.hatch->spacing > 0 ? options_.hatch->spacing / print_.placement.step : width;
     if (!(spacing > 0)) return;
-    // A stroke may be going on with this very pen.
+    // A stroke with this pen may be in progress.
     down_ = false;
     Gathered& into = gathered(pen, true);
     into.has_hatch = true;
@@ -627,7 +627,7 @@ void PlotPlan::arrange_layer(PlotLayer& layer, glm::dvec2 start, double drawn) {
     std::uint64_t duplicates = layer.repeated.size();
     PlotStrokes joined = join_segments(layer.graph, options_.monitor);
     if (joined.strokes.size() > layer.as_drawn.strokes.size()) {
-        // The segments left out led from one stroke to the next.
+        // The omitted segments connected one stroke with the next.
         auto& segments = layer.graph.segments;
         segments.insert(segments.end(), layer.repeated.begin(), layer.repeated.end());
         duplicates = 0;

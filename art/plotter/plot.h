@@ -30,8 +30,8 @@ struct PlotSpeeds {
 };
 
 struct PlotOptions {
-    /// Millimetres: a longer stroke is cut into several, each beginning where the last one ended; only where lines
-    /// and curves meet, so that one that is longer by itself stays whole. 0: never.
+    /// Maximum length of a stroke in millimetres: a longer one is cut into several, each beginning where the last one
+    /// ended. Cuts lie between lines and curves, so that a longer one stays whole. 0: strokes are not cut.
     double split = 0.0;
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
@@ -80,7 +80,7 @@ struct PenTally {
 };
 
 struct PlotReport {
-    PlotTally before;  ///< pen after pen and refilled like the plot, but every stroke as it was drawn
+    PlotTally before;  ///< pens and refills as in the plot, strokes as in the drawing
     PlotTally after;
     std::uint64_t segments = 0;           ///< lines and curves drawn, and edges of fills that no line draws
     std::uint64_t curves = 0;             ///< number of Béziers among them
@@ -91,7 +91,7 @@ struct PlotReport {
     bool returns = false;                 ///< travel includes the return home
     std::size_t colours = 0;              ///< number of colours drawn
     std::vector<PenTally> pens;           ///< in the order in which they draw
-    std::vector<PenTally> pens_before{};  ///< the same pens, with everything as it was drawn
+    std::vector<PenTally> pens_before{};  ///< the same pens, with strokes as in the drawing
     std::vector<MergedPen> merged;        ///< merged colours, in the order of the palette
 };
 
@@ -108,7 +108,7 @@ Style with_fill_pens(const Style& style);
 /// For each colour index, the index whose line colour equals its fill colour; otherwise the index itself.
 std::vector<int> fill_pens(const Style& style);
 
-/// Gathers a drawing and arranges it for a plotter. Skips what the style makes invisible.
+/// Gathers a drawing and arranges it for a plotter. Skips invisible lines and shapes.
 ///
 /// A plotter draws lines only, and each colour of the style is a pen:
 /// - Polygons and areas become outlines, in the pen of their fill colour, and hatching if requested. An
@@ -119,35 +119,35 @@ std::vector<int> fill_pens(const Style& style);
 ///   its strokes; in SVG, PDF and EPS, as wide as its first stroke.
 /// - Pens that only hatch draw first, then those that draw lines, then those that only fill discs; otherwise in the
 ///   order of the palette.
-/// - Fills hide nothing, except in drawings in space (see plot_scene()).
+/// - Fills do not hide lines, except in drawings in space (see plot_scene()).
 ///
 /// Points that are less than a billionth of the drawing's larger side apart are one. (Points of a lattice are equal
 /// to the bit; those of splines and of turtles that add up doubles are not.) Of lines and curves with the same
-/// points, forwards or backwards, one is drawn, unless leaving the others out would lift a pen more often than it was
-/// lifted: a line that goes back over itself stays one line. Lines that overlap in part are drawn as they are.
+/// points, forwards or backwards, one is drawn, unless omitting the others would need more pen lifts than the
+/// drawing: a line that runs back over itself stays one line. Lines that overlap in part are drawn unchanged.
 ///
-/// Strokes of straight lines that meet are joined into as few as there can be: one for each connected part, or half
-/// as many as it has points in which an odd number of lines meet. At each point those lines follow each other that
-/// turn least; lines that only cross or touch are led into each other where that saves a stroke. Curves are led into
-/// each other only if that bends none that went on smoothly (by up to 10 degrees): a kolam of two lines stays one of
-/// two, and every line keeps its way. Ends left over at a point are joined whatever their angle.
+/// Strokes of straight lines that meet are joined into as few as possible: one for each connected part, or half as
+/// many as it has points in which an odd number of lines meet. At each point, lines are paired so that they turn
+/// least; lines that only cross or touch are connected where that saves a stroke. Curves are connected only if all
+/// that continued smoothly (within 10 degrees) still do: a kolam of two lines keeps two lines, and every line its
+/// course. Ends left over at a point are joined at any angle.
 ///
-/// The strokes of a pen are then ordered, and turned round or begun elsewhere, by nearest neighbours and 2-opt over
-/// near ones, in a bounded number of passes. The result is the same on every run. A pen whose strokes would be lifted
-/// more often or take longer than as they were drawn keeps them as they are, and so does the whole plot: it is never
-/// worse than the drawing.
+/// The strokes of a pen are then ordered, and reversed or begun elsewhere, by nearest neighbours and 2-opt over near
+/// ones, in a bounded number of passes. The result is the same on every run. A pen keeps the strokes of the drawing
+/// if arranged ones would need more lifts or more time, and so does the whole plot: it is never worse than the
+/// drawing.
 ///
 /// Memory: linear, below 400 bytes for each line or curve. Time: O(n log n), 1 to 9 µs a line.
 /// Source: Hierholzer 1873; Johnson & McGeoch, The travelling salesman problem: a case study in local optimization,
 /// 1997.
 class PlotPlan : public PathSink {
 public:
-    /// Style, page and placement of `print` count; it is kept by reference.
+    /// Uses style, page and placement of `print`, which is kept by reference.
     /// @throws std::runtime_error if the split is not finite or below 0
     explicit PlotPlan(const Print& print, const PlotOptions& options = {});
     ~PlotPlan() override;
 
-    /// All of them throw std::runtime_error for points that are not finite and drawings of over 10^9 points.
+    /// The drawing functions throw std::runtime_error for points that are not finite and for over 10^9 points.
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
     void lines(std::span<const glm::dvec2> ends) override;
     void curves(std::span<const glm::dvec2> controls) override;
@@ -157,12 +157,12 @@ public:
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
-    /// Call once, after the last stroke and before what follows.
+    /// Arranges the plot. Call once, after the last stroke and before the functions below.
     /// @throws Stopped; SettingError if the plot ends before the place at which it resumes
     void arrange();
-    /// The strokes as they are to be plotted, in pattern units, pen after pen. The caller draws them in the colour of
-    /// their pen even with `stroke: none`: fills may have outlines where lines are invisible. Visits to the ink go to
-    /// `dip`, with the place in millimetres from the bottom left corner of the page. @throws Stopped
+    /// Draws the strokes of the plot, in pattern units, pen after pen. The caller draws them in the colour of their
+    /// pen even with `stroke: none`: fills may have outlines where lines are invisible. Calls `dip` for visits to the
+    /// ink, with the place in millimetres from the bottom left corner of the page. @throws Stopped
     void draw(PathSink& sink, const std::function<void(glm::dvec2 place, const Pen& pen)>& dip = {}) const;
     const PlotReport& report() const { return report_; }
     /// Kinds of the polygons that are left to the writer.
@@ -177,7 +177,7 @@ public:
         int number;
         PenSettings settings;
     };
-    /// All pens in the order in which they draw, also those whose part a resumed plot skips.
+    /// All pens in the order in which they draw, including those whose part a resumed plot skips.
     std::vector<PlottedPen> pens() const;
 
 private:
@@ -215,7 +215,7 @@ private:
     PlotReport report_;
     TileKinds kinds_;
     Gathered* into_ = nullptr;  ///< destination of the current stroke; null if it is invisible
-    bool down_ = false;         ///< its piece with the present pen has begun
+    bool down_ = false;         ///< the piece with the current pen has begun
     bool is_whole_ = false;     ///< the pen has not changed since the stroke began
     Pen pen_;
     std::optional<PenPath> wide_;  ///< the stroke so far, if it takes several passes

@@ -28,7 +28,7 @@ private:
             return visit_({layer, ends, stroke.closed});
         }
         std::vector<double> lengths;
-        double rest = 0;  // of the stroke
+        double rest = 0;  // rest of the stroke
         for (const PlotEnd end : ends) {
             pulse_();
             lengths.push_back(course_.step * layer.graph.length(end));

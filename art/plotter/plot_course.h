@@ -1,4 +1,4 @@
-// art/plotter/plot_course.h: a plot as it is drawn: strokes split, resumed, and interrupted to refill the pen.
+// art/plotter/plot_course.h: the course of a plot: strokes split, resumed, and interrupted to refill the pen.
 #pragma once
 
 #include "art/plotter/plot_layer.h"
@@ -29,7 +29,7 @@ struct PlotCourse {
 };
 
 /// Visits all pieces in order. Strokes are cut only between segments. A pen is dipped before its first piece, and
-/// before a stroke or segment that its filling does not suffice for: a stroke for which one filling suffices is not
+/// before a stroke or segment for which its filling does not suffice; a stroke for which one filling suffices is not
 /// interrupted. Returns the length that was skipped or drawn, in millimetres. @throws Stopped
 double follow_course(std::span<const std::unique_ptr<PlotLayer>> layers, const PlotCourse& course,
                      const Monitor& monitor, const std::function<void(const PlotPiece&)>& visit);

@@ -41,7 +41,7 @@ public:
         begin_[0] = 0;
     }
 
-    /// First at each point by itself, then what only crosses or touches.
+    /// Joins segments first at each point by itself, then trails that only cross or touch.
     void join() {
         for_each_node(2, [this] { pair_here(); });
         find_trails();
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// An end at the point that is looked at.
+    /// An end at the current point.
     struct Spoke {
         PlotEnd end;
         glm::dvec2 direction;
@@ -114,7 +114,7 @@ private:
         const std::size_t count = spokes_.size();
         if (count == 2) return connect({0, 1});
         if (count > crowd) {
-            // Opposite ones.
+            // Pairs opposite spokes.
             std::stable_sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
                 return std::atan2(a.direction.y, a.direction.x) < std::atan2(b.direction.y, b.direction.x);
             });
@@ -181,7 +181,7 @@ private:
         });
     }
     struct Trail {
-        Index into;  // the trail that it was led into, or itself
+        Index into;  // the trail that it was merged into, or itself
         bool closed;
     };
     Index trail_of(const Joint& joint) {
@@ -193,8 +193,8 @@ private:
         return trail;
     }
 
-    /// Exchanging the partners of two joints leads a closed trail into any other one. Of straight lines, no closed
-    /// trail meets another one here afterwards. Once is enough for each point: trails only grow.
+    /// Exchanging the partners of two joints merges a closed trail with any other one. Afterwards closed trails of
+    /// straight lines do not meet others here. Once is enough for each point: trails only grow.
     void merge_here() {
         joints_.clear();
         for (std::size_t i = 0; i < spokes_.size(); ++i) {
@@ -213,7 +213,7 @@ private:
         }
     }
 
-    /// Leads the trail of joint i and that of an earlier joint into each other, with the least turn.
+    /// Merges the trail of joint i with that of an earlier joint, with the least turn.
     bool merge(std::size_t i) {
         const Index trail = trail_of(joints_[i]);
         double least = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ private:
             const auto [a, b] = joints_[i];
             const auto [c, d] = joints_[k];
             for (const auto& [second, fourth] : {std::pair{c, d}, std::pair{d, c}}) {
-                // What is missing comes second.
+                // Missing spokes come second.
                 Joint one{a, second};
                 Joint two{b, fourth};
                 if (two.first == missing) std::swap(two.first, two.second);
@@ -255,12 +255,12 @@ private:
     const Monitor& monitor_;
     const PlotGraph& graph_;
     const std::vector<PlotSegment>& segments_;
-    std::vector<Index> begin_;      // of the ends at each node
+    std::vector<Index> begin_;      // begin of the ends at each node
     std::vector<PlotEnd> ends_;     // by node
     std::vector<PlotEnd> partner_;  // the end that each end is joined with, or none
-    std::vector<Index> trail_;      // of each segment
+    std::vector<Index> trail_;      // trail of each segment
     std::vector<Trail> trails_;
-    std::vector<Spoke> spokes_;  // of the node that is looked at
+    std::vector<Spoke> spokes_;  // spokes of the current node
     std::vector<Joint> joints_;
 };
 

@@ -13,7 +13,7 @@
 
 namespace sikku {
 
-/// A line, or a curve with two control points: all of them numbers of points.
+/// A line, or a curve with two control points, as numbers of points.
 struct PlotSegment {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -24,8 +24,8 @@ struct PlotSegment {
     PlotSegment backwards() const { return {to, from, second, first}; }
 };
 
-/// Each segment i has two ends: 2 i where it begins, 2 i + 1. The other end of e is e ^ 1. A segment is entered at
-/// one of them.
+/// Each segment i has two ends: 2 i where it begins, and 2 i + 1. The other end of e is e ^ 1. A segment is entered
+/// at one of them.
 using PlotEnd = std::uint32_t;
 
 using CubicBezier = std::array<glm::dvec2, 4>;
@@ -42,7 +42,7 @@ struct PlotGraph {
     /// The curve, from the end at which it is entered.
     CubicBezier bezier(PlotEnd end) const;
     double length(PlotEnd end) const;
-    /// The way out of the end's point along its segment, of length 1; 0 for a segment without length.
+    /// Unit vector from the end's point along its segment; 0 for a segment without length.
     glm::dvec2 direction(PlotEnd end) const;
 };
 
@@ -60,8 +60,9 @@ struct PlotStrokes {
     }
 };
 
-/// As few strokes as there can be of straight lines, smooth ones of curves: the rules are those of PlotPlan. In the
-/// order in which their first segments were drawn. Cost: linear, but for points in which many segments meet.
+/// Joins straight lines into as few strokes as possible, and curves into smooth ones, by the rules of PlotPlan. The
+/// strokes are in the order in which their first segments were drawn. Cost: linear, except for points in which many
+/// segments meet.
 /// @throws Stopped
 PlotStrokes join_segments(const PlotGraph& graph, const Monitor& monitor = {});
 

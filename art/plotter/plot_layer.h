@@ -1,4 +1,4 @@
-// art/plotter/plot_layer.h: what one pen draws; numbers for points, and sets of segments.
+// art/plotter/plot_layer.h: the lines of one pen; numbers for points, and sets of segments.
 #pragma once
 
 #include "art/plotter/pen_rules.h"
@@ -43,7 +43,7 @@ public:
     explicit PlotNodes(double tolerance) : tolerance_(tolerance), table_(plot_table_size(0), PlotSegment::none) {}
 
     std::uint32_t at(glm::dvec2 point) {
-        // Most points lie far enough inside their cell for no other to count.
+        // Most points are too far inside their cell for points of other cells to be near.
         const glm::dvec2 cell = cell_of(point);
         const glm::dvec2 inside = point / cell_size() - cell;
         const auto other = [](double share) { return share < 1 / cells ? -1.0 : share > 1 - 1 / cells ? 1.0 : 0.0; };

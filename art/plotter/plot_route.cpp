@@ -18,15 +18,15 @@ namespace {
 /// other way round.
 class PlotRoute {
 public:
-    /// @param points  of the strokes' ends, two each
-    /// @param start   where the way to the first one begins
+    /// @param points  ends of the strokes, two each
+    /// @param start   position of the pen before the first one
     PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start);
 
     /// Length of all travel between the strokes.
     double length() const;
 
-    /// 2-opt: ways a → b and c → d become a → c and b → d, and what lies between is turned round, as long as that
-    /// makes them shorter, in at most 10 passes. Only c near a, or d near b, are looked at.
+    /// 2-opt: travels a → b and c → d become a → c and b → d, and the strokes between them are reversed, as long as
+    /// that shortens them, in at most 10 passes. Examines only c near a, or d near b.
     void improve(const Monitor& monitor);
 
     const std::vector<PlotEnd>& order() const { return order_; }
@@ -37,7 +37,7 @@ private:
         std::uint32_t first = 0, last = 0;  // the range that is reversed
     };
 
-    /// Where the pen comes from on its way to the i-th stroke.
+    /// Position of the pen before it travels to the i-th stroke.
     glm::dvec2 leave(std::uint32_t i) const { return i == 0 ? start_ : points_[order_[i - 1] ^ 1U]; }
     Change best_change(std::uint32_t i, const PointTree& tree, std::vector<PointTree::Near>& near,
                        std::size_t longest) const;
@@ -45,7 +45,7 @@ private:
 
     std::vector<glm::dvec2> points_;
     std::vector<PlotEnd> order_;
-    std::vector<std::uint32_t> place_;  // of each stroke in the order
+    std::vector<std::uint32_t> place_;  // place of each stroke in the order
     glm::dvec2 start_;
 };
 
@@ -62,7 +62,7 @@ double PlotRoute::length() const {
 
 void PlotRoute::improve(const Monitor& monitor) {
     const PointTree tree(points_, monitor);
-    // Long stretches are turned round only where there are few strokes, so that this stays quick.
+    // Long ranges are reversed only if there are few strokes, so that this stays fast.
     const std::size_t longest = std::max<std::size_t>(1000, 3'000'000'000 / (order_.size() + 1));
     std::vector<bool> settled(order_.size());
     std::vector<PointTree::Near> near;
@@ -91,15 +91,15 @@ PlotRoute::Change PlotRoute::best_change(std::uint32_t i, const PointTree& tree,
     constexpr std::size_t neighbours = 10;
     Change best;
     const double way = glm::distance(leave(i), points_[order_[i]]);
-    // A change that gains has a new way that is shorter than one it replaces, at the same end.
-    const auto consider = [&](std::uint32_t k) {  // the ways to stroke i and to stroke k
+    // A change that gains has a new travel that is shorter than one it replaces, at the same end.
+    const auto consider = [&](std::uint32_t k) {  // travels to stroke i and to stroke k
         if (i == k || std::max(i, k) - std::min(i, k) > longest) return;
         const std::uint32_t first = std::min(i, k);
         const std::uint32_t last = std::max(i, k);
         double gain = way - glm::distance(leave(first), leave(last));
         if (k < order_.size()) gain += glm::distance(leave(k), points_[order_[k]]);
         if (last < order_.size()) gain -= glm::distance(points_[order_[first]], points_[order_[last]]);
-        // Less is rounding.
+        // Smaller gains are rounding errors.
         if (gain > best.gain + 1e-9 * way) best = {gain, first, last - 1};
     };
     tree.nearest(leave(i), way, neighbours, near);
@@ -128,7 +128,7 @@ void PlotRoute::turn_round(std::uint32_t first, std::uint32_t last) {
 PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn,
                          const Monitor& monitor) {
     const std::vector<PlotStroke>& strokes = given.strokes;
-    // Where each stroke may begin: at its two ends, or anywhere if it is closed.
+    // Points where each stroke may begin: its two ends, or anywhere if it is closed.
     std::vector<glm::dvec2> entries;
     std::vector<std::uint32_t> stroke_of;
     std::vector<std::uint32_t> first_entry;
@@ -150,7 +150,7 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
     }
     first_entry.push_back(static_cast<std::uint32_t>(entries.size()));
 
-    // Always on to the nearest one.
+    // Always goes to the nearest stroke.
     std::vector<glm::dvec2> points(2 * strokes.size());
     std::vector<PlotEnd> nearest_first;
     std::vector<PlotEnd> as_drawn;
@@ -197,7 +197,7 @@ PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::
         const auto in_order = given.ends(stroke);
         result.strokes.push_back({static_cast<std::uint32_t>(order.size()), stroke.count, stroke.closed});
         if (stroke.closed) {
-            // A better beginning, now that it is known what comes next.
+            // Finds a better beginning, now that the next stroke is known.
             const glm::dvec2 from = at == 0 ? start : points[route.order()[at - 1] ^ 1U];
             const auto detour = [&](std::uint32_t k) {
                 const glm::dvec2 way = graph.point(in_order[k]);

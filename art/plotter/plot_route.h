@@ -7,9 +7,9 @@
 
 namespace sikku {
 
-/// The same strokes in another order, some of them the other way round, closed ones begun anywhere: from `start`
-/// always on to the nearest one, then improved by 2-opt. Should that be longer than `drawn`, in turtle steps, the
-/// order given is improved as well, and the better route is used. Cost: O(n log n). @throws Stopped
+/// Orders strokes, reverses some, and moves the starts of closed ones: from `start` always to the nearest one, then
+/// improved by 2-opt. If that is longer than `drawn`, in turtle steps, the given order is improved as well, and the
+/// better route is used. Cost: O(n log n). @throws Stopped
 PlotStrokes sort_strokes(const PlotGraph& graph, const PlotStrokes& given, glm::dvec2 start, double drawn,
                          const Monitor& monitor = {});
 

@@ -34,19 +34,19 @@ protected:
     using Bezier = std::array<glm::dvec2, 4>;
     /// Millimetres from the bottom left corner of the page, y up.
     glm::dvec2 on_page(glm::dvec2 point) const;
-    /// Pens are counted from 1, in the order in which they come: plotters hold six or eight.
+    /// Number of a pen, from 1 in the order of appearance; plotters hold six or eight pens.
     int number(const Pen& pen);
     /// The numbers given so far, by colour index.
     const std::map<int, int>& numbers() const { return numbers_; }
-    /// Into how many equal steps of its parameter a curve is cut so that chords stay within `tolerance`.
+    /// Number of equal steps of its parameter for which the chords of a curve stay within `tolerance`.
     /// Source: Wang, Proc. SPIE, 1984: by the second differences.
     static int chords(const Bezier& bezier, double tolerance);
     static glm::dvec2 at(const Bezier& bezier, double t);
-    /// @throws std::runtime_error  as a plotter would run against its stops
+    /// @throws std::runtime_error  off the page, where a plotter would run against its stops
     void require_on_page(glm::dvec2 millimetres) const;
 
     const Print& print_;
-    glm::dvec2 here_{0.0};  ///< where the stroke is, in pattern units
+    glm::dvec2 here_{0.0};  ///< end of the stroke so far, in pattern units
 
 private:
     std::map<int, int> numbers_;  ///< numbers of pens, by colour index

@@ -19,7 +19,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_bytes = 65536;
-constexpr double dpi = 96;  // of lengths in px
+constexpr double dpi = 96;  // resolution of lengths in px
 
 const std::array<BundledProfile, 7> bundled = {{{"axidraw", axidraw_plotter},
                                                 {"grbl", grbl_plotter},
@@ -54,7 +54,7 @@ void add_line(std::string& lines, Text line) {
 /// A key of profiles. `set` throws std::runtime_error for a value that cannot be read.
 struct ProfileKey {
     std::string_view name;
-    std::string_view languages;  ///< to which it applies: g, h, s
+    std::string_view languages;  ///< languages to which it applies: g, h, s
     void (*set)(P& profile, Text text);
     bool is_list = false;  ///< may be repeated
 };

@@ -17,7 +17,7 @@
 namespace sikku {
 
 enum class PlotLanguage : std::uint8_t { gcode, hpgl, svg };
-/// `G-code`, `HP-GL` or `SVG`.
+/// Returns `G-code`, `HP-GL` or `SVG`.
 std::string_view language_name(PlotLanguage language);
 
 /// A plotter: its language, its speeds, and how it moves its pens.

@@ -19,9 +19,9 @@ namespace {
 constexpr double loop_share = 0.38;
 constexpr double line_share = 0.24;
 constexpr double earth_share = 0.6;  // share of the line's width
-constexpr double dot_share = 0.4;    // of the loop
+constexpr double dot_share = 0.4;    // share of the loop
 
-/// Depth in parts of that of BorderKind::kaavi.
+/// Depth relative to BorderKind::kaavi.
 double relative_depth(BorderKind kind) {
     switch (kind) {
         case BorderKind::kaavi:
@@ -60,9 +60,9 @@ void draw_kaavi(const Print& print, const Window& window, double width, int colo
     const std::array<glm::dvec2, 4> corners = {glm::dvec2(left, top), glm::dvec2(right, top),
                                                glm::dvec2(right, bottom), glm::dvec2(left, bottom)};
     const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(-1, 0), glm::dvec2(0, -1)};
-    const double handle = 0.5522847498307936 * radius;  // of a quarter of a circle as a Bézier
+    const double handle = 0.5522847498307936 * radius;  // for a quarter circle as a Bézier
     for (const bool is_earth : {false, true}) {
-        // A pen plotter does not paint over.
+        // A pen plotter cannot paint over lines.
         if (print.is_plot && !is_earth) continue;
         ink.begin(corners[0] + radius * ways[0], is_earth ? line * earth_share : line, is_earth ? 1 : 0);
         for (std::size_t side = 0; side < 4; ++side) {
@@ -92,7 +92,7 @@ void draw_kaavi(const Print& print, const Window& window, double width, int colo
     }
 }
 
-/// Hands a recorded drawing on in the pens of the border: their colours follow each other, each pen's line, then its
+/// Passes on a recorded drawing in the pens of the border, whose colours are consecutive: each pen's line, then its
 /// fill.
 class MotifPens : public PathFilter {
 public:
@@ -107,7 +107,7 @@ public:
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, fill(pen)); }
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override {
         if (style_.fill_colour(pen).alpha == 0) return;
-        // A radius of 0 is a dot that the pen sizes.
+        // A radius of 0 is a dot, sized by the pen.
         const double steps = radius > 0 ? radius : style_.line_width(pen, step_) / step_;
         sink_.disc(centre, steps, fill(pen));
     }
@@ -133,7 +133,7 @@ std::vector<Colour> motif_colours(const Style& style) {
     return colours;
 }
 
-/// Notes which colours of its style a recorded drawing uses, in the order of motif_colours().
+/// Records which colours of its style a recorded drawing uses, in the order of motif_colours().
 class ColourCensus : public PathSink {
 public:
     explicit ColourCensus(const Style& style) : style_(style), is_used_(motif_colours(style).size()) {}
@@ -159,7 +159,7 @@ private:
 };
 
 /// The colours of a motif. Lines that would vanish on the ground get `visible` instead, unless fills may lie under
-/// them; fills do if nothing else of the motif is seen.
+/// them; fills do if nothing else of the motif is visible.
 std::vector<Colour> seen_colours(const BorderMotif& motif, Colour ground, Colour visible) {
     constexpr double least = 0.2;  // in OKLab: lines are thin
     std::vector<Colour> colours = motif_colours(motif.style);
@@ -178,7 +178,7 @@ std::vector<Colour> seen_colours(const BorderMotif& motif, Colour ground, Colour
 }
 
 /// Draws a motif with its box in an area of a side.
-/// @param corner, along, down  of the area on the page: its top left corner as the motif stands, and its sides
+/// @param corner, along, down  the area on the page: its top left corner for the upright motif, and its sides
 void draw_motif(const BorderMotif& motif, glm::dvec2 corner, glm::dvec2 along, glm::dvec2 down, int first,
                 BorderInk& ink) {
     const glm::dvec2 size = motif.box.high - motif.box.low;

@@ -20,12 +20,12 @@ struct BorderMotif {
 struct Border {
     BorderKind kind = BorderKind::kaavi;
     std::shared_ptr<const BorderMotif> repeat{};  ///< motif of BorderKind::pattern, upright at the top edge
-    std::shared_ptr<const BorderMotif> corner{};  ///< as it stands in the top left corner; null: a dot in a ring
+    std::shared_ptr<const BorderMotif> corner{};  ///< motif of the top left corner; null: a dot in a ring
 };
 
 /// Depth of the border inwards from the margin, in millimetres; it grows with the page's shorter side.
 double border_depth(BorderKind kind, const Page& page);
-/// With the room that a drawing leaves to it.
+/// Depth of the border and of the space between it and the drawing.
 double border_room(BorderKind kind, const Page& page);
 /// Colours of draw_border(): those of a traditional border are rice flour and red earth (*kaavi*), in tones that
 /// stand out from the ground, or, on light ground, dark and light red earth; those of a pattern come from its style,
@@ -33,16 +33,17 @@ double border_room(BorderKind kind, const Page& page);
 /// Without a ground, the paper is white.
 std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground);
 
-/// A whole number of repeats along each side, chosen so that their lengths differ as little as possible.
+/// Numbers of repeats along the sides, chosen so that the lengths of repeats differ as little as possible.
 struct BorderRepeats {
     int across = 1, down = 1;
 };
-/// @param across, down  lengths of the sides without the corners, above 0 @param length  about that of a repeat
+/// @param across, down  lengths of the sides without the corners, above 0 @param length  approximate length of a
+/// repeat
 BorderRepeats border_repeats(double across, double down, double length);
 
-/// Draws a frame within the margin of a window of the page; all its lines close at the corners. `colour` is the index
-/// of the first of border_colours() in the palette of `print`, which is placed. Nothing is drawn over other lines of
-/// the border, except, in pictures and vectors, by BorderKind::kaavi.
+/// Draws a frame within the margin of a window of the page; all its lines close at the corners. `print` is placed;
+/// `colour` is the index of the first of border_colours() in its palette. Parts of the border do not overlap, except,
+/// in pictures and vectors, those of BorderKind::kaavi.
 void draw_border(const Border& border, const Print& print, const Window& window, int colour, PathSink& sink);
 
 }  // namespace sikku

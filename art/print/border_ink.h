@@ -13,7 +13,8 @@
 
 namespace sikku {
 
-/// A side of the frame, clockwise: millimetres along it from its outer corner, and inwards from its outer edge.
+/// A side of the frame, clockwise. Coordinates are millimetres along it from its outer corner, and inwards from its
+/// outer edge.
 struct BorderSide {
     glm::dvec2 corner;
     glm::dvec2 along, inwards;
@@ -31,7 +32,7 @@ inline std::array<BorderSide, 4> border_sides(const Window& window) {
              {{left, top + height}, {0, -1}, {1, 0}, height}}};
 }
 
-/// Converts millimetres of the page, y down, into a drawing. Colours are counted from the first of the border's.
+/// Converts millimetres of the page, y down, into a drawing. Colour 0 is the first colour of the border.
 class BorderInk {
 public:
     BorderInk(const Print& print, int colour, PathSink& sink)
@@ -41,7 +42,7 @@ public:
           back_(glm::inverse(glm::dmat2x2(placement_.to_page[0], placement_.to_page[1]))),
           colour_(colour) {}
 
-    /// The drawing's coordinates of a point of the page.
+    /// Converts a point of the page to the coordinates of the drawing.
     glm::dvec2 drawn(glm::dvec2 page) const { return back_ * (page - placement_.to_page[2]); }
     /// The map from millimetres of the page to the drawing.
     glm::dmat3x2 from_page() const { return {back_[0], back_[1], -1.0 * (back_ * placement_.to_page[2])}; }

@@ -189,10 +189,10 @@ void draw_diamonds(Sides sides, double d, BorderInk& ink) {
 /// Three waves, one above the other, with dots in their bays; in the corners they loop around a dot.
 void draw_waves(Sides sides, double d, BorderInk& ink) {
     const double line = 0.065 * d;
-    const double low = 0.87 * d;     // of the troughs of the inner wave, which the corners continue
+    const double low = 0.87 * d;     // depth of the troughs of the inner wave, which the corners continue
     const double rise = 0.135 * d;   // from one wave to the next
     const double swing = 0.44 * d;   // height of a wave
-    const double centre = 0.46 * d;  // of the loops, from both edges
+    const double centre = 0.46 * d;  // centre of the loops, from both edges
     const double corner = 1.1 * d;
     const BorderRepeats repeats = repeats_of(sides, corner, 1.3 * d);
     const double handle = 0.5522847498307936;
@@ -328,7 +328,7 @@ void draw_padi(Sides sides, double d, BorderInk& ink) {
     const double gap = 0.035 * d;
     const std::array<double, 4> lines = {line / 2, 0.11 * d, 0.43 * d, 0.515 * d};
     const double step = 0.1 * d, foot = 0.625 * d;
-    const double from = 0.16 * d, to = 0.38 * d;  // of the earth
+    const double from = 0.16 * d, to = 0.38 * d;  // edges of the earth
     const double corner = lines[3];
     const BorderRepeats repeats = repeats_of(sides, corner, 0.34 * d);
     for (std::size_t i = 0; i < 4; ++i) {

@@ -9,7 +9,7 @@ namespace sikku {
 /// Passes on the parts of a drawing that may be visible in a box; a stroke that leaves the box and returns is split.
 class ClipSink : public PathSink {
 public:
-    /// @param box  in steps, the pen's width around it included
+    /// @param box  in steps, including the width of the pen around it
     ClipSink(PathSink& sink, const Box& box) : sink_(sink), box_(box) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
@@ -32,7 +32,7 @@ private:
     Pen pen_;
     glm::dvec2 at_{0.0};
     bool is_down_ = false;
-    bool is_whole_ = true;  ///< nothing of the stroke was left out
+    bool is_whole_ = true;  ///< the stroke has not been cut so far
 };
 
 }  // namespace sikku

@@ -88,7 +88,7 @@ void CropSink::begin_stroke(glm::dvec2 start, const Pen& pen) {
     is_whole_ = true;
 }
 
-/// Draws the parts of a piece that lie inside. @param is_line  its controls do not count
+/// Draws the parts of a piece that lie inside. @param is_line  ignore its control points
 void CropSink::draw(const Bezier& piece, bool is_line) {
     const auto put = [&](const Bezier& part) {
         if (!is_down_) sink_.begin_stroke(part[0], pen_);
@@ -172,7 +172,7 @@ void CropSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
                                            centre + glm::dvec2(radius, -radius), centre + glm::dvec2(radius, radius),
                                            centre + glm::dvec2(-radius, radius)};
     if (misses(box)) return;
-    // A radius of 0 is a dot that the pen sizes.
+    // A radius of 0 is a dot, sized by the pen.
     if (contains(box)) return sink_.disc(centre, radius, pen);
     if (!(radius > 0)) return;
     const double turn = std::acos(std::max(0.9, 1 - tolerance_ / radius));

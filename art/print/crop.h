@@ -22,7 +22,7 @@ struct HalfPlane {
 class CropSink : public PathSink {
 public:
     /// @param low, high  corners of the rectangle, in the coordinates of the page
-    /// @param to_page    from the coordinates of the drawing, invertible @param tolerance  of curved fills, in those
+    /// @param to_page    maps the drawing to the page, invertible @param tolerance  of curved fills, in the drawing
     CropSink(PathSink& sink, glm::dvec2 low, glm::dvec2 high, const glm::dmat3x2& to_page, double tolerance);
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
@@ -47,7 +47,7 @@ private:
     Pen pen_;
     glm::dvec2 at_{0.0};
     bool is_down_ = false;
-    bool is_whole_ = true;  ///< nothing of the stroke was left out
+    bool is_whole_ = true;  ///< the stroke has not been cut so far
 };
 
 }  // namespace sikku

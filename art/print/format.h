@@ -35,7 +35,7 @@ const FormatInfo& info(PrintFormat format);
 
 /// The format of a file by its extension (any case), or nullopt.
 std::optional<PrintFormat> print_format(const std::filesystem::path& file);
-/// The format of that name or extension (`svg`, `plt`; any case), or nullopt.
+/// The format with this name or extension (`svg`, `plt`; any case), or nullopt.
 std::optional<PrintFormat> named_format(std::string_view name);
 
 /// SVG, PDF, EPS, HP-GL, G-code and DXF: lines rather than pixels.

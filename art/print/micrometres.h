@@ -1,5 +1,5 @@
-// art/print/micrometres.h: points of a print in whole micrometres, and fast writing of whole numbers: what the vector
-// writers share.
+// art/print/micrometres.h: points of a print in whole micrometres, and fast writing of whole numbers, for the vector
+// writers.
 #pragma once
 
 #include "art/print/page.h"
@@ -17,14 +17,15 @@
 
 namespace sikku {
 
-/// From the top left corner of the page, y down.
+/// A point, measured from the top left corner of the page, y down.
 struct Micrometres {
     std::int32_t x = 0, y = 0;
     bool operator==(const Micrometres&) const = default;
 };
 
-/// Nearest whole number, halves to even, held within ±10^9 (a kilometre in micrometres), so that the difference of
-/// two fits into 32 bits; 0 for NaN. Adding 1.5 * 2^52 leaves the rounded number in the lowest bits of the mantissa.
+/// Returns the nearest whole number, halves to even, clamped to ±10^9 (a kilometre in micrometres), so that the
+/// difference of two fits into 32 bits; 0 for NaN. Adding 1.5 * 2^52 leaves the rounded number in the lowest bits of
+/// the mantissa.
 inline std::int32_t to_whole(double value) {
     constexpr double most = 1e9;
     constexpr double magic = 6755399441055744.0;
@@ -47,7 +48,7 @@ private:
     glm::dmat3x2 matrix_;
 };
 
-/// Three digits each, in one load: with leading zeros, and without them and then with their number.
+/// The digits of 0 to 999 and their number, loaded at once: with leading zeros, and without.
 struct DigitTables {
     struct Entry {
         std::array<char, 3> digits;
@@ -70,10 +71,10 @@ struct DigitTables {
 };
 inline constexpr DigitTables digit_tables;
 
-/// The most bytes that put_number needs, some of them only touched.
+/// Maximum number of bytes that put_number() writes, some of them beyond the end of the number.
 inline constexpr std::size_t number_room = 16;
 
-/// Writes `value` at `out` and returns where it ends.
+/// Writes `value` at `out` and returns the end of its digits.
 inline char* put_number(char* out, std::int32_t value) {
     std::uint32_t rest = static_cast<std::uint32_t>(value);
     if (value < 0) {
@@ -103,7 +104,7 @@ inline char* put_number(char* out, std::int32_t value) {
     return out;
 }
 
-/// `value` with at most `digits` (1 to 16) decimals, without trailing zeros and without an exponent.
+/// Formats `value` with at most `digits` (1 to 16) decimals, without trailing zeros and without an exponent.
 inline std::string decimal(double value, int digits) {
     std::string text = fmt::format("{:.{}f}", value, digits);
     while (text.ends_with('0')) text.pop_back();
@@ -111,14 +112,14 @@ inline std::string decimal(double value, int digits) {
     return text == "-0" ? "0" : text;
 }
 
-/// Text that grows by whole blocks of points: the writer asks for room once and fills it through a bare pointer.
+/// Text that grows by whole blocks of points: the writer requests room once and fills it through a pointer.
 class TextBuffer {
 public:
     char* room(std::size_t bytes) {
         if (size_ + bytes > capacity_) grow(bytes);
         return text_.get() + size_;
     }
-    /// Everything before `end`, a pointer into the last room(), is text now.
+    /// Adds everything before `end`, a pointer into the last room(), to the text.
     void filled_to(const char* end) { size_ = static_cast<std::size_t>(end - text_.get()); }
     void append(std::string_view text) {
         char* out = room(text.size());

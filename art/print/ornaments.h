@@ -13,12 +13,12 @@
 
 namespace sikku {
 
-/// Rice flour.
+/// Colour of rice flour.
 constexpr std::string_view rice = "#fffaf0";
 /// The colours of a kolam's lines, rice flour first.
 constexpr std::string_view kolam_colours = "#fffaf0 #f2b632 #7fc8a9 #e77f67 #8fb8de #d6a2e8 #c5d86d #f7b2ad";
 
-/// Hands a drawing on in colours of a palette that has grown: indices are brought below its old size first.
+/// Passes on a drawing whose palette has grown: reduces colour indices to the old palette first.
 class OldColours : public PathFilter {
 public:
     OldColours(PathSink& sink, const Style& style) : Forwarding(sink), style_(style) {}
@@ -56,7 +56,7 @@ private:
     const Style& style_;
 };
 
-/// Draws the strokes of each line in the next of some colours, which are indices of the palette.
+/// Draws the strokes of each line in the next of the given colours, which are indices into the palette.
 class StrokeColours : public PathFilter {
 public:
     StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
@@ -104,9 +104,9 @@ private:
     bool is_seen_ = false;
 };
 
-/// The shortest way between two of them; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
+/// Least distance between two dots; 0 for fewer than two. Cost: O(n sqrt n) for dots of a grid in rows.
 double least_distance(std::span<const glm::dvec2> dots);
 
-/// Colours that distinguish the lines of a kolam on dark ground, rice flour first; the same as those of grids.
+/// Colours that distinguish the lines of a kolam on dark ground, rice flour first; grids use the same.
 std::vector<Colour> kolam_palette();
 }  // namespace sikku

@@ -95,7 +95,7 @@ std::vector<glm::dvec2> turned(std::span<const glm::dvec2> corners, double angle
 std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> corners, double distance) {
     if (!(distance > 0)) return std::vector<glm::dvec2>(corners.begin(), corners.end());
     std::vector<glm::dvec2> outline;
-    std::vector<std::pair<std::size_t, std::size_t>> of_corner;  // first and last point of each
+    std::vector<std::pair<std::size_t, std::size_t>> of_corner;  // first and last point of each corner
     const std::size_t count = corners.size();
     for (std::size_t i = 0; i < count; ++i) {
         const glm::dvec2 at = corners[i];
@@ -104,7 +104,8 @@ std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> 
         const glm::dvec2 first(before.y, -before.x), second(after.y, -after.x);
         const double cosine = glm::dot(first, second);
         of_corner.emplace_back(outline.size(), 0);
-        // The mitre is longer than twice the distance at angles below 60 degrees. At 60, no side without length.
+        // The mitre is longer than twice the distance at angles below 60 degrees. The slack avoids sides of length 0
+        // at 60.
         if (cross(before, after) > 0 && cosine < -0.5 - 1e-9) {
             const glm::dvec2 tip = glm::normalize(before - after);
             const double beyond = distance * (2 - glm::dot(first, tip)) / glm::dot(before, tip);

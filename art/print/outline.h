@@ -16,19 +16,20 @@ namespace sikku {
 /// Lengths are millimetres, y up.
 
 Box box_of(std::span<const glm::dvec2> points);
-/// Points turned about the origin. @param angle  radians anticlockwise
+/// Turns points about the origin. @param angle  radians anticlockwise
 std::vector<glm::dvec2> turned(std::span<const glm::dvec2> points, double angle);
 
-/// An outline moved outwards by a distance. Corners are mitred; the tips of those whose mitre would be longer than
-/// twice the distance are cut off there. @param corners  anticlockwise
+/// Moves an outline outwards by a distance. Corners are mitred; mitres longer than twice the distance are cut off
+/// there.
+/// @param corners  anticlockwise
 /// @throws std::runtime_error if the result crosses itself, as in notches narrower than twice the distance
 std::vector<glm::dvec2> offset_outline(std::span<const glm::dvec2> corners, double distance);
 
-/// The same without the search for crossings, which costs k^2: nullopt if a side would be turned round.
+/// offset_outline() without the search for crossings, which costs k^2; nullopt if a side would be reversed.
 std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> corners, double distance);
 
 void draw_closed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
-/// Each side begins and ends with a dash.
+/// Draws a dashed outline; each side begins and ends with a dash.
 void draw_dashed(const std::vector<glm::dvec2>& outline, glm::dvec2 offset, const Pen& pen, PathSink& sink);
 
 /// Start of a text, and the height of its capital letters: see write_text().

@@ -16,13 +16,14 @@
 namespace sikku {
 namespace {
 
-constexpr double step_of_a_point = 10.0;  // of a drawing without extent
+constexpr double step_of_a_point = 10.0;  // step of a drawing without extent
 
 struct NamedSize {
     std::string_view name;
     glm::dvec2 size;
 };
-/// Upright, in millimetres. Sources: ISO 216 (A, B), ISO 269 (C), JIS P 0138 (JIS B), ISO 217 (RA, SRA), ANSI Y14.1.
+/// Upright sizes in millimetres. Sources: ISO 216 (A, B), ISO 269 (C), JIS P 0138 (JIS B), ISO 217 (RA, SRA), ANSI
+/// Y14.1.
 const std::array<NamedSize, 73> named_sizes = {{
     {"4a0", {1682.0, 2378.0}},      {"2a0", {1189.0, 1682.0}},     {"a0", {841.0, 1189.0}},
     {"a1", {594.0, 841.0}},         {"a2", {420.0, 594.0}},        {"a3", {297.0, 420.0}},
@@ -58,8 +59,8 @@ std::optional<double> fitting_step(double room, double extent, double ink_steps,
     return (room - 2.0 * ink_mm) / steps;
 }
 
-/// The part of the fitting size that leaves a drawing room to breathe.
-/// @param room, size  of the page within its margins, and of the drawing that fits it
+/// The share of the fitting size that leaves space around a drawing.
+/// @param room, size  the page within its margins, and the drawing that fits it
 double breathing(const Balance& balance, glm::dvec2 room, glm::dvec2 size) {
     // Drawings that fill their box need more room than those that end in points.
     constexpr double least = 0.05, of_full = 0.05, of_slack = 0.22, most = 0.2;
@@ -67,7 +68,7 @@ double breathing(const Balance& balance, glm::dvec2 room, glm::dvec2 size) {
     return 1 - std::min(least + of_full * balance.fullness + of_slack * std::max(0.0, slack), most);
 }
 
-/// From the middle of the page to the place of the box's centre, in millimetres, y down.
+/// Offset of the box's centre from the middle of the page, in millimetres, y down.
 glm::dvec2 optical_shift(const Balance& balance, const Page& page, glm::dvec2 size) {
     // 46 % of the free height is above the drawing.
     constexpr double rise = 0.04, pull = 0.6;
@@ -93,7 +94,7 @@ std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
         name[sign] = 'x';
         name.erase(sign + 1, 1);
     }
-    // `px` holds an x as well, so every x is tried.
+    // `px` contains an x as well, so every x is tried.
     for (std::size_t x = name.find('x'); x != std::string::npos; x = name.find('x', x + 1)) {
         auto width = read_length(std::string_view(name).substr(0, x));
         const auto height = read_length(std::string_view(name).substr(x + 1));

@@ -15,11 +15,11 @@ struct Page {
     double margin = 10.0;  ///< on all four sides
 };
 
-/// A paper size by its name, upright: `A0` … `A10` (also `2A0`, `4A0`), `B0` … `B10`, `C0` … `C10`, `JIS B0` …
-/// `JIS B10`, `RA0` … `RA4`, `SRA0` … `SRA4`, `letter`, `legal`, `tabloid`, `ledger`, `executive`, `statement`,
-/// `ANSI A` … `ANSI E`, `Arch A` … `Arch E`, `Arch E1` (any case; blanks and hyphens do not matter). Or
-/// `WIDTHxHEIGHT` with units (`300x300mm`, `50x70cm`, `20cmx30cm`, `12x18in`; a unit at the end serves both). Width
-/// and height of the page in millimetres; lengths are not checked for range here.
+/// Parses a paper size: a name, for an upright page (`A0` … `A10`, also `2A0`, `4A0`, `B0` … `B10`, `C0` … `C10`,
+/// `JIS B0` … `JIS B10`, `RA0` … `RA4`, `SRA0` … `SRA4`, `letter`, `legal`, `tabloid`, `ledger`, `executive`,
+/// `statement`, `ANSI A` … `ANSI E`, `Arch A` … `Arch E`, `Arch E1`; any case; blanks and hyphens are ignored), or
+/// `WIDTHxHEIGHT` with units (`300x300mm`, `50x70cm`, `20cmx30cm`, `12x18in`; a unit at the end applies to both).
+/// Returns width and height in millimetres; their range is not checked here.
 std::optional<glm::dvec2> parse_size(std::string_view text, double dpi);
 
 /// An axis-parallel box of a drawing; empty until something is added.
@@ -41,9 +41,8 @@ struct Placement {
 
 /// The shape and the mass of a drawing, for its composition on a page.
 struct Balance {
-    double fullness = 1.0;  ///< area of its convex hull as part of its box
-    glm::dvec2 mass{
-        0.0};  ///< from the centre of the box to the centre of its mass, as parts of the box's sides, y up
+    double fullness = 1.0;  ///< share of the box that the convex hull covers
+    glm::dvec2 mass{0.0};   ///< from the centre of the box to the centre of mass, as parts of the box's sides, y up
 };
 
 /// Options of the placement.
@@ -52,9 +51,9 @@ struct PlacementOptions {
     bool mirror = false;         ///< left and right exchanged, before the rotation
     std::optional<double> step;  ///< millimetres of a step; absent: fit into the margins
     double scale = 1.0;          ///< fraction of the page that a fitted drawing fills (`scale factor:`)
-    /// Composes the page: a fitted drawing leaves breathing room by its shape, the more the less it has the page's
-    /// proportions; it lies around the optical centre, above the middle, moved towards it by its mass, but not into
-    /// the margins. Absent: the box fills the page and lies in the middle.
+    /// Composes the page: a fitted drawing leaves more room the more it fills its box and the less it has the page's
+    /// proportions; its mass is moved towards the optical centre, above the middle, but the drawing stays within the
+    /// margins. Absent: the box fills the page and lies in the middle.
     std::optional<Balance> balance{};
 };
 

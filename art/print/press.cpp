@@ -16,7 +16,7 @@ namespace {
 
 constexpr double most_bleed = 100.0;
 constexpr double mark_length = 5.0;
-constexpr double least_mark_offset = 2.0;  // so that a knife that errs does not leave them on the sheet
+constexpr double least_mark_offset = 2.0;  // keeps marks off the sheet if the knife is slightly off
 constexpr std::size_t longest_name = 127;  // ISO 32000-1, annex C
 constexpr std::size_t most_listed = 12;
 
@@ -38,7 +38,7 @@ double mark_offset(const Press& press) {
     return std::max(press.bleed, least_mark_offset);
 }
 
-/// Rec. 709 weights on the values as they are, in which colours are mixed.
+/// Weights sRGB values by Rec. 709, without linearisation, as colours are mixed.
 Colour black_or_white(Colour colour) {
     if (colour.alpha < 128) return {255, 255, 255, 0};
     const int luminance = 2126 * colour.red + 7152 * colour.green + 722 * colour.blue;
@@ -176,7 +176,7 @@ Print as_picture(Print print) {
             if (*colour) **colour = black_or_white(**colour);
         }
         for (Colour& colour : style.palette) colour = black_or_white(colour);
-        // Paper, and not transparent: there is no alpha in one bit.
+        // White paper, since one bit has no transparency.
         if (!style.ground || style.ground->alpha == 0) style.ground = Colour{255, 255, 255, 255};
     }
     return print;

@@ -47,11 +47,11 @@ struct Press {
     std::vector<Spot> spots{};     ///< only PDF
     bool registration = false;     ///< registration marks outside of the bleed; only PDF
     std::filesystem::path cmyk{};  ///< ICC profile of the inks that colours are converted to; empty: none; TIFF, PDF
-    std::shared_ptr<const PressInks> inks{};  ///< those of `cmyk`, once they are loaded; PDF becomes PDF/X-4
+    std::shared_ptr<const PressInks> inks{};  ///< inks of `cmyk`, once they are loaded; PDF becomes PDF/X-4
     Overprint overprint = Overprint::none;    ///< only PDF
     int bits = 8;                             ///< bits per channel: 8, or 1 for line art; only TIFF
     Screen screen{};                          ///< for one bit: how greys become black and white
-    bool icc = true;                          ///< embed the profile of their colours in pictures
+    bool icc = true;                          ///< embed the profile of the colours in pictures
 };
 
 /// Parses `Kaavi=#b3452c`: a name and a colour as in parse_colour(). Ignores blanks around both.
@@ -60,7 +60,7 @@ struct Press {
 Spot parse_spot(std::string_view text);
 /// Adds a spot colour. @throws std::runtime_error if its name or its colour is in use
 void add_spot(std::vector<Spot>& spots, Spot spot);
-/// Parses several. @throws std::runtime_error as parse_spot(), and if a name or a colour is repeated
+/// Parses several spots. @throws std::runtime_error as parse_spot(), and if a name or a colour is repeated
 std::vector<Spot> parse_spots(std::span<const std::string> texts);
 
 /// @throws SettingError if the values are out of range, exclude each other, or do not apply to the format

@@ -16,16 +16,16 @@
 
 namespace sikku {
 
-/// One step of a lesson that an SVG shows, and when.
+/// One step of a lesson in an SVG, and its timing.
 struct LessonPart {
     int number = 0;                   ///< from 0
     int of = 1;                       ///< number of steps, the last of which stays
-    double seconds = 3.0;             ///< display time of each
+    double seconds = 3.0;             ///< display time of each step
     double drawing = 2.0;             ///< seconds in which its new lines are drawn
     int first_new = 0, last_new = 0;  ///< indices of the colours of new lines
 };
 
-/// How a part of an SVG moves: attributes of its elements, whose classes the style sheet of the whole describes.
+/// How a part of an SVG moves: attributes of its elements; the style sheet of the file describes their classes.
 struct PartMotion {
     std::string part;               ///< attributes of its group
     std::string polygons;           ///< attributes of the group of its polygons
@@ -49,7 +49,7 @@ struct Print {
     std::optional<LessonPart> lesson;    ///< lesson of a part of an SVG: see PrintWriter::begin_part()
     const PartMotion* motion = nullptr;  ///< motion of a part of an SVG; kept by reference
     std::string style_sheet{};           ///< style sheet of an SVG whose parts move
-    bool names_tiles = false;            ///< names for the polygons of an SVG, layers for those of a PDF
+    bool names_tiles = false;            ///< name the polygons of an SVG, put those of a PDF into layers
     Press press;                         ///< settings for the print shop
 };
 

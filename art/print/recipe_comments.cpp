@@ -1,44 +1,12 @@
 #include "art/print/recipe_comments.h"
 
-#include <cstdint>
+#include "engine/base/base64.h"
 
 namespace sikku {
 namespace {
 
 constexpr std::string_view mark = "sikku:";
-constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::size_t piece_bytes = 39;  // 52 characters and the mark
-
-std::string encoded(std::string_view bytes) {
-    std::string text;
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            group = group << 8 | (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U);
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            text += at + i > bytes.size() ? '=' : alphabet[group >> (18 - 6 * i) & 63U];
-        }
-    }
-    return text;
-}
-
-/// Appends the bytes of one piece; false for letters beyond the alphabet.
-bool decode(std::string_view text, std::string& bytes) {
-    std::uint32_t group = 0;
-    std::size_t bits = 0;
-    for (const char letter : text) {
-        if (letter == '=') break;
-        const std::size_t value = alphabet.find(letter);
-        if (value == std::string_view::npos) return false;
-        group = group << 6 | static_cast<std::uint32_t>(value);
-        bits += 6;
-        if (bits < 8) continue;
-        bits -= 8;
-        bytes += static_cast<char>(group >> bits & 255U);
-    }
-    return true;
-}
 
 }  // namespace
 
@@ -50,17 +18,21 @@ std::vector<std::string> recipe_comments(std::string_view pattern, std::string_v
     bytes += pattern;
     bytes += '\0';
     for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
-        pieces.push_back(std::string(mark) + encoded(std::string_view(bytes).substr(at, piece_bytes)));
+        pieces.push_back(std::string(mark) +
+                         to_base64(std::string_view(bytes).substr(at, piece_bytes), Base64::padded));
     }
     return pieces;
 }
 
 std::optional<std::pair<std::string, std::string>> read_recipe_comments(std::string_view text) {
+    const std::string letters = std::string(base64_letters(Base64::padded)) + "=";
     std::string bytes;
     for (std::size_t at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at)) {
         at += mark.size();
-        const std::size_t end = text.find_first_not_of(std::string(alphabet) + "=", at);
-        if (!decode(text.substr(at, end - at), bytes)) return std::nullopt;
+        const std::size_t end = text.find_first_not_of(letters, at);
+        const auto piece = from_base64(text.substr(at, end - at), Base64::padded);
+        if (!piece) return std::nullopt;
+        bytes += *piece;
         if (end == std::string_view::npos) break;
         at = end;
     }

@@ -142,7 +142,7 @@ double reach(std::span<const glm::dvec2> points, glm::dvec2 direction) {
     return most;
 }
 
-/// The least multiple of a polygon in which a hull with half a gap around it has room, and where.
+/// The least multiple of a polygon with room for a hull with half a gap around it, and the hull's place.
 struct Fit {
     double size = 0;
     glm::dvec2 shift{0.0};
@@ -229,7 +229,7 @@ bool read_count(std::string_view text, int& value) {
     return error == std::errc() && end == text.data() + text.size() && value >= 1 && value <= most_copies;
 }
 
-/// Parses `3x4`, `fill` or `3xfill`; of a frieze, `3` or `fill`; of a ring, `3`.
+/// Parses `3x4`, `fill` or `3xfill`; for a frieze, `3` or `fill`; for a ring, `3`.
 bool read_cells(std::string_view text, bool is_row, Repeat& repeat) {
     if (is_row && repeat.group != ring && text == "fill") {
         repeat.columns = 1;
@@ -302,7 +302,7 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
     wallpaper.is_row = group.is_frieze;
     glm::dvec2 a, b, shift;
     if (group.lattice == Lattice::rectangular) {
-        // Copies may overlap, but cells go on in their direction.
+        // Copies may overlap, but the vectors between cells keep their directions.
         const glm::dvec2 unit(std::max(size.x + gap, 1e-9), std::max(size.y + gap, 1e-9));
         a = {unit.x, 0};
         b = {0, unit.y};
@@ -366,7 +366,7 @@ double covered_share(const Repeat& repeat, std::span<const glm::dvec2> hull, dou
 }
 
 std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box& box, const Box& area) {
-    std::vector<Box> one;  // of each copy of the cell
+    std::vector<Box> one;  // box of each copy in the cell
     Box cell;
     for (const glm::dmat3x2& copy : wallpaper.cell) {
         Box& of_copy = one.emplace_back();
@@ -376,7 +376,7 @@ std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box&
         cell.add(of_copy.low);
         cell.add(of_copy.high);
     }
-    // Which translations may bring the cell into the area.
+    // The translations that may bring the cell into the area.
     const glm::dmat2x2 to_lattice = glm::inverse(glm::dmat2x2(wallpaper.across, wallpaper.up));
     Box range;
     for (const double x : {area.low.x - cell.high.x, area.high.x - cell.low.x}) {

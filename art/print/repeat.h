@@ -20,7 +20,7 @@ struct Repeat {
     double gap = 0.08;             ///< space between neighbouring copies; negative: they overlap
     bool gap_is_in_steps = false;  ///< the gap is in turtle steps, not a part of the drawing's larger side
     /// Cover the page: `columns` cells are as wide as the page within its margins, unless the step is fixed, and the
-    /// wallpaper goes on to the edges.
+    /// wallpaper extends to the edges.
     bool fills = false;
 
     /// Number of copies of the drawing; if they fill a page, about the number on an upright page of paper.
@@ -40,15 +40,15 @@ std::optional<Repeat> parse_repeat(std::string_view text);
 /// All names of groups, in the order of parse_repeat().
 std::vector<std::string_view> repeat_groups();
 
-/// The maps that make the copies, in the order in which they are drawn: row by row, and cell by cell; the first
-/// copies of a ring stand at the top, clockwise. The drawing lies in the asymmetric unit of the group with the least
-/// cell for which no two copies come closer than the gap (measured by their convex hulls, in rectangular units by
-/// their boxes). The origin of the maps is that of the group in the International Tables for Crystallography, vol. A.
+/// Returns the maps that make the copies, in drawing order: row by row and cell by cell, or clockwise around a ring
+/// from the top. The drawing lies in the asymmetric unit of the group with the least cell for which no two copies
+/// come closer than the gap (measured by their convex hulls, in rectangular units by their boxes). The origin of the
+/// maps is that of the group in the International Tables for Crystallography, vol. A.
 /// @param hull  points of the convex hull of the drawing; at least one
 /// @param ink   width of its lines in steps, which is added to the gap
 std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
 
-/// A wallpaper without end: the copies of one cell, and the vectors by which the cell is repeated.
+/// An endless wallpaper: the copies of one cell, and the vectors by which the cell is repeated.
 struct Wallpaper {
     std::vector<glm::dmat3x2> cell;
     glm::dvec2 across{0.0}, up{0.0};
@@ -61,7 +61,7 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
 double covered_share(const Repeat& repeat, std::span<const glm::dvec2> hull, double ink = 0);
 
 /// The copies of a wallpaper that may reach into an area, row by row from the top.
-/// @param box   of the drawing that is copied @param area  in the coordinates of the copies
+/// @param box  box of the copied drawing @param area  in the coordinates of the copies
 /// @throws std::runtime_error for more than most_copies
 std::vector<glm::dmat3x2> covering_copies(const Wallpaper& wallpaper, const Box& box, const Box& area);
 

@@ -52,7 +52,7 @@ Screener::Screener(const Screen& screen, int width, double dpi) : kind_(screen.k
             heights[y * side_ + x] = std::round(std::cos(right) * std::cos(down) * -1e9);
         }
     }
-    // Each pixel's rank in the tile is its threshold: so every grey has its share.
+    // Each pixel's rank in the tile is its threshold, so that every grey covers its share.
     std::vector<std::uint32_t> order(heights.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {

@@ -33,7 +33,7 @@ public:
     /// @throws std::runtime_error if a halftone's dots are finer than 2 pixels or coarser than 1000
     Screener(const Screen& screen, int width, double dpi);
 
-    /// The next row: 0 (black) or 255 for each grey. Both have the picture's width.
+    /// Converts the next row to 0 (black) or 255 for each grey. Both rows have the picture's width.
     void row(std::span<const std::uint8_t> greys, std::span<std::uint8_t> result);
 
 private:
@@ -42,8 +42,8 @@ private:
     Screen::Kind kind_;
     std::uint64_t next_row_ = 0;
     std::vector<int> errors_, next_errors_;  // in sixteenths, with one extra pixel at either end
-    std::size_t side_ = 0;                   // of a tile of two dots, in pixels
-    std::vector<std::uint8_t> thresholds_;   // of the tile: darker greys become black
+    std::size_t side_ = 0;                   // side of a tile of two dots, in pixels
+    std::vector<std::uint8_t> thresholds_;   // thresholds of the tile: darker greys become black
 };
 
 }  // namespace sikku

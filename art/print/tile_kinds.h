@@ -1,4 +1,4 @@
-// art/print/tile_kinds.h: kinds of tiles, as layers name them.
+// art/print/tile_kinds.h: kinds of tiles, and their names as layers.
 #pragma once
 
 #include "art/style/colour.h"
@@ -17,16 +17,17 @@
 namespace sikku {
 
 struct TileKind {
-    std::uint32_t shape = 0;  ///< from 1; 0: all kinds beyond the first TileKinds::most - 1
+    std::uint32_t shape = 0;  ///< number from 1; 0: all kinds beyond the first TileKinds::most - 1
     bool is_reflected = false;
     Colour colour;
 
-    /// `shape 2 reflected #efe0c0`
+    /// Label such as `shape 2 reflected #efe0c0`.
     std::string label() const {
         if (shape == 0) return "other tiles";
         return fmt::format("shape {}{} {}", shape, is_reflected ? " reflected" : "", colour_name(colour));
     }
-    /// `SHAPE-2-REFLECTED-EFE0C0`: at most 31 capitals, digits and hyphens, as DXF of release 12 allows.
+    /// Layer name such as `SHAPE-2-REFLECTED-EFE0C0`: at most 31 capitals, digits and hyphens, as DXF of release 12
+    /// allows.
     std::string layer() const {
         if (shape == 0) return "OTHER-TILES";
         return fmt::format("SHAPE-{}{}-{:02X}{:02X}{:02X}{}", shape, is_reflected ? "-REFLECTED" : "", colour.red,
@@ -34,13 +35,13 @@ struct TileKind {
     }
 };
 
-/// Numbers the shapes, hands and colours of polygons as they come.
+/// Numbers the shapes, hands and colours of polygons in the order of their appearance.
 class TileKinds {
 public:
-    /// Programs list all layers, and many make them slow: all further kinds share the last number.
+    /// Maximum number of kinds; further kinds share the last number, since many layers make programs slow.
     static constexpr std::size_t most = 200;
 
-    /// The number of the kind of a polygon, at most one more than those before.
+    /// Returns the number of a polygon's kind, at most one more than those before.
     std::size_t kind_of(std::span<const glm::dvec2> vertices, Colour colour) {
         const PolygonClass found = classes_.classify(vertices);
         const std::tuple key(found.shape, found.is_reflected, colour.red, colour.green, colour.blue, colour.alpha);
@@ -53,7 +54,7 @@ public:
         }
         return kinds_.size() - 1;
     }
-    /// By number.
+    /// All kinds, by number.
     const std::vector<TileKind>& kinds() const { return kinds_; }
 
 private:

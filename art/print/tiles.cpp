@@ -27,7 +27,7 @@ struct Row {
     double first = 0;  ///< beginning of the part that the first sheet shows
 };
 
-/// @param length  of the page, including `margin` on both sides, which may remain off the sheets
+/// @param length  length of the page, including `margin` on both sides, which may remain off the sheets
 Row row_of(double length, double margin, double room, double overlap) {
     const double inner = length - 2 * margin;
     const double count = std::max(1.0, std::ceil((inner - room) / (room - overlap) - 1e-9) + 1);

@@ -35,7 +35,7 @@ struct Tiling {
 /// @throws std::runtime_error if the overlap leaves no room on a sheet, and for over 400 sheets
 Tiling tiling_of(const Page& page, const TileOptions& options);
 
-/// `kolam.svg` becomes `kolam-2-3.svg`.
+/// Names the file of a sheet: `kolam.svg` becomes `kolam-2-3.svg`.
 std::filesystem::path tile_file(const std::filesystem::path& file, const Tile& tile);
 
 /// The position of the sheet's top left corner on the print.

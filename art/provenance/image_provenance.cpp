@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// Chunks, segments and attributes before the texts; the program writes fewer than 30.
+/// Maximum number of chunks, segments and attributes before the texts; the program writes fewer than 30.
 constexpr int most_parts = 10'000;
 
 std::uint64_t number(std::string_view bytes, bool is_little_endian) {
@@ -32,7 +32,7 @@ void cut_at_nul(std::string& text) {
 
 // --- PNG ----------------------------------------------------------------------------------------------------------
 
-/// Whether the checksum of the chunk whose type begins at `at` is right.
+/// True if the checksum of the chunk whose type begins at `at` is correct.
 bool has_png_checksum([[maybe_unused]] const InputFile& file, [[maybe_unused]] std::uint64_t at,
                       [[maybe_unused]] std::uint64_t size) {
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
@@ -101,7 +101,7 @@ struct Part {
     const InputFile& file;
     std::uint64_t begin = 0, end = 0;
 
-    /// All of the bytes.
+    /// Reads exactly `count` bytes.
     std::string read(std::uint64_t at, std::uint64_t count) const {
         if (at > end - begin || count > end - begin - at) refuse_damaged();
         std::string bytes = file.read(begin + at, count);

@@ -13,9 +13,9 @@ namespace {
 
 /// A pattern is at most 64 MB long, UTF-16 in hexadecimal digits four times as long; 64 MB are left for the title.
 constexpr std::uint64_t most_dictionary_bytes = std::uint64_t{320} << 20;
-/// The writer has four.
+/// Maximum number of entries; the writer has four.
 constexpr int most_entries = 64;
-constexpr std::uint64_t entry_bytes = 20;  // of the table of objects
+constexpr std::uint64_t entry_bytes = 20;  // size of an entry in the table of objects
 
 std::optional<std::uint64_t> number_at(std::string_view text, std::size_t at) {
     std::uint64_t number = 0;
@@ -84,7 +84,7 @@ bool is_delimiter(char byte) {
     return byte == '(' || byte == ')' || byte == '\\';
 }
 
-/// Hands the bytes of the string in parentheses that comes next to `take`. False if it does not end.
+/// Passes the bytes of the next string in parentheses to `take`. Returns false if it does not end.
 template <typename Take>
 bool read_literal(InputStream& in, Take take) {
     constexpr std::string_view names = "nrtbf";
@@ -125,7 +125,7 @@ bool read_literal(InputStream& in, Take take) {
                 value = value * 8 + in.take() - '0';
             }
             take(static_cast<unsigned char>(value));
-        } else if (escaped != '\n') {  // which continues a line
+        } else if (escaped != '\n') {  // the line continues
             take(static_cast<unsigned char>(escaped));
         }
     }
@@ -137,7 +137,7 @@ int digit_of(char byte) {
     return byte >= 'a' && byte <= 'f' ? byte - 'a' + 10 : -1;
 }
 
-/// The same of a string in hexadecimal digits.
+/// Passes the bytes of the next string in hexadecimal digits to `take`. Returns false if it does not end.
 template <typename Take>
 bool read_hexadecimal(InputStream& in, Take take) {
     in.skip(1);
@@ -160,7 +160,7 @@ bool read_hexadecimal(InputStream& in, Take take) {
     }
 }
 
-/// Reads a string in either notation. False if none comes next, or if it does not end.
+/// Reads the next string in either notation. Returns false if there is none, or if it does not end.
 template <typename Take>
 bool read_string(InputStream& in, Take take) {
     const std::string_view next = in.ahead();
@@ -168,20 +168,20 @@ bool read_string(InputStream& in, Take take) {
     return next.starts_with('<') && read_hexadecimal(in, take);
 }
 
-/// The text that comes next, or nullopt if it is malformed.
+/// Reads the next text; nullopt if it is malformed.
 std::optional<std::string> read_text(InputStream& in) {
     TextString text;
     const bool is_whole = read_string(in, [&text](unsigned char byte) { text.take(byte); });
     return is_whole ? text.finish() : std::nullopt;
 }
 
-/// Moves behind the text that comes next. False if it does not end.
+/// Skips the next text. Returns false if it does not end.
 bool skip_text(InputStream& in) {
     std::uint64_t count = 0;
     return read_string(in, [&count](unsigned char) { require_length(++count); });
 }
 
-/// Moves behind the name that comes next. False if none comes next.
+/// Skips the next name. Returns false if there is none.
 bool skip_name(InputStream& in) {
     if (!in.skip_text("/")) return false;
     const auto is_letter = [](char byte) { return (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z'); };
@@ -195,7 +195,7 @@ bool skip_name(InputStream& in) {
 std::optional<Provenance> read_dictionary(InputStream& in) {
     constexpr std::string_view head = " 0 obj\n<< ";
     const std::size_t at = in.ahead(64).find(head);
-    if (at > 20) return std::nullopt;  // or nowhere
+    if (at > 20) return std::nullopt;  // or not found
     in.skip(at + head.size());
     Provenance found;
     bool is_ours = false;

@@ -84,7 +84,7 @@ bool begins_as_stl(std::string_view head) {
     return head.starts_with("Binary STL in millimetres, sikku ");
 }
 
-/// Sound contains no pattern.
+/// Sound files do not contain a pattern.
 std::optional<Provenance> read_nothing(const InputFile& /*file*/) {
     return std::nullopt;
 }
@@ -96,7 +96,7 @@ std::optional<Provenance> read_stl_provenance(const InputFile& /*file*/) {
 
 struct Format {
     std::string_view name;                  ///< with its article
-    bool (*begins)(std::string_view head);  ///< whether a file with this head has the format
+    bool (*begins)(std::string_view head);  ///< true if a file with this head has the format
     std::optional<Provenance> (*read)(const InputFile& file);
 };
 constexpr std::size_t head_bytes = 1024;

@@ -42,16 +42,17 @@ inline void limit_made(std::string& made) {
 
 constexpr std::size_t longest_xml_reference = 12;  // bytes
 
-/// `&amp;`, `&#13;` or `&#xD;`, decoded.
+/// A decoded reference such as `&amp;`, `&#13;` or `&#xD;`.
 struct XmlReference {
     std::string character;
-    std::size_t length = 1;  ///< bytes that it has
+    std::size_t length = 1;  ///< length in bytes
 };
-/// Decodes the reference at the front of `bytes`; another `&` stands for itself.
+/// Decodes the reference at the front of `bytes`; any other `&` stands for itself.
 XmlReference read_xml_reference(std::string_view bytes);
 
 /// The readers receive a file that begins with the signature of their format. They return nullopt (or an empty
-/// pattern) if it contains none, and throw UnreadableFile if it is damaged. Memory beyond the texts: less than 2 MB.
+/// pattern) if it does not contain a pattern, and throw UnreadableFile if it is damaged. Memory beyond the texts:
+/// less than 2 MB.
 std::optional<Provenance> read_png_provenance(const InputFile& file);
 std::optional<Provenance> read_tiff_provenance(const InputFile& file);
 std::optional<Provenance> read_jpeg_provenance(const InputFile& file);

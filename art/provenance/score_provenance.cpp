@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t most_head_bytes = std::uint64_t{448} << 20;
 constexpr std::uint64_t most_lilypond_bytes = most_pattern_bytes + (std::uint64_t{4} << 20);
 
-/// Reads escaped text up to `end`, which it skips. @throws UnreadableFile if it does not come
+/// Reads escaped text up to `end`, which it skips. @throws UnreadableFile if it is missing
 std::string read_escaped(InputStream& in, char end) {
     const std::string stops = {end, '&'};
     std::string text;
@@ -40,7 +40,7 @@ std::string read_escaped(InputStream& in, char end) {
     }
 }
 
-/// The texts behind two marks, which come in this order.
+/// The texts after two marks, which come in this order.
 std::optional<Provenance> read_marked(const InputFile& file, std::string_view made_mark, char made_end,
                                       std::string_view pattern_mark) {
     InputStream in(file, 0, most_head_bytes);
@@ -53,7 +53,7 @@ std::optional<Provenance> read_marked(const InputFile& file, std::string_view ma
     return found;
 }
 
-/// The texts as comments behind the first empty line: the recipe on one line, then the pattern.
+/// The texts as comments after the first empty line: the recipe on one line, then the pattern.
 std::optional<Provenance> read_comments(const InputFile& file, std::string_view sign) {
     InputStream in(file, 0, most_lilypond_bytes);
     if (!in.skip_past("\n\n")) return std::nullopt;
@@ -111,7 +111,7 @@ std::optional<Provenance> read_musicxml_provenance(const InputFile& file) {
 std::optional<Provenance> read_page_provenance(const InputFile& file) {
     auto found = read_marked(file, "<meta name=\"generator\" content=\"", '"', "<pre tabindex=\"0\">");
     if (found && !found->made.starts_with("sikku ")) return std::nullopt;
-    // HTML drops a line feed that stands first; the writer doubles it.
+    // HTML drops a leading line feed; the writer doubles it.
     if (found && found->pattern.starts_with('\n')) found->pattern.erase(0, 1);
     return found;
 }

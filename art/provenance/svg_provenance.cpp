@@ -11,11 +11,11 @@
 namespace sikku {
 namespace {
 
-/// The text with which the writer declares its namespace.
+/// Bytes at the beginning in which the writer declares its namespace.
 constexpr std::size_t name_space_bytes = 4096;
-/// A pattern is at most 64 MB, escaped perhaps six times as long, or twice that in hexadecimal digits.
+/// A pattern is at most 64 MB, escaped up to six times as long, or twice that in hexadecimal digits.
 constexpr std::uint64_t most_head_bytes = std::uint64_t{640} << 20;
-/// Tags, comments and characters within tags; the writer's head has 500.
+/// Maximum number of tags, comments and characters within tags; the writer's head has 500.
 constexpr int most_steps = 1'000'000;
 
 /// Finds the texts of the relevant elements in a stream.
@@ -87,7 +87,7 @@ private:
         }
         return text;
     }
-    /// The same unless it is too long already.
+    /// target(), or null if it is too long already.
     Text* open_target() {
         Text* const text = target();
         return text && !text->is_too_long ? text : nullptr;
@@ -95,7 +95,7 @@ private:
 
     bool may_step() { return ++steps_ <= most_steps; }
 
-    /// Tag, comment or other markup that begins here.
+    /// Reads a tag, comment or other markup.
     bool read_markup() {
         if (!may_step()) return false;
         if (in_.skip_text("<!--")) return in_.skip_past("-->");
@@ -122,7 +122,7 @@ private:
         --depth_;
     }
 
-    /// A start tag after its `<`.
+    /// Reads a start tag after its `<`.
     bool read_tag() {
         const std::string_view bytes = in_.ahead(name_bytes);
         const std::string_view name = bytes.substr(0, std::min(bytes.find_first_of(" \t\r\n/>"), name_bytes));
@@ -141,7 +141,7 @@ private:
         return false;
     }
 
-    /// Text up to the next markup or about to the end of what is in memory.
+    /// Reads text up to the next markup, or about to the end of the data in memory.
     bool read_text() {
         const std::string_view bytes = in_.ahead(reference_bytes);
         Text* const text = open_target();
@@ -149,7 +149,7 @@ private:
             in_.skip(std::min(bytes.find('<'), bytes.size()));
             return true;
         }
-        // What the end of the block may cut waits for the next one.
+        // Bytes that the end of the block may cut are left for the next one.
         const std::size_t end = bytes.size() < reference_bytes ? bytes.size() : bytes.size() - reference_bytes + 1;
         std::size_t at = 0;
         while (at < end && bytes[at] != '<') {
@@ -169,14 +169,14 @@ private:
         return true;
     }
 
-    /// A reference, or another `&`, which stands for itself. Returns the bytes it has.
+    /// Decodes a reference, or another `&`, which stands for itself. Returns its length in bytes.
     static std::size_t read_reference(std::string_view bytes, Text& text) {
         const XmlReference reference = read_xml_reference(bytes);
         text.add(reference.character);
         return reference.length;
     }
 
-    /// A CDATA section after its head.
+    /// Reads a CDATA section after its head.
     bool read_verbatim() {
         while (!in_.skip_text("]]>")) {
             Text* const text = open_target();
@@ -196,7 +196,7 @@ private:
     InputStream in_;
     int steps_ = 0;
     std::size_t depth_ = 0;
-    std::array<std::string, 3> names_;  // of the elements that are open
+    std::array<std::string, 3> names_;  // names of the open elements
     Text description_, made_, exact_{.text = {}, .is_hexadecimal = true};
     bool has_description_ = false, has_metadata_ = false, has_made_ = false, has_exact_ = false;
 };

@@ -14,9 +14,8 @@
 namespace sikku {
 
 /// Calls `draw(workplace, band)` for each of `bands` bands on `threads` threads (0: all cores), and
-/// `deliver(workplace, band)` in order, one at a time. `make()` makes a workplace, of which there are no more than
-/// bands under way: one for each thread, and one that waits to be delivered. What is thrown ends it and is thrown
-/// from here.
+/// `deliver(workplace, band)` in order, one at a time. `make()` makes a workplace, at most one for each thread and
+/// one for a band that waits to be delivered. Exceptions end the work and are passed on.
 template <class Make, class Draw, class Deliver>
 void in_bands(int bands, int threads, Make&& make, Draw&& draw, Deliver&& deliver) {
     using Owned = decltype(make());
@@ -50,8 +49,8 @@ void in_bands(int bands, int threads, Make&& make, Draw&& draw, Deliver&& delive
                                                                    return {};
                                                                }
                                                                Job job{nullptr, next++};
-                                                               // Never empty: the pipeline has no more bands under
-                                                               // way than there are workplaces.
+                                                               // Never empty: the pipeline limits the bands under way
+                                                               // to the number of workplaces.
                                                                idle.try_pop(job.workplace);
                                                                return job;
                                                            });

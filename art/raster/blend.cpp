@@ -28,7 +28,7 @@ Bytes bytes(Colour colour) {
     return {colour.red, colour.green, colour.blue, colour.alpha};
 }
 
-// `size` bytes of whole pixels of one colour.
+// Fills `size` bytes with whole pixels of one colour.
 void fill(std::uint8_t* to, std::size_t size, const Bytes& colour, int channels) {
     if (std::all_of(colour.begin(), colour.begin() + channels, [&](auto byte) { return byte == colour[0]; })) {
         std::memset(to, colour[0], size);
@@ -41,7 +41,7 @@ void fill(std::uint8_t* to, std::size_t size, const Bytes& colour, int channels)
         }
         return;
     }
-    // A stretch of pixels, then copies of it that double up to what the first cache holds.
+    // A stretch of pixels, then copies of it, doubled up to the size of the first cache.
     const std::size_t start = std::min(size, static_cast<std::size_t>(16 * channels));
     for (std::size_t i = 0; i < start; ++i) to[i] = colour[i % static_cast<std::size_t>(channels)];
     for (std::size_t done = start; done < size;) {
@@ -86,7 +86,7 @@ void blend_pixels(std::uint8_t* pixels, const std::uint8_t* mask, int count, Col
     }
 }
 
-// These clear the mask behind them. Most of a page is bare: there they only look at the mask.
+// These functions clear the mask. Most of a page is bare: there they only read the mask.
 template <int channels>
 void blend_row(std::uint8_t* pixels, std::uint8_t* mask, int width, Colour colour) {
     for (int column = 0; column < width; column += 8) {
@@ -131,7 +131,7 @@ SIKKU_AVX2 inline __m128i scaled(__m128i mask, unsigned alpha) {
     return narrow(divide_by_255(_mm256_mullo_epi16(_mm256_cvtepu8_epi16(mask), factor)));
 }
 
-// Both return the first column they left undone.
+// Both return the first column that is not done.
 SIKKU_AVX2 int blend_grey_avx2(std::uint8_t* pixels, std::uint8_t* mask, int width, Colour colour) {
     const __m256i above = _mm256_set1_epi16(colour.red);
     int column = 0;
@@ -193,7 +193,7 @@ void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage
     const Bytes paint = bytes(colour), ground = bytes(ground_);
     const int bare_after = bare < coverage ? 0 : bare - coverage;
     if (channels_ < 4 && colour.alpha == 255 && (coverage <= bare || bare == 0)) {
-        // The common cases: all of it on the bare share, which was ground; or all on what was painted.
+        // The common cases: all of it on the bare share, which was ground; or all on painted parts.
         const bool on_ground = coverage <= bare;
         for (std::size_t channel = 0; channel < static_cast<std::size_t>(channels_); ++channel) {
             const int below = on_ground ? ground[channel] : pixel[channel];
@@ -204,8 +204,8 @@ void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage
         bare = static_cast<std::uint8_t>(bare_after);
         return;
     }
-    // Premultiplied, as fractions. `ground` fills the bare share of the pixel, what was painted the rest. The new
-    // piece goes onto the bare share first and only then onto what was painted.
+    // Premultiplied, as fractions. `ground` fills the bare share of the pixel, painted parts the rest. The new piece
+    // covers the bare share first and only then painted parts.
     const float bare_share = static_cast<float>(bare) / 255, share = static_cast<float>(coverage) / 255;
     const float on_bare = std::min(share, bare_share), on_painted = share - on_bare;
     const float alpha = static_cast<float>(colour.alpha) / 255;

@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// A band of pixels, 8-bit sRGB, that is painted in it and not in linear light, as print and web expect.
-/// Channels: 1 (grey: of every colour its red is taken), 3, or 4 (straight alpha).
+/// A band of 8-bit sRGB pixels. Colours are blended in sRGB and not in linear light, as print and web expect.
+/// Channels: 1 (grey, from the red of each colour), 3, or 4 (straight alpha).
 class Canvas {
 public:
     Canvas(int width, int rows, int channels, Simd simd = best_simd());
@@ -19,12 +19,12 @@ public:
     /// Starts a band of at most the rows of the constructor: all ground, nothing painted.
     void clear(Colour ground, int rows);
 
-    /// A run of pixels of a polygon, of which it covers `coverage` / 255. Polygons that share an edge leave no
-    /// seam, whatever their colours: until a pixel is full, parts are taken to lie beside each other and not
-    /// above each other.
+    /// Paints a run of pixels of which a polygon covers `coverage` / 255. Polygons that share an edge do not leave a
+    /// seam, whatever their colours: until a pixel is full, parts are taken to lie beside each other and not above
+    /// each other.
     void polygon_span(int row, int first, int end, int coverage, Colour colour);
 
-    /// Paints `colour` through the mask, over what is there, and clears the mask.
+    /// Paints `colour` through the mask over the existing pixels, and clears the mask.
     void blend(Mask& mask, Colour colour);
 
     std::span<const std::uint8_t> pixels() const {
@@ -38,7 +38,7 @@ private:
     Simd simd_;
     Colour ground_;
     std::vector<std::uint8_t> pixels_;
-    std::vector<std::uint8_t> bare_;  ///< the share of each pixel that polygons have not reached; made when needed
+    std::vector<std::uint8_t> bare_;  ///< share of each pixel not covered by polygons so far; made when needed
     bool bare_ready_ = false;
 };
 

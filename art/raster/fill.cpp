@@ -15,7 +15,8 @@ AreaFill::AreaFill(int width, int rows)
 void AreaFill::edge(double x0, double y0, double x1, double y1) {
     const double rows = static_cast<double>(reach_.size());
     if (y0 == y1 || std::max(y0, y1) <= 0 || std::min(y0, y1) >= rows) return;
-    // Cut at the left and right border: left of it an edge turns the winding of the whole row, right of it nothing.
+    // Cut at the left and right border: an edge left of it changes the winding of the whole row, one right of it
+    // none.
     const double right = width_;
     for (const double border : {0.0, right}) {
         if ((x0 < border && x1 > border) || (x0 > border && x1 < border)) {
@@ -59,8 +60,8 @@ void AreaFill::inner_edge(double x0, double y0, double x1, double y1) {
             sums[first] += static_cast<float>(height * (1 - beyond));
             sums[first + 1] += static_cast<float>(height * beyond);
         } else {
-            // A trapezium over several columns: each gets the part of its height, and of that what lies right of
-            // the edge; the rest goes to the column after it.
+            // A trapezium over several columns: each gets its part of the height, times the share of its width right
+            // of the edge; the rest goes to the next column.
             const double per_column = height / (right - left);
             double from_x = left;
             for (int column = first; column <= last; ++column) {

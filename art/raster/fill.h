@@ -8,22 +8,22 @@
 
 namespace sikku {
 
-/// Adds up the area that polygons cover of each pixel of a band. Edges come in any order, directed; where they
-/// close, the sum along a row is the winding number, and in pixels that an edge crosses the covered part of it.
-/// Coverage is its absolute value, at most 1: the non-zero rule, exact but in the pixels where a polygon crosses
-/// itself. Several polygons of one direction in one go make the sum of their coverage.
+/// Adds up the area that polygons cover of each pixel of a band. Directed edges come in any order; for closed
+/// outlines the sum along a row is the winding number, averaged over the pixel. Coverage is its absolute value, at
+/// most 1: the non-zero rule, exact except in pixels where a polygon crosses itself. The coverages of several
+/// polygons of one direction in one sweep add up.
 ///
-/// Memory: 4 bytes a pixel. Cost: the pixels the edges pass, and of those between them a look at every eighth.
+/// Memory: 4 bytes a pixel. Cost: the pixels that edges pass, and one test for each eight pixels between them.
 /// Source: the accumulation buffer of Levien's font-rs, here with clipping and sparse rows.
 class AreaFill {
 public:
     AreaFill(int width, int rows);
 
-    /// An edge between two points in pixels, y down from the band's first row; they may lie outside of the band.
+    /// Adds an edge between two points in pixels, y down from the band's first row; they may lie outside the band.
     void edge(double x0, double y0, double x1, double y1);
 
     /// Calls `span(row, first, end, coverage)` for runs of pixels of equal coverage 1 to 255, row by row from the
-    /// left, and forgets the edges.
+    /// left, and clears the edges.
     template <class SpanFunction>
     void sweep(SpanFunction&& span);
 
@@ -32,7 +32,7 @@ private:
 
     int width_;
     std::ptrdiff_t stride_;
-    std::vector<float> sums_;  ///< area that a pixel and all to its right gain
+    std::vector<float> sums_;  ///< area gained by a pixel and all to its right
     struct Reach {
         int low, high;  ///< touched columns, inclusive
     };
@@ -65,7 +65,7 @@ void AreaFill::sweep(SpanFunction&& span) {
                 run_coverage = coverage;
             }
         }
-        // Beyond the last edge the winding is zero, but where the page ends before the polygon does.
+        // Beyond the last edge the winding is zero, unless the page ends before the polygon does.
         if (run_coverage > 0 && run_start < width_) span(row, run_start, width_, run_coverage);
         reach = {width_, -1};
     }

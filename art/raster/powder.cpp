@@ -22,8 +22,8 @@ constexpr int levels = 5;
 
 }  // namespace
 
-/// Grains that fell on a surface, seen from above, as heights with a mean of about 128; also at half the size, and so
-/// on. It repeats.
+/// Grains on a surface, seen from above, as heights with a mean of about 128; at several sizes, each half of the one
+/// before. The texture repeats.
 struct PowderGrain::Texture {
     std::array<std::vector<std::uint8_t>, levels> level;
 
@@ -53,7 +53,7 @@ struct PowderGrain::Texture {
                 }
             }
         }
-        // Ranks, so that every height is as frequent.
+        // Ranks, so that all heights are equally frequent.
         std::vector<std::uint32_t> order(heights.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
         std::stable_sort(order.begin(), order.end(),
@@ -127,10 +127,10 @@ void PowderGrain::settle(std::uint8_t* heights, int row, int first, int end) con
         const int height = heights[column];
         if (height == 0) continue;
         const int grain = grain_at(row_x + column_x_ * column, row_y + column_y_ * column);
-        // Where the height with its grains is above that of the edge there is powder,
+        // There is powder where the height with its grains is above that of the edge.
         const int above = height - edge_height + grain * 36 / 128;
         const int cover = std::clamp(128 + above * contrast_ / 16, 0, 255);
-        // which is denser where it is high.
+        // It is denser where it is high.
         const int dense = std::clamp(192 + (height - 70) * 5 / 9 + grain / 5, 120, 255);
         const int paint = cover * dense / 255;
         heights[column] = static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);

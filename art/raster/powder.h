@@ -12,19 +12,19 @@
 
 namespace sikku {
 
-/// A piece of a heap whose middle runs from `a` to `b`, in pixels of the page. It covers `radius` on either side, and
-/// some grains beyond.
+/// A piece of a heap whose middle runs from `a` to `b`, in pixels of the page. It covers `radius` on either side;
+/// some grains lie beyond.
 struct PowderSegment {
     float ax = 0, ay = 0, bx = 0, by = 0;
     float a_radius = 0, b_radius = 0;
     float before = 0, after = 0;  ///< pixels beyond the ends that this piece covers, too
-    float height = 1;             ///< of a line: 1; of a crossing or a dot more, which is denser
+    float height = 1;             ///< 1 for a line; more for a crossing or a dot, which is denser
 };
 
-/// How far the grains of a heap lie from its middle, by its radius.
+/// Maximum distance of the grains of a heap from its middle, in radii.
 constexpr double powder_reach = 1.35;
 
-/// Turns the height of powder into coverage. The grain is a function of the place in the drawing alone.
+/// Turns the height of powder into coverage. Grains depend only on the place in the drawing.
 class PowderGrain {
 public:
     /// @param to_pixels  from the drawing to pixels  @param grain  size of a grain in the unit of the drawing
@@ -32,8 +32,8 @@ public:
 
     /// Replaces heights in [first, end) of a row of the page by coverage.
     void settle(std::uint8_t* heights, int row, int first, int end) const;
-    /// Thins coverage in [first, end) of a row of the page, as of powder strewn over an area: some ground shows
-    /// between its grains.
+    /// Thins coverage in [first, end) of a row of the page for powder strewn over an area: some ground shows between
+    /// its grains.
     void strew(std::uint8_t* coverage, int row, int first, int end) const;
 
 private:
@@ -42,14 +42,14 @@ private:
     static const Texture& texture();
 
     const std::uint8_t* texels_;
-    int bits_;  ///< of the texture's side
+    int bits_;  ///< binary logarithm of the texture's side
     int contrast_;
-    // Texels in 1/65536.
+    // In 1/65536 texel.
     std::int64_t origin_x_, origin_y_, column_x_, column_y_, row_x_, row_y_;
 };
 
 /// Draws segments into a mask whose upper left corner is `top` rows below that of the page: the height of the heaps,
-/// the highest of them, which a grain turns into coverage.
+/// the maximum where they overlap, turned into coverage by `grain`.
 /// Cost: about 10 ns for each pixel of powder.
 void lay_powder(const std::vector<PowderSegment>& segments, const PowderGrain& grain, Mask& mask, int top,
                 const std::function<void()>& watch);

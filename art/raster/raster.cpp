@@ -34,23 +34,23 @@ constexpr int most_pixels = 500'000;
 constexpr double most_radius = 250'000;
 // Pens under a pixel are drawn by area, others by distance.
 constexpr float thin_width = 1.0f;
-// Curves depart this much from their chords, in pixels.
+// Maximum distance of curves from their chords, in pixels.
 constexpr double flatness = 0.05;
 // Longer lines are cut, so that single precision holds their direction.
 constexpr int longest_line = 2048 * subpixels;
 
-/// The streams of one colour (or of all polygons), a band each; made when the colour is first used.
+/// The streams of one colour (or of all polygons), one for each band; made when the colour is first used.
 using Layer = std::vector<Stream>;
 /// The powder in one band.
 using Powder = std::vector<PowderSegment>;
 
-/// Everything a thread needs for a band, used again and again.
+/// Everything a thread needs for a band, reused for each.
 struct Workplace {
     Workplace(int width, int rows, int channels)
         : canvas(width, rows, channels),
           mask_bytes(static_cast<std::size_t>(width + mask_padding) * static_cast<std::size_t>(rows + 1)),
           mask{mask_bytes.data(), width + mask_padding, width, rows} {}
-    /// Made when the first polygon or thin line is met.
+    /// Made for the first polygon or thin line.
     AreaFill& area() {
         if (!area_) area_.emplace(mask.width, mask.rows);
         return *area_;
@@ -66,7 +66,7 @@ private:
 
 class PolygonReader {
 public:
-    /// @param grain  of powder strewn over polygons, or null
+    /// @param grain  grain of powder strewn over polygons, or null
     PolygonReader(Workplace& workplace, int top, const std::vector<Colour>& colours, const PowderGrain* grain)
         : workplace_(workplace),
           area_(workplace.area()),
@@ -151,8 +151,8 @@ public:
     }
 
 private:
-    // A hairline is its bar of exact area, and crossing bars add up: the ink of a dense drawing stays right, and
-    // joints of a flattened curve are not counted twice.
+    // A hairline is drawn as its bar of exact area, and crossing bars add up: the ink of a dense drawing is right,
+    // and joints of a flattened curve are not counted twice.
     void thin_line(SubPoint to) {
         thin_ = true;
         constexpr double unit = 1.0 / subpixels;
@@ -220,10 +220,10 @@ private:
     };
     /// A pen ready to draw.
     struct Nib {
-        Layer* layer = nullptr;  ///< null: it leaves nothing
+        Layer* layer = nullptr;  ///< null: invisible
         float width = 0;         ///< pixels
-        std::int32_t reach = 0;  ///< how far from the line's middle it leaves something, in 1/1024 pixel
-        Range range{};           ///< points outside of it leave nothing on the page, in pixels
+        std::int32_t reach = 0;  ///< how far it reaches from the line's middle, in 1/1024 pixel
+        Range range{};           ///< points outside of it are invisible on the page, in pixels
     };
 
     glm::dvec2 to_pixels(glm::dvec2 point) const {
@@ -232,7 +232,7 @@ private:
     }
     static std::int32_t quantised(double pixels) {
 #if defined(__x86_64__)
-        return _mm_cvtsd_si32(_mm_set_sd(pixels * subpixels));  // what lrint does, without the call
+        return _mm_cvtsd_si32(_mm_set_sd(pixels * subpixels));  // same as lrint, without the call
 #else
         return static_cast<std::int32_t>(std::lrint(pixels * subpixels));
 #endif
@@ -267,9 +267,9 @@ private:
     std::vector<Colour> line_colours_, fill_colours_;
     std::vector<int> line_slots_, fill_slots_;
     std::vector<Layer> strokes_, discs_;
-    /// A blot on its way into pixels.
+    /// A blot in pixels.
     struct Stamp {
-        float* ink = nullptr;   ///< null: it leaves nothing
+        float* ink = nullptr;   ///< null: invisible
         glm::dvec2 half{0.0};   ///< half sides of the rectangle, in pixels
         glm::dvec2 share{0.0};  ///< 1 / side
         double area = 0;
@@ -279,14 +279,14 @@ private:
     std::vector<std::vector<Powder>> powders_, heaps_;  ///< by slot and band
     std::optional<PowderGrain> grain_;
     Layer polygons_;
-    std::vector<bool> polygon_colours_;  ///< which were used
+    std::vector<bool> polygon_colours_;  ///< by colour, true if used
     Arena arena_;
     std::function<void()> watch_;
 
     Nib nib_;
     glm::dvec2 at_{0.0};
     bool drawn_ = false;  ///< the stroke left its first point
-    // If at_ is in range: where it is, and where the straight line began that ends there and is not added yet.
+    // If at_ is in range: its place, and the beginning of the straight line that ends there and is not added yet.
     bool has_sub_at_ = false;
     SubPoint sub_at_, open_from_;
     std::vector<glm::dvec2> polygon_points_;
@@ -396,7 +396,7 @@ void BandRaster::line_to(glm::dvec2 end) {
         const SubPoint next = quantised(end);
         const std::int64_t dx = next.x - sub_at_.x, dy = next.y - sub_at_.y;
         if ((dx | dy) != 0) {
-            // A line that goes straight on is one with the last.
+            // A line that continues straight extends the last one.
             const std::int64_t open_dx = sub_at_.x - open_from_.x, open_dy = sub_at_.y - open_from_.y;
             if (open_dx * dy != open_dy * dx || open_dx * dx + open_dy * dy < 0) {
                 add(nib_, open_from_, sub_at_);
@@ -436,7 +436,7 @@ void BandRaster::clipped_line(glm::dvec2 from, glm::dvec2 to) {
             high = std::min(high, room / out);
         }
     }
-    // Written so that numbers that are none end here, too.
+    // Written so that NaN ends here, too.
     if (!(low <= high)) return;
     const glm::dvec2 first = from + low * way, last = from + high * way;
     const auto inside = [&](glm::dvec2 p) {
@@ -502,9 +502,9 @@ void BandRaster::area(std::span<const glm::dvec2> outline, const Pen& pen) {
     add_polygon(index);
 }
 
-/// The polygon of polygon_points_.
+/// Adds the polygon of polygon_points_.
 void BandRaster::add_polygon(std::size_t index) {
-    // Also false for numbers that are none.
+    // Also false for NaN.
     const auto is_near = [](glm::dvec2 point) { return std::fabs(point.x) + std::fabs(point.y) < 1e15; };
     if (!std::all_of(polygon_points_.begin(), polygon_points_.end(), is_near)) return;
     if (polygons_.empty()) polygons_.resize(static_cast<std::size_t>(bands_));
@@ -517,8 +517,8 @@ void BandRaster::add_polygon(std::size_t index) {
     }
 }
 
-// Cuts away what lies above and below the page, and pushes what lies left or right of it to its border, where it
-// turns the winding of the same rows.
+// Cuts off the parts above and below the page, and moves those left or right of it to its border, where they change
+// the winding of the same rows.
 void BandRaster::polygon_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colour) {
     const double top = -1, bottom = size_.height + 1, left = -1, right = size_.width + 1;
     if (std::max(from.y, to.y) <= top || std::min(from.y, to.y) >= bottom) return;
@@ -527,7 +527,7 @@ void BandRaster::polygon_edge(glm::dvec2 from, glm::dvec2 to, std::uint32_t colo
     };
     const glm::dvec2 first = from.y < top ? at_y(top) : from.y > bottom ? at_y(bottom) : from;
     const glm::dvec2 last = to.y < top ? at_y(top) : to.y > bottom ? at_y(bottom) : to;
-    // Where it crosses the borders, in the order of its way.
+    // Crossings with the borders, in order along the edge.
     std::array<double, 4> cuts{0, 0, 0, 1};
     const double way = last.x - first.x;
     const auto crossing = [&](double border) {
@@ -585,12 +585,12 @@ void BandRaster::blot(std::size_t prepared, glm::dvec2 centre) {
     if (!stamp.ink) return;
     const glm::dvec2 middle = to_pixels(centre);
     const glm::dvec2 low = middle - stamp.half, high = middle + stamp.half;
-    // Also false for numbers that are none.
+    // Also false for NaN.
     if (!(high.x >= 0 && high.y >= 0 && low.x < size_.width && low.y < size_.height)) return;
     const auto row_length = static_cast<std::size_t>(size_.width);
     if (low.x >= 0 && low.y >= 0 && high.x < size_.width && high.y < size_.height && stamp.half.x <= 0.5 &&
         stamp.half.y <= 0.5) [[likely]] {
-        // Two columns and two rows at most.
+        // At most two columns and two rows.
         const int x = static_cast<int>(low.x), y = static_cast<int>(low.y);
         const bool is_wide = static_cast<int>(high.x) != x, is_high = static_cast<int>(high.y) != y;
         const double left = is_wide ? (x + 1 - low.x) * stamp.share.x : 1;
@@ -666,12 +666,12 @@ void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, doubl
     }
 }
 
-/// In all bands that the segment reaches.
+/// Adds a segment to all bands that it reaches.
 void BandRaster::add_powder(std::vector<Powder>& into, PowderSegment segment) {
     const double reach = powder_reach * static_cast<double>(std::max(segment.a_radius, segment.b_radius)) + 2;
     const double left = std::min(segment.ax, segment.bx) - reach, right = std::max(segment.ax, segment.bx) + reach;
     const double top = std::min(segment.ay, segment.by) - reach, bottom = std::max(segment.ay, segment.by) + reach;
-    // Also false for numbers that are none.
+    // Also false for NaN.
     if (!(right >= 0 && bottom >= 0 && left < size_.width && top < size_.height)) return;
     const int first = std::max(static_cast<int>(std::floor(top / band_rows_)), 0);
     const int last = std::min(static_cast<int>(bottom / band_rows_), bands_ - 1);

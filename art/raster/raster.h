@@ -15,8 +15,8 @@ namespace sikku {
 struct PixelSize {
     int width = 0, height = 0;
 };
-/// Size of a print in pixels: page times dpi, rounded to nearest, from 1 to 10^9 a side. Throws nothing: what is too
-/// large to be drawn make_raster() refuses.
+/// Size of a print in pixels: page times dpi, rounded to nearest, from 1 to 10^9 a side. Does not throw:
+/// make_raster() refuses sizes that are too large.
 PixelSize pixel_size(const Page& page, double dpi);
 
 /// Receives finished rows, 8 bits a channel, top to bottom; called from one thread at a time, in order.
@@ -28,37 +28,37 @@ struct PowderPoint {
     double half = 0;
 };
 
-/// A picture that is complete but for its pixels, which it renders in bands.
+/// A complete picture, which renders its pixels in bands.
 class Rendering {
 public:
     virtual ~Rendering() = default;
-    /// 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly so): the fewest
-    /// channels that can show the ground and the colours used.
+    /// Number of channels: 1 (grey), 3 (RGB) or 4 (RGBA, straight alpha, when the ground is transparent or partly
+    /// so), the fewest that can show the ground and the colours used.
     virtual int channels() const = 0;
-    /// Called now and then while rows are rendered, also from several threads at a time; may throw to stop.
+    /// Called from time to time while rows are rendered, also from several threads at once; may throw to stop.
     virtual void watch(std::function<void()> watch) = 0;
-    /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number, nor on the
-    /// processor. May be called again. What `rows` throws ends the rendering and is thrown from here.
+    /// Renders with `threads` threads (0: all cores); the pixels do not depend on their number or on the processor.
+    /// May be called again. An exception of `rows` ends the rendering and is passed on.
     virtual void render(int threads, const RowSink& rows) = 0;
-    /// Renders the rows from `first` up to `end` alone: multiples of 128, or the height of the print. With at least
-    /// as many channels as channels(). May be called from several threads at a time.
+    /// Renders only the rows [first, end): multiples of 128, or the height of the print. `channels` is at least
+    /// channels(). May be called from several threads at once.
     virtual void render_rows(int first, int end, int channels, const RowSink& rows) const = 0;
 };
 
 /// Collects a drawing in pixel coordinates, then renders it in bands. Its layers, from the ground up: polygons in
-/// the order they came; strokes, one colour after the other in the order of the palette, each colour laid on once
-/// however often its lines cross; discs likewise. Colours mix in 8-bit sRGB.
+/// drawing order; strokes, one colour after the other in the order of the palette, each colour laid on once however
+/// often its lines cross; discs likewise. Colours mix in 8-bit sRGB.
 ///
-/// A stroke without length is a dot. Lines under one pixel wide keep their ink: they are paler, and crossings add
-/// up. Curves are within 0.05 pixel of their chords. Coordinates are rounded to 1/1024 pixel.
-/// Memory: 4 bytes a line of the flattened drawing (12 if longer than 32 pixels), whatever the page; and for each
-/// thread and one more a band of 32 to 128 rows, 2 to 10 bytes a pixel, at most 4 million pixels.
+/// A stroke without length is a dot. Lines under one pixel wide keep their ink: they are paler, and crossings add up.
+/// Curves are within 0.05 pixel of their chords. Coordinates are rounded to 1/1024 pixel.
+/// Memory: 4 bytes a line of the flattened drawing (12 if longer than 32 pixels), whatever the page; and a band of 32
+/// to 128 rows for each thread and one more, 2 to 10 bytes a pixel, at most 4 million pixels.
 ///
-/// Blots are spread as evenly as their covariance says, and add up with lines under one pixel; they are for pens of
-/// that width. They take 4 bytes a pixel of the page. It is to be asked and rendered when the drawing is complete.
+/// Blots are spread by their covariance, and add up with lines under one pixel; they are for pens of that width. They
+/// take 4 bytes a pixel of the page. Query and render the raster once the drawing is complete.
 class Raster : public BlotSink, public Rendering {
 public:
-    /// The pen counts among the colours used from here on.
+    /// Counts the pen among the colours used.
     virtual void expect(const Pen& pen) = 0;
 
     /// Adds a line of powder in the colour of the pen, or a heap if it is one point. Powder lies over the strokes of

@@ -15,9 +15,9 @@
 
 namespace sikku::raster_stream {
 
-// A drawing is kept as one stream of 32-bit words for each band and colour, in chunks that never move. A word is a
-// short line: the way to go from where the last line ended, 16 bits for x and y each, which is what most lines
-// need. A word with the smallest x is one of these instead:
+// A drawing is stored as one stream of 32-bit words for each band and colour, in chunks that never move. Most words
+// are short lines: the offset from the end of the last line, 16 bits for x and y each. A word with the smallest x is
+// one of these codes instead:
 enum class Code : std::int16_t {
     pen,      // one word: the width in pixels, a float
     move,     // two words: x, y
@@ -39,10 +39,10 @@ constexpr std::int16_t high_half(std::uint32_t word) {
 struct Chunk {
     Chunk* next = nullptr;
     std::uint32_t* begin = nullptr;
-    std::uint32_t* end = nullptr;  ///< of what is used; up to date but for a stream's last chunk
+    std::uint32_t* end = nullptr;  ///< end of the used words; not up to date in a stream's last chunk
 };
 
-/// Hands out memory that lives as long as itself.
+/// Allocates memory that lives as long as the arena.
 class Arena {
 public:
     std::uint32_t* words(std::size_t count) {
@@ -62,7 +62,7 @@ private:
     std::size_t left_ = 0;
 };
 
-/// What one band gets of one colour.
+/// The lines of one colour in one band.
 class Stream {
 public:
     void pen(Arena& arena, float width) {
@@ -95,8 +95,8 @@ public:
 
     bool empty() const { return first_ == nullptr; }
 
-    /// Plays the stream to a reader with pen(), polygon(), move() and line(); calls `watch`, if there is one, every
-    /// few thousand lines.
+    /// Plays the stream to a reader with pen(), polygon(), move() and line(); calls `watch`, if set, every few
+    /// thousand lines.
     template <class Reader>
     void read(Reader&& reader, const std::function<void()>& watch) const {
         SubPoint at;
@@ -138,7 +138,7 @@ private:
         constexpr std::size_t header = (sizeof(Chunk) + 7) / 8 * 2;
         constexpr std::size_t least = 64, most = 8192;
         const std::size_t size = last_ ? std::min(2 * static_cast<std::size_t>(limit_ - last_->begin), most) : least;
-        // Chunks stand in the arena's words; an even number of them keeps the pointers aligned.
+        // Chunks lie in the arena's words; an even number of them keeps the pointers aligned.
         static_assert(header % 2 == 0 && least % 2 == 0);
         std::uint32_t* words = arena.words(header + size);
         Chunk* chunk = new (words) Chunk;

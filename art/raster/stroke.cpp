@@ -81,7 +81,7 @@ inline __m128i coverage_sse2(const Capsule& c, __m128 u_row, __m128 v_row, __m12
     return _mm_packus_epi16(words, words);
 }
 
-// Writes four pixels at a time; what lies past the end is either nothing of this capsule or padding.
+// Writes four pixels at a time; those past the end are either outside this capsule or padding.
 template <bool soft>
 inline void row_sse2(std::uint8_t* line, int first, int end, const Capsule& c, int row) {
     const __m128 u = _mm_set1_ps(c.u + static_cast<float>(row) * c.uy);
@@ -151,8 +151,8 @@ SIKKU_AVX2 void block_avx2(std::uint8_t* pixels, std::ptrdiff_t stride, int colu
         for (int row = 0; row < rows; ++row) row_avx2<soft>(pixels + row * stride, 0, columns, c, row);
         return;
     }
-    // Narrow, as of upright lines: two rows of four pixels fill a vector. An odd last row takes the one below it
-    // along, where this capsule has nothing, or which is padding.
+    // Narrow, as for upright lines: two rows of four pixels fill a vector. An odd last row is paired with the one
+    // below it, which is outside this capsule or padding.
     const __m256 x = _mm256_setr_ps(0, 1, 2, 3, 0, 1, 2, 3);
     const __m256 pair = _mm256_setr_ps(0, 0, 0, 0, 1, 1, 1, 1);
     for (int row = 0; row < rows; row += 2, pixels += 2 * stride) {
@@ -191,17 +191,17 @@ Stroker::Kernels kernels(Simd simd) {
     return {block_scalar<soft>, spans_scalar<soft>};
 }
 
-// Narrower pens are done by their bounding box, wider ones row by row.
+// Narrower pens are drawn by their bounding box, wider ones row by row.
 constexpr float wide_radius = 2.5f;
 constexpr int box_columns = 24;
 constexpr int box_rows = 6;
 // Shorter runs of covered pixels are computed like the others instead of being set.
 constexpr int least_interior = 24;
-// How much pixels, in geometry that is rounded, count on either side.
+// Tolerance in pixels on either side, as the geometry is rounded.
 constexpr float slack = 0.02f;
-// A line that departs less from an axis puts no limit on the columns.
+// A line that deviates less from an axis does not limit the columns.
 constexpr float flat = 1e-3f;
-// One that departs less from an axis is taken to have no soft ends: they would be worth less than 1 of 255.
+// A line that deviates less from an axis is drawn without soft ends: they would amount to less than 1 of 255.
 constexpr float upright = 4e-3f;
 
 // Columns of a row, as numbers of pixels from the middle of the line.
@@ -262,7 +262,7 @@ void Stroker::line(SubPoint end) {
         segment.long_side = std::max(std::fabs(segment.ux), std::fabs(segment.uy));
         segment.short_side = std::min(std::fabs(segment.ux), std::fabs(segment.uy));
     } else {
-        // A dot's edge has every direction; half way between the extremes is near enough.
+        // A dot's edge has every direction; half way between the extremes is sufficiently exact.
         segment.long_side = 0.924f;
         segment.short_side = 0.383f;
     }
@@ -275,9 +275,9 @@ void Stroker::line(SubPoint end) {
         draw(segment);
         return;
     }
-    // The maximum over the line does not change if each pixel is left to one of the segments whose distance it
-    // takes: what lies before the start of a segment was done by the one before, but for the wedge outside the
-    // bend, and what lies after its end is left to the next.
+    // The maximum over the line does not change if each pixel is drawn by one of its nearest segments: pixels before
+    // the start of a segment by the one before, except the wedge outside the bend, and pixels after its end by the
+    // next.
     segment.before = segment.after = radius_ + segment.ramp;
     if (has_pending_) {
         const float cosine = pending_.ux * segment.ux + pending_.uy * segment.uy;
@@ -298,7 +298,7 @@ void Stroker::flush(bool ends) {
 
 void Stroker::draw(const Segment& segment) {
     const SubPoint a{segment.from.x, segment.from.y - top_}, b{segment.to.x, segment.to.y - top_};
-    // What rounding down loses is worth less than half of 1 of 255.
+    // Rounding down loses less than half of 1 of 255.
     const std::int32_t reach = static_cast<std::int32_t>((radius_ + segment.ramp) * subpixels);
     // Pixels whose centres lie nearer than reach to the line's box.
     constexpr std::int32_t half_pixel = subpixels / 2;
@@ -319,7 +319,7 @@ void Stroker::draw(const Segment& segment) {
     capsule.ux = 255 * segment.ux;
     capsule.uy = 255 * segment.uy;
     capsule.half = 255 * 0.5f * segment.length;
-    // A disc's edge bends away from the straight one that coverage is worked out for: this gives it the right area.
+    // A disc's edge bends away from the straight one for which coverage is computed: this gives it the right area.
     capsule.radius = 255 * (segment.length > 0 ? radius_ : std::sqrt(radius_ * radius_ - 1.0f / 12));
     const bool soft = segment.short_side > 0;
     if (soft) {
@@ -354,7 +354,7 @@ void Stroker::draw_rows(const Segment& segment, const Capsule& capsule, int x0, 
 
     spans_.clear();
     // Whole vectors, so that every kernel touches the same pixels: those past the end belong to this capsule, too,
-    // but the segment that answers for them may round its distance another way.
+    // but the segment that draws them may round its distance another way.
     const auto add = [&](int row, int from, int to) { spans_.push_back({row, from, from + ((to - from + 7) & ~7)}); };
     for (int row = 0; row < rows; ++row) {
         const float y = py + static_cast<float>(row);
@@ -370,8 +370,8 @@ void Stroker::draw_rows(const Segment& segment, const Capsule& capsule, int x0, 
             add(row, first, end);
             continue;
         }
-        // The part that is covered wholly is convex, and so an interval: of the bar between the ends, and of the
-        // two discs.
+        // The fully covered part is convex, and therefore an interval: of the bar between the ends, and of the two
+        // discs.
         Interval inner{static_cast<float>(first) + px, static_cast<float>(end - 1) + px};
         const auto across = [&](float x) { return std::fabs(y * segment.ux - x * segment.uy); };
         const auto along = [&](float x) { return std::fabs(x * segment.ux + y * segment.uy); };

@@ -18,7 +18,7 @@ struct SubPoint {
 };
 
 /// Coverage of a band of pixels, 0 to 255. Kernels write whole vectors: every row is followed by at least
-/// `mask_padding` bytes, and the last row by one more row, which hold nothing of use.
+/// `mask_padding` bytes, and the last row by one more row, whose contents are undefined.
 struct Mask {
     std::uint8_t* pixels = nullptr;
     std::ptrdiff_t stride = 0;
@@ -26,16 +26,16 @@ struct Mask {
 };
 constexpr int mask_padding = 32;
 
-/// Which instructions the kernels use. The coverage is the same, bit for bit.
+/// Instruction set of the kernels. The coverage is the same, bit for bit, for all.
 enum class Simd { scalar, sse2, avx2 };
 
-/// The best this processor can run.
+/// The best instruction set that this processor supports.
 Simd best_simd();
 
-/// Draws polylines with round caps and joins into a mask, combined by maximum, so that nothing is darker where a
-/// line crosses or touches itself. Coverage follows from the distance to the line and its direction alone: along a
-/// straight edge it is the exact area of the pixel on the inner side; at caps and joins that of an edge of the
-/// line's slant. Pens under about 1.4 pixels, whose two edges share pixels, are up to 1/10 too dark in some.
+/// Draws polylines with round caps and joins into a mask, combined by maximum, so that a line is not darker where it
+/// crosses or touches itself. Coverage depends only on the distance to the line and its direction: along a straight
+/// edge it is the exact area of the pixel on the inner side; at caps and joins that of an edge of the line's slant.
+/// Pens under about 1.4 pixels, whose two edges share pixels, are up to 1/10 too dark in some.
 ///
 /// Cost: the pixels of the line's bounding box for pens of a few pixels, about 30 ns for a segment of 8 pixels;
 /// for wide pens the pixels along the two edges, and a memset between them.
@@ -44,26 +44,27 @@ public:
     /// Draws into `mask`, whose upper left corner lies `top` rows below that of the page.
     Stroker(const Mask& mask, int top, Simd simd = best_simd());
 
-    /// Radius in pixels, 1/2 to 250,000, of what follows.
+    /// Sets the radius of the following lines, 1/2 to 250,000 pixels.
     void pen(float radius);
     void move(SubPoint start);
-    /// At most 4096 pixels long; a line without length is a dot.
+    /// Draws a line of at most 4096 pixels; one without length is a dot.
     void line(SubPoint end);
-    /// To be called after the last line.
+    /// Call it after the last line.
     void finish() { flush(true); }
 
-    /// What a kernel needs to know of a capsule, in units of 1/255 pixel: `u` along and `v` across the line,
-    /// measured from its middle, at the centre of the first pixel; `ux` and `uy` the line's direction.
+    /// A capsule for the kernels, in units of 1/255 pixel: `u` along and `v` across the line, measured from its
+    /// middle, at the centre of the first pixel; `ux` and `uy` the line's direction.
     struct Capsule {
         float u, v, ux, uy;
         float half;  ///< half the length
         float radius;
-        // How the area of a pixel on one side of the edge grows with the distance of its centre: by `slope`, but
-        // softly at both ends, a parabola `soft` to either side of where the slope would end, `middle` from the edge.
+        // Area of a pixel on one side of the edge as a function of the distance of its centre: `slope` times the
+        // distance, with a parabola at both ends, `soft` to either side of the end of the slope, `middle` from the
+        // edge.
         float slope, middle, soft;
         float parabola;
-        // Lines along rows or columns have no soft ends and a slope of 1: for them `radius` is 128 more instead, half
-        // a pixel and what rounds, and the rest is not looked at.
+        // Lines along rows or columns have a slope of 1 without soft ends: for them `radius` is larger by 128, half a
+        // pixel and the rounding, and the other fields are unused.
     };
     /// Pixels [first, end) of a row, counted from the first pixel.
     struct Span {
@@ -82,8 +83,8 @@ private:
         float ux = 1, uy = 0;                 ///< direction
         float long_side = 1, short_side = 0;  ///< the larger and the smaller of |ux| and |uy|
         float ramp = 0.5f;  ///< pixels to either side of the edge over which coverage goes from full to none
-        float before = 0;   ///< how far this segment answers for pixels before its start, and
-        float after = 0;    ///< after its end, in pixels
+        float before = 0;   ///< pixels before its start that this segment covers
+        float after = 0;    ///< pixels after its end that it covers
     };
     void flush(bool ends);
     void draw(const Segment& segment);

@@ -147,7 +147,7 @@ private:
         measured_ = dots_.size();
     }
 
-    /// Adds spots at the places that some ways lead to from the dots. @return whether there were any
+    /// Adds spots at the places that some ways lead to from the dots. @return true if there were any
     bool grow_once(const PointGrid& index, const std::vector<GridDot>& ways, double reach, double least) {
         std::map<Key, std::size_t> more;
         std::set<Key> tried;
@@ -173,7 +173,7 @@ private:
         return !more.empty();
     }
 
-    /// Adds places beside dots where a weaker spot is, for a dot may be weak and yet be there.
+    /// Adds places beside dots where there is a weaker spot, since a dot may be weak.
     bool add_weak(const Monitor& monitor) {
         std::map<Key, InkSpot> more;
         for (const auto& [place, spot] : dots_) {

@@ -19,7 +19,7 @@ struct Turn {
     Steps operator()(Steps s) const { return {m[0] * s.first + m[1] * s.second, m[2] * s.first + m[3] * s.second}; }
 };
 
-/// All rotations and mirrors of a lattice but the identity.
+/// All rotations and mirrors of a lattice except the identity.
 std::vector<Turn> turns_of(DotLattice lattice) {
     const bool is_square = lattice == DotLattice::square;
     const Turn rotation = is_square ? Turn{{0, -1, 1, 0}} : Turn{{0, -1, 1, 1}};
@@ -59,7 +59,7 @@ std::vector<GridDot> places_by_symmetry(const DotGrid& grid) {
     const std::size_t stride = std::max<std::size_t>(1, dots.size() / most_samples);
     std::set<Steps> proposed;
     for (const Turn& turn : turns_of(grid.lattice())) {
-        // The shift that takes most of the turned dots to dots.
+        // The shift that maps most of the turned dots to dots.
         std::map<Steps, std::size_t> votes;
         for (std::size_t i = 0; i < dots.size(); i += stride) {
             const Steps turned = turn(steps(dots[i]));

@@ -7,9 +7,9 @@
 
 namespace sikku {
 
-/// Places without a dot that a rotation or mirror of the lattice takes a dot to, if it takes all other dots, but one
-/// in twelve at most, to dots. From the top, each row from the left. Empty for fewer than 8 dots. Cost: about 64
-/// steps a dot and symmetry.
+/// Returns the places without a dot to which a rotation or mirror of the lattice maps a dot, if it maps all other
+/// dots, except at most one in twelve, to dots. They run from the top, each row from the left. Empty for fewer than 8
+/// dots. Cost: about 64 steps a dot and symmetry.
 std::vector<GridDot> places_by_symmetry(const DotGrid& grid);
 
 }  // namespace sikku

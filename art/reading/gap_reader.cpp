@@ -64,7 +64,7 @@ Curve circle_part(glm::dvec2 centre, double radius, double from, double to) {
 
 std::vector<Shape> shapes_of(DotLattice lattice, double height) {
     std::vector<Shape> shapes;
-    // Where strands enter the rhombus: the middles of the chords from one side of a dot to the next.
+    // The points where strands enter the rhombus: the middles of the chords from one side of a dot to the next.
     const glm::dvec2 enter =
         lattice == DotLattice::square ? glm::dvec2(0.25, 0.25) : glm::dvec2(0.125, 0.125 * std::numbers::sqrt3);
     const auto mirrored = [](glm::dvec2 p, double sx, double sy) { return glm::dvec2(sx * p.x, sy * p.y); };
@@ -161,8 +161,8 @@ std::vector<float> drawn_values(const Placed& shape, double half_width) {
     return values;
 }
 
-/// Information about the state in each place of a window: the variance between the means of the states. The root, for
-/// both sides of a product. Without it the strands that all states share would decide.
+/// Information about the state in each place of a window: the variance between the means of the states. Returns its
+/// root, as both factors of a product are weighted. Without weights the strands common to all states would decide.
 std::vector<float> weights_of(const std::vector<Placed>& shapes, double half_width) {
     const std::size_t count = shapes[0].distances.size();
     std::array<std::vector<double>, 3> means;
@@ -209,7 +209,7 @@ void normalise(std::vector<float>& values, const std::vector<float>& weights) {
     for (float& value : values) value *= factor;
 }
 
-/// Displacements of a shape, the fifth of which is none.
+/// Number of displacements of a shape, of which the fifth is zero.
 constexpr std::size_t displacements = 9;
 
 /// Shapes of one width, each with its displacements in turn.
@@ -269,7 +269,7 @@ GapEvidence compare(std::vector<float> patch, const TemplateSet& set) {
     normalise(patch, set.weights);
     GapEvidence evidence;
     evidence.agreement.fill(-1);
-    // The best two shapes of each state where they are; then these displaced.
+    // The best two shapes of each state without displacement; then these displaced.
     struct Best {
         double sum = -1;
         std::size_t shape = 0;

@@ -20,7 +20,7 @@ struct GapEvidence {
     double margin() const;
 };
 
-/// Drawn strands of all states, for lines of each of several widths. They are made as they are needed, and kept.
+/// Drawn strands of all states, for lines of several widths, made on demand and kept.
 class GapTemplates {
 public:
     GapTemplates();
@@ -31,7 +31,7 @@ private:
     struct Set;
     struct Key {
         DotLattice lattice;
-        int radius;  ///< of what is left out around the dots, in hundredths of a spacing
+        int radius;  ///< omitted around the dots, in hundredths of a spacing
         bool operator<(const Key& other) const {
             return lattice != other.lattice ? lattice < other.lattice : radius < other.radius;
         }
@@ -39,20 +39,20 @@ private:
     std::map<Key, std::unique_ptr<Set>> sets_;
 };
 
-/// Compares the ink between two dots, straightened, with the strands that each state would have: correlation with
-/// drawn ones of several widths and bends, a little displaced.
+/// Compares the ink between two dots, straightened, with the strands of each state, by correlation with drawn ones of
+/// several widths, bends and small displacements.
 class GapReader {
 public:
     /// Chooses the width of lines that fits best over some of the gaps.
-    /// @param ink         is kept by reference, as `templates` are
-    /// @param map         from the plane of the lattice to the picture
+    /// @param ink         is kept by reference, as is `templates`
+    /// @param map         maps the plane of the lattice to the picture
     /// @param dot_radius  in spacings; the dots themselves are left out
     /// Cost: about 0.05 s, without templates 5 ms.
     GapReader(const GreyPicture& ink, const DotGrid& grid, const LatticeMap& map, double dot_radius,
               GapTemplates& templates, const Monitor& monitor);
 
-    /// The gap between two places of the lattice, with or without dots.
-    /// @param offset  of the strands, in spacings
+    /// Reads the gap between two places of the lattice, with or without dots.
+    /// @param offset  displacement of the strands, in spacings
     /// Cost: about 60 us.
     GapEvidence read(const LatticeMap& map, GridDot from, GridDot to, glm::dvec2 offset = glm::dvec2(0.0)) const;
 

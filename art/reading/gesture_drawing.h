@@ -31,7 +31,7 @@ struct GestureDrawing {
 GestureDrawing draw_gestures(std::string_view text);
 
 /// A pattern that draws the lines and dots. @param head  its first lines, as kolam_head() writes them
-/// @throws std::runtime_error if the text were too long for a pattern file
+/// @throws std::runtime_error if the text is too long for a pattern file
 std::string gesture_pattern(const GestureDrawing& drawing, const std::string& head);
 
 }  // namespace sikku

@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// A loop as it is drawn. Places are in half spacings of dots, with dots at even places, y up: a loop starts midway
-/// between two dots or in the middle of four.
+/// A drawn loop. Places are in half spacings of dots, with dots at even places, y up: a loop starts midway between
+/// two dots or in the middle of four.
 struct GestureLoop {
     std::vector<std::string> gestures;  ///< in lower case
     std::optional<GridDot> start;       ///< always set by read_gesture_loops()
@@ -21,7 +21,7 @@ struct GestureLoop {
 /// True if a text has `sequence:`, or begins with gestures.
 bool is_gestures(std::string_view text);
 
-/// Parses gestures; for the formats see read_gestures(). Which gestures exist is not checked. Safe for untrusted
+/// Parses gestures; for the formats see read_gestures(). Does not check that the gestures exist. Safe for untrusted
 /// texts.
 /// @throws std::runtime_error with the loop for anything else, empty loops and loops without a start
 std::vector<GestureLoop> read_gesture_loops(std::string_view text);

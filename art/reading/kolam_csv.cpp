@@ -42,7 +42,7 @@ private:
     std::size_t number_ = 0;
 };
 
-/// A cell of a row, without blanks and quotes; nullopt behind the last one.
+/// A cell of a row, without blanks and quotes; nullopt after the last one.
 std::optional<std::string_view> cell(std::string_view row, std::size_t index) {
     for (; index > 0; --index) {
         const std::size_t comma = row.find(',');
@@ -163,7 +163,7 @@ ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monito
             fmt::format("the table has {}, but not number {}", counted(columns.kolams, "kolam"), number));
     }
     ClosedLine line;
-    std::vector<std::size_t> numbers;  // of the rows of its points
+    std::vector<std::size_t> numbers;  // numbers of the rows of its points
     Pulse pulse(monitor);
     bool has_ended = false;
     while (const auto row = rows.next()) {

@@ -11,7 +11,7 @@ class EdgeCheck {
 public:
     EdgeCheck(const GreyPicture& ink, const FoundGrid& found, double level)
         : ink_(ink), found_(found), least_(0.5 * level) {}
-    /// Whether the kolam seems to continue outside of the picture.
+    /// True if the kolam seems to continue outside of the picture.
     bool reaches_edge() const {
         std::size_t ways = 0;
         std::size_t lines = 0;

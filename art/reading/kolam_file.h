@@ -18,16 +18,16 @@ struct KolamFileOptions {
     std::size_t number = 1;  ///< number of the kolam in a table
     std::optional<DotLattice> lattice =
         {};              ///< lattice of drawings and photographs; absent: the one that fits better
-    bool repair = true;  ///< doubtful gaps of photographs by symmetry
+    bool repair = true;  ///< repair doubtful gaps of photographs by symmetry
 };
 
-/// Reads a text: `.kolam.json`, CSV of one-stroke kolams, SVG, or gestures, whichever it looks like.
-/// @return nullopt if it looks like none of them
-/// @throws std::runtime_error if it is damaged, or no kolam
+/// Reads a text in the format that it resembles: `.kolam.json`, CSV of one-stroke kolams, SVG, or gestures.
+/// @return nullopt if it does not resemble any of them
+/// @throws std::runtime_error if it is damaged, or not a kolam
 std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFileOptions& options = {},
                                          const Monitor& monitor = {});
 
-/// Reads gestures that no grid of gaps can represent, because lines meet in the middle of four dots.
+/// Reads gestures that a grid of gaps cannot represent, because lines meet in the middle of four dots.
 /// @return nullopt for all other texts @throws std::runtime_error if the gestures are damaged
 std::optional<GestureDrawing> read_gesture_drawing(const std::string& text);
 
@@ -38,7 +38,7 @@ ReadKolam read_kolam_document(const Document& document, double budget, const Mon
 
 /// Writes a kolam in the format of an extension: `json`, `csv`, `yaml` or `yml` (gestures).
 /// @return nullopt for other extensions
-/// @throws std::runtime_error if the format cannot hold it
+/// @throws std::runtime_error if the format cannot represent it
 std::optional<std::string> kolam_file_text(std::string_view extension, const DotGrid& grid, const GapStates& states,
                                            const Monitor& monitor = {});
 

@@ -1,8 +1,8 @@
 #include "art/reading/kolam_json.h"
 
-#include "art/gallery/json.h"
 #include "art/reading/kolam_lines.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/json.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>

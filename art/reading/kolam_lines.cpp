@@ -68,7 +68,7 @@ private:
 struct Passed {
     std::uint32_t arc = 0;
     bool anticlockwise = true;
-    std::uint64_t rhombus = 0;  ///< that it leads into
+    std::uint64_t rhombus = 0;  ///< rhombus that it leads into
 };
 
 class LineReader {
@@ -152,7 +152,7 @@ private:
         at_ = to;
         lost_ = false;
     }
-    /// Between two points close to each other.
+    /// Adds the passes between two points close to each other.
     void cross(const Part& a, glm::dvec2 from, const Part& b, glm::dvec2 to, int depth) {
         if (a.rhombus == b.rhombus) return;
         if (a.dot == b.dot) {
@@ -409,7 +409,7 @@ ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::
         places = odd_places(*cells, *fit);
     }
     const PlacedGrid placed = place_grid(fit->lattice, std::move(places));
-    // From the plane of the lines to that of the grid, which is counted from another place.
+    // Maps the plane of the lines to that of the grid, which has another origin.
     std::vector<glm::dvec2> from;
     std::vector<glm::dvec2> to;
     for (const GridDot corner : {GridDot{0, 0}, GridDot{2, 0}, GridDot{0, 4}, GridDot{2, 4}}) {

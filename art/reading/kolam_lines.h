@@ -13,7 +13,7 @@ namespace sikku {
 /// A closed line: from the last point back to the first, which is not repeated.
 using ClosedLine = std::vector<glm::dvec2>;
 
-/// A grid of the dots at some places of a lattice, and where these are counted from.
+/// A grid of dots at places of a lattice, and the origin of these places.
 struct PlacedGrid {
     DotGrid grid;
     GridDot origin;  ///< the place (0, 0) of the grid
@@ -24,7 +24,7 @@ PlacedGrid place_grid(DotLattice lattice, std::vector<GridDot> places);
 /// Reads the state of each gap from the lines that pass it. Around each gap lies a rhombus, of the two dots and the
 /// middles of the faces at its sides; the states differ in how they connect the four strands that enter it. Gaps that
 /// are not passed by two strands, and dots that are not encircled, are doubtful and noted.
-/// @param to_lattice  from the plane of the lines to that of the grid, where dots lie at lattice_point()
+/// @param to_lattice  maps the plane of the lines to that of the grid, where dots lie at lattice_point()
 ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std::vector<ClosedLine>& lines,
                     const Monitor& monitor = {});
 
@@ -35,9 +35,9 @@ ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std
 ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::dvec2> dots, bool y_down,
                          std::optional<DotLattice> lattice = std::nullopt, const Monitor& monitor = {});
 
-/// The lines of a kolam through the middles of sides of dots, moved apart where they do not cross: at a gap that is
-/// turned each turns back `apart` of the way from the gap to its dot, and at one that is joined it runs so far beside
-/// the gap. In units of GridDot. Cost: linear.
+/// The lines of a kolam through the middles of sides of dots, moved apart where they do not cross: at a turned gap
+/// each turns back `apart` of the way from the gap to its dot, and at a joined one it runs as far beside the gap. In
+/// units of GridDot. Cost: linear.
 std::vector<ClosedLine> lines_of_kolam(const DotGrid& grid, const GapStates& states, double apart,
                                        const Monitor& monitor = {});
 

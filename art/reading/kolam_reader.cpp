@@ -21,13 +21,13 @@
 namespace sikku {
 namespace {
 
-/// Agreement of a gap that a kolam has.
+/// Least agreement of a gap in a kolam.
 constexpr double good = 0.84;
 constexpr double certain = 0.93;
-/// Lattices whose gaps agree less on average, before and after a displacement is looked for, are chance.
+/// Lattices whose gaps agree less on average, before and after the search for a displacement, are accidental.
 constexpr double hopeless_here = 0.25;
 constexpr double hopeless = 0.45;
-/// Groups of so few dots are parts of what they lie beside: rings, tips.
+/// Groups of at most this many dots belong to the kolam beside them: rings, tips.
 constexpr std::size_t most_loose = 3;
 
 double best_of(const GapEvidence& gap) {
@@ -78,7 +78,7 @@ public:
 private:
     using Key = std::pair<std::int32_t, std::int32_t>;  // y, x
 
-    /// Where the lines lie that belong to the dots, if all dots lie on one side of the middles of their loops.
+    /// Finds the displacement of the lines, if all dots lie on one side of the middles of their loops.
     void find_offset(const Monitor& monitor) {
         const std::vector<GridGap>& gaps = grid().gaps();
         const std::size_t stride = std::max<std::size_t>(1, gaps.size() / 40);
@@ -158,7 +158,7 @@ private:
         return {from.x + way.x, from.y + way.y};
     }
 
-    /// Between a place and its neighbour, read once.
+    /// Evidence between a place and its neighbour, read once.
     const GapEvidence& evidence(GridDot from, std::uint32_t side) {
         // Read from the dot whose side is among the first half.
         if (const std::uint32_t half = grid().sides() / 2; side >= half) {
@@ -239,8 +239,8 @@ private:
         return true;
     }
 
-    /// Adds places beside the grid that have lines around them although no dot was seen there: all gaps between
-    /// them and dots have both strands, and some strands lead to them. @return whether there were any
+    /// Adds places beside the grid that have lines around them although no dot was seen there: all gaps between them
+    /// and dots have both strands, and some strands lead to them. @return true if there were any
     bool add_encircled(const Monitor& monitor) {
         std::set<Key> tried;
         std::vector<Key> added;
@@ -273,8 +273,8 @@ private:
         return gaps > 0 && joined > 0 && has_blob(place);
     }
 
-    /// Adds dots that the symmetry of the others suggests where the lines agree. @return places where they do not,
-    /// but where ink is, and places within the kolam that have ink
+    /// Adds dots that the symmetry of the others suggests where the lines agree. @return places with ink where the
+    /// lines do not agree, and places within the kolam that have ink
     std::vector<Key> complete() {
         if (is_hopeless_) return {};
         std::set<Key> asked;
@@ -312,7 +312,7 @@ private:
         for (std::uint32_t side = 0; side < grid().sides(); ++side) count += dots_.contains(key(next(place, side)));
         return count;
     }
-    /// Lines lead to a place, or around it and a spot, less clearly than is_encircled() requires.
+    /// True if lines lead to a place, or around it and a spot, less clearly than is_encircled() requires.
     bool is_likely(GridDot place) {
         std::size_t gaps = 0;
         bool leads = has_blob(place);
@@ -362,7 +362,7 @@ private:
         return pieces;
     }
 
-    /// Dots that lines lead between.
+    /// Groups of dots that lines connect.
     std::vector<std::vector<Key>> linked_groups(const Monitor& monitor) {
         std::map<Key, std::size_t> group;
         std::vector<std::vector<Key>> groups;
@@ -398,7 +398,7 @@ private:
         std::vector<std::size_t> rim(groups.size());
         struct Gaps {
             std::size_t count = 0;
-            double sum = 0;  ///< of their agreement
+            double sum = 0;  ///< sum of their agreement
             double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
         };
         std::vector<Gaps> inner(groups.size());
@@ -437,7 +437,7 @@ private:
         for (const auto& [place, group] : group_of) all[root(group)].insert(place);
         std::vector<std::set<Key>> found;
         for (auto& [number, places] : all) found.push_back(std::move(places));
-        // Frames come behind what they surround.
+        // Frames come after the kolams within them.
         std::stable_sort(found.begin(), found.end(),
                          [](const auto& a, const auto& b) { return a.size() > b.size(); });
         std::stable_partition(found.begin(), found.end(), [&](const std::set<Key>& places) {

@@ -21,7 +21,7 @@ struct Reading {
     std::size_t joined = 0;           ///< dots that lines lead to from others
     std::vector<GridDot> open_ends = {};  ///< places beside the grid that strands lead to, without a dot
     std::vector<GridDot> missing = {};    ///< places that should have one, by the dots around them or by symmetry
-    std::size_t left_out = 0;             ///< a few dots on the lattice that no line joins to the others
+    std::size_t left_out = 0;             ///< a few dots on the lattice without lines to the others
     bool reaches_edge = false;
 };
 
@@ -35,8 +35,8 @@ public:
     InkReader& operator=(const InkReader&) = delete;
 
     /// Reads the gaps of a grid, adds dots that have lines around them, and finds strands that leave the kolam. Dots
-    /// that no line joins to it, and that are not close beside it, are another kolam: that within a frame comes
-    /// first, then the one with more dots.
+    /// without lines to it that are not close beside it are another kolam: the one within a frame comes first, then
+    /// the one with more dots.
     /// @param grid  its map has to fit the picture
     /// Cost: about 0.1 s for 200 dots.
     std::vector<Reading> read(const FoundGrid& grid, const Monitor& monitor);

@@ -76,7 +76,7 @@ public:
         is_used[seed] = 1;
         struct Step {
             Place place;
-            glm::dvec2 first, second;  // steps there
+            glm::dvec2 first, second;  // steps at the point
         };
         std::vector<Step> queue = {{{0, 0}, first, second}};
         for (std::size_t head = 0; head < queue.size(); ++head) {
@@ -316,8 +316,8 @@ private:
     glm::dvec2 second_{0.0};
 };
 
-/// Gives points the places of the lattice that they lie at under the map of a fit, one point a place, and collects
-/// both. @return false if the map cannot be inverted, or fewer than two points have places
+/// Gives points the places of the lattice at which they lie under the map of a fit, one point for each place, and
+/// collects both. @return false if the map cannot be inverted, or fewer than two points have places
 bool assign_places(const std::vector<glm::dvec2>& points, LatticeFit& fit, std::vector<glm::dvec2>& from,
                    std::vector<glm::dvec2>& to) {
     const auto back = fit.map.inverse();

@@ -19,11 +19,11 @@ public:
     Homography() = default;
     /// Fits points to their images: the least squares of the linear equations of Hartley & Zisserman, Multiple View
     /// Geometry, 2004, section 4.1. Three points, or points on two lines at most, give an affine map.
-    /// @return nullopt if they determine no map
+    /// @return nullopt if they do not determine a map
     static std::optional<Homography> fit(std::span<const glm::dvec2> from, std::span<const glm::dvec2> to);
 
     glm::dvec2 operator()(glm::dvec2 point) const;
-    /// The derivatives by x and y there.
+    /// The derivatives by x and y at a point.
     std::array<glm::dvec2, 2> derivatives(glm::dvec2 point) const;
     std::optional<Homography> inverse() const;
 
@@ -38,7 +38,7 @@ GridDot nearest_place(DotLattice lattice, glm::dvec2 point);
 
 struct LatticeFit {
     DotLattice lattice = DotLattice::square;
-    Homography map;                              ///< from the plane of the lattice to that of the points
+    Homography map;                              ///< maps the plane of the lattice to that of the points
     std::vector<std::optional<GridDot>> places;  ///< place of each point; absent if it lies off the lattice
     std::size_t fitted = 0;                      ///< points that have a place
     double angle = 90;                           ///< degrees between its two shortest steps, 60 to 90, in the middle
@@ -50,8 +50,8 @@ struct LatticeFit {
 /// patch from each of several points, by steps that follow the perspective, and fits a map to the largest one.
 /// Steps nearer to 60 than to 90 degrees make a triangular lattice.
 /// @param y_down   the points' y points down, as in pictures
-/// @param lattice  only this one
-/// @param step     length of its steps, if it is known
+/// @param lattice  accept only this one
+/// @param step     length of its steps, if known
 /// @return nullopt for fewer than two points
 /// Cost: about 0.1 s for 2000 points.
 std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, bool y_down,

@@ -1,4 +1,4 @@
-// Draws the kolam that was read over its photograph.
+// art/reading/overlay.cpp: draws the kolam that was read over its photograph.
 #include "art/reading/kolam_lines.h"
 #include "art/reading/photograph.h"
 
@@ -47,7 +47,7 @@ public:
             },
             colour);
     }
-    /// A ring of eight arcs.
+    /// Draws a ring of eight arcs.
     void broken_ring(glm::dvec2 centre, double radius, double width, glm::dvec3 colour) {
         constexpr int points = 48;
         for (int i = 0; i < points; ++i) {
@@ -59,7 +59,7 @@ public:
             line(at(i), at(i + 1), width, colour);
         }
     }
-    /// Digits and a comma, 3 x 5 cells each, on a dark ground.
+    /// Draws digits and a comma, 3 x 5 cells each, on a dark ground.
     void number(std::string_view text, glm::dvec2 at, double cell, glm::dvec3 colour) {
         static constexpr std::array<std::uint16_t, 10> digits = {075557, 026227, 071747, 071717, 055711,
                                                                  074717, 074757, 071111, 075757, 075717};

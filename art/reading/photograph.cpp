@@ -20,7 +20,7 @@
 namespace sikku {
 namespace {
 
-/// Dots closer than that are looked for once more in a larger picture.
+/// Dots closer than this are searched for again in a larger picture.
 constexpr double least_spacing = 18;
 /// Smaller pictures are enlarged: spots of a pixel or two cannot be compared with rings around them.
 constexpr int least_side = 700;
@@ -63,11 +63,11 @@ struct InkSpots {
         is_dark = !is_dark;
         spots = finder.find(monitor);
     }
-    /// Spots everywhere, as in noise.
+    /// True if there are spots everywhere, as in noise.
     bool is_rough() const { return spots.size() >= SpotFinder::most_spots; }
 };
 
-/// Dots in single rows, as those of a border.
+/// True for dots in single rows, such as those of a border.
 bool is_narrow_grid(const DotGrid& grid) {
     return 6 * grid.gaps().size() < 7 * grid.dots().size();
 }
@@ -80,19 +80,19 @@ constexpr double least_agreement = 1.12;
 struct Part {
     Reading reading;
     ReadKolam kolam;
-    std::string refusal;  ///< why it is not a kolam that can be read; empty for those that are
+    std::string refusal;  ///< reason why it is not a readable kolam; empty if it is
     bool is_dark = true;
     std::size_t beside = 0;        ///< dots between the places of the lattice
-    bool is_border = false;        ///< of the kolams within it
+    bool is_border = false;        ///< a border of the kolams within it
     bool has_more_within = false;  ///< a frame around ink that was not read
 
     std::size_t dots() const { return kolam.grid.dots().size(); }
     bool is_kolam() const { return refusal.empty(); }
-    /// Dots on a lattice and lines around them, even if most gaps cannot be read.
+    /// True for dots on a lattice with lines around them, even if most gaps cannot be read.
     bool is_counted() const {
         return is_kolam() || (!is_border && !is_narrow() && has_lines() && reading.agreement >= least_agreement);
     }
-    /// Lines around dots on a lattice, which may be ornaments.
+    /// True for lines around dots on a lattice, which may be ornaments.
     bool has_lines() const { return dots() >= 9 && reading.explained >= 0.5 && 2 * reading.joined >= dots(); }
     bool is_narrow() const { return is_narrow_grid(kolam.grid); }
 };
@@ -104,14 +104,14 @@ std::size_t losses(const Reading& reading) {
 bool has_kolam(const std::vector<Part>& parts) {
     return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.is_counted(); });
 }
-/// Whether dots or gaps of the kolams among some parts may be lost.
+/// True if dots or gaps of the kolams among some parts may be lost.
 bool has_losses(const std::vector<Part>& parts) {
     return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
         return part.is_counted() &&
                (losses(part.reading) > 0 || 8 * part.kolam.doubtful().size() > part.kolam.states.size());
     });
 }
-/// Certain gaps of the kolams among some parts, less what may be lost.
+/// Certain gaps of the kolams among some parts, minus possible losses.
 double gain_of(const std::vector<Part>& parts) {
     double gain = 0;
     for (const Part& part : parts) {
@@ -122,7 +122,7 @@ double gain_of(const std::vector<Part>& parts) {
     return gain;
 }
 
-/// Why the dots that lines join are not a kolam, or cannot be read; empty if they can.
+/// The reason why dots with lines between them are not a kolam, or cannot be read; empty if they can.
 std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
     const std::size_t dots = kolam.grid.dots().size();
     const std::size_t gaps = kolam.states.size();
@@ -146,7 +146,7 @@ std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
     return "";
 }
 
-/// Why a reading is not a kolam, or cannot be read; empty if it can.
+/// The reason why a reading is not a kolam, or cannot be read; empty if it can.
 std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
     std::string refusal = refusal_of_joined(reading, kolam);
     const std::size_t joined = kolam.grid.dots().size();
@@ -158,8 +158,8 @@ std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
                        is_without_lines ? "them" : "most of them");
 }
 
-/// Where many gaps are doubtful, the picture is worse than those that certainties were calibrated with: on made
-/// pictures, most wrong gaps without a doubt were in such pictures.
+/// Where many gaps are doubtful, the picture is worse than those by which certainties were calibrated: on generated
+/// pictures, most undoubted wrong gaps were in such ones.
 void doubt_more(ReadKolam& kolam) {
     constexpr double usual = 0.1;
     const double share = static_cast<double>(kolam.doubtful().size()) /
@@ -251,7 +251,8 @@ public:
         return (*back_)(pixel)-map_.shift() + map_.offset() - lattice_point(grid_.lattice(), grid_.dots().front());
     }
     bool is_regular() const { return back_.has_value(); }
-    /// Whether a pixel lies close to a dot, within some spacings, or between dots: not in a hole, as that of a frame.
+    /// True if a pixel lies close to a dot, within some spacings, or between dots: not in a hole, such as that of a
+    /// frame.
     bool contains(glm::dvec2 pixel, double reach = 1.45) const {
         if (!back_) return false;
         const glm::dvec2 at = from_first(pixel);
@@ -272,7 +273,7 @@ public:
     glm::dvec2 low() const { return low_; }  ///< corner of that box
     glm::dvec2 high() const { return high_; }
     bool surrounds(const Area& other) const { return surrounds_box(low_, high_, other); }
-    /// Whether a box contains the dots of an area.
+    /// True if a box contains the dots of an area.
     static bool surrounds_box(glm::dvec2 low, glm::dvec2 high, const Area& other) {
         return low.x < other.low_.x && low.y < other.low_.y && high.x > other.high_.x && high.y > other.high_.y;
     }
@@ -301,7 +302,7 @@ std::size_t dots_beside(const Part& part, const std::vector<InkSpot>& spots) {
         const glm::dvec2 at = area.from_first(spot.at);
         const GridDot near = nearest_place(lattice, at);
         if (glm::distance(lattice_point(lattice, near), at) < 0.4) continue;
-        // Two dots at least beside it.
+        // At least two dots beside it.
         std::size_t around = 0;
         for (const GridDot dot : found.grid().dots()) {
             const glm::dvec2 place = lattice_point(lattice, dot) - lattice_point(lattice, first);
@@ -350,7 +351,7 @@ std::vector<double> nearest_distances(const std::vector<InkSpot>& spots) {
     return distances;
 }
 
-/// All parts of a picture with dots on a lattice, of lines in one sense.
+/// Finds all parts of a picture with dots on a lattice, with lines of one sense.
 void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vector<Part>& parts,
                 const Monitor& monitor) {
     if (ink.is_rough()) return;
@@ -374,7 +375,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
         }
         return found;
     };
-    // Adds parts. Whether there is a kolam among them.
+    // Adds parts; returns true if there is a kolam among them.
     const auto add = [&](std::vector<Part> more) {
         const bool is_first = !spacing;
         const bool is_good = has_kolam(more);
@@ -393,7 +394,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
         }
         return is_good;
     };
-    // Adds the first kolams: those on all spots if nothing is lost there, else the most that any subset has.
+    // Adds the first kolams: those on all spots if nothing is lost there, else those of the subset with most.
     const auto add_first = [&](const std::vector<std::vector<InkSpot>>& subsets) {
         std::vector<Part> best;
         for (const bool is_nearest : {false, true}) {
@@ -452,7 +453,7 @@ struct Findings {
     }
 };
 
-/// Whether no dot of a part lies in or at the loops of an area, as those of its coarser lattices do.
+/// True if no dot of a part lies in or at the loops of an area, as those of its coarser lattices do.
 bool lies_outside(const Part& part, const Area& area) {
     const std::vector<GridDot>& dots = part.kolam.grid.dots();
     return std::none_of(dots.begin(), dots.end(), [&](GridDot dot) {
@@ -461,7 +462,7 @@ bool lies_outside(const Part& part, const Area& area) {
     });
 }
 
-/// Kolams that can be read first, those with most dots before the others, frames behind what they surround.
+/// Sorts parts: readable kolams first, those with most dots before the others, frames after the kolams within them.
 void sort_parts(std::vector<Part>& parts) {
     const auto rank = [](const Part& part) { return part.is_kolam() ? 0 : part.is_counted() ? 1 : 2; };
     std::stable_sort(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
@@ -495,7 +496,7 @@ void sort_parts(std::vector<Part>& parts) {
     parts = std::move(others);
 }
 
-/// Whether the hole of a frame has as much ink as a few loops of it, lighter or darker than the ground, beside the
+/// True if the hole of a frame has as much ink as a few of its loops, lighter or darker than the ground, besides the
 /// kolams that were found.
 bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const GreyPicture& ink,
                     const Monitor& monitor) {
@@ -556,7 +557,7 @@ DecodedPicture large_enough(DecodedPicture picture) {
     return times > 1 ? enlarged(picture, times) : std::move(picture);
 }
 
-/// Pixels of the file for one of the picture as it was read.
+/// Pixels of the file for each pixel of the picture as it was read.
 double file_scale(const DecodedPicture& picture) {
     return static_cast<double>(picture.file_width) / std::max(1, picture.width);
 }
@@ -571,7 +572,7 @@ struct StrayDots {
     bool is_border = false;  ///< they, or all spots, lie along the sides of a box around the kolams
 };
 
-/// Whether points lie along the four sides of a box that contains some areas.
+/// True if points lie along the four sides of a box that contains some areas.
 bool lie_around(const std::vector<glm::dvec2>& points, const std::vector<Area>& areas) {
     glm::dvec2 low(1e300);
     glm::dvec2 high(-1e300);
@@ -688,7 +689,7 @@ Photograph photograph_of(const Part& part, const std::vector<Part>& parts) {
     return photograph;
 }
 
-/// How far the distances from dots to their nearest neighbours vary: their standard deviation, of their mean.
+/// Variation of the distances from dots to their nearest neighbours: standard deviation divided by the mean.
 double variation(const std::vector<InkSpot>& spots) {
     double sum = 0;
     double squares = 0;
@@ -702,7 +703,7 @@ double variation(const std::vector<InkSpot>& spots) {
     return std::sqrt(std::max(0.0, squares / count - mean * mean)) / std::max(mean, 1e-9);
 }
 
-/// The first part with dots enough for a kolam, also those that no line joins; the end if there is none.
+/// The first part with enough dots for a kolam, including those without lines; the end if there is none.
 std::vector<Part>::const_iterator best_lattice(const std::vector<Part>& parts) {
     if (!parts.empty() && parts[0].dots() >= least_dots) return parts.begin();
     return std::find_if(parts.begin(), parts.end(),

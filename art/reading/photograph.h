@@ -20,13 +20,13 @@
 namespace sikku {
 
 struct PhotographOptions {
-    std::optional<DotLattice> lattice = {};  ///< only this one
-    bool repair = true;                      ///< doubtful gaps by symmetry
+    std::optional<DotLattice> lattice = {};  ///< accept only this one
+    bool repair = true;                      ///< repair doubtful gaps by symmetry
     std::uint64_t most_pixels = 100'000'000;
     std::size_t number = 1;  ///< which of several kolams; the one with most dots is the first
 };
 
-/// A kolam that was read, and where it lies in the picture.
+/// A kolam that was read, and its position in the picture.
 struct Photograph {
     ReadKolam kolam;
     DecodedPicture picture;  ///< as it was read, about 700 to 1500 pixels wide
@@ -35,10 +35,10 @@ struct Photograph {
     std::vector<GridDot> missing =
         {};  ///< places where neighbouring dots, or symmetry, suggest a dot that was not seen
     std::vector<glm::dvec2> others = {};  ///< dots of other kolams, and beside the lattice, in pixels
-    std::size_t kolams = 1;               ///< in the picture
-    std::size_t readable = 1;             ///< those of them that can be read
+    std::size_t kolams = 1;               ///< number of kolams in the picture
+    std::size_t readable = 1;             ///< number of those that can be read
 
-    /// Where a place of the grid lies in the file, in pixels.
+    /// The position of a place of the grid in the file, in pixels.
     glm::dvec2 in_file(GridDot place) const;
 };
 
@@ -53,7 +53,7 @@ struct RefusedPicture {
     std::optional<Photograph> best = std::nullopt;  ///< the reading that comes nearest to a kolam; without picture
 };
 
-/// Thrown if a picture has no kolam that can be read.
+/// Thrown if a picture does not contain a readable kolam.
 class NoKolam : public std::runtime_error {
 public:
     NoKolam(const std::string& what, RefusedPicture picture)
@@ -65,11 +65,11 @@ private:
 };
 
 /// Reads a kolam of dark lines on light ground or light ones on dark: finds the dots, grows a lattice through them in
-/// perspective, along rows that a hand may have bent, and compares the ink in each gap with what the three states
-/// would leave there. Gaps for which two states are nearly as likely, or none, are doubtful; those that the symmetry
-/// of the others decides are repaired and noted. Lost dots are reported as open ends, where strands leave the kolam,
-/// and as missing, where neighbouring dots or symmetry suggest one. Several kolams are counted. Safe for untrusted
-/// files.
+/// perspective, along rows that may be bent, and compares the ink in each gap with the ink that each of the three
+/// states would leave there. Gaps for which two states are almost equally likely, or none is likely, are doubtful;
+/// those that the symmetry of the others decides are repaired and noted. Lost dots are reported as open ends, where
+/// strands leave the kolam, and as missing, where neighbouring dots or symmetry suggest one. Several kolams are
+/// counted. Safe for untrusted files.
 /// @throws NoKolam if most gaps are doubtful, if the lines explain little of the ink around the dots, or lead from
 ///     few dots to others; std::runtime_error if the file is not a picture, or has fewer kolams than `number`
 /// Time: about 1.5 s for 12 megapixels.
@@ -78,7 +78,7 @@ Photograph read_photograph(const std::filesystem::path& path, const PhotographOp
 
 /// Decodes a picture so that no side is longer than `longest_side`, as read_picture() does.
 using PictureDecoder = std::function<DecodedPicture(int longest_side)>;
-/// The same for a picture from another source. @param decode  called once or twice
+/// Reads a photograph from another source. @param decode  called once or twice
 Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
 
@@ -88,7 +88,7 @@ Photograph read_photograph(const PictureDecoder& decode, const PhotographOptions
 /// @throws std::runtime_error if the file cannot be written
 void write_overlay(const Photograph& photograph, const std::filesystem::path& path);
 
-/// The same for a picture that was refused: its spots in grey rings, and the reading that comes nearest to a kolam.
+/// Draws a refused picture: its spots in grey rings, and the reading that comes nearest to a kolam.
 void write_overlay(const RefusedPicture& refused, const std::filesystem::path& path);
 
 }  // namespace sikku

@@ -110,7 +110,7 @@ Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
     std::array<float, 256> logarithms{};
     for (std::size_t i = 0; i < logarithms.size(); ++i) logarithms[i] = std::log(static_cast<float>(i) + 12.0F);
     for (std::size_t i = 0; i < grey.values.size(); ++i) {
-        // Rec. 709 weights of the values as they are.
+        // Rec. 709 weights of sRGB values.
         const std::uint8_t* pixel = &picture.pixels[3 * i];
         grey.values[i] = logarithms[(54U * pixel[0] + 183U * pixel[1] + 19U * pixel[2]) >> 8U];
     }

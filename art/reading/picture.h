@@ -19,7 +19,7 @@ struct GreyPicture {
 
     GreyPicture() = default;
     GreyPicture(std::size_t columns, std::size_t rows) : width(columns), height(rows), values(columns * rows) {}
-    /// Bilinear; pixels outside continue the border.
+    /// Interpolates bilinearly; pixels outside continue the border.
     float at(glm::dvec2 point) const;
 };
 
@@ -44,13 +44,12 @@ GreyPicture blurred(GreyPicture picture, double radius);
 DecodedPicture enlarged(const DecodedPicture& picture, int times);
 
 /// The logarithm of the brightness of a picture, less that of its surroundings, in units of its local deviation:
-/// uneven light drops out. Lines are above 0 in one sense of the picture (`dark` or light lines) and below in the
-/// other.
+/// uneven light cancels out. Dark lines are above 0, light ones below.
 struct Ink {
     GreyPicture values;   ///< positive where the picture is darker than its surroundings
     bool is_dark = true;  ///< lines are darker than the ground: the rarer side deviates more
 };
-/// Memory: 12 bytes a pixel beside the picture.
+/// Memory: 12 bytes a pixel besides the picture.
 Ink find_ink(const DecodedPicture& picture, const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    /// What the innermost bracket contains.
+    /// The contents of the innermost bracket.
     enum class In : std::uint8_t { nothing, top, list, tile, polygon, corner, skipped };
 
     In in() const { return nested_.empty() ? In::nothing : nested_.back(); }
@@ -135,7 +135,7 @@ private:
         refuse(fmt::format("corner {}: expected [x, y], not {}",
                            polygons_.corners.size() - polygons_.begin.back() + 1, what));
     }
-    /// Anything but a number or a bracket.
+    /// Handles anything except a number or a bracket.
     bool value(const char* what) {
         open(what, In::skipped);
         return true;

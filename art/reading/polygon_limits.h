@@ -10,7 +10,7 @@ namespace sikku::polygon_files {
 constexpr std::size_t most_points = 50'000'000;
 constexpr double most_coordinate = 1e9;
 
-/// `line 3, column 7` of a byte of a text. Cost: linear.
+/// Returns `line 3, column 7` for a byte of a text. Cost: linear.
 std::string line_and_column(std::string_view text, std::size_t at);
 
 }  // namespace sikku::polygon_files

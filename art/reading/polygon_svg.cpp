@@ -74,7 +74,7 @@ struct Around {
 /// Something without straight edges.
 struct Curve {
     bool is_filled = false;
-    double area = 0;  ///< of a circle or ellipse
+    double area = 0;  ///< area of a circle or ellipse
     pugi::xml_node node;
     std::string why;
 };
@@ -176,7 +176,7 @@ private:
         if (lower_case(style_.property(node, "display")) == "none") return true;
         return opacity(style_.property(node, "opacity")).value_or(1) <= 0;
     }
-    /// Nullopt if the property is not set, or counted as not understood.
+    /// Parses an opacity; nullopt if the property is not set, or counted as not understood.
     std::optional<double> opacity(const std::string& text) {
         if (text.empty() || text == "inherit") return std::nullopt;
         const std::optional<double> value = opacity_of(text);
@@ -309,7 +309,7 @@ private:
             pulse_();
             const pugi::xml_node node = left.back();
             left.pop_back();
-            // Of several elements with one id, the first counts.
+            // The first of several elements with one id counts.
             const std::string_view id = node.attribute("id").value();
             if (!id.empty()) ids_.try_emplace(id, node);
             for (pugi::xml_node child = node.last_child(); child; child = child.previous_sibling()) {

@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// A kolam that was read, and how far it can be trusted.
+/// A kolam that was read, with the certainty of its gaps.
 struct ReadKolam {
     DotGrid grid;
     GapStates states;
@@ -26,8 +26,9 @@ struct ReadKolam {
     std::vector<std::uint32_t> doubtful() const;
 };
 
-/// The place of a gap for people: row and number in it, both from 1. Rows of gaps are the words of gap_states_text():
-/// from the top, the gaps within a row of dots, then those to the next row; numbers count from the left.
+/// The place of a gap for users: its row, and its number in the row, both from 1. Rows of gaps are the words of
+/// gap_states_text(): from the top, the gaps within a row of dots, then those to the next row; numbers count from the
+/// left.
 struct GapPlace {
     std::uint32_t row = 0;
     std::uint32_t number = 0;
@@ -41,12 +42,12 @@ std::vector<GapPlace> gap_places(const DotGrid& grid);
 /// @throws std::runtime_error for anything else, and for places without a gap
 void fix_gaps(ReadKolam& kolam, std::string_view text);
 
-/// Replaces the states of doubtful gaps by those of their certain images under the symmetries of the grid that the
-/// certain gaps have without exception, at least six pairs of them. Repaired gaps stay doubtful, and are noted.
+/// Replaces the states of doubtful gaps by those of their certain images under those symmetries of the grid that all
+/// certain gaps have, at least six pairs of them. Repaired gaps stay doubtful, and are noted.
 /// @return the number of gaps that changed
 std::size_t repair_by_symmetry(ReadKolam& kolam);
 
-/// `crossed`, `turned` or `joined`.
+/// Returns `crossed`, `turned` or `joined`.
 std::string_view gap_state_name(GapState state);
 
 }  // namespace sikku

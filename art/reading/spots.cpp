@@ -174,7 +174,7 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
         if (a.strength != b.strength) return a.strength > b.strength;
         return a.at.y != b.at.y ? a.at.y < b.at.y : a.at.x < b.at.x;
     });
-    // The strongest of those that lie within each other, by a picture of who is where.
+    // Keeps the strongest of the spots that lie within each other, by a picture of the spots' places.
     const std::size_t w = blurred_[0].width;
     const std::size_t h = blurred_[0].height;
     std::vector<char> is_taken(w * h);
@@ -197,7 +197,7 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
 InkSpot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
     InkSpot best{at, radius, 0.0};
     if (blurred_.empty() || !(reach >= 0)) return best;
-    // A degenerate map of a lattice asks for places without limit.
+    // A degenerate map of a lattice can make the reach infinite.
     reach = std::min(reach, 60.0);
     for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
         if (radii_[scale] < 0.5 * radius || radii_[scale] > 2 * radius) continue;

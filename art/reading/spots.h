@@ -10,11 +10,11 @@
 
 namespace sikku {
 
-/// A spot of ink with ground all around it, which a point on a line does not have.
+/// A spot of ink with ground all around it, unlike a point on a line.
 struct InkSpot {
     glm::dvec2 at{0.0};
     double radius = 0.0;    ///< in pixels
-    double strength = 0.0;  ///< ink in its middle less the most ink around it
+    double strength = 0.0;  ///< ink in its middle minus the maximum around it
 };
 
 /// Pictures of the ink at several scales, and the spots in them.
@@ -25,7 +25,7 @@ public:
 
     /// The longer side of the picture.
     double longer_side() const { return static_cast<double>(std::max(blurred_[0].width, blurred_[0].height)); }
-    /// Exchanges ink and ground, as if the picture had been a negative.
+    /// Exchanges ink and ground, as in a negative.
     void negate();
     /// All spots, the strongest first; none within another. At most `most_spots`.
     std::vector<InkSpot> find(const Monitor& monitor) const;

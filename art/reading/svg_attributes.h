@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// Elements that are nested more deeply are refused.
+/// Maximum depth of nested elements.
 constexpr int most_svg_levels = 200;
 
 /// A matrix of SVG: x' = a x + c y + e, y' = b x + d y + f.
@@ -21,7 +21,8 @@ struct Transform {
     }
 };
 
-/// Numbers that blanks, commas or signs separate. @throws std::runtime_error if one is damaged or 1e12 or larger
+/// Parses numbers separated by blanks, commas or signs. @throws std::runtime_error if one is damaged or 1e12 or
+/// larger
 std::vector<double> numbers_of(std::string_view text);
 
 /// The product of a list of transforms. Source: SVG 1.1 (Second Edition), section 7.6. @throws std::runtime_error

@@ -38,7 +38,7 @@ std::size_t find_outside(std::string_view text, std::string_view wanted, std::si
     return text.size();
 }
 
-/// Blanks instead of `/* */`, and of the `<!--` and `-->` that old files have around a sheet.
+/// Replaces `/* */`, and the `<!--` and `-->` that old files have around a sheet, by blanks.
 void remove_comments(std::string& text) {
     for (std::size_t at = text.find("/*"); at != std::string::npos; at = text.find("/*", at)) {
         const std::size_t end = text.find("*/", at + 2);
@@ -192,7 +192,7 @@ void SvgStyle::add_rule(std::string_view selectors, std::string_view body) {
     if (!is_read) count_unread(body);
 }
 
-/// False if it is not a simple selector.
+/// Returns false if it is not a simple selector.
 bool SvgStyle::add_selector(std::string_view selector) {
     if (selector.empty()) return false;
     Rule rule;
@@ -212,7 +212,7 @@ bool SvgStyle::add_selector(std::string_view selector) {
             rule.classes.push_back(name);
             rule.specificity += 100;
         } else if (kind == '#') {
-            if (!rule.id.empty() && rule.id != name) return true;  // no element has two
+            if (!rule.id.empty() && rule.id != name) return true;  // an element has only one
             rule.id = name;
             rule.specificity += 10'000;
         } else if (at > 0) {

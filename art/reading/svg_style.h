@@ -28,7 +28,7 @@ public:
     /// element, the most specific and then the last rule, the attribute. Empty if there is none.
     std::string property(pugi::xml_node node, const char* name) const;
 
-    /// Rules with other selectors, and those within `@media` and the like, that would set properties of polygons.
+    /// Number of rules with other selectors, or within `@media` and the like, that would set properties of polygons.
     std::size_t unread() const { return unread_; }
 
 private:

@@ -100,7 +100,7 @@ void ConstrainedTriangulation::relink(std::uint32_t triangle, std::uint32_t from
     triangles_[triangle].neighbours[at(edge_towards(triangle, from))] = to;
 }
 
-/// Source: Devillers, Pion and Teillaud 2001, "Walking in a triangulation".
+/// Walks to a point. Source: Devillers, Pion and Teillaud 2001, "Walking in a triangulation".
 ConstrainedTriangulation::Place ConstrainedTriangulation::locate(Micrometres point) {
     std::uint32_t here = last_, previous = none;
     for (bool is_inside = false; !is_inside;) {
@@ -264,7 +264,7 @@ void ConstrainedTriangulation::pass_through(const Piece& piece, Point point) {
     pending_.push_back({piece.from, point, piece.winding});
 }
 
-/// The first edge that a piece crosses. None if it is an edge already, or is divided.
+/// The first edge that a piece crosses. Nullopt if it is an edge already, or is divided.
 std::optional<ConstrainedTriangulation::Edge> ConstrainedTriangulation::first_crossing(const Piece& piece) {
     const std::uint32_t first = triangle_of_[piece.from];
     std::optional<Edge> found;

@@ -18,9 +18,9 @@ namespace sikku {
 
 /// Triangles whose edges carry windings. Edges that cross are divided where they cross, at the nearest whole
 /// micrometre, and edges that pass near a point are led through it; since outlines stay closed, the windings of the
-/// triangles stay consistent however little the edges move. All decisions are exact. y grows upwards. Debian has no
-/// library for this that the web build could also use: CGAL needs GMP and has another licence. Source: Lawson 1977
-/// (flips); Sloan 1993, "A fast algorithm for generating constrained Delaunay triangulations".
+/// triangles stay consistent however little the edges move. All decisions are exact. y grows upwards. Debian does not
+/// contain a library for this that the web build could also use: CGAL needs GMP and has another licence. Source:
+/// Lawson 1977 (flips); Sloan 1993, "A fast algorithm for generating constrained Delaunay triangulations".
 class ConstrainedTriangulation {
 public:
     using Point = std::uint32_t;
@@ -28,7 +28,7 @@ public:
     static constexpr std::int32_t largest_coordinate = 1 << 28;
     /// A point gives two triangles of a face and, at a wall, two of the wall.
     static constexpr std::size_t most_points = most_relief_triangles / 4;
-    /// Edges that may be turned out of the way of others: long ones that cross very many would take hours.
+    /// Maximum number of flips that clear the way for edges: long edges that cross very many would take hours.
     static constexpr std::size_t most_turns = 4 * most_points;
 
     /// The three corners run anticlockwise; edge i leads from corner i to the next one.
@@ -101,7 +101,7 @@ private:
     Pulse pulse_;
     std::size_t turns_ = 0;
     std::uint32_t last_ = 0;    ///< triangle of the last point
-    std::uint32_t random_ = 1;  ///< so that no walk goes round in circles
+    std::uint32_t random_ = 1;  ///< state of random choices, which keep walks from circling
 };
 
 }  // namespace sikku

@@ -90,7 +90,7 @@ struct Place {
     double x = 0, y = 0;
 };
 
-/// Where two segments cross within both.
+/// The place where two segments cross within both.
 std::optional<Place> crossing(const OutlineEdge& a, const OutlineEdge& b) {
     if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
         std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
@@ -129,7 +129,7 @@ std::size_t count_crossings(std::span<const OutlineEdge> segments, double apart,
             pulse();
             for (std::size_t k = i + 1; k < here.size(); ++k) {
                 const auto place = crossing(segments[here[i]], segments[here[k]]);
-                // Others find it, too.
+                // Other squares find it, too.
                 if (!place || squares.square_at(place->x, place->y) != square) continue;
                 const auto coordinate = [&](double value) {
                     return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(value / unit)));

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<glm::dvec2>;
 
 constexpr std::size_t most_checked = 64;  // corners of polygons that are checked side by side
-constexpr double least_length = 0.004;    // of the parts of a stroke, in millimetres
+constexpr double least_length = 0.004;    // shortest part of a stroke, in millimetres
 
 Micrometres whole(glm::dvec2 point) {
     return {to_whole(point.x * 1000), to_whole(point.y * 1000)};
@@ -34,7 +34,7 @@ glm::dvec2 turned(glm::dvec2 vector, double angle) {
     return {c * vector.x - s * vector.y, s * vector.x + c * vector.y};
 }
 
-/// Corners that turn left only, once around.
+/// True if corners turn only left, once around.
 bool is_convex(std::span<const glm::dvec2> corners) {
     const std::size_t count = corners.size();
     int rises = 0;  // changes of the direction along y
@@ -116,7 +116,7 @@ Points parallel(const Points& corners, double distance, double tolerance) {
     return path;
 }
 
-/// A part of a stroke, and what joins it to the next one.
+/// A part of a stroke, and its joint with the next one.
 struct Part {
     glm::dvec2 from{0.0}, to{0.0};
     glm::dvec2 direction{0.0};
@@ -191,7 +191,7 @@ bool Outlines::add_inside(std::span<const glm::dvec2> corners, double distance, 
         add_edges(rest, layer);
         return !rest.empty();
     }
-    // The part that a line along the outline leaves.
+    // The part that a line along the outline does not cover.
     constexpr std::uint32_t shape = 0, line = 1;
     Outlines both(tolerance_, monitor_);
     both.add_polygon(points, shape);

@@ -12,19 +12,20 @@
 
 namespace sikku {
 
-/// Collects outlines as edges of layers. Each place that a shape covers is covered a positive number of times, so
-/// that shapes of one layer unite. Lengths are millimetres, y grows upwards; arcs are chords.
+/// Collects outlines as edges of layers. Outlines wind a positive number of times around each place that a shape
+/// covers, so that shapes of one layer unite. Lengths are millimetres, y grows upwards; arcs are chords.
 class Outlines {
 public:
     /// @param tolerance  maximum deviation of chords from arcs
     Outlines(double tolerance, const Monitor& monitor) : tolerance_(tolerance), monitor_(monitor) {}
 
-    /// A polygon that may cross itself (non-zero winding rule).
+    /// Adds a polygon that may cross itself (non-zero winding rule).
     void add_polygon(std::span<const glm::dvec2> corners, std::uint32_t layer);
-    /// A polygon with its sides moved inwards: the places at least `distance` from its outline, except the tips of
-    /// mitres where it turns outwards by up to 120 degrees. @return false if nothing is left
+    /// Adds a polygon with its sides moved inwards: the places at least `distance` from its outline, except the tips
+    /// of mitres where it turns outwards by up to 120 degrees. @return false if nothing is left
     bool add_inside(std::span<const glm::dvec2> corners, double distance, std::uint32_t layer);
-    /// A line with round joins and caps. @param points  at least one; of a closed line, the first again at the end
+    /// Adds a line with round joins and caps. @param points  at least one; of a closed line, the first again at the
+    /// end
     void add_stroke(std::span<const glm::dvec2> points, bool is_closed, double radius, std::uint32_t layer);
     void add_disc(glm::dvec2 centre, double radius, std::uint32_t layer);
 

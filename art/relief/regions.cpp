@@ -21,7 +21,7 @@ Micrometres clamped(Micrometres point) {
     return {std::clamp(point.x, -most, most), std::clamp(point.y, -most, most)};
 }
 
-/// An edge between two places, and how much more often a layer winds around its left.
+/// An edge between two places, with the winding number of a layer on its left minus that on its right.
 struct Border {
     Micrometres from, to;
     std::uint32_t layer = 0;
@@ -166,7 +166,7 @@ void find_regions(const ConstrainedTriangulation& triangulation, Windings& windi
     }
 }
 
-/// The two neighbours of each point along outlines, and how many there are.
+/// The neighbours of a point along outlines: two of them, and their number.
 struct Meeting {
     std::array<std::uint32_t, 2> others{};
     std::uint32_t count = 0;

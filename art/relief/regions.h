@@ -21,7 +21,7 @@ struct LayerEdge {
 
 /// Triangles without gaps, overlaps or corners within edges, and the region of each.
 struct PlaneRegions {
-    static constexpr std::int32_t outside = -1;  ///< region of what no layer covers
+    static constexpr std::int32_t outside = -1;  ///< region outside all layers
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
     struct Triangle {
@@ -33,18 +33,18 @@ struct PlaneRegions {
     std::vector<Triangle> triangles;
 };
 
-/// The region of a place, by how often the outlines of layers wind around it.
+/// The region of a place, from the winding numbers of layers around it.
 using RegionOf = std::function<std::int32_t(std::span<const Winding>)>;
 
-/// Outlines have to be closed, and may cross, touch and repeat each other. Those that pass a point at less than
-/// `tolerance` micrometres are led through it. Coordinates beyond 268 m are moved there.
+/// Divides the plane along outlines, which have to be closed, and may cross, touch and repeat each other. Those that
+/// pass a point at less than `tolerance` micrometres are led through it. Coordinates beyond 268 m are moved there.
 /// Cost: n log n in the edges and their crossings, about 3 µs for each, and more where long edges cross very many
 /// others; memory: 350 bytes. @throws Stopped; BudgetError for more than ConstrainedTriangulation::most_points
 PlaneRegions divide_plane(std::span<const LayerEdge> edges, double tolerance, const RegionOf& region_of,
                           const Monitor& monitor);
 
-/// The outlines of the regions, a layer each; regions of which `merged` is the same are one. Points
-/// within straight outlines are left out, unless more than two regions meet there, or `keeps_points`.
+/// The outlines of the regions, one layer each; regions with the same value of `merged` are one. Points within
+/// straight outlines are left out, unless more than two regions meet there, or `keeps_points`.
 std::vector<LayerEdge> outlines_of(const PlaneRegions& plane, const std::function<std::int32_t(std::int32_t)>& merged,
                                    bool keeps_points = false);
 

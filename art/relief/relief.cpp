@@ -71,7 +71,7 @@ void require_affordable(const ReliefShapes& shapes, bool has_lines) {
                     edges * triangles_of_edge * 1e-6, most_relief_triangles / 1'000'000));
 }
 
-/// How a shape is raised. Those that come later lie over the others.
+/// How a shape is raised. Later layers lie over earlier ones.
 struct Layer {
     bool is_over = false;  ///< lines and discs lie over polygons and areas
     double height = 0;
@@ -130,7 +130,7 @@ private:
         return {shape.kind == Kind::line || shape.kind == Kind::disc, height, shown(colour)};
     }
 
-    /// An STL has no colours, so regions of equal height are one.
+    /// An STL does not contain colours, so regions of equal height are one.
     Colour shown(Colour colour) const { return options_.format == PrintFormat::stl ? Colour{} : colour; }
 
     void add_layers() {

@@ -16,8 +16,7 @@ namespace sikku {
 /// itself. Polygons are inset by half a groove, and lines along their edges are left out, unless the style has fields
 /// between lines. Shapes end at the edge of the page. The solid is in millimetres, z up, from the bottom left corner
 /// of the page, rounded to micrometres; a .glb has a node that turns them into metres, y up, and a material for each
-/// colour. A binary STL has neither colours nor room for the pattern. Cost: about 1 µs and 100 bytes for each
-/// triangle.
+/// colour. A binary STL contains neither colours nor the pattern. Cost: about 1 µs and 100 bytes for each triangle.
 /// @throws BudgetError for more than most_relief_triangles; std::runtime_error if nothing is raised, or a depth does
 /// not fit into the base; Stopped
 ReliefReport write_relief(ReliefShapes& shapes, const Print& print, const ReliefOptions& options,

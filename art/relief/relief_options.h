@@ -23,7 +23,7 @@ struct ReliefOptions {
     PrintFormat format = PrintFormat::stl;
 };
 
-/// Number of triangles that a relief may have: an STL of 400 MB.
+/// Maximum number of triangles of a relief: an STL of 400 MB.
 constexpr std::size_t most_relief_triangles = 8'000'000;
 
 struct ReliefReport {
@@ -31,10 +31,10 @@ struct ReliefReport {
     std::size_t materials = 0;
     glm::dvec3 size{0.0};                            ///< millimetres
     double volume = 0;                               ///< cubic millimetres
-    std::vector<std::pair<Colour, double>> heights;  ///< above the base, in the order of the options
+    std::vector<std::pair<Colour, double>> heights;  ///< heights above the base, in the order of the options
     std::vector<std::pair<Colour, double>> ridges;   ///< the same for lines that have their own
     std::size_t lost = 0;                            ///< polygons that are narrower than the groove
-    double narrowest = 0;  ///< width of the narrowest line in millimetres; 0: there are none
+    double narrowest = 0;                            ///< width of the narrowest line in millimetres; 0: without lines
 };
 
 }  // namespace sikku

@@ -27,7 +27,7 @@ public:
         grid_.sort(monitor);
     }
 
-    /// Does an edge run along this segment, at its middle?
+    /// True if an edge runs along this segment, at its middle.
     bool is_along(glm::dvec2 from, glm::dvec2 to) const {
         const glm::dvec2 middle = (from + to) / 2.0;
         bool is_found = false;

@@ -30,7 +30,7 @@ constexpr double relief_tolerance = 0.01;
 /// Collects shapes from the bottom left corner of the page, y up, with curves as chords.
 class ReliefShapes : public PathSink {
 public:
-    /// @param print  placed; kept by reference  @param most  number of points that are collected
+    /// @param print  placed; kept by reference  @param most  maximum number of points
     ReliefShapes(const Print& print, std::size_t most);
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;

@@ -35,7 +35,7 @@ using SolidTriangle = std::array<SolidPoint, 3>;
 class Solid {
 public:
     /// @param plane  outlines already divided, so that they do not cross
-    /// @param regions  at least one; those of `plane` are numbers of them
+    /// @param regions  at least one; the regions of `plane` are indices into it
     /// @throws Stopped
     Solid(PlaneRegions plane, std::vector<ReliefRegion> regions, const Monitor& monitor);
 

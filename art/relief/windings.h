@@ -1,4 +1,4 @@
-// art/relief/windings.h: how often outlines wind around a place, layer by layer, as numbers.
+// art/relief/windings.h: winding numbers of the outlines of layers around a place, in numbered sets.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace sikku {
 
-/// How often the outlines of a layer wind around a place, anticlockwise; or, across an edge, how much more often on
-/// its left than on its right.
+/// The winding number of a layer's outlines around a place, anticlockwise; or, across an edge, that on its left minus
+/// that on its right.
 struct Winding {
     std::uint32_t layer = 0;
     std::int32_t count = 0;                            ///< not 0
@@ -24,10 +24,10 @@ public:
 
     Windings();
     Id of(std::uint32_t layer, std::int32_t count) { return number({{layer, count}}); }
-    /// Cost: a look-up, after the first time.
+    /// Adds two sets. Cost: a look-up, after the first time.
     Id sum(Id a, Id b);
     Id negative(Id id) const { return negatives_[id]; }
-    /// In the order of layers.
+    /// The windings of a set, in the order of layers.
     std::span<const Winding> at(Id id) const { return sets_[id]; }
     std::size_t size() const { return sets_.size(); }
 

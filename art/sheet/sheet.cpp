@@ -31,13 +31,13 @@
 namespace sikku {
 namespace {
 
-constexpr double fitted_side = 190.0;    // millimetres of an A4 page within its margins, which pens are meant for
+constexpr double fitted_side = 190.0;    // millimetres of an A4 page within its margins, for which pens are meant
 constexpr double border_margin = 0.045;  // space around a cell's border, as part of the cell's shorter side
 constexpr double finest_line = 0.1;      // millimetres that every printer can print
-constexpr double widest_line = 0.035;    // as part of a cell: of early generations, whose steps are long
-constexpr double line_pitch = 1.75;      // of lines of text, as part of the height of their capitals
-constexpr double small_letters = 0.78;   // of a caption's later lines, as part of those of its first
-constexpr double stem = 0.085;           // of letters, as part of their height
+constexpr double widest_line = 0.035;    // as part of a cell, for early generations, whose steps are long
+constexpr double line_pitch = 1.75;      // distance of lines of text, as part of the height of their capitals
+constexpr double small_letters = 0.78;   // height of a caption's later lines, as part of its first
+constexpr double stem = 0.085;           // stem of letters, as part of their height
 constexpr double title_stem = 0.055;
 
 Pen text_pen(double width, bool pale) {
@@ -58,14 +58,14 @@ struct Subject {
     DrawingCost cost;  ///< cost of a picture
     DrawnExtent extent;
     glm::dvec2 size{0.0};  ///< in steps, without the pen
-    std::size_t row = 0;   ///< of cells under one heading; all are 0 without headings
+    std::size_t row = 0;   ///< number of the group under one heading; 0 without headings
 };
 
-/// Rows of cells: how many there are in each.
+/// Rows of cells, with the number of cells in each.
 struct Grid {
     int columns = 0;
     std::vector<int> rows;
-    std::vector<bool> headed;  ///< does a heading stand above that row?
+    std::vector<bool> headed;  ///< true for rows below a heading
 };
 
 /// A cell with its place on the sheet.
@@ -168,7 +168,7 @@ private:
     void place_drawings();
     void check_inks() const;
     void write_caption(const SheetCell& cell, const Window& window, double letters);
-    /// Where a line of text begins that belongs to a place of that width.
+    /// The beginning of a line of text within a place of that width.
     double aligned(const std::string& text, double height, double left, double width) const {
         return options_.is_centred ? left + (width - text_width(text, height)) / 2 : left;
     }
@@ -185,7 +185,7 @@ private:
     mutable std::mutex watching_;
 };
 
-/// Works out, in parallel, how large the drawings are.
+/// Measures the drawings in parallel.
 void Sheet::measure() {
     subjects_.resize(cells_.size());
     std::size_t row = 0;
@@ -219,7 +219,7 @@ void Sheet::measure() {
     usual_shape_ = *at;
 }
 
-/// All that come into question.
+/// All possible arrangements.
 std::vector<Grid> Sheet::grids() const {
     std::vector<int> groups;
     for (const Subject& subject : subjects_) {
@@ -244,7 +244,7 @@ std::vector<Grid> Sheet::grids() const {
                 grid.rows.push_back(group / rows + (row < group % rows ? 1 : 0));
             }
         }
-        // As few columns as that number of rows allows: the last row is then as full as can be.
+        // As few columns as that number of rows allows: the last row is then as full as possible.
         if (result.empty() || result.back().rows.size() != grid.rows.size()) result.push_back(std::move(grid));
     }
     return result;
@@ -291,12 +291,12 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
     // Cells are about as high as their drawings; the remaining space widens the gaps, or stays free on both sides.
     const double shape = std::clamp(usual_shape_, 0.6, 1.7);
     const double full = m.width;
-    // A narrower cell has more lines below it, which leave less height: until its caption has its room.
+    // A narrower cell has more lines below it, which leave less height: narrows it until its caption fits.
     for (bool has_room = false; !has_room;) {
         m.letters = letters_of(m.width);
         if (headings > 0) m.heading = m.letters * 1.35 * 2.1;
         m.caption = std::max(m.caption, caption_height(m.width, m.letters));
-        // Under the last captions nothing is kept free but the margin.
+        // Only the margin is kept free under the last captions.
         const double room = height - m.title - headings * m.heading - rows * m.caption - (rows - 1) * gap;
         m.height = std::min(room / rows, full * shape * shape_slack);
         m.width = std::min(m.width, m.height / shape * shape_slack);
@@ -308,7 +308,7 @@ Sheet::Measures Sheet::measures(const Grid& grid) const {
                                          columns * m.width) /
                                             (columns - 1)
                                       : 0.0);
-    // Wider than a third of a cell a gap tears the sheet apart.
+    // A gap wider than a third of a cell would tear the sheet apart.
     m.across = std::min(m.across, m.width + std::max(gap, 0.35 * m.width));
     const double spare = height - m.title - headings * m.heading - rows * (m.caption + m.height);
     const double pitch_gap = rows > 1 ? std::min(spare / (rows - 1), std::max(1.6 * gap, gap + 0.2 * m.height)) : 0;
@@ -341,7 +341,7 @@ double Sheet::drawn_step(const Subject& subject, double width, double height, do
     return place(subject.extent.box, page, fitted, ink_steps, ink_millimetres).step;
 }
 
-/// By how much pens are thinner, or thicker, than on a page of their own.
+/// Factor of the widths of pens, compared with a page of their own.
 double Sheet::pen_factor(const SheetCell& cell, double width, double height) const {
     const double side = (1 - 2 * options_.inset) * std::min(width, height);
     const double factor = side / fitted_side;
@@ -350,7 +350,7 @@ double Sheet::pen_factor(const SheetCell& cell, double width, double height) con
     return std::max(factor, std::min(1.0, finest_line / pen));
 }
 
-/// The area of all drawings, or less than nothing if they have no room.
+/// The area of all drawings, or a negative number if they do not fit.
 double Sheet::score(const Grid& grid) const {
     const Measures m = measures(grid);
     if (!m.fits()) return -1;
@@ -396,7 +396,7 @@ const Plan& Sheet::arrange() {
     return plan_;
 }
 
-/// Puts each cell where it is to be.
+/// Puts each cell into its slot.
 void Sheet::arrange_slots() {
     plan_.layout.columns = static_cast<int>(cells_.size());
     plan_.layout.rows = 1;
@@ -504,8 +504,8 @@ void Sheet::write_title(double left) {
     }
 }
 
-/// What drawings of one scale share, in steps of each: the distance between dots if all in a row have them, else the
-/// step.
+/// The unit that drawings of one scale share, in steps of each: the distance between dots if all in a row have them,
+/// else the step.
 std::vector<double> Sheet::shared_units() const {
     std::vector<char> have_dots;
     for (const Subject& subject : subjects_) {
@@ -571,7 +571,7 @@ void Sheet::place_drawings() {
     }
 }
 
-/// Checks the spot colours. @throws std::runtime_error if one occurs in no cell
+/// Checks the spot colours. @throws std::runtime_error if one does not occur in any cell
 void Sheet::check_inks() const {
     Style all = print_.style;
     for (const PlacedCell& cell : plan_.cells) {
@@ -585,7 +585,7 @@ void Sheet::check_inks() const {
     check_spots(options_.press, all);
 }
 
-/// Those that are seen between two heights, in millimetres.
+/// Writes the texts that are visible between two heights, in millimetres.
 void Sheet::write_texts(double top, double bottom, PathSink& sink) const {
     for (const TextLine& line : plan_.texts) {
         if (line.at.y + line.height < top || line.at.y - 2 * line.height > bottom) continue;
@@ -647,7 +647,7 @@ std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
     }
     for (std::size_t row = 1; row < strips.size(); ++row) {
         const int above = strips[row - 1].cells.front().bottom, below = strips[row].cells.front().top;
-        // Multiples of 32 if it can be, which TIFF likes.
+        // Multiples of 32 if possible, for TIFF.
         const int even = below / 32 * 32;
         strips[row - 1].bottom = strips[row].top = even >= above ? even : std::max(above, below);
     }

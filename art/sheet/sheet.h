@@ -37,8 +37,8 @@ struct SheetOptions : PlotSetup {
     std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< ground between the cells
     Colour ink{0x2a, 0x26, 0x22, 255};                             ///< colour of title and captions
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
-    std::string title;                                             ///< above all cells; empty: none
-    std::string subtitle;                                          ///< under it
+    std::string title;                                             ///< title above all cells; empty: none
+    std::string subtitle;                                          ///< line under the title
     int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
     std::optional<double> gap;  ///< millimetres between cells, exactly; absent: about a tenth of their width
     double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell
@@ -75,8 +75,8 @@ struct SheetLayout {
 
 /// Draws the sheet into `file`, which appears whole or not at all; the same cells give the same bytes. Windows and,
 /// in pictures, words of any order are handled as in draw(). Pictures are made row by row: memory holds the pixels of
-/// one row and, for each thread, one drawing, as Raster keeps it. If that exceeds the memory of the options, a row is
-/// made in bands, with all its drawings in memory; the bytes are the same.
+/// one row and, for each thread, one drawing, as in Raster. If that exceeds the memory of the options, a row is made
+/// in bands, with all its drawings in memory; the bytes are the same.
 /// Plots (HP-GL, G-code, or with plot options) hold the lines and fills of all cells, without their grounds.
 /// @throws BudgetError, WordError and std::runtime_error, naming the cell that cannot be drawn; SettingError if there
 /// are no cells, the cells do not fit, only some have slots, or slots overlap in a picture; std::runtime_error if
@@ -96,8 +96,8 @@ Cost sheet_cost(const std::vector<SheetCell>& cells, const SheetOptions& options
 /// have parameters, conditions or weights.
 std::vector<std::string> caption_of(const Grammar& grammar, const std::string& title, const Pattern& pattern);
 
-/// The cells of rows that show derivation lengths from `first` to `last`, captions `n = 2`, the first one with the
-/// heading. `cell` is one of them. @throws std::runtime_error if the schedule is too short
+/// The cells of a row that shows derivation lengths from `first` to `last`, with captions `n = 2`, and the heading at
+/// the first. `cell` is their model. @throws std::runtime_error if the schedule is too short
 std::vector<SheetCell> generations(const SheetCell& cell, std::int64_t first, std::int64_t last);
 
 }  // namespace sikku

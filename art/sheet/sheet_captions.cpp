@@ -15,7 +15,7 @@
 namespace sikku {
 namespace {
 
-/// The angle of `+`, as the first symbol of that letter has it.
+/// The angle of `+`, from the first symbol of that letter.
 std::string angle_of(const Grammar& grammar) {
     for (const SymbolInfo& symbol : grammar.symbols()) {
         if (symbol.letter != "+" || !symbol.arguments.empty() || symbol.arity > 0) continue;

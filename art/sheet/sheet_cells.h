@@ -14,7 +14,7 @@
 
 namespace sikku {
 
-/// Rethrows what a drawing throws with the name of its cell; exceptions of the caller pass as they are.
+/// Rethrows errors of a drawing with the name of its cell; exceptions of the caller pass unchanged.
 template <class Work>
 auto named_cell(const SheetCell& cell, Work&& work) {
     const auto told = [&](const std::exception& error) { return fmt::format("'{}': {}", cell.title, error.what()); };

@@ -19,7 +19,7 @@ Colour over(Colour upper, Colour lower) {
 
 void render_part(const Rendering& raster, int left, int top, int height, int channels, std::size_t stride,
                  SheetBand& band) {
-    constexpr int step = 128;  // as render_rows() wants it
+    constexpr int step = 128;  // as render_rows() requires
     const int first = std::max(0, band.top - top) / step * step;
     const int end = std::min(height, (band.bottom - top + step - 1) / step * step);
     if (first >= end) return;

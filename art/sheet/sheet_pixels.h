@@ -1,4 +1,4 @@
-// art/sheet/sheet_pixels.h: puts the pixels of cells together.
+// art/sheet/sheet_pixels.h: combines the pixels of cells.
 #pragma once
 
 #include "art/print/print.h"
@@ -24,7 +24,7 @@ struct Strip {
     std::vector<CellPicture> cells;
 };
 
-/// Rows of the sheet that are made at a time.
+/// Rows of the sheet that are made at once.
 struct SheetBand {
     int top = 0, bottom = 0;
     std::vector<std::uint8_t> pixels;
@@ -34,7 +34,7 @@ struct SheetBand {
 Colour over(Colour upper, Colour lower);
 
 /// Copies the rows of a raster that lie in the band to their place.
-/// @param left, top, height  where on the sheet the raster lies, in pixels
+/// @param left, top, height  place of the raster on the sheet, in pixels
 void render_part(const Rendering& raster, int left, int top, int height, int channels, std::size_t stride,
                  SheetBand& band);
 

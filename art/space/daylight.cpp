@@ -23,7 +23,7 @@ namespace {
 constexpr int sky_maps = 64, sun_maps = 40;
 constexpr double sun_radius = 2.4;  // degrees: some ten times the real one, as in thin haze
 const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-constexpr int tiles_around = 5;  // of what stands there, in the map of open ground
+constexpr int tiles_around = 5;  // around occupied tiles, in the map of open ground
 constexpr float highest = 65535.0F;
 
 constexpr float exposure = 1.35F;
@@ -44,14 +44,14 @@ std::pair<glm::vec3, glm::vec3> axes_across(const glm::vec3& towards) {
     return {across, glm::cross(towards, across)};
 }
 
-/// Evenly spread over the upper half of a sphere.
+/// Directions spread evenly over the upper half of a sphere.
 std::vector<glm::vec3> sky_directions() {
     std::vector<glm::vec3> result;
     for (int i = 0; i < sky_maps; ++i) result.push_back(direction(i * golden_angle, 1 - (i + 0.5) / sky_maps));
     return result;
 }
 
-/// Evenly spread over the disc of the sun.
+/// Directions spread evenly over the disc of the sun.
 std::vector<glm::vec3> sun_directions(double azimuth, double elevation) {
     const double radians = std::numbers::pi / 180;
     const glm::vec3 middle = direction(azimuth * radians, std::sin(elevation * radians));
@@ -101,7 +101,7 @@ public:
         }
     }
 
-    /// A polygon that may cross itself, as high as the middle of its corners.
+    /// Draws a polygon that may cross itself, at the mean height of its corners.
     void outline(std::span<const glm::vec3> corners) {
         float low = 1e30F, high = -1e30F, sum = 0;
         for (const glm::vec3& corner : corners) {
@@ -118,7 +118,7 @@ public:
     }
 
     void round(const glm::vec3& from, float before, const glm::vec3& to, float after) {
-        // What is narrower than a square would be lost.
+        // Shapes narrower than a square would be lost.
         before = std::max(before, 0.5F);
         after = std::max(after, 0.5F);
         const glm::vec2 along(to - from);
@@ -140,7 +140,7 @@ private:
             cover(y, centre.x - half, centre.x + half, [&](int) { return height; });
         }
     }
-    /// Raises the squares of a row between two coordinates. @param height  returns that of a column
+    /// Raises the squares of a row between two coordinates. @param height  returns the height of a column
     template <class Height>
     void cover(int y, float from, float to, Height&& height) {
         std::uint16_t* const row = map_.heights.data() + std::size_t(y) * std::size_t(width_);
@@ -163,7 +163,7 @@ glm::vec3 Daylight::Map::seen(const glm::vec3& point) const {
 
 float Daylight::Map::reaches(const glm::vec3& point) const {
     const glm::vec3 at = seen(point);
-    // What lies below the scene is below its lowest height.
+    // Points below the scene are below its lowest height.
     const float x = at.x - 0.5F, y = at.y - 0.5F, height = std::max(0.0F, at.z + bias);
     // The outermost squares are empty.
     if (!(x >= 0 && y >= 0 && x < static_cast<float>(width - 1) && y < static_cast<float>(rows - 1))) return 1.0F;
@@ -330,7 +330,7 @@ Daylight::OnSurface Daylight::on_surface(const glm::vec3& point, const glm::vec3
     OnSurface result;
     result.front = mixed(front) + open_ * from_around;
     if (light_.has_ground) {
-        // What the ground reflects reaches open places more.
+        // Light that the ground reflects reaches open places more.
         const float facing = 0.5F - 0.5F * normal.y, openness = 0.4F + 0.6F * std::min(1.0F, front.sky);
         result.front += open_ * ground_tint * (from_ground * facing * openness);
     }
@@ -340,7 +340,7 @@ Daylight::OnSurface Daylight::on_surface(const glm::vec3& point, const glm::vec3
 
 float Daylight::sky_on_ground(const glm::vec3& point) const {
     const glm::vec3 up(0, 1, 0);
-    // The mean around the place, farther than the maps are fine.
+    // The mean around the place, over more than the resolution of the maps.
     const float aside = 4 * sky_.front().nudge;
     float sum = sky(point, up);
     for (const glm::vec3& step :
@@ -366,8 +366,8 @@ glm::vec3 Daylight::on_ground(float sky, float sun) const {
 }
 
 void Daylight::find_open_ground() {
-    // The suns stand at most twice their disc's radius from each other, so that their shadows of what stands at most
-    // as far as the map is wide lie within a few tiles.
+    // Directions to the sun differ by at most twice its radius, so that the shadows of an object at most as far away
+    // as the map is wide lie within a few tiles.
     const Map& map = sun_.front();
     columns_ = map.width / tile() + 1 + 2 * tiles_around;
     const int rows = map.rows / tile() + 1 + 2 * tiles_around;

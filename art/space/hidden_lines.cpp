@@ -11,7 +11,7 @@ namespace sikku {
 namespace {
 
 constexpr double steepest = 1000.0;        // maximum slope of surfaces that hide lines
-constexpr double share_of_noise = 1e-6;    // of the drawing's size: scenes are stored in floats
+constexpr double share_of_noise = 1e-6;    // share of the drawing's size: scenes are stored in floats
 constexpr double most_in_cells = 16;       // mean number of cells for each surface
 constexpr std::int64_t most_cells = 1024;  // cells along a side of the grid
 

@@ -25,7 +25,7 @@ class HiddenLines {
 public:
     using Owner = std::uint32_t;
 
-    /// Adds a polygon of 3 or 4 vertices in one plane. Polygons seen edge-on hide nothing.
+    /// Adds a polygon of 3 or 4 vertices in one plane. Polygons seen edge-on do not hide lines.
     void add_polygon(std::span<const glm::dvec3> vertices, Owner owner);
     void add_ball(const glm::dvec3& centre, double radius, Owner owner);
     /// Call once, after the last surface. @throws Stopped

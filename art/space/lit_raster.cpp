@@ -41,7 +41,7 @@ std::uint8_t from_linear(float value) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(coded, 0.0F, 1.0F)));
 }
 
-/// A colour of which bright light is compressed, not cut off; what is beyond white makes it paler.
+/// Compresses bright light instead of cutting it off; light beyond white makes a colour paler.
 glm::vec3 compressed(const glm::vec3& colour) {
     constexpr float knee = 0.75F;
     glm::vec3 result = colour;
@@ -115,7 +115,7 @@ struct Corner {
 
 struct Material {
     std::uint8_t alpha = 255;
-    bool is_thin = false;  ///< a polygon, which light passes as it does a leaf
+    bool is_thin = false;  ///< a polygon that lets light through, like a leaf
 };
 
 class Band : public SampleBand<Sample> {
@@ -151,7 +151,7 @@ public:
         });
     }
 
-    /// @param surface  makes the normal in the scene, and the depth, of a direction on the page out of the ball
+    /// @param surface  returns the normal in the scene, and the depth, of an outward direction on the page
     template <class Surface>
     void sphere(const glm::dvec3& centre, double radius, const glm::vec3& colour, const Material& material,
                 Surface&& surface) {
@@ -178,7 +178,7 @@ constexpr double fine_dpi = 200;  // … from this resolution on
 
 /// Samples of a block of pixels that lie on one surface and are lit together.
 struct LitPart {
-    /// What a pixel of the block has of it.
+    /// The share of a pixel of the block.
     struct Share {
         glm::vec3 colour{0.0F};  ///< sum over its samples, linear
         int count = 0;
@@ -186,7 +186,7 @@ struct LitPart {
     };
     glm::dvec3 at{0.0};  ///< sums over all samples
     glm::vec3 normal{0.0F};
-    float depth = 0;  ///< of the first sample
+    float depth = 0;  ///< depth of the first sample
     int count = 0;
     bool is_thin = false;
     std::array<Share, most_block * most_block> shares{};
@@ -198,7 +198,7 @@ struct LitPart {
     }
 };
 
-/// From 0 to 1, spread evenly over the numbers.
+/// A pseudorandom number from 0 to 1, evenly distributed.
 float scattered(std::uint32_t number) {
     std::uint64_t hash = (number + 1ULL) * 0x9e3779b97f4a7c15U;
     hash = (hash ^ hash >> 32) * 0xd6e8feb86659fd93U;
@@ -227,7 +227,7 @@ private:
         std::call_once(is_lit_, [&] { daylight_.build(threads, watch_); });
     }
 
-    /// For each segment the one that ends where it begins, which it goes on from or which bears it.
+    /// Finds for each segment the one that ends at its beginning: the one that it continues or is attached to.
     void find_bearers() {
         const auto& segments = scene_.segments();
         bearers_.assign(segments.size(), none);
@@ -264,7 +264,7 @@ private:
             const glm::dvec3 normal = glm::normalize(stage_.direction_back(seen));
             double depth = centre.z + seen.z;
             if (style_.camera.distance) {
-                // Where the perspective shows that place of the ball.
+                // The depth of that place of the ball in perspective.
                 const glm::dvec3 rim = stage_.point(centre + glm::dvec3(radius, 0, 0));
                 depth = stage_.place(glm::vec3(middle + normal * glm::distance(middle, rim))).z;
             }
@@ -401,7 +401,7 @@ private:
         }
     }
 
-    /// The flat end of a stem that nothing bears.
+    /// The flat end of a stem that is not attached.
     void draw_cut(Band& band, const Ring& ring, const Material& material) const {
         const glm::dvec3 eye = stage_.to_eye(glm::vec3(ring.at));
         if (glm::dot(eye, ring.tangent) >= 0) return;
@@ -432,7 +432,7 @@ private:
             const int slot = corners.empty() ? polygon.colour : corners[i].colour;
             const Colour colour = fill_colours_[std::size_t(slot)];
             glm::vec3 normal = corners.empty() ? flat : corners[i].normal * side;
-            // What curves away from the eye is lit as its rim.
+            // Parts that curve away from the eye are lit like the rim.
             if (const auto facing = glm::dot(normal, glm::vec3(eye)); facing < 0.05F) {
                 normal = glm::normalize(normal + glm::vec3(eye) * (0.05F - facing));
             }
@@ -534,7 +534,7 @@ private:
         return lights;
     }
 
-    /// @param ground  returns the ground there
+    /// @param ground  returns the ground at the pixel
     template <class Ground>
     static void write(std::span<const LitPart> parts, std::span<const Daylight::OnSurface> lights, std::size_t pixel,
                       int bare, Ground&& ground, int channels, std::uint8_t* out) {
@@ -545,12 +545,12 @@ private:
             for (std::size_t i = 0; i < 3; ++i) sums[i] += colour[i] * alpha;
             alphas += alpha;
         };
-        std::uint32_t shown = static_cast<std::uint32_t>(bare) * 255;  // of the ground
+        std::uint32_t shown = static_cast<std::uint32_t>(bare) * 255;  // share of the ground
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const LitPart::Share& share = parts[i].shares[pixel];
             if (share.count == 0) continue;
             const glm::vec3 own = share.colour / static_cast<float>(share.count);
-            // What has passed a leaf has been coloured by it twice.
+            // Light that has passed a leaf has been coloured by it twice.
             const glm::vec3 colour =
                 compressed(own * lights[i].front + through * own * glm::sqrt(own) * lights[i].behind);
             add({from_linear(colour.x), from_linear(colour.y), from_linear(colour.z)},
@@ -580,7 +580,7 @@ private:
         std::array<std::uint8_t, 3> colour;
         std::uint32_t alpha;
     };
-    /// The ground in that share of its light.
+    /// The ground in a share of its light.
     Shown ground_in(const glm::vec3& share) const {
         const float dark = 1 - (share.x + share.y + share.z) / 3;
         if (!(dark > 0)) return {{ground_.red, ground_.green, ground_.blue}, ground_.alpha};
@@ -631,9 +631,9 @@ private:
         const LitRaster& raster_;
         int top_;
         int square_;                  ///< side in pixels; divides the height of every band
-        int column_ = -1, row_ = -1;  ///< of the block in hand
-        std::optional<float> sun_;    ///< there
-        std::vector<std::vector<std::optional<float>>> corners_;  ///< of squares, by rows; made when needed
+        int column_ = -1, row_ = -1;  ///< place of the current block
+        std::optional<float> sun_;    ///< sun on it
+        std::vector<std::vector<std::optional<float>>> corners_;  ///< sky at corners of squares, by rows; on demand
     };
 
     double step_;

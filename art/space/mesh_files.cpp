@@ -25,7 +25,7 @@ std::string material_name(const Mesh& mesh) {
 
 // --- Wavefront OBJ: Wavefront Technologies, Advanced Visualizer Manual, appendix B1 --------------------------------
 
-/// A line of a file: no line ends in names.
+/// Puts a name on one line.
 std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char byte) { return byte == '\n' || byte == '\r'; }, ' ');

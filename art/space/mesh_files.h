@@ -21,7 +21,7 @@ struct Mesh {
     Colour colour;
     std::string_view kind{};  ///< kind of material, for its name
     bool two_sided = false;
-    std::vector<glm::vec3> positions{};    ///< empty: those of the last mesh that has any
+    std::vector<glm::vec3> positions{};    ///< empty: those of the last mesh with positions
     std::vector<glm::vec3> normals{};      ///< of length 1, one for each position; or none: triangles are flat
     std::vector<std::uint32_t> corners{};  ///< three for each triangle, anticlockwise from outside
     std::vector<Colour> colours{};         ///< one for each position, or none: all have `colour`
@@ -31,13 +31,13 @@ struct Mesh {
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { corners.insert(corners.end(), {a, b, c}); }
 };
 
-/// Where a mesh lies and how large it is.
+/// Place and units of a mesh.
 struct MeshPlacement {
     glm::dvec3 origin{0.0};
-    bool is_solid = false;  ///< in millimetres, z up, while glTF has metres, y up
+    bool is_solid = false;  ///< in millimetres, z up; glTF uses metres, y up
 };
 
-/// Materials are written beside NAME.obj as NAME.mtl, which is in place first.
+/// Writes a model, with its materials beside NAME.obj as NAME.mtl, which is in place first.
 /// @throws std::runtime_error if the file cannot be written; Stopped
 void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
                const std::filesystem::path& file, const Monitor& monitor, Destination& destination);

@@ -22,7 +22,7 @@
 namespace sikku {
 namespace {
 
-constexpr int sides = 8;         // of a tube
+constexpr int sides = 8;         // sides of a tube
 constexpr int sphere_rings = 8;  // from pole to pole
 constexpr int sphere_sides = 12;
 constexpr double sharpest = -0.5;  // cosine of the sharpest turn that a tube makes without ending
@@ -115,7 +115,7 @@ private:
         std::uint32_t before = 0;
         add_end(nodes.front(), -tangent, across, mesh);
         for (std::size_t i = 0; i < nodes.size(); ++i) {
-            // Between two segments a ring lies in the plane that halves their angle, turned as little as can be.
+            // Between two segments a ring lies in the plane that halves their angle, turned as little as possible.
             const bool is_inner = i > 0 && i + 1 < nodes.size();
             tangent = is_inner ? glm::normalize(direction(i - 1) + direction(i)) : direction(i > 0 ? i - 1 : 0);
             const glm::dvec3 turned = across - tangent * glm::dot(across, tangent);
@@ -150,7 +150,7 @@ private:
         }
     }
 
-    /// The same corner for polygons that share a vertex and its normal.
+    /// Returns the same corner for polygons that share a vertex and its normal.
     std::uint32_t shared_corner(Mesh& mesh, const glm::vec3& position, const glm::vec3& normal) {
         const std::array key = {position.x, position.y, position.z, normal.x, normal.y, normal.z};
         const auto [found, fresh] = shared_.try_emplace({&mesh, key}, 0);

@@ -17,7 +17,7 @@ void each_outline_run(const Outline& outline, int first, int end, Visit&& visit)
     struct Edge {
         glm::dvec2 from, to;
     };
-    std::vector<Edge> edges;  // of those rows
+    std::vector<Edge> edges;  // edges that reach these rows
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const auto& next = outline[i + 1 < outline.size() ? i + 1 : 0];
         const Edge edge{{outline[i].x, outline[i].y}, {next.x, next.y}};
@@ -25,7 +25,7 @@ void each_outline_run(const Outline& outline, int first, int end, Visit&& visit)
             edges.push_back(edge);
         }
     }
-    std::vector<std::pair<double, int>> cuts;  // x, and whether the edge goes up or down there
+    std::vector<std::pair<double, int>> cuts;  // x, and 1 where the edge goes up or -1
     for (int y = first; y < end; ++y) {
         const double centre = y + 0.5;
         cuts.clear();

@@ -129,7 +129,7 @@ public:
 private:
     glm::vec3 local(const glm::dvec3& point) const { return glm::vec3(point - scene.origin_); }
     void add(const glm::dvec3& point) {
-        // What is kept in floats is kept within their range.
+        // Values stored in floats must be within their range.
         if (glm::any(glm::greaterThan(glm::abs(point), glm::dvec3(1e18)))) {
             throw BudgetError("the drawing is larger than 10^18 steps, the limit for drawings in space");
         }
@@ -164,7 +164,7 @@ private:
 
 namespace {
 
-constexpr double sharpest_cosine = 0.25;   // of the angle between polygons that are one smooth surface
+constexpr double sharpest_cosine = 0.25;   // cosine of the angle between polygons that are one smooth surface
 constexpr std::size_t most_compared = 64;  // polygons at a vertex
 
 /// A corner of a polygon, and the place of its vertex.
@@ -174,7 +174,7 @@ struct Meeting {
     std::uint32_t corner;
 };
 
-/// A number for points that are the same but for rounding.
+/// A number that is equal for points that differ only by rounding.
 std::uint64_t place_number(const glm::vec3& point, float grid) {
     std::uint64_t hash = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -199,7 +199,7 @@ glm::dvec3 mean_normal(std::span<const Meeting> meetings, const Meeting& own,
     glm::dvec3 sum(0.0);
     for (const Meeting& other : meetings) {
         const double cosine = glm::dot(normal, normals[other.polygon]);
-        // Neighbours may run the other way around.
+        // Neighbours may have the opposite orientation.
         if (std::fabs(cosine) >= sharpest_cosine) sum += normals[other.polygon] * (cosine < 0 ? -1.0 : 1.0);
     }
     return glm::length(sum) > 0 ? glm::normalize(sum) : normal;
@@ -234,7 +234,7 @@ void Scene::smooth() {
 }
 
 void Scene::arch() {
-    constexpr double height = 0.5;  // of the arch, as a slope at the rim
+    constexpr double height = 0.5;  // height of the arch, as a slope at the rim
     const float grid = meeting_grid(bounds_);
     // Polygons that share an edge with another are parts of a solid.
     std::unordered_map<std::uint64_t, std::uint32_t> edges;

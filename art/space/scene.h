@@ -17,7 +17,7 @@
 
 namespace sikku {
 
-/// A width as the turtle has it: a factor of the style's stroke, or, below 0, what it was set to.
+/// A width of the turtle: a factor of the style's stroke, or, if negative, the width that was set.
 class SceneWidth {
 public:
     SceneWidth() = default;
@@ -34,16 +34,16 @@ private:
 /// A patch takes about as much memory and time as this many segments, once it is divided.
 constexpr double parts_of_patch = 40;
 
-/// In turtle steps, from the scene's origin, because floats have few digits: Scene::at(). Colours are indices of
-/// the style's palette.
+/// A segment. Coordinates are turtle steps from the scene's origin, because floats have few digits: see Scene::at().
+/// Colours are indices into the style's palette.
 struct SceneSegment {
     glm::vec3 from, to;
-    SceneWidth before, after;  ///< at its ends
+    SceneWidth before, after;  ///< widths at its ends
     std::int32_t colour = 0;
-    bool goes_on = false;  ///< the one before in the list ends where it begins
+    bool goes_on = false;  ///< the previous one in the list ends where it begins
 };
 struct ScenePolygon {
-    std::size_t first = 0;  ///< of its vertices
+    std::size_t first = 0;  ///< first of its vertices
     std::size_t count = 0;
     std::int32_t colour = 0;
     std::uint32_t inner_edges = 0;       ///< bit i: the edge after vertex i lies within a surface
@@ -59,7 +59,7 @@ struct SceneCorner {
 /// A predefined surface.
 struct SceneSurface {
     std::shared_ptr<const Surface> surface;
-    glm::mat4x3 map;  ///< from its coordinates
+    glm::mat4x3 map;  ///< map from its coordinates
     std::int32_t colour = 0;
 };
 struct SceneSphere {
@@ -69,12 +69,12 @@ struct SceneSphere {
     std::int32_t colour = 0;
 };
 
-/// All that is seen of a drawing. Memory: 40 bytes a segment, 12 a vertex, 20 more if it is shaded smoothly, 56 a
+/// The visible parts of a drawing. Memory: 40 bytes a segment, 12 a vertex, 20 more if it is shaded smoothly, 56 a
 /// polygon, 24 a sphere, 80 a surface.
 class Scene {
 public:
-    /// One pass over the word; what leaves nothing on paper is left out. `grammar` has its contexts resolved.
-    /// @param most  segments, vertices and spheres; more are a BudgetError
+    /// Collects the visible parts in one pass over the word. The contexts of `grammar` are resolved.
+    /// @param most  maximum number of segments, vertices and spheres; more throw BudgetError
     static Scene of(const Grammar& grammar, const Style& style, const DerivationOptions& derivation, double most);
 
     const std::vector<SceneSegment>& segments() const { return segments_; }
@@ -93,7 +93,7 @@ public:
     const std::vector<std::int32_t>& patch_colours(const Surface& surface) const {
         return patch_colours_.at(&surface);
     }
-    /// Where such a point is.
+    /// Position of such a point.
     glm::dvec3 at(const glm::vec3& point) const { return origin_ + glm::dvec3(point); }
     bool empty() const { return segments_.empty() && polygons_.empty() && spheres_.empty() && surfaces_.empty(); }
     /// Bounds of all points, without the width of pens.
@@ -104,7 +104,7 @@ private:
     friend class Tessellation;
     /// Gives polygons that share vertices common normals there.
     void smooth();
-    /// Arches polygons that stand alone, as leaves are: the light on them changes from side to side.
+    /// Arches single polygons, such as leaves, so that the light on them changes from side to side.
     void arch();
 
     glm::dvec3 origin_{0.0};  ///< the first point seen
@@ -114,7 +114,7 @@ private:
     std::vector<glm::vec3> vertices_;
     std::vector<SceneCorner> corners_;
     std::vector<SceneSurface> surfaces_;
-    std::map<const Surface*, std::vector<std::int32_t>> patch_colours_;  ///< -1: that of the turtle
+    std::map<const Surface*, std::vector<std::int32_t>> patch_colours_;  ///< -1: colour of the turtle
     SpaceBounds bounds_;
 };
 

@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 constexpr int most_side = 500'000;
-constexpr std::size_t most_entries = std::size_t{1} << 25;  // of all bins
+constexpr std::size_t most_entries = std::size_t{1} << 25;  // entries of all bins
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Stage picture_stage(const Scene& scene, const Print& print) {
 
 SceneBands::SceneBands(const Scene& scene, const Stage& stage, const PixelSize& size, double widening)
     : scene_(scene), stage_(stage), size_(size), widening_(widening) {
-    // Powers of two, as callers ask for whole multiples of 128 rows.
+    // Powers of two, as callers request multiples of 128 rows.
     height_ = size.width > 16'384 ? 8 : size.width > 8'192 ? 16 : 32;
     count_ = (size.height + height_ - 1) / height_;
     height_ = std::min(height_, size.height);

@@ -23,20 +23,20 @@ struct SceneItem {
 /// if that is over 128 MB, several bands share a list.
 class SceneBands {
 public:
-    static constexpr int samples = 4;  ///< of a pixel, each way; the stage's unit is one of them
+    static constexpr int samples = 4;  ///< per pixel in each direction; the unit of the stage
 
     /// @param widening  factor of the widths of stems that are drawn with collars
     SceneBands(const Scene& scene, const Stage& stage, const PixelSize& size, double widening = 1.0);
 
     int count() const { return count_; }
-    /// Rows of pixels of a band at most.
+    /// Maximum number of rows of pixels in a band.
     int height() const { return height_; }
     int rows(int band) const;
-    /// Items that may touch a band.
+    /// Number of items that may touch a band.
     std::size_t items(int band) const { return begin_[bin(band) + 1] - begin_[bin(band)]; }
     SceneItem item(int band, std::size_t i) const;
 
-    /// Half the width of a stem and the radius of a sphere, in samples: half a sample at least.
+    /// Half the width of a stem, or the radius of a sphere, in samples: at least half a sample.
     double radius(const SceneWidth& width, const glm::vec3& at) const;
     double radius(const SceneSphere& sphere) const;
 

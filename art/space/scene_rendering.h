@@ -1,4 +1,4 @@
-// art/space/scene_rendering.h: what the renderings of scenes share: samples in bands, colours, and the way through
+// art/space/scene_rendering.h: the common base of renderings of scenes: samples in bands, colours, and iteration over
 // the items of a band.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace sikku {
 template <class Sample>
 class SampleBand {
 public:
-    /// In pixels.
+    /// @param width, rows  in pixels
     SampleBand(int width, int rows)
         : width_(width * SceneBands::samples),
           samples_(std::size_t(width_) * std::size_t(rows) * SceneBands::samples) {}
@@ -67,7 +67,7 @@ protected:
         }
     }
 
-    /// Calls `visit(sample, depth)` for each sample that the outline runs around, with the depth of its plane.
+    /// Calls `visit(sample, depth)` for each sample within the outline, with the depth of its plane.
     template <class Visit>
     void each_of_outline(std::span<const glm::dvec3> outline, const glm::dvec3& normal, Visit&& visit) {
         glm::dvec3 middle(0.0);
@@ -89,7 +89,7 @@ protected:
         });
     }
 
-    /// Calls `visit(sample, out)` for each sample within a ball, with the direction out of it there, as long as its
+    /// Calls `visit(sample, out)` for each sample within a ball, with the outward direction there, as long as the
     /// radius.
     template <class Visit>
     void each_of_ball(const glm::dvec3& centre, double radius, Visit&& visit) {
@@ -119,7 +119,7 @@ private:
     std::vector<Sample> samples_;
 };
 
-/// A rendering of a scene, whose surfaces are divided as finely as its pixels are.
+/// A rendering of a scene, with surfaces divided to the resolution of its pixels.
 template <class Band>
 class SceneRendering : public Rendering {
 public:
@@ -156,7 +156,7 @@ protected:
             fill_colours_.push_back(style_.fill_colour(Pen{.colour = slot}));
         }
         for (const ScenePolygon& polygon : scene_.polygons()) {
-            // Once, and not in each band.
+            // Once, instead of in each band.
             if (polygon.count > 16) large_.emplace(&polygon, triangulate(scene_.vertices(polygon)));
         }
     }
@@ -167,7 +167,7 @@ protected:
     virtual void draw_sphere(Band& band, const SceneSphere& sphere) const = 0;
     virtual void resolve(const Band& band, int channels, std::vector<std::uint8_t>& pixels) const = 0;
 
-    /// Triangles of a polygon. @param own  holds them if they are not kept
+    /// Triangles of a polygon. @param own  receives them if they are not stored
     const Triangulation& triangles_of(const ScenePolygon& polygon, std::span<const glm::vec3> vertices,
                                       Triangulation& own) const {
         const auto known = large_.find(&polygon);
@@ -192,7 +192,7 @@ private:
         std::vector<std::uint8_t> pixels;
     };
 
-    /// A fifth of a pixel.
+    /// A deviation of a fifth of a pixel.
     static Fineness fineness(const Print& print) {
         return {.deviation = 0.2 * 25.4 / print.dpi / print.placement.step};
     }

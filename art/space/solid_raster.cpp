@@ -41,7 +41,7 @@ public:
         shaded_triangle(a, b, c, [&](double, double, double light) { return lit(colour, light); });
     }
 
-    /// The same with a colour for each corner.
+    /// Draws a triangle with a colour for each corner.
     void triangle(const Corner& a, const Corner& b, const Corner& c, const std::array<Colour, 3>& colours) {
         const glm::dvec2 ab(b.at - a.at), ac(c.at - a.at);
         const double area = ab.x * ac.y - ab.y * ac.x;
@@ -52,7 +52,7 @@ public:
         });
     }
 
-    /// @param shade  makes a colour of a place relative to `a`, and the light there
+    /// @param shade  returns the colour of a place relative to `a`, and the light there
     template <class Shade>
     void shaded_triangle(const Corner& a, const Corner& b, const Corner& c, Shade&& shade) {
         const glm::dvec3 ab = b.at - a.at, ac = c.at - a.at;
@@ -78,7 +78,7 @@ public:
         });
     }
 
-    /// All that the outline runs around, as deep as its plane.
+    /// Draws everything within the outline, at the depth of its plane.
     void polygon(std::span<const glm::dvec3> outline, const glm::dvec3& normal, double light, Colour colour) {
         const Colour shaded = lit(colour, light);
         each_of_outline(outline, normal, [&](Sample& sample, float depth) {
@@ -253,7 +253,7 @@ private:
         }
     }
 
-    /// With the light and the colours of its corners.
+    /// Draws a polygon with the light and the colours of its corners.
     void draw_smooth(Band& band, const ScenePolygon& polygon, std::span<const glm::dvec3> placed,
                      const Triangulation& parts) const {
         const std::vector<double> lights = corner_lights(scene_, polygon, stage_);

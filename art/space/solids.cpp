@@ -20,12 +20,12 @@ namespace sikku {
 namespace {
 
 constexpr int shades = 24;
-constexpr double wide_stem = 0.8;    // millimetres; wider ones are lit in strips,
-constexpr int strips = 6;            // so many
-constexpr double widening = 0.06;    // millimetres, of polygons within a surface
-constexpr double least_part = 0.5;   // millimetres, of a polygon in several shades
-constexpr double longest_side = 4;   // millimetres, of the polygons of a surface
-constexpr double round_stem = 0.35;  // wider ones have round ends
+constexpr double wide_stem = 0.8;    // millimetres; wider ones are lit in strips
+constexpr int strips = 6;            // number of strips
+constexpr double widening = 0.06;    // millimetres by which polygons within a surface are widened
+constexpr double least_part = 0.5;   // millimetres; smallest part of a polygon in several shades
+constexpr double longest_side = 4;   // millimetres; longest side of a polygon of a surface
+constexpr double round_stem = 0.35;  // millimetres; wider ones have round ends
 
 /// The colours of a palette that with_shades() made.
 class Shades {
@@ -78,7 +78,7 @@ public:
         for (const SceneSphere& sphere : scene_.spheres()) {
             add(stage_.place(sphere.centre).z + stage_.radius(sphere));
         }
-        // A round shape is as near as its nearest point. Of what is equally near, the later one lies over the
+        // The depth of a round shape is that of its nearest point. At equal depth, the later item lies over the
         // earlier.
         std::stable_sort(items.begin(), items.end(),
                          stoppable(monitor, [](const Item& a, const Item& b) { return a.depth < b.depth; }));
@@ -100,7 +100,7 @@ private:
         outline_.clear();
     }
 
-    /// Part of a circle, from one angle to another, both left out.
+    /// Adds part of a circle, from one angle to another, both excluded.
     void add_arc(glm::dvec2 centre, double radius, double from, double to, int pieces) {
         for (int i = 1; i < pieces; ++i) {
             const double angle = from + (to - from) * i / pieces;
@@ -108,7 +108,7 @@ private:
         }
     }
 
-    /// Circles, one over the other, from its outline to where the light falls.
+    /// Draws circles over each other, from the outline to the brightest point.
     void draw_ball(const glm::dvec3& centre, double radius, int colour, bool fills) {
         const double width = 2 * radius * step_;
         const int pieces = width > 8 ? 64 : width > wide_stem ? 32 : 10;
@@ -117,7 +117,7 @@ private:
             const double part = static_cast<double>(circle) / circles;
             add_arc(glm::dvec2(centre) + part * radius * flat_light_, radius * (1 - part),
                     -2 * std::numbers::pi / pieces, 2 * std::numbers::pi, pieces + 1);
-            // At the outline, that of a ball seen from any side, in the mean.
+            // At the outline, the mean for a ball over all sides.
             const double cosine = circles == 1 ? 0.65 : 0.2 + 0.8 * std::sqrt(part + 0.5 / circles);
             fill(colour, fills, stage_.brightness_towards(cosine));
         }
@@ -197,7 +197,8 @@ private:
         }
     }
 
-    /// Widens the outline beyond edges that lie within a surface, lest the ground be seen between its polygons.
+    /// Widens the outline beyond edges that lie within a surface, so that the ground is not visible between its
+    /// polygons.
     void overlap(std::uint32_t inner_edges) {
         const std::vector<glm::dvec2> points = outline_;
         double area = 0;
@@ -214,7 +215,7 @@ private:
         }
     }
 
-    /// A triangle in parts^2 small ones, each in the light of its middle and the colour of the nearest corner.
+    /// Draws a triangle as parts^2 small ones, each in the light of its middle and the colour of the nearest corner.
     void draw_parts(const std::array<glm::dvec2, 3>& points, const std::array<double, 3>& lights,
                     const std::array<std::int32_t, 3>& colours, int parts) {
         const auto shares = [&](double p, double q) { return glm::dvec3(parts - p - q, p, q) / double(parts); };
@@ -225,7 +226,7 @@ private:
                     const double third = is_upper ? 2.0 / 3 : 1.0 / 3;
                     const glm::dvec3 middle = shares(i + third, k + third);
                     const auto add = [&](double p, double q) {
-                        // Larger than it is, as far as the triangle reaches, so that there are no gaps.
+                        // Enlarged within the triangle, so that there are no gaps.
                         glm::dvec3 share = glm::max(middle + (shares(p, q) - middle) * 1.6, glm::dvec3(0.0));
                         share /= share.x + share.y + share.z;
                         outline_.push_back(points[0] * share.x + points[1] * share.y + points[2] * share.z);

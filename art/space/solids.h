@@ -8,19 +8,19 @@
 
 namespace sikku {
 
-/// The same style with a palette that holds, after its own colours, each of them in all shades of the light.
+/// Adds all shades of each colour in the light to the palette, after its own colours.
 Style with_shades(const Style& style);
 
-/// Draws into `sink`, in turtle steps as they are projected: polygons, stems and spheres in the order of their depth
-/// (of the middle of what is nearest of each), so that what is in front lies over what is behind; where they run
-/// through each other one lies over the other. Stems are outlines as wide at both ends as their pens, lit in strips
+/// Draws into `sink`, in projected turtle steps: polygons, stems and spheres in the order of their depth (by the mean
+/// of a polygon's vertices, and the nearest surface of stems and spheres), so that nearer ones lie over farther ones;
+/// where they intersect one lies over the other. Stems are outlines as wide at both ends as their pens, lit in strips
 /// where they are wide on paper.
 /// @param print  placed, in the style that with_shades() makes
-/// Cost: sorting; memory 16 bytes for each of them beside the scene. @throws Stopped
+/// Cost: sorting; memory: 16 bytes for each of them besides the scene. @throws Stopped
 void draw_solids(const Scene& scene, const Print& print, PathSink& sink, const Monitor& monitor = {});
 
-/// What is seen of the scene, in turtle steps, after `orientation` (see orientation()), and its widest pen in the
-/// measure of the style's stroke.
+/// The visible extent of a scene, in turtle steps, after `orientation` (see orientation()), and its widest pen in the
+/// unit of the style's stroke.
 struct SceneExtent {
     Box box;
     double widest = 0.0;

@@ -84,7 +84,7 @@ std::vector<double> corner_lights(const Scene& scene, const ScenePolygon& polygo
     const glm::dvec3 normal = area_normal(seen);
     std::vector<double> lights;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        // The page mirrors: normals of the scene and of what is seen may point to different sides.
+        // The page is mirrored: normals of the scene and of the projection may point to different sides.
         glm::dvec3 own = stage.direction(vertices[i], corners[i].normal);
         if (glm::dot(own, normal) < 0) own = -own;
         if (normal.z < 0) own = -own;

@@ -23,8 +23,8 @@ constexpr double most_facets = 1.5e6;
 /// A patch at evenly spaced parameters: (n + 1)^2 points.
 struct Grid {
     std::vector<glm::dvec3> points, normals;
-    std::vector<char> is_shared;  ///< with a neighbour
-    double near = 0;              ///< points at this distance are the same but for rounding
+    std::vector<char> is_shared;  ///< points shared with a neighbour
+    double near = 0;              ///< points within this distance differ only by rounding
 };
 
 /// The shape of a surface, in its own coordinates.
@@ -94,7 +94,7 @@ glm::dvec3 sum(const Patch& patch, const std::array<double, 4>& rows, const std:
     return result;
 }
 
-/// The unit normal ds x dt. Where an edge has collapsed to a point, that of a place beside it.
+/// The unit normal ds x dt. Where an edge has collapsed to a point, the normal of a place beside it.
 glm::dvec3 normal_at(const Patch& patch, double s, double t) {
     for (const double aside : {0.0, 1e-3}) {
         const double u = s + (0.5 - s) * aside, v = t + (0.5 - t) * aside;
@@ -141,7 +141,7 @@ bool are_neighbours(const Surface& surface, std::size_t a, std::size_t b) {
 
 /// A point on the rim of a patch.
 struct Meeting {
-    glm::dvec3 cell;  ///< the same for points that are the same but for rounding
+    glm::dvec3 cell;  ///< equal for points that differ only by rounding
     std::size_t patch;
     std::size_t point;
     bool operator<(const Meeting& other) const {
@@ -264,7 +264,7 @@ private:
         ScenePolygon polygon{scene_.vertices_.size(), 0, colour, 0, scene_.corners_.size(), organ_};
         for (std::size_t side = 0; side < 4; ++side) {
             const std::size_t from = round[side], to = round[(side + 1) % 4];
-            // An edge that has collapsed is left out.
+            // Skips an edge that has collapsed.
             if (glm::distance(grid.points[from], grid.points[to]) <= grid.near) continue;
             const bool is_inner = !is_rim[side] || (grid.is_shared[from] && grid.is_shared[to]);
             polygon.inner_edges |= (is_inner ? 1U : 0U) << polygon.count;

@@ -8,13 +8,13 @@ namespace sikku {
 
 /// How finely surfaces are divided. A patch that is flat is one polygon.
 struct Fineness {
-    double deviation = 0;  ///< of the polygons from the surface, at most, in turtle steps; 0: any
+    double deviation = 0;  ///< maximum distance of the polygons from the surface, in turtle steps; 0: any
     double share = 0;      ///< the same as a share of the surface's size
     double side = 0;       ///< longest side of a polygon of a curved surface, in turtle steps; 0: any
 };
 
-/// The same scene with its surfaces as polygons that are shaded smoothly. Each patch is divided evenly, into at most
-/// 48 by 48 polygons, and all patches into at most 1.5 million, unless they are more already.
+/// Replaces the surfaces of a scene by smoothly shaded polygons. Each patch is divided evenly, into at most 48 by 48
+/// polygons, and all patches into at most 1.5 million, unless there are more patches.
 /// Cost: 0.1 µs for each polygon; memory: 160 bytes for each. @throws Stopped
 /// Source: de Casteljau's and Bernstein's form; deviation of a chord: Filip, Magedson and Markot 1986.
 Scene tessellated(const Scene& scene, const Fineness& fineness, const Monitor& monitor = {});
@@ -23,7 +23,7 @@ Scene tessellated(const Scene& scene, const Fineness& fineness, const Monitor& m
 /// they are flat. Cost: linear in the patches.
 double bend_of(const SceneSurface& surface);
 
-/// The number of polygons into which a patch of that bend is divided. @param deviation  as Fineness has it, above 0
+/// The number of polygons into which a patch of that bend is divided. @param deviation  as in Fineness, above 0
 double polygons_of_patch(double bend, double deviation);
 
 }  // namespace sikku

@@ -23,7 +23,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// Exact at quarter turns, so that a view from the front is one.
+/// The unit vector at an angle, exact at quarter turns, so that a view from the front is exact.
 glm::dvec2 direction(double degrees) {
     const double turned = std::fmod(degrees, 360.0);
     const double quarters = turned / 90;

@@ -10,37 +10,37 @@
 
 namespace sikku {
 
-/// The eye. At 0 0 it stands in front of the drawing, on the side of z: x lies to the right, y upwards.
+/// The position of the eye. At 0 0 it is in front of the drawing, on the positive z axis: x is to the right, y
+/// upwards.
 struct Camera {
     double azimuth = 0.0;              ///< degrees to the right around the drawing
     double elevation = 0.0;            ///< degrees upwards, -90 to 90
-    std::optional<double> distance;    ///< radii of the drawing to the eye, 1.01 to 10^6; absent: orthographic
-    std::optional<SpaceBounds> aim{};  ///< bounds for which a perspective is arranged; absent: those of the drawing
+    std::optional<double> distance;    ///< eye's distance in radii of the drawing, 1.01 to 10^6; absent: orthographic
+    std::optional<SpaceBounds> aim{};  ///< bounds that set the perspective; absent: those of the drawing
     bool operator==(const Camera&) const = default;
 };
 
-/// `AZIMUTH ELEVATION [perspective [DISTANCE]]`, separated by blanks or commas, or in place of the angles `front`,
-/// `side` or `top`. Nullopt for anything else. The default distance of a perspective is 4 radii.
+/// Parses `AZIMUTH ELEVATION [perspective [DISTANCE]]`, separated by blanks or commas, or `front`, `side` or `top` in
+/// place of the angles. Returns nullopt for anything else. The default distance of a perspective is 4 radii.
 std::optional<Camera> parse_camera(std::string_view text);
 
-/// A camera that looks at a drawing: from points in space to points of the picture, in turtle steps, and how near
-/// they are.
+/// The projection of a camera: maps points in space to points of the picture and their nearness, in turtle steps.
 class Projection {
 public:
     Projection(const Camera& camera, const SpaceBounds& drawing);
 
-    /// x to the right, y up, z towards the eye; straight lines stay straight, planes stay planes. Without perspective
-    /// lengths are kept; with it, lengths at the middle of the drawing.
+    /// Projects a point: x to the right, y up, z towards the eye. Straight lines stay straight, planes stay planes.
+    /// Lengths are kept without perspective; with it, only those at the middle of the drawing.
     glm::dvec3 operator()(const glm::dvec3& point) const;
-    /// The point that is seen there.
+    /// The inverse: the point in space for a projected point.
     glm::dvec3 point(const glm::dvec3& seen) const;
-    /// Size of a step at this point in the picture, in steps.
+    /// Size in the picture of a step at this point, in steps.
     double scale(const glm::dvec3& point) const;
-    /// A direction as the eye sees it.
+    /// Turns a direction into the axes of the eye.
     glm::dvec3 turned(const glm::dvec3& direction) const { return axes_ * direction; }
-    /// The direction that the eye sees so.
+    /// The inverse of turned().
     glm::dvec3 turned_back(const glm::dvec3& seen) const { return seen * axes_; }
-    /// From there to the eye, as the eye sees it; of length 1.
+    /// Unit vector from a point in space to the eye, in the axes of the eye.
     glm::dvec3 to_eye(const glm::dvec3& point) const;
 
 private:

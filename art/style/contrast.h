@@ -9,7 +9,7 @@ namespace sikku {
 /// Source: ISO/CIE 11664-4; sRGB (IEC 61966-2-1) with its white.
 double colour_difference(Colour a, Colour b);
 
-/// A colour laid over an opaque one.
+/// Composites a colour over an opaque one.
 Colour laid_over(Colour colour, Colour ground);
 
 }  // namespace sikku

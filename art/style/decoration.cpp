@@ -52,7 +52,7 @@ private:
         return !text_.empty();
     }
 
-    /// Reads what the current word begins. Returns whether a word follows.
+    /// Reads the item that the current word begins. Returns true if a word follows.
     bool item() {
         if (text_ == "kolam") return set(result_.kolam);
         if (text_ == "truchet") return set(result_.truchet);

@@ -14,15 +14,15 @@ namespace sikku {
 struct TileCurve {
     enum class Kind { arc, line, dot };
     Kind kind = Kind::line;
-    double from = 0, to = 0;  ///< not of a dot
+    double from = 0, to = 0;  ///< unused for a dot
     int colour = 0;           ///< index into the palette
-    std::vector<int> tiles;   ///< colour indices of the tiles that have it
+    std::vector<int> tiles;   ///< colour indices of the tiles that carry it
 };
 
 /// Decoration of tiles.
 struct TileDecoration {
     bool kolam = false;    ///< strands that cross in the middles of sides, and turn back along the border
-    bool truchet = false;  ///< arcs between the middles of neighbouring sides, one of the possible ways by chance
+    bool truchet = false;  ///< arcs between the middles of neighbouring sides, arranged at random
     bool worms = false;    ///< centre lines of Conway worms: rows of three rhombs around a vertex
     bool dots = false;     ///< a dot in the middle of each tile
     bool strands = false;  ///< the colours of strands follow their lengths
@@ -31,10 +31,10 @@ struct TileDecoration {
     bool is_set() const { return kolam || truchet || worms || dots || !curves.empty(); }
 
     static constexpr std::size_t most_curves = 1000;
-    static constexpr double most_sides = 1000;  ///< places are less
+    static constexpr double most_sides = 1000;  ///< places are less than this
 };
 
-/// Reads the value of `decorate`; nothing of the decoration is set if it has errors, or is `none`.
+/// Reads the value of `decorate`. The result is empty if the value has errors or is `none`.
 TileDecoration read_decoration(const Key& key, Diagnostics& diagnostics);
 
 }  // namespace sikku

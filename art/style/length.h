@@ -17,10 +17,12 @@ struct Length {
     std::optional<double> millimetres(double dpi) const;
 };
 
-/// Blanks around number and unit are ignored. Returns nullopt if `text` does not begin with a finite number.
+/// Parses a length; ignores blanks around number and unit. Returns nullopt if `text` does not begin with a finite
+/// number.
 std::optional<Length> read_length(std::string_view text);
 
-/// A length such as `15mm`, `1.5cm`, `2m`, `2in`, `12pt`, `300px` in millimetres; px by `dpi`; a bare number is mm.
+/// Parses a length such as `15mm`, `1.5cm`, `2m`, `2in`, `12pt`, `300px` and returns millimetres; px by `dpi`; a bare
+/// number is mm.
 std::optional<double> parse_length(std::string_view text, double dpi);
 
 }  // namespace sikku

@@ -9,15 +9,14 @@
 
 namespace sikku {
 
-/// A set of powders. Neighbours in the list contrast with each other, as fields of different parity take them by
-/// turns.
+/// A set of powders. Neighbours in the list contrast, since fields of different parity alternate between them.
 struct Powders {
     std::string_view name;
     std::string_view colours;  ///< separated by blanks
 };
 
-/// All sets, in the order of the manual. The colour-blind, too, can distinguish the colours of `distinct` (Okabe and
-/// Ito 2008).
+/// Names of all sets, in the order of the manual. Colour-blind readers, too, can distinguish the colours of
+/// `distinct` (Okabe and Ito 2008).
 std::vector<std::string_view> powder_names();
 
 /// The colours of a set; nullopt for an unknown name.

@@ -17,7 +17,7 @@
 namespace sikku {
 namespace {
 
-constexpr double widest = 1000.0;      // of a stroke: millimetres or steps
+constexpr double widest = 1000.0;      // widest stroke: millimetres or steps
 constexpr double widest_pen_mm = 1e5;  // after the turtle's factors, so that every writer can print the number
 constexpr std::size_t most_colours = 4096;
 
@@ -28,8 +28,8 @@ bool is_separator(char byte, bool commas) {
     return byte == ' ' || byte == '\t' || (commas && byte == ',');
 }
 
-/// The next word at or after `at`, which moves behind it; empty at the end. What stands in parentheses stays
-/// together, so that `rgb(1, 2, 3)` is reported once.
+/// The next word at or after `at`, which moves past it; empty at the end. Text in parentheses stays together, so that
+/// `rgb(1, 2, 3)` is reported once.
 Span next_word(const Span& value, std::size_t& at, bool commas) {
     const std::string_view text = value.view();
     while (at < text.size() && is_separator(text[at], commas)) ++at;
@@ -281,7 +281,7 @@ void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
         style.palette = std::move(*powders);
         return;
     }
-    // A palette of nonsense is not worth more messages than anyone reads.
+    // Reports only the first errors of an invalid palette.
     int errors = 0;
     for (Span word = next_word(key.value, at, true); !word.empty() && errors < 20;
          word = next_word(key.value, at, true)) {

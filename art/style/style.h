@@ -32,7 +32,7 @@ struct StrokeWidth {
 /// Style of the dots of a kolam.
 struct DotStyle {
     std::optional<StrokeWidth> size;  ///< diameter; absent: a sixth of the way to the nearest dot
-    std::optional<Colour> colour;     ///< absent: of the lines
+    std::optional<Colour> colour;     ///< absent: colour of the lines
 };
 
 /// Frame of a print.
@@ -44,8 +44,8 @@ struct BorderStyle {
     bool operator==(const BorderStyle&) const = default;
 };
 
-/// Edges of polygons that are drawn: those of each, all of them once, only those without a polygon on either side,
-/// or none.
+/// Edges of polygons that are drawn: those of each, all of them once, only those that do not lie between two
+/// polygons, or none.
 enum class TileEdges : std::uint8_t { each, once, border, none };
 
 /// The property that determines the colour of a polygon; `blank`: it is not filled.
@@ -81,13 +81,13 @@ struct Style {
     std::int64_t tile_generation = 1;
     TileDecoration decoration;       ///< lines on polygons
     std::vector<Colour> powders;     ///< colours of fields, transparent for `none`; empty: the first set of powders
-    bool powders_are_named = false;  ///< a set by its name, from which colours of the lines are left out
+    bool powders_are_named = false;  ///< powders are a named set, from which colours of the lines are left out
     std::optional<double> weave;     ///< gap beside upper strands, in stroke widths; absent: no weave
     ParallelStyle parallel;
     MapStyle map;       ///< style of maps
     Camera camera;      ///< camera of drawings in space
-    Light light;        ///< light of pictures of them
-    double sway = 0.0;  ///< degrees by which their branches are turned out of their places at most
+    Light light;        ///< light of pictures of drawings in space
+    double sway = 0.0;  ///< maximum angle in degrees by which branches in space lean at random
 
     /// True if undrawn steps are control points of the line.
     bool moves_draw() const { return line == Line::spline && !moves_lift; }
@@ -95,12 +95,12 @@ struct Style {
     int index(const Pen& pen) const;
     Colour line_colour(const Pen& pen) const;
     Colour fill_colour(const Pen& pen) const;
-    /// For every colour index the first one of the same colour: they share a layer.
+    /// For every colour index, the first index with the same colour: they share a layer.
     std::vector<int> line_slots() const;
     std::vector<int> fill_slots() const;
-    /// Does a line of that pen leave anything on paper?
+    /// True if a line of the pen leaves a mark on paper.
     bool draws(const Pen& pen) const;
-    /// Width of a pen's line in the measure of `stroke`: millimetres or steps.
+    /// Width of a pen's line in the unit of `stroke`: millimetres or steps.
     double pen_width(const Pen& pen) const;
     /// Width of a pen's line in millimetres when a step is `step` millimetres long.
     double line_width(const Pen& pen, double step) const;
@@ -108,9 +108,9 @@ struct Style {
     double disc_radius(double radius, const Pen& pen, double step) const;
 };
 
-/// The value of `border:`: kaavi, padi, lotus, rope, diamonds, waves; or one or two pattern files, separated by a
-/// comma: the repeat and the corner. Nullopt for anything else. A file ends in `.lsys`; other words are names of
-/// bundled patterns.
+/// Parses the value of `border:`: kaavi, padi, lotus, rope, diamonds, waves; or one or two pattern files, separated
+/// by a comma: the repeat and the corner. Returns nullopt for anything else. A file ends in `.lsys`; other words are
+/// names of bundled patterns.
 std::optional<BorderStyle> parse_border(std::string_view text);
 
 /// The powders of a style, for fields and tiles: those of a set without the colours near `others`, the colours of

@@ -7,10 +7,10 @@
 
 namespace sikku {
 
-/// The text in quotation marks, cut off after 40 bytes.
+/// Returns the text in quotation marks, cut off after 40 bytes.
 std::string quoted_value(std::string_view text);
 
-/// A finite number from `least` to `most`, or nullopt.
+/// Parses a finite number from `least` to `most`; nullopt for anything else.
 std::optional<double> number_in(std::string_view text, double least, double most);
 
 }  // namespace sikku

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double points_of_micrometre = 72.0 / 25400.0;
 constexpr std::size_t flush_bytes = std::size_t{1} << 18;
-/// Printers of level 2 keep paths of 1,500 points. Lines are cut without a trace, as caps are round and all is
-/// opaque.
+/// Printers of level 2 support paths of 1,500 points. Cuts in lines are invisible, as caps are round and everything
+/// is opaque.
 constexpr int most_path_points = 1000;
 constexpr std::size_t block_of_points = 512;
-/// Distance of the control points of a quarter circle's Bézier, of its radius.
+/// Distance of the control points of a quarter circle's Bézier from its ends, in radii.
 constexpr double quarter_circle = 0.5522847498307936;
 
 inline char* put_point(char* out, Micrometres point) {
@@ -48,7 +48,7 @@ std::string comment_text(std::string_view text) {
 }
 
 struct Layer : VectorLayer {
-    int points = 0;  ///< of the open path
+    int points = 0;  ///< points of the open path
 };
 
 void end_path(Layer& layer) {
@@ -151,7 +151,7 @@ private:
         paper_ = mixed(print_.style.ground.value_or(white), white);
     }
 
-    /// The first layer of all goes to the file at once; the others wait in memory, as they may have to stand before
+    /// The first layer of all is written to the file at once; the others wait in memory, as they may have to precede
     /// it.
     template <typename Label>
     Layer& open_layer(LayerOrder order, Label&& label) {
@@ -298,8 +298,8 @@ private:
     }
 
     static constexpr Colour white{255, 255, 255, 255};
-    Colour paper_ = white;          ///< what translucent colours are mixed with
-    std::uint64_t body_begin_ = 0;  ///< where the layers of the part begin
+    Colour paper_ = white;          ///< colour with which translucent colours are mixed
+    std::uint64_t body_begin_ = 0;  ///< position at which the layers of the part begin
     bool streaming_ = false;        ///< a layer of the part went to the file
     bool has_part_ = false;
 };

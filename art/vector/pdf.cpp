@@ -4,6 +4,7 @@
 #include "art/vector/pdf_text.h"
 #include "art/vector/pdf_x.h"
 #include "art/vector/vector_writer.h"
+#include "engine/base/deflate.h"
 #include "engine/base/hash.h"
 
 #include <zlib.h>
@@ -25,35 +26,17 @@ namespace {
 
 constexpr double points_of_micrometre = 72.0 / 25400.0;
 constexpr double mark_width = 0.25;     // points
-constexpr double most_units = 14400.0;  // of a page's side, in its units: ISO 32000-1, annex C
+constexpr double most_units = 14400.0;  // maximum side of a page, in its units: ISO 32000-1, annex C
 
 constexpr std::size_t pack_bytes = std::size_t{1} << 18;
-/// Painted at once; readers keep a whole path in memory, and it is cut without a trace, as caps are round and a
-/// translucent layer is painted as a group.
+/// Points of a path that are painted at once, since readers keep a whole path in memory. Cuts are invisible, as caps
+/// are round and a translucent layer is painted as a group.
 constexpr int most_path_points = 8192;
 
-/// Distance of the control points of a quarter circle's Bézier, of its radius.
+/// Distance of the control points of a quarter circle's Bézier from its ends, in radii.
 constexpr double quarter_circle = 0.5522847498307936;
 
-/// A zlib stream of the bytes, as small as zlib makes it.
-std::string packed_profile(const std::vector<std::uint8_t>& bytes) {
-    z_stream stream{};
-    if (deflateInit2(&stream, 9, Z_DEFLATED, 15, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::runtime_error("zlib: out of memory");
-    }
-    std::string packed(bytes.size() + bytes.size() / 1000 + 64, '\0');
-    stream.next_in = const_cast<Bytef*>(bytes.data());
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    const bool is_packed = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-    packed.resize(packed.size() - stream.avail_out);
-    deflateEnd(&stream);
-    if (!is_packed) throw std::runtime_error("zlib: out of memory");
-    return packed;
-}
-
-/// Compresses pieces of streams, each for itself, so that one compressor serves any number of them at a time.
+/// Compresses pieces of streams separately, so that one compressor serves any number of streams at once.
 class Deflater {
 public:
     Deflater() {
@@ -105,14 +88,14 @@ constexpr std::size_t curve_room = 3 * point_room + 2;
 struct Layer : VectorLayer {
     std::string label;
     int stream = 0;            ///< number of the object with the drawing
-    int length = 0;            ///< and of its length, if it goes to the file before that is known
-    int group = 0;             ///< and of the optional content group
-    Colour colour;             ///< of strokes or discs
+    int length = 0;            ///< number of the object with its length, unless known in advance
+    int group = 0;             ///< number of the optional content group
+    Colour colour;             ///< colour of strokes or discs
     bool translucent = false;  ///< the whole layer is painted as one
     std::string packed;
-    std::uint64_t packed_bytes = 0;  ///< including what is in the file
+    std::uint64_t packed_bytes = 0;  ///< including those in the file
     uLong checksum = 1;              ///< Adler-32
-    int points = 0;                  ///< of the open path
+    int points = 0;                  ///< points of the open path
 };
 
 void end_path(Layer& layer) {
@@ -121,7 +104,7 @@ void end_path(Layer& layer) {
     layer.points = 0;
 }
 
-/// An empty last block, and the checksum.
+/// Appends an empty last block, and the checksum.
 void end_packed(Layer& layer) {
     layer.packed += std::string_view("\x03\x00", 2);
     for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
@@ -244,12 +227,11 @@ private:
         layers_.clear();
     }
 
-    // --- groups of tiles, within that of all fills: the tiles of a kind, wherever they are painted
-    // -------------------
+    // --- groups of tiles, within that of all fills: the tiles of a kind, wherever they are painted ---
 
     static constexpr std::size_t no_kind = ~std::size_t{0};
 
-    /// Assigns what follows to a kind of tiles, or to none.
+    /// Assigns the following content to a kind of tiles, or to none.
     void show_kind(Layer& layer, std::size_t kind) {
         if (kind == kind_) return;
         if (kind_ != no_kind) layer.text.append("EMC\n");
@@ -281,7 +263,7 @@ private:
         page_ = 0;
     }
 
-    /// What leaves the bleed would run into the marks.
+    /// Clips the drawing at the bleed, so that it does not run into the marks.
     void begin_art() {
         if (!has_marks()) return;
         const Window sheet{0.0, 0.0, print_.page.width, print_.page.height, true};
@@ -290,7 +272,7 @@ private:
 
     bool has_marks() const { return print_.press.marks || print_.press.registration; }
 
-    /// In all inks, so that every plate shows them.
+    /// Writes the marks in all inks, so that every plate shows them.
     void write_marks() {
         if (!has_marks()) return;
         std::string text = fmt::format("{} w", decimal(mark_width / unit_, 4));
@@ -344,7 +326,7 @@ private:
         write(fmt::format("{} 0 obj\n", number));
     }
 
-    /// Millimetres in units of the page.
+    /// Converts millimetres to units of the page.
     std::string user(double millimetres) const {
         return decimal(millimetres * 1000.0 * points_of_micrometre / unit_, 4);
     }
@@ -357,14 +339,14 @@ private:
                            user_y(window.top + window.height + around), user(window.width + 2 * around),
                            user(window.height + 2 * around));
     }
-    /// The lower left and the upper right corner.
+    /// Formats the lower left and the upper right corner.
     std::string box(double around) const {
         return fmt::format("[{} {} {} {}]", user_x(-around), user_y(size_.height + around),
                            user_x(size_.width + around), user_y(-around));
     }
 
-    /// The operators that set the colour of lines or of areas; a spot colour that is named is remembered.
-    /// @param is_drawn  of lines or dots, not of areas
+    /// The operators that set the colour of lines or of areas; records the spot colours that it names.
+    /// @param is_drawn  true for lines and dots, false for areas
     std::string ink(Colour colour, bool of_lines, bool is_drawn) {
         const std::vector<Spot>& spots = print_.press.spots;
         for (std::size_t i = 0; i < spots.size(); ++i) {
@@ -378,14 +360,14 @@ private:
                            colours_.set(of_lines));
     }
 
-    /// The operator that selects whether what follows overprints, if anything in the document does.
+    /// The operator that sets overprinting for the following content; empty if nothing in the document overprints.
     std::string overprint(bool may, Overprint kind) const {
         const Overprint chosen = print_.press.overprint;
         if (chosen == Overprint::none) return "";
         return may && (chosen == kind || chosen == Overprint::all) ? "/Over gs " : "/Under gs ";
     }
 
-    /// A tint of none is white; who has no such ink mixes it from the others.
+    /// A tint of 0 is white; devices without the ink mix it from others.
     void write_colour_spaces() {
         if (spots_.empty() && !has_marks()) return;
         const auto separation = [](const std::string& name, std::string_view space, std::string_view none,
@@ -404,14 +386,14 @@ private:
         write(">>\n");
     }
 
-    /// The operator that sets the opacity of fills and groups; the state it names is remembered.
+    /// The operator that sets the opacity of fills and groups; records the state that it names.
     std::string set_alpha(std::uint8_t alpha) {
         if (alpha == 255 && alphas_.empty()) return "";
         alphas_.insert(alpha);
         return fmt::format("/A{} gs", alpha);
     }
 
-    /// Micrometres with y down become units of the page with y up.
+    /// Maps micrometres with y down to units of the page with y up.
     std::string matrix() const {
         const std::string scale = decimal(points_of_micrometre / unit_, 14);
         return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + size_.height));
@@ -428,7 +410,7 @@ private:
         return fmt::format("<< {}/Length {} /Filter /FlateDecode >>\nstream\n", form, length);
     }
 
-    /// The first layer of all goes to the file at once, the others wait in memory. One whose `colour` is
+    /// The first layer of all is written to the file at once, the others wait in memory. One whose `colour` is
     /// translucent is painted as a whole, so that nothing darkens where it overlaps or where paths are cut.
     template <typename Label>
     Layer& open_layer(LayerOrder order, Colour colour, Label&& label) {
@@ -593,13 +575,13 @@ private:
         if (layer_->points > most_path_points) end_path(*layer_);
     }
 
-    /// Compresses what the layer holds if it is at least `least` bytes.
+    /// Compresses the text of the layer if it is at least `least` bytes.
     void pack(Layer& layer, std::size_t least) {
         if (layer.text.size() < least) return;
         const std::string_view text = layer.text.view();
         const std::size_t before = layer.packed.size();
         layer.checksum = adler32_z(layer.checksum, reinterpret_cast<const Bytef*>(text.data()), text.size());
-        // A polygon's text may be longer than zlib counts.
+        // A polygon's text may exceed the range of zlib's counters.
         for (std::size_t at = 0; at < text.size(); at += std::size_t{1} << 30) {
             deflater_.append(text.substr(at, std::size_t{1} << 30), layer.packed);
         }
@@ -645,7 +627,7 @@ private:
         }
         write(">>\nendobj\n");
 
-        // Plates are mixed as inks, each for itself, which a page mixed in RGB would not have.
+        // Plates are mixed as separate inks, which a page group in RGB would prevent.
         const bool has_group = !alphas_.empty() && spots_.empty() && !has_marks();
         std::string kids;
         for (const PageEntry& page : entries_) {
@@ -675,7 +657,7 @@ private:
         if (!title.empty()) write(fmt::format("/Title {}\n", text_string(title)));
         if (print_.press.inks) write(pdf_x_information());
         if (!print_.made.empty()) write(fmt::format("/Subject {}\n", text_string(print_.made)));
-        // A key of our own beside those of the standard, which allows it: the print can be made again from it.
+        // An additional key, which the standard allows: the print can be made again from it.
         if (!print_.pattern.empty()) write(fmt::format("/SikkuPattern {}\n", text_string(print_.pattern)));
         write("/Creator (Sikku) >>\nendobj\n");
 
@@ -698,7 +680,8 @@ private:
     /// Writes the output intent and the metadata of PDF/X-4; returns their entries in the catalogue.
     std::string write_press(const std::string& title, const std::string& id) {
         const PressInks& inks = *print_.press.inks;
-        const std::string packed = packed_profile(inks.profile);
+        const std::string packed =
+            deflated({reinterpret_cast<const char*>(inks.profile.data()), inks.profile.size()}, Deflate::zlib);
         const int profile = new_object();
         begin_object(profile);
         write(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()));
@@ -720,18 +703,18 @@ private:
 
     Deflater deflater_;
     PdfColours colours_;
-    uLong content_ = 0;                   ///< CRC-32 of what was written, for the identifier
-    std::vector<std::uint64_t> offsets_;  ///< of the objects, from number 1
+    uLong content_ = 0;                   ///< CRC-32 of everything written, for the identifier
+    std::vector<std::uint64_t> offsets_;  ///< offsets of the objects, from number 1
     std::set<int> alphas_;
-    std::set<std::size_t> spots_;  ///< that were used
+    std::set<std::size_t> spots_;  ///< spot colours that were used
     std::string contents_;         ///< streams in the order in which they are painted
     std::string groups_;           ///< optional content groups
-    std::string order_;            ///< the same as a reader lists them: those of a part together
-    std::string properties_;       ///< and as resources
+    std::string order_;            ///< groups as a reader lists them: those of a part together
+    std::string properties_;       ///< groups as resources
     std::string forms_;
-    TileKinds kinds_;               ///< of the part that is being drawn
-    std::vector<int> kind_groups_;  ///< and the numbers of their groups
-    std::size_t kind_ = no_kind;    ///< what is being painted
+    TileKinds kinds_;               ///< kinds of tiles in the part being drawn
+    std::vector<int> kind_groups_;  ///< numbers of their groups
+    std::size_t kind_ = no_kind;    ///< kind being painted
     /// A completed page.
     struct PageEntry {
         int object;

@@ -14,7 +14,7 @@
 
 namespace sikku {
 
-/// A text string: as it is if it is printable ASCII, else in UTF-16 with a byte order mark.
+/// Returns a text string: unchanged if it is printable ASCII, else in UTF-16 with a byte order mark.
 inline std::string text_string(std::string_view text) {
     const bool plain = std::all_of(text.begin(), text.end(), [](char byte) {
         return (byte >= 0x20 && byte < 0x7F) || byte == '\n' || byte == '\t';
@@ -51,7 +51,7 @@ inline std::string text_string(std::string_view text) {
     return result + '>';
 }
 
-/// Bytes that end or escape a name are written as #xx.
+/// Returns a name, with bytes that would end or escape it as #xx.
 inline std::string name_object(std::string_view name) {
     std::string result = "/";
     for (const char byte : name) {

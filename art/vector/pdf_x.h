@@ -1,4 +1,4 @@
-// art/vector/pdf_x.h: what makes a PDF a PDF/X-4: its identification, and colours as inks.
+// art/vector/pdf_x.h: the parts of PDF/X-4: identification, and colours as inks.
 #pragma once
 
 #include "art/print/press.h"
@@ -17,14 +17,14 @@ public:
     explicit PdfColours(const Press& press) : press_(press) {}
 
     std::string_view space() const { return press_.inks ? "DeviceCMYK" : "DeviceRGB"; }
-    /// The numbers of an opaque colour. Lines and dots in black, of which every plate would show if it were
-    /// misaligned, are in black ink alone; areas in black are as the profile mixes them.
+    /// The channels of an opaque colour. Black lines and dots are in black ink alone, since several plates would show
+    /// if misaligned; black areas are mixed by the profile.
     const std::string& channels(Colour colour, bool is_drawn);
     /// The operator that sets the colour of lines, or of areas.
     std::string_view set(bool of_lines) const {
         return press_.inks ? (of_lines ? " K" : " k") : (of_lines ? " RG" : " rg");
     }
-    /// No ink at all.
+    /// The channels of unprinted paper.
     std::string_view none() const { return press_.inks ? "0 0 0 0" : "1 1 1"; }
 
 private:
@@ -37,8 +37,8 @@ inline bool is_black_ink(const Press& press, Colour colour, bool is_drawn) {
     return press.inks && is_drawn && colour.red == 0 && colour.green == 0 && colour.blue == 0;
 }
 
-/// The entries of the document information that PDF/X-4 demands beside the title. PDF/X demands dates; as the same
-/// print is the same file on every day, they are the first day of 2010, the year of the standard.
+/// The entries of the document information that PDF/X-4 requires besides the title. The dates that it requires are
+/// the first day of 2010, the year of the standard, so that the same print is the same file on every day.
 std::string pdf_x_information();
 /// The XMP packet. The title is UTF-8; `id` has 32 hexadecimal digits.
 /// Source: ISO 15930-7:2010, 6.8 and 6.9; ISO 16684-1.

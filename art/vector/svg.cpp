@@ -19,15 +19,15 @@
 namespace sikku {
 namespace {
 
-/// libxml2, and with it xmllint and rsvg, refuses attributes of 10 MB, and also 10 MB in which it did not come by the
-/// end of what it has buffered when an element began, about one chance in eight. So a file begins with long paths and
-/// goes on with short ones.
+/// libxml2, and with it xmllint and rsvg, refuses attributes of 10 MB, and also 10 MB of text if its buffer never
+/// ends where an element begins, about one chance in eight. So a file begins with long paths and continues with short
+/// ones.
 constexpr std::uint64_t most_path_bytes = 3'900'000;
 constexpr std::uint64_t long_path_region = 3'000'000;
 constexpr std::uint64_t late_path_bytes = 32'000;
 constexpr std::size_t flush_bytes = std::size_t{1} << 18;
-/// The first strokes of a layer are paths of their own, so that they can be picked up one by one; among very many
-/// the short ones share paths of about this size.
+/// The first strokes of a layer are paths of their own, so that they can be selected one by one; among very many the
+/// short ones share paths of about this size.
 constexpr int single_strokes = 256;
 constexpr std::uint64_t shared_path_bytes = 4096;
 
@@ -36,7 +36,7 @@ std::string opacity(std::string_view name, Colour colour) {
     return colour.alpha == 255 ? "" : fmt::format(" {}=\"{}\"", name, decimal(colour.alpha / 255.0, 4));
 }
 
-/// A command letter where it differs from the last one; else the separator that the number after it needs.
+/// Writes a command letter if it differs from the last one; else the separator that the next number needs.
 inline char* put_command(char* out, char letter, char& last, std::int32_t value) {
     if (letter != last) {
         *out++ = last = letter;
@@ -107,10 +107,10 @@ double curve_length(const std::array<glm::dvec2, 4>& b) {
 }
 
 struct Layer : VectorLayer {
-    std::uint64_t flushed = 0;     ///< bytes of its text that are in the file already
-    std::uint64_t path_begin = 0;  ///< where the open path's attribute d began, as position()
+    std::uint64_t flushed = 0;     ///< bytes of its text that were written to the file
+    std::uint64_t path_begin = 0;  ///< position() of the open path's attribute d
     std::string path_width;        ///< stroke-width of the open path
-    Micrometres at;                ///< where the open path ends
+    Micrometres at;                ///< end of the open path
     int strokes = 0;
 
     std::uint64_t position() const { return flushed + text.size(); }
@@ -230,8 +230,8 @@ private:
                         box, hex(*ground), opacity("fill-opacity", *ground)));
     }
 
-    /// Paths know when they begin and how long they are, in millimetres; the pace is told here, when all are known.
-    /// Readers that know no animation show the whole drawing.
+    /// Paths contain their beginning and length in millimetres; the pace is written here, when all are known. Viewers
+    /// without animation show the whole drawing.
     void write_animation() {
         file_.write(
             fmt::format("<style>\n:root {{ --pace: {}s }}\n"
@@ -244,7 +244,7 @@ private:
                         decimal(*print_.animation / std::max(drawn_length_, 1e-3), 9), has_falling_ ? falling : ""));
     }
 
-    /// The step that a part is, and the class of its group: `s`, seen for a while, or `w`, the last, which stays.
+    /// The step that a part is, and the class of its group: `s`, visible for a while, or `w`, the last, which stays.
     std::string step_class(const std::optional<LessonPart>& lesson) {
         if (!lesson) return "";
         lesson_ = lesson;
@@ -252,7 +252,7 @@ private:
                            lesson->number);
     }
 
-    /// Readers that know no animation show the last step.
+    /// Viewers without animation show the last step.
     void write_lesson() {
         file_.write(fmt::format("<style>\n:root {{ --step: {}s; --drawing: {}s }}\n{}</style>\n",
                                 decimal(lesson_->seconds, 3), decimal(lesson_->drawing, 3), lesson_style));
@@ -267,8 +267,8 @@ private:
         std::string attributes;
     };
 
-    /// The layer of that order, begun with its group on first use. The first layer of all goes to the file at
-    /// once; the others wait in memory, as they may have to stand before it.
+    /// The layer of that order, begun with its group on first use. The first layer of all is written to the file at
+    /// once; the others wait in memory, as they may have to precede it.
     template <typename Text>
     Layer& open_layer(LayerOrder order, Text&& text) {
         const auto [found, is_new] = layers_.try_emplace(order);
@@ -430,7 +430,7 @@ private:
 
     void write_lines(std::span<const glm::dvec2> ends) override {
         char* out = layer_->text.room(ends.size() * line_room);
-        // Locals, so that the compiler need not fear that writing text changes them.
+        // Local copies: the compiler can rely on writing text not to change them.
         PathData path = data_;
         const MicrometrePlacement place = place_;
         for (const glm::dvec2 point : ends) path.line(out, place(point));
@@ -521,8 +521,8 @@ private:
     int parts_ = 0;
     std::optional<LessonPart> lesson_;  ///< the last one
     bool has_falling_ = false;          ///< pieces of lines drawn by hand
-    double piece_length_ = 0.0;         ///< of an animated print, in millimetres
-    double drawn_length_ = 0.0;         ///< of all its pieces so far
+    double piece_length_ = 0.0;         ///< length of the open piece, in millimetres
+    double drawn_length_ = 0.0;         ///< length of all animated pieces so far
     std::int64_t tiles_ = 0;            ///< polygons with names
     std::size_t moved_ = 0;             ///< polygons of a part that moves
     PolygonClasses tile_classes_;

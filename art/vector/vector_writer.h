@@ -21,16 +21,16 @@ namespace sikku {
 enum class LayerKind { polygons, strokes, discs };
 using LayerOrder = std::pair<LayerKind, int>;
 
-/// What the layers of every format have.
+/// State of a layer, common to all formats.
 struct VectorLayer {
     TextBuffer text;
-    bool to_file = false;       ///< its text goes to the file at once, that of others waits in memory
+    bool to_file = false;       ///< the text is written to the file at once, instead of waiting in memory
     bool path_open = false;     ///< strokes are being added to a path
-    std::string width;          ///< of lines, as set last
-    std::optional<Colour> run;  ///< colour of polygons or discs, as set last
+    std::string width;          ///< width of lines set last
+    std::optional<Colour> run;  ///< colour of polygons or discs set last
 };
 
-/// Takes strokes apart: into pieces with one pen each, those into blocks of points. The format writes them.
+/// Splits strokes into pieces with one pen each, and pieces into blocks of points, which the format writes.
 template <class Layer, class Base = PrintWriter>
 class VectorWriter : public Base {
 public:
@@ -85,7 +85,7 @@ protected:
           line_slots_(print.style.line_slots()),
           fill_slots_(print.style.fill_slots()) {}
 
-    /// From here on drawings are those of `part`; the layers of the last one have been written.
+    /// Continues with the drawings of `part`, once the layers of the previous part have been written.
     void take_part(const Print& part, const Window& window) {
         part_ = &part;
         window_ = window;
@@ -97,7 +97,7 @@ protected:
         pen_.reset();
     }
 
-    /// Ends what was drawn with the present pen, if anything was.
+    /// Ends the piece drawn with the current pen, if any.
     void end_piece(bool closed) {
         if (!started_) return;
         write_end(closed && drawn_);
@@ -107,30 +107,30 @@ protected:
 
     const Print& print_;  ///< the whole sheet
     Output& file_;
-    const Print* part_;  ///< what is being drawn: the sheet itself, or what begin_part() told
-    Window window_;      ///< of the part
+    const Print* part_;  ///< the sheet itself, or the part passed to begin_part()
+    Window window_;      ///< window of the part
     MicrometrePlacement place_;
     std::map<LayerOrder, Layer> layers_;
 
-    // The stroke that is being drawn, and its piece with the present pen.
+    // The current stroke, and its piece with the current pen.
     Layer* layer_ = nullptr;  ///< null until something is drawn with this pen
     int slot_ = 0;
     Colour colour_;
     std::string width_;   ///< micrometres
-    bool drawn_ = false;  ///< the piece has something that has length
+    bool drawn_ = false;  ///< the piece has length
     Micrometres here_;
 
 private:
-    /// The layer of slot_, begun if need be.
+    /// The layer of slot_, created if necessary.
     virtual Layer& stroke_layer() = 0;
     /// Puts the pen down at here_.
     virtual void write_start() = 0;
-    /// Append a block to the layer and leave here_ at its end. Points that round to the same are one.
+    /// Append a block to the layer and leave here_ at its end. Points that round to the same place are merged.
     virtual void write_lines(std::span<const glm::dvec2> ends) = 0;
     virtual void write_curves(std::span<const glm::dvec2> controls) = 0;
-    /// After each block, of so many points and bytes; may end the piece, which then goes on as another.
+    /// Called after each block with its points and bytes; may end the piece, which then continues as another.
     virtual void end_block(std::size_t points, std::size_t bytes) = 0;
-    /// Ends the piece; one in which nothing was drawn is a dot.
+    /// Ends the piece; one without length is a dot.
     virtual void write_end(bool closed) = 0;
     virtual void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) = 0;
     virtual void write_area(std::span<const glm::dvec2> outline, Colour colour) = 0;
@@ -148,7 +148,7 @@ private:
         slot_ = slot_of(pen);
         width_ = width_text(pen);
         colour_ = part_->style.line_colour(pen);
-        // In PDF a width of 0 is the thinnest line there is, and not none.
+        // In PDF a width of 0 is the thinnest possible line, not an invisible one.
         visible_ = part_->style.draws(pen) && width_ != "0";
         layer_ = nullptr;
     }
@@ -172,7 +172,7 @@ private:
         }
     }
 
-    /// Only when something is drawn: a pen that is changed twice at one place leaves no dot.
+    /// Called only when something is drawn: a pen that is changed twice at one place leaves no dot.
     void start_piece() {
         if (started_) return;
         started_ = true;

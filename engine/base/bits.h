@@ -6,7 +6,7 @@
 
 namespace sikku {
 
-/// std::bit_cast, which libc++ 13 does not have.
+/// std::bit_cast, which libc++ 13 lacks.
 template <typename To, typename From>
 constexpr To bit_cast(const From& value) {
     static_assert(sizeof(To) == sizeof(From));

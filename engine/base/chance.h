@@ -5,7 +5,7 @@
 
 namespace sikku {
 
-/// 64 bits that look random, others for each number.
+/// Returns 64 pseudorandom bits, different for each number.
 /// Source: Steele, Lea & Flood 2014, SplitMix64 (the finalizer, variant 13 of D. Stafford).
 constexpr std::uint64_t scrambled(std::uint64_t bits) {
     bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9U;
@@ -13,8 +13,8 @@ constexpr std::uint64_t scrambled(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// A module's place in a derivation tree: that of its parent and which of its children it is. A module that stays as
-/// it is keeps its place.
+/// Identifies a module's place in a derivation tree by its parent's place and its index among the children. A module
+/// that is not rewritten keeps its place.
 constexpr std::uint64_t child_place(std::uint64_t parent, std::uint64_t index) {
     return scrambled(parent + 0x9E3779B97F4A7C15U * (index + 1));
 }
@@ -23,12 +23,12 @@ constexpr std::uint64_t axiom_place(std::uint64_t seed, std::uint64_t index) {
     return child_place(scrambled(seed ^ 0x5851F42D4C957F2DU), index);
 }
 
-/// What is drawn for one module in one derivation step.
+/// Random numbers of one module in one derivation step.
 struct Chance {
     std::uint64_t place = 0;
     std::int64_t step = 0;  ///< from 1; 0 for the axiom itself
 
-    /// 53 bits: the same for the same draw, and unrelated for others.
+    /// Returns 53 bits: the same for the same draw, unrelated for others.
     constexpr std::uint64_t bits(std::uint32_t draw) const {
         const std::uint64_t here = scrambled((place ^ 0xD1B54A32D192ED03U) + static_cast<std::uint64_t>(step));
         return scrambled(here + 0x9E3779B97F4A7C15U * (std::uint64_t{draw} + 1)) >> 11;

@@ -21,8 +21,9 @@ bool is_blank(char byte) {
     return byte == ' ' || byte == '\t';
 }
 
-/// Comments, continued line ends, carriage returns before a line end and a byte order mark become blanks, so that
-/// offsets stay those of the file. `open_comment`: where a comment without end begins.
+/// Replaces comments, continued line ends, carriage returns before a line end and a byte order mark by blanks, so
+/// that offsets stay those of the file.
+/// @param open_comment  receives the offset of a comment without end
 std::string clean(const std::string& text, std::size_t& open_comment) {
     std::string cleaned;  // a copy from the first change on
     const auto blank = [&](std::size_t begin, std::size_t end) {
@@ -70,16 +71,16 @@ std::string clean(const std::string& text, std::size_t& open_comment) {
     return cleaned;
 }
 
-/// Whether a terminal would obey the character, or show what follows it in another order: control characters (C0,
-/// DEL, C1) and embeddings, overrides and isolates of the direction of writing (U+202A to U+202E, U+2066 to U+2069).
+/// True for characters that a terminal obeys or that reorder those after them: control characters (C0, DEL, C1) and
+/// embeddings, overrides and isolates of the direction of writing (U+202A to U+202E, U+2066 to U+2069).
 bool is_command(std::string_view character) {
     const auto lead = static_cast<unsigned char>(character.empty() ? ' ' : character[0]);
     return lead < 0x20 || lead == 0x7F || (character >= "\u0080" && character <= "\u009F") ||
            (character >= "\u202A" && character <= "\u202E") || (character >= "\u2066" && character <= "\u2069");
 }
 
-/// At most 80 columns of the line around `at`, tabs and what is no printable text shown as a blank or '?', and
-/// the caret's column within it.
+/// Returns at most 80 columns of the line around `at`, with tabs as blanks and unprintable text as '?', and the
+/// caret's column within it.
 std::string excerpt(const std::string& text, std::size_t at) {
     at = std::min(at, text.size());
     std::size_t begin = at;
@@ -94,7 +95,7 @@ std::string excerpt(const std::string& text, std::size_t at) {
     int columns = 0;
     if (begin == 0 && text.starts_with("\xEF\xBB\xBF")) begin = 3;
     for (std::size_t i = begin; i < text.size() && text[i] != '\n' && columns < 80;) {
-        // A column is a byte that continues nothing, with what continues it: as place() counts.
+        // A column is a byte with its continuation bytes, as place() counts.
         std::size_t end = i + 1;
         while (end < text.size() && is_continuation(text[end])) ++end;
         if (text[i] != '\r') {
@@ -210,7 +211,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string_view candidate : known) {
         if (candidate.size() >= word.size() + best_distance) continue;
-        // Optimal string alignment: neighbours exchanged count as one slip.
+        // Optimal string alignment: two neighbours exchanged are one error.
         std::vector<std::size_t> earlier(candidate.size() + 1);
         std::vector<std::size_t> above(candidate.size() + 1);
         std::vector<std::size_t> row(candidate.size() + 1);

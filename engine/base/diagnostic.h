@@ -30,9 +30,9 @@ public:
     const std::string& name() const { return name_; }  ///< as the user gave it: a path, "-", "--set"
     const std::string& text() const { return text_; }  ///< the bytes as they were read
     bool is_value() const { return is_value_; }
-    /// The same length: comments, continuations and carriage returns blanked.
+    /// The text with comments, continuations and carriage returns replaced by blanks, at its full length.
     std::string_view cleaned() const { return cleaned_.empty() ? text_ : cleaned_; }
-    /// Where a comment begins that has no end; npos if there is none.
+    /// Offset of a comment without end; npos if there is none.
     std::size_t open_comment() const { return open_comment_; }
     /// Cost: linear in the offset.
     Place place(std::size_t at) const;
@@ -63,7 +63,7 @@ struct Span {
     bool empty() const { return length == 0; }
 };
 
-/// One thing wrong (or, as a warning, doubtful) at one place.
+/// One error, or warning, at one place.
 struct Diagnostic {
     std::string file;
     Place where;  ///< line 0: nowhere in a file; `file` is then a setting and its value: `scale dorain`
@@ -75,16 +75,16 @@ struct Diagnostic {
     std::string text() const;
 };
 
-/// Collects the mistakes of a file; all are reported at once. Past 50 errors only the number is kept.
+/// Collects errors and warnings of a file, which are reported together. After 50 errors only their number is kept.
 class Diagnostics {
 public:
     void error(const Span& where, const std::string& message) { add(where, message, false); }
     void warning(const Span& where, const std::string& message) { add(where, message, true); }
-    /// Adds one of another collection.
+    /// Adds a diagnostic of another collection.
     void add(const Diagnostic& diagnostic);
     const std::vector<Diagnostic>& list() const { return list_; }
     bool has_errors() const { return errors_ > 0; }
-    /// The text is no pattern at all; looking further at it would tell nothing.
+    /// True if the text is not a pattern at all, so that further checks are useless.
     bool is_unreadable() const { return unreadable_; }
     void unreadable(const Span& where, const std::string& message) {
         unreadable_ = true;
@@ -101,7 +101,7 @@ private:
     bool unreadable_ = false;
 };
 
-/// A pattern that cannot be used: every diagnostic of it. what() is their text.
+/// Thrown for a pattern that cannot be used, with all its diagnostics; what() is their text.
 class PatternError : public std::runtime_error {
 public:
     explicit PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors);
@@ -114,7 +114,7 @@ private:
 /// The one of `known` nearest to `word` by edit distance, or empty if none is near enough to be meant.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known);
 
-/// Bytes of the code point at the front of `text` (not empty), or 0 if it is no valid UTF-8.
+/// Bytes of the code point at the front of `text` (not empty), or 0 if it is not valid UTF-8.
 std::size_t utf8_length(std::string_view text);
 
 /// Returns `text` as one line for a message or a table: line breaks (also U+2028 and U+2029) become blanks, other
@@ -130,7 +130,7 @@ std::string printable_lines(std::string_view text, std::size_t most = 240);
 /// blanks, and without characters that begin a block comment or continue the line.
 std::string pattern_line(std::string_view text, std::size_t most = 400);
 
-/// The whole of `text` as a finite decimal number in any locale, or false.
+/// Reads the whole of `text` as a finite decimal number, in any locale; false if it is not one.
 bool read_number(std::string_view text, double& value);
 
 }  // namespace sikku

@@ -11,7 +11,7 @@ namespace sikku {
 class TextHash {
 public:
     void add(std::string_view bytes);
-    /// The same, but with its length, so that pieces cannot run into each other.
+    /// Adds the bytes with their number, so that successive pieces remain distinct.
     void add_piece(std::string_view bytes);
     std::string digits() const;
 

@@ -18,7 +18,7 @@ struct HelpGroup {
     std::vector<HelpRow> rows;
 };
 
-/// Everything that help says about a command, or about the program.
+/// Contents of the help for a command, or for the program.
 struct HelpPage {
     std::string name;  ///< `sikku draw`
     std::string summary;
@@ -28,16 +28,16 @@ struct HelpPage {
     std::vector<std::string> examples;  ///< command lines
 };
 
-/// For a terminal: rows aligned and grouped, at most 100 columns wide, examples last.
+/// Formats a page for a terminal: rows aligned and grouped, at most 100 columns wide, examples last.
 std::string help_text(const HelpPage& page);
 
-/// A section of Markdown under a heading of the second level.
+/// Formats a page as a section of Markdown under a heading of the second level.
 std::string help_markdown(const HelpPage& page);
 
 /// `sikku-draw` from `sikku draw`.
 std::string hyphenated(std::string name);
 
-/// A page of section 1 for man, in roff.
+/// Formats a page of section 1 for man, in roff.
 /// @param others  names of further pages
 std::string man_page(const HelpPage& page, const std::vector<std::string>& others);
 

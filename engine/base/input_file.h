@@ -59,7 +59,7 @@ public:
     }
     /// Skips past the next `mark` (1 to 64 bytes); false if there is none before the end. Cost: a search.
     bool skip_past(std::string_view mark);
-    /// Skips `text` if it comes next.
+    /// Skips `text` and returns true if it comes next.
     bool skip_text(std::string_view text);
 
 private:

@@ -5,6 +5,7 @@
 #include <link.h>
 #endif
 
+#include <cstdlib>
 #include <system_error>
 
 namespace sikku {
@@ -23,14 +24,45 @@ std::filesystem::path shared_library() {
 #endif
 }
 
-}  // namespace
-
+/// Folder of the binary that contains this library: a program, or a shared library such as a Python module. Empty if
+/// the system does not report it.
 std::filesystem::path binary_folder() {
     std::error_code error;
     const std::filesystem::path library = shared_library();
     const std::filesystem::path file = library.empty() ? std::filesystem::read_symlink("/proc/self/exe", error)
                                                        : std::filesystem::absolute(library, error);
     return error ? std::filesystem::path() : file.parent_path();
+}
+
+std::filesystem::path& chosen_folder() {
+    static std::filesystem::path folder;
+    return folder;
+}
+
+}  // namespace
+
+void set_data_folder(const std::filesystem::path& folder) {
+    chosen_folder() = folder;
+}
+
+std::vector<std::filesystem::path> data_folders() {
+    if (const char* folder = std::getenv("SIKKU_DATA"); folder && *folder) return {folder};
+    std::vector<std::filesystem::path> folders;
+    if (!chosen_folder().empty()) folders.push_back(chosen_folder());
+    const std::filesystem::path beside = binary_folder();
+    if (!beside.empty()) folders.push_back((beside / SIKKU_DATA_RELATIVE).lexically_normal());
+    folders.emplace_back(SIKKU_DATA_INSTALLED);
+    return folders;
+}
+
+std::filesystem::path installed_file(const std::filesystem::path& relative) {
+    std::filesystem::path file;
+    for (const std::filesystem::path& folder : data_folders()) {
+        std::error_code error;
+        file = (folder / relative).lexically_normal();
+        if (std::filesystem::exists(file, error)) break;
+    }
+    return file;
 }
 
 }  // namespace sikku

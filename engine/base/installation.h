@@ -1,12 +1,25 @@
-// engine/base/installation.h: the folder of the running program or module, relative to which its data is installed.
+// engine/base/installation.h: finds the data that is installed with the libraries.
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace sikku {
 
-/// Folder of the binary that contains this library: a program, or a shared library such as a Python module. Empty if
-/// the system does not report it.
-std::filesystem::path binary_folder();
+/// Sets the data folder, which has the bundled patterns as `patterns`, for programs outside of the installation. Call
+/// it before the first pattern is loaded; empty: unset. Programs that CMake's package links need not call it.
+void set_data_folder(const std::filesystem::path& folder);
+
+/// Candidates for the data folder, best first: that of the environment variable SIKKU_DATA; if it is not set, that of
+/// set_data_folder(), the one installed with the running program or shared library, and the configured one.
+std::vector<std::filesystem::path> data_folders();
+
+/// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
+std::filesystem::path installed_file(const std::filesystem::path& relative);
+
+#ifdef SIKKU_DATA_FOLDER
+// CMake's package and pkg-config define it for programs that link the libraries.
+inline const bool has_data_folder = (set_data_folder(SIKKU_DATA_FOLDER), true);
+#endif
 
 }  // namespace sikku

@@ -27,7 +27,7 @@ struct KeyInfo {
 
     /// True for keys with one row for each symbol, such as `note A: C4`; their names end in ` SYMBOL`.
     bool is_for_symbols() const { return name.ends_with(symbol_place); }
-    /// `note ` of such a key.
+    /// The part of such a name before the symbol, such as `note `.
     std::string_view before_symbol() const { return name.substr(0, name.size() - symbol_place.size() + 1); }
 
     static constexpr std::string_view symbol_place = " SYMBOL";

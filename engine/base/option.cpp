@@ -32,6 +32,18 @@ std::string whole_message(const std::string& option, const std::string& value, c
 
 }  // namespace
 
+bool OptionInfo::is_neutral(std::string_view value_text) const {
+    if (kind == OptionKind::flag) return value_text == (is_on ? "true" : "false");
+    if (neutral.empty()) return false;
+    if (value_text == neutral) return true;
+    // Lengths in other units.
+    double given = 0, none = 0;
+    const auto [given_end, given_error] =
+        std::from_chars(value_text.data(), value_text.data() + value_text.size(), given);
+    const auto [none_end, none_error] = std::from_chars(neutral.data(), neutral.data() + neutral.size(), none);
+    return given_error == std::errc() && none_error == std::errc() && given == none && given == 0;
+}
+
 SettingError::SettingError(std::string option, std::string value, std::string message)
     : std::runtime_error(whole_message(option, value, message)),
       option_(std::move(option)),

@@ -17,17 +17,47 @@ namespace sikku {
 /// Syntax of an option's value, which is checked before the setter reads it.
 enum class OptionKind : std::uint8_t { text, number, whole, flag };
 
+/// Subject of an option. Lists group options by it, and products reject options by it.
+enum class Scope : std::uint8_t {
+    other,
+    page,     ///< the sheet of paper
+    place,    ///< position of the drawing on the page
+    scale,    ///< the length of a step
+    tiling,   ///< part of a tiling that is drawn, and how it is cut
+    look,     ///< lines, colours, orientation
+    space,    ///< camera and light
+    kolam,    ///< dots and strands
+    extras,   ///< additions around the drawing
+    copies,   ///< the same drawing many times
+    time,     ///< several derivation lengths
+    file,     ///< names and appearance of the elements of a file
+    lesson,   ///< a drawing lesson
+    sheets,   ///< a print that is cut into sheets
+    solid,    ///< a relief
+    plot,     ///< arrangement of lines for a pen
+    pens,     ///< the plotter and its pens
+    gcode,    ///< arcs of G-code
+    hpgl,     ///< paper of HP-GL
+    machine,  ///< speeds, and lines of G-code around the plot
+    press,    ///< inks and bits of a print shop
+    trim,     ///< bleed and marks outside of the trimmed sheet
+    pixels,   ///< resolution and files of pictures
+    cost      ///< limits of the work
+};
+
 /// A row of the table, without its setter.
 struct OptionInfo {
     std::string_view name;     ///< lower case, words joined by hyphens
     std::string_view help;     ///< a noun phrase or an imperative, with range and default
     std::string_view value{};  ///< placeholder of the value in help, `SIZE`; in brackets if the value is optional
     std::string_view group{};  ///< heading in help; empty: the first group
-    std::string_view unit{};   ///< may follow the number: `40mm/s`
+    Scope scope = Scope::other;
+    std::string_view unit{};  ///< may follow the number: `40mm/s`
     OptionKind kind = OptionKind::text;
     double least = -1e300;  ///< minimum of numbers
     double most = 1e300;
-    bool is_list = false;    ///< may be given several times
+    bool is_list = false;        ///< may be given several times
+    std::string_view neutral{};  ///< value equivalent to an absent option: `0mm`; flags need none
     bool is_alone = false;   ///< not available in galleries, where each job makes one file of one derivation length
     bool is_on = false;      ///< a flag that is on by default
     char letter = 0;         ///< short form on the command line; 0: none
@@ -37,6 +67,8 @@ struct OptionInfo {
     /// True for values that name files of this machine; null: no value does.
     bool (*names_file)(std::string_view value) = nullptr;
 
+    /// True for a value equivalent to an absent option: the default of a flag, and `neutral`, in any unit.
+    bool is_neutral(std::string_view value_text) const;
     /// True for an option that a link must not set unless the user trusts it.
     bool is_local(std::string_view value_text) const {
         return moves_machine || (names_file && names_file(value_text));
@@ -101,6 +133,7 @@ void read_whole(std::string_view option, const std::string& text, Whole& value) 
 constexpr OptionInfo budget_option = {.name = "budget",
                                       .help = "maximum number of derivation nodes visited (2e8)",
                                       .value = "NODES",
+                                      .scope = Scope::cost,
                                       .kind = OptionKind::number};
 /// @throws SettingError
 double read_budget(const std::string& text);

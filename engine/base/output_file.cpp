@@ -32,8 +32,8 @@ struct UnfinishedFile {
 namespace {
 
 std::atomic<UnfinishedFile*> unfinished{nullptr};
-/// A signal handler reads the paths: from then on they are not freed. Another handler may still be reading when the
-/// first one is done, so it is never reset.
+/// True once a signal handler reads the paths, which are not freed from then on. Never reset, because another handler
+/// may still be reading when the first one is done.
 std::atomic<bool> is_removing{false};
 static_assert(std::atomic<UnfinishedFile*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "a signal handler must not wait for a lock");
@@ -66,15 +66,14 @@ void forget(UnfinishedFile* entry) {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 constexpr std::size_t longest_stem = 200;  // of a temporary name, so that it stays below the 255 of file systems
-constexpr int most_links = 40;             // as the kernel follows
+constexpr int most_links = 40;             // limit of the kernel
 
-/// Checks the result of a synchronising call; accepts failures if the file system or the kind of file does not
-/// support it.
+/// True for errors of a synchronising call that mean that the file system or the kind of file does not support it.
 bool is_not_for_sync(int error) {
     return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
 }
 
-/// fsync() with the error number instead of a result; 0 if all is well.
+/// Calls fsync() and returns the error number, 0 on success.
 int synchronise(int descriptor) {
     while (::fsync(descriptor) != 0) {
         if (errno != EINTR) return is_not_for_sync(errno) ? 0 : errno;
@@ -156,7 +155,7 @@ std::string random_letters() {
     return result;
 }
 
-/// The name cut to what a temporary name can hold, not inside of a character.
+/// Returns the name, shortened to what a temporary name can hold, at a character boundary.
 std::string stem_of(const std::filesystem::path& target) {
     std::string stem = target.filename().string();
     if (stem.size() > longest_stem) {
@@ -200,7 +199,7 @@ OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path shown
         if (S_ISDIR(status.st_mode)) fail(EISDIR);
         direct_ = !S_ISREG(status.st_mode);
         mode_ = static_cast<int>(status.st_mode & 0777);
-        // A rename would get past the protection of a read-only file.
+        // A rename would bypass the protection of a read-only file.
         if (::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
         break;
     }
@@ -215,11 +214,11 @@ void OutputFile::create() {
         return;
     }
     const std::string stem = stem_of(target_);
-    // Never more open than the file it replaces, and open enough for whoever opens temporary().
+    // Never more permissions than the file it replaces, but enough for programs that open temporary().
     const mode_t mode = mode_ < 0 ? 0666 : static_cast<mode_t>(mode_) | 0600;
     for (int attempt = 0;; ++attempt) {
         temporary_ = target_.parent_path() / fmt::format(".{}.{}.tmp", stem, random_letters());
-        // Before it is there: a signal may come at any time.
+        // Remembered before it exists, because a signal may come at any time.
         entry_ = remember(temporary_);
         descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (descriptor_ >= 0) return;
@@ -322,7 +321,7 @@ void OutputFile::commit() {
     if (const int error = synchronise_folder(target_.parent_path()); error != 0) fail(error);
 }
 
-/// Writes what is left and closes the file.
+/// Writes the rest of the buffer and closes the file.
 void OutputFile::finish(bool synchronised) {
     flush();
     buffer_ = {};
@@ -390,7 +389,7 @@ void OutputFile::fail(int error) const {
 
 void remove_unfinished_files() noexcept {
     is_removing = true;
-    // Twice, for what another thread was opening meanwhile.
+    // Twice, for files that another thread was opening meanwhile.
     for (int pass = 0; pass < 2; ++pass) {
         for (UnfinishedFile* entry = unfinished.load(); entry; entry = entry->next) {
             if (const char* path = entry->path.load()) ::unlink(path);

@@ -14,12 +14,12 @@ namespace sikku {
 
 struct UnfinishedFile;
 
-/// Writes beside the target (`.NAME.XXXXXX.tmp` in the same folder) and renames into place on commit; without
-/// commit nothing stays. Every failure (missing folder, no permission, full disk) is a std::runtime_error that
-/// names the target and the cause; so is a target that is a folder. The new file gets the mode of the one it
-/// replaces, or the mode the umask gives. A symbolic link stays one: what it points to is replaced. Devices, pipes
-/// and /dev/stdout are written directly. In a folder named by its descriptor, `/proc/PID/fd/N/NAME`, links, devices
-/// and pipes are themselves replaced.
+/// Writes beside the target (`.NAME.XXXXXX.tmp` in the same folder) and renames into place on commit; without commit
+/// the file is removed. Every failure (missing folder, no permission, full disk) is a std::runtime_error that names
+/// the target and the cause; so is a target that is a folder. The new file gets the mode of the one it replaces, or
+/// the mode the umask gives. A symbolic link is kept and its target replaced. Devices, pipes and /dev/stdout are
+/// written directly. In a folder named by its descriptor, `/proc/PID/fd/N/NAME`, links, devices and pipes are
+/// themselves replaced.
 class OutputFile final : public Output {
 public:
     /// @param shown  name in messages; empty: `target`
@@ -30,14 +30,14 @@ public:
     void write(std::string_view bytes) override;
     /// Number of bytes written so far.
     std::uint64_t size() const override { return written_; }
-    /// Whether insert() may be used: false for devices and pipes.
+    /// True if insert() may be used: not for devices and pipes.
     bool can_insert() const override { return !direct_; }
-    /// Puts `bytes` before the byte at `position` (at most size()); what was there moves up. Cost: what moves.
+    /// Inserts `bytes` before the byte at `position` (at most size()). Cost: linear in the bytes after it.
     void insert(std::uint64_t position, std::string_view bytes) override;
-    /// Replaces bytes that were written, where insert() may be used.
+    /// Replaces bytes already written, if insert() may be used.
     void overwrite(std::uint64_t position, std::string_view bytes) override;
-    /// The temporary file with all that was written so far, for a library or program that opens files by itself. Do
-    /// not write() after that.
+    /// The temporary file with all bytes written so far, for libraries and programs that open files themselves. Do
+    /// not call write() afterwards.
     const std::filesystem::path& temporary() override;
     /// Synchronises the file, renames it and synchronises the folder: after a crash of the machine the file has the
     /// old or the new content and is never empty. Devices and pipes are not synchronised. Call once, last. Cost on a

@@ -10,11 +10,11 @@ namespace sikku {
 /// The largest phi(k) of a lattice.
 constexpr int most_coordinates = 8;
 
-/// phi(k) for 1 <= k <= 30; 0 if k is larger or phi(k) is above most_coordinates: there is no exact lattice then.
+/// phi(k) for 1 <= k <= 30; 0, for no exact lattice, if k is larger or phi(k) is above most_coordinates.
 int lattice_rank(std::int64_t k);
 
 /// Coordinates of zeta^0 to zeta^(k-1) in the basis 1, zeta, zeta^2 …; the first `lattice_rank(k)` count.
-/// @param k  with a lattice
+/// @param k  number with a lattice_rank() above 0
 std::vector<std::array<std::int8_t, most_coordinates>> powers_of_root(int k);
 
 }  // namespace sikku

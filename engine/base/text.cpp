@@ -3,6 +3,7 @@
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <cmath>
 #include <vector>
@@ -23,7 +24,7 @@ namespace {
 std::size_t xml_character(std::string_view text) {
     const auto byte = static_cast<unsigned char>(text.front());
     if (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') return 0;
-    // U+FFFE and U+FFFF are no characters.
+    // U+FFFE and U+FFFF are not characters.
     if (text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF")) return 0;
     return utf8_length(text);
 }
@@ -194,6 +195,17 @@ std::string alternatives(std::span<const std::string_view> words) {
 
 std::string counted(std::uint64_t count, std::string_view what) {
     return counted(std::to_string(count), what);
+}
+
+std::string shell_word(const std::string& word) {
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char letter) {
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+               std::string_view("/._-+=:,@%").find(letter) != std::string_view::npos;
+    });
+    if (plain) return word;
+    std::string text = "'";
+    for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return text + "'";
 }
 
 }  // namespace sikku

@@ -8,15 +8,15 @@
 
 namespace sikku {
 
-/// ASCII letters in lower case, whatever the locale; other bytes as they are.
+/// Converts ASCII letters to lower case, in any locale; keeps other bytes.
 std::string lower_case(std::string_view text);
 
-/// `text` without blanks and tabs at both ends.
+/// Returns `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// True if XML 1.0 can hold `text`: UTF-8 without control characters.
+/// True if XML 1.0 can contain `text`: UTF-8 without control characters.
 bool fits_xml(std::string_view text);
-/// For XML and HTML, in elements and in attributes between double quotes. What XML cannot hold becomes U+FFFD.
+/// Escapes text for elements and double-quoted attributes of XML and HTML; U+FFFD replaces invalid characters.
 std::string xml_escaped(std::string_view text);
 
 /// Returns JSON on one line with control characters (C0, DEL, C1) and the line separators U+2028 and U+2029 escaped,
@@ -45,10 +45,13 @@ std::string readable(std::string digits);
 
 /// Formats a duration: `320 ms`, `3.2 s`, `1 min 20 s`, `2.5 h`; above about three centuries in years.
 std::string time_text(double seconds);
-/// `17 kB`, `1.2 GB`.
+/// Formats a size: `17 kB`, `1.2 GB`.
 std::string bytes_text(double bytes);
 
-/// Two small digits for each byte.
+/// Formats a word for the command line of a shell, quoted if necessary.
+std::string shell_word(const std::string& word);
+
+/// Two lower-case hexadecimal digits for each byte.
 std::string to_hex(std::string_view bytes);
 
 }  // namespace sikku

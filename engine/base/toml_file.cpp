@@ -155,7 +155,7 @@ FileValue value_of(const toml::node& node, const std::string& file) {
     return value;
 }
 
-/// Whether the value in a line is a word without quotes.
+/// True if the value in a line is a word without quotes.
 bool has_bare_text(std::string_view text, std::size_t line) {
     for (; line > 1 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
     text = text.substr(0, text.find('\n'));

@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// Sets of numbers that are joined.
+/// Disjoint sets of numbers from 0 on.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -16,7 +16,7 @@ public:
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /// The smaller number stands for both.
+    /// Joins two sets; the smaller of their representatives stands for both.
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
         b = find(b);

@@ -10,8 +10,8 @@
 
 namespace sikku {
 
-/// One of those candidates of the group that match, the first of which does. `fault` throws, told what is wrong with
-/// weights.
+/// Chooses by weight among the candidates in the group of the first one whose conditions hold; the first one is known
+/// to match. Calls `fault(message)`, which throws, for invalid weights.
 template <class Fault>
 const Production& weighted_choice(const Table& table, std::span<const std::uint32_t> candidates,
                                   std::span<const double> formals, const Chance& chance, const Fault& fault) {
@@ -42,8 +42,8 @@ const Production& weighted_choice(const Table& table, std::span<const std::uint3
     return *chosen;
 }
 
-/// The production that applies, or null. `match` tells of a production whether predecessor and contexts fit and,
-/// then, sets `formals`; it is asked once for neighbouring candidates of one group.
+/// Returns the production that applies, or null. `match(production)` is true if predecessor and contexts match, and
+/// then sets `formals`; it is called once for successive candidates of one group.
 template <class Match, class Fault>
 const Production* choose(const Table& table, std::span<const std::uint32_t> candidates, const Chance& chance,
                          const Fault& fault, std::span<const double>& formals, Match match) {

@@ -14,7 +14,7 @@
 namespace sikku {
 namespace {
 
-/// To the bit: -0 is not 0.
+/// Compares arguments bit by bit: -0 is not 0.
 bool is_same(const ModuleWord& one, const ModuleWord& other) {
     return one.symbols == other.symbols &&
            std::equal(one.arguments.begin(), one.arguments.end(), other.arguments.begin(), other.arguments.end(),
@@ -40,7 +40,7 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
         for (std::int64_t i = 0; i < run.steps && step < whole; ++i, ++step) {
             const ModuleWord& before = word ? *word : grammar.axiom_modules();
             const auto refuse = [&](const std::string& what, std::uint64_t most) {
-                // With a schedule a shorter derivation takes other steps.
+                // With a schedule, a shorter derivation consists of different steps.
                 const std::string advice = grammar.has_schedule()
                                                ? ""
                                                : fmt::format("; the largest derivation length that fits is {}", step);
@@ -59,7 +59,7 @@ Grammar resolve_contexts(Grammar grammar, const DerivationOptions& options) {
             } catch (const BudgetError&) {
                 refuse("that", options.longest_word);
             }
-            // A word that came back unchanged under the same table stays so for the rest of its run.
+            // If a table does not change the word, it does not change it in the rest of its run either.
             const bool unchanged = !grammar.is_stochastic() && is_same(next, before);
             word = std::make_shared<const ModuleWord>(std::move(next));
             if (options.watch) options.watch(0);

@@ -15,33 +15,32 @@
 
 namespace sikku {
 
-/// What a table makes of symbols without parameters, where it draws among constant weights. It chooses as choose()
-/// does.
+/// Successors under one table of symbols without parameters, chosen at random by constant weights, as by choose().
 class Choices {
 public:
-    static constexpr std::size_t longest = 16;  // of successors
+    static constexpr std::size_t longest = 16;  // maximum length of a successor
     static constexpr std::size_t longest_tail = 8;
-    static constexpr std::size_t most_symbols = 4096, most_alternatives = 32;  // of more it is of no use
+    static constexpr std::size_t most_symbols = 4096, most_alternatives = 32;  // above these, is_usable() is false
     static constexpr std::size_t most_written = longest + longest * (longest + longest_tail);  // by write()
 
     struct Successor {
         std::array<Symbol, longest> symbols{};
         std::uint32_t size = 0;
-        // The same for another step by this table: its symbols that are drawn for, and what lies between them, in
-        // which nothing is drawn.
+        // The successor after another step by this table, split into its symbols with a random choice and the fixed
+        // symbols between them.
         bool is_split = false;
         struct Drawn {
-            std::uint32_t child = 0;  ///< which of the symbols
+            std::uint32_t child = 0;  ///< index into `symbols`
             std::uint32_t choice = 0;
             std::uint32_t tail_size = 0;
-            std::array<Symbol, longest_tail> tail{};  ///< what follows it
+            std::array<Symbol, longest_tail> tail{};  ///< fixed symbols after it
         };
         std::array<Symbol, longest> lead{};
         std::uint32_t lead_size = 0;
         std::vector<Drawn> drawn;
     };
 
-    /// Not usable (is_usable()) where weights or conditions have to be computed, or successors are long.
+    /// is_usable() is false if weights or conditions have to be computed, or if successors are long.
     Choices(const Grammar& grammar, const Table& table) {
         const std::size_t symbols = grammar.symbols().size();
         is_usable_ = !grammar.is_parametric() && grammar.is_stochastic() && symbols <= most_symbols;
@@ -52,8 +51,8 @@ public:
 
     const Successor& of(Symbol symbol, const Chance& chance) const { return drawn(choices_[symbol], chance); }
 
-    /// Writes what becomes of the symbols of a successor that is split, in that place, and at most `longest` more.
-    /// @return how many there are
+    /// Writes the next step of a split successor, whose parent has that place, and at most `longest` symbols more.
+    /// @return  number of symbols written, without those
     std::size_t write(const Successor& parent, std::uint64_t place, std::int64_t step, Symbol* out) const {
         Symbol* const begin = out;
         std::memcpy(out, parent.lead.data(), sizeof(parent.lead));
@@ -77,7 +76,7 @@ private:
         std::size_t chosen = choice.first;
         if (choice.count > 1) {
             const std::uint64_t bits = chance.bits(0);
-            // Without branches, as nobody can foretell them.
+            // Without branches, which processors could not predict.
             for (std::size_t k = 0; k + 1 < choice.count; ++k) chosen += bits >= begins_[choice.first + k] ? 1 : 0;
         }
         return successors_[chosen];
@@ -114,7 +113,8 @@ private:
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
         is_usable_ = is_usable_ && choice.count > 0 && std::isfinite(sum);
         choices_.push_back(choice);
-        // What is drawn grows with the bits: the least for which weighted_choice() passes over the first k + 1.
+        // The random number grows with the bits: finds the least bits for which weighted_choice() skips the first
+        // k + 1.
         for (std::size_t k = 0; k < weights.size() && is_usable_; ++k) {
             std::uint64_t low = 0, high = std::uint64_t{1} << 53;
             while (low < high) {
@@ -151,7 +151,7 @@ private:
     bool is_usable_ = false;
     std::vector<Choice> choices_;  // by symbol
     std::vector<Successor> successors_;
-    std::vector<std::uint64_t> begins_;  // of the next of these, in what is drawn
+    std::vector<std::uint64_t> begins_;  // for each successor, the least bits that choose the next one
 };
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 #include "engine/derivation/forecast.h"
 
 #include "engine/base/text.h"
+#include "engine/derivation/exact_counts.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 5e7;  // table entries looked at
+constexpr double most_work = 5e7;  // table entries visited
 
-/// A table's productions as (successor symbol, multiplicity), and who has one.
+/// Productions of a table as pairs of successor symbol and multiplicity.
 struct Sparse {
     struct Term {
         Symbol symbol;
@@ -21,7 +22,7 @@ struct Sparse {
     };
     std::vector<std::uint32_t> begin;  // by symbol; one more at the end
     std::vector<Term> terms;
-    std::vector<char> has;              // by symbol: rewritten at all
+    std::vector<char> has;              // by symbol: 1 if it has a production
     std::vector<std::uint32_t> length;  // of the successor
 
     Sparse(const Table& table, std::size_t symbols, const std::vector<char>& needed) {
@@ -45,13 +46,13 @@ struct Sparse {
     }
 };
 
-/// The tables step by step, `interpret:` as a last one.
+/// The table of each step, with `interpret:` as the last one.
 struct Steps {
     std::vector<Sparse> tables;
     std::vector<std::pair<std::size_t, std::int64_t>> runs;  // index into tables, number of steps
-    std::vector<Symbol> symbols;                             // those reached
+    std::vector<Symbol> symbols;                             // symbols reached
     std::int64_t count = 0;
-    double work = 0;  // table entries looked at in one pass
+    double work = 0;  // table entries visited in one pass
 
     Steps(const Grammar& grammar, bool interpreted) {
         const std::vector<char> needed = grammar.reachable();
@@ -77,8 +78,8 @@ struct Steps {
     }
 };
 
-/// For each step, which symbols lead to an empty word from there on. Told for the last steps only, as many as
-/// derive() keeps expansions of; before that, nothing is known to be empty.
+/// For each step, the symbols known to lead to an empty word. Covers only the last steps, as many as derive() keeps
+/// expansions of.
 class Emptiness {
 public:
     Emptiness(const Steps& steps, std::size_t symbols) {
@@ -104,7 +105,7 @@ public:
             }
         }
     }
-    /// Is the expansion of `symbol` with `left` steps to go known to be empty?
+    /// True if the expansion of `symbol` with `left` remaining steps is known to be empty.
     bool empty(Symbol symbol, std::int64_t left) const {
         return static_cast<std::size_t>(left) < rows_.size() && rows_[static_cast<std::size_t>(left)][symbol];
     }
@@ -168,7 +169,7 @@ double sum_log10(const std::vector<Scaled>& counts) {
     return sum.log10();
 }
 
-/// Visited nodes and the length's size, in 15 digits.
+/// Forecasts the nodes visited, the length and the counts, to 15 digits.
 Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     const std::size_t symbols = grammar.symbols().size();
     const Emptiness emptiness(steps, symbols);
@@ -215,9 +216,9 @@ std::string Forecast::length() const {
 
 namespace {
 
-std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
-    std::vector<Integer> counts(grammar.symbols().size());
-    std::vector<Integer> next(grammar.symbols().size());
+std::shared_ptr<const ExactCounts> exact_counts(const Grammar& grammar, const Steps& steps) {
+    ExactCounts counts(grammar.symbols().size());
+    ExactCounts next(grammar.symbols().size());
     std::vector<std::uint64_t> occurrences(counts.size(), 0);
     for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = occurrences[i];
@@ -233,15 +234,15 @@ std::vector<Integer> exact_counts(const Grammar& grammar, const Steps& steps) {
                     });
         }
     }
-    return counts;
+    return std::make_shared<const ExactCounts>(std::move(counts));
 }
 
 }  // namespace
 
 namespace {
 
-/// Whether the numbers of symbols follow from the productions alone. A map has no symbols: its edges follow from
-/// where its walls meet.
+/// True if the productions alone determine the numbers of symbols. A map has no symbols; its edges depend on where
+/// its walls meet.
 bool is_countable(const Grammar& grammar) {
     return grammar.is_plain() && !grammar.map() && grammar.whole_word_steps() == 0;
 }
@@ -263,11 +264,11 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
 
 namespace {
 
-/// With one table in every step, one pass from the last step upwards tells the cost of every derivation length.
+/// With one table in every step, one pass from the last step upwards finds the cost of every derivation length.
 std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interpreted, double budget) {
     const Steps steps(grammar, interpreted);
     const std::size_t symbols = grammar.symbols().size();
-    std::vector<double> nodes(symbols, 1.0);  // 0: nothing comes of the symbol
+    std::vector<double> nodes(symbols, 1.0);  // 0: the symbol leads to nothing
     std::vector<double> next = nodes;
     const auto level = [&](const Sparse& table) {
         for (const Symbol symbol : steps.symbols) {
@@ -306,7 +307,7 @@ std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double
         const auto shorter = grammar.with_steps(steps);
         return shorter && rough_forecast(*shorter, Steps(*shorter, interpreted)).nodes <= budget;
     };
-    // The schedule may be too short for some lengths below n, too: then a smaller one is not looked for.
+    // The schedule may also be too short for some lengths below n; a smaller length is then not searched for.
     std::int64_t low = -1;
     std::int64_t high = 1;
     if (fits(0)) low = 0;
@@ -327,7 +328,7 @@ void require_affordable(const Grammar& grammar, bool interpreted, double budget)
     const Steps steps(grammar, interpreted);
     Forecast found = rough_forecast(grammar, steps);
     if (found.nodes <= budget) return;
-    // Where exact counts take seconds, the word's size has to do.
+    // If exact counts would take seconds, only the size of the word is reported.
     if (found.log10_length < most_digits && steps.work * (1 + found.log10_length / 100) < most_work) {
         found.counts = exact_counts(grammar, steps);
     }
@@ -365,7 +366,7 @@ Grammar shorten(const Grammar& grammar) {
     if (!grammar.is_plain() || grammar.cut()) refuse_steps(grammar);
     const std::vector<char> reached = grammar.reachable();
     constexpr auto nothing = std::numeric_limits<Symbol>::max();
-    std::vector<std::vector<Symbol>> maps;  // of each table: what a symbol becomes
+    std::vector<std::vector<Symbol>> maps;  // for each table, the successor of each symbol
     for (const Table& table : grammar.tables()) {
         std::vector<Symbol> map(reached.size());
         for (Symbol symbol = 0; symbol < map.size(); ++symbol) {
@@ -401,7 +402,7 @@ double expected_symbols(const Grammar& grammar, bool interpreted) {
         const auto known = grammar.steps() <= most_steps ? estimate(grammar, interpreted) : std::nullopt;
         return known ? std::pow(10.0, known->log10_length) : 0.0;
     } catch (const BudgetError&) {
-        return 0.0;  // too much to forecast is not too much to stream
+        return 0.0;  // a word that is too costly to forecast may still be streamed
     }
 }
 

@@ -3,49 +3,50 @@
 
 #include "engine/derivation/derivation.h"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sikku {
 
-using Integer = boost::multiprecision::cpp_int;
+struct ExactCounts;
 
-/// Numbers with more decimal digits than this are told as "about 10^k".
+/// Numbers with more decimal digits than this are reported as "about 10^k".
 constexpr int most_digits = 10'000;
 /// Above this number of steps only chains of units (F --> F) are derived.
 constexpr std::int64_t most_steps = 1'000'000;
 
 struct Forecast {
-    /// Nodes of the derivation tree that are visited: symbols rewritten into other than one symbol, and symbols of
-    /// the word; subwords known to be empty are not visited. May be infinite.
+    /// Derivation nodes visited: symbols that are rewritten into none or several symbols, and symbols of the word.
+    /// Subwords known to be empty are not visited. May be infinite.
     double nodes = 0.0;
     double log10_length = 0.0;  ///< of the word; -infinity if it is empty
     /// Number of each symbol in the word, to 15 digits (infinity if a double does not hold it), and log10 of it.
     std::vector<double> rough_counts;
     std::vector<double> log10_counts;
-    /// Exact number of each symbol in the word, unless the word's length has over 10^4 digits.
-    std::optional<std::vector<Integer>> counts;
+    /// Exact number of each symbol in the word, null if the word's length has over 10^4 digits.
+    std::shared_ptr<const ExactCounts> counts;
 
     /// The word's length: exact, or "about 10^k".
     std::string length() const;
 };
 
-/// Nullopt for a map, and for a word if productions look at neighbours (see resolve_contexts), if it is cut, or if
-/// parameters or chance are in play: only deriving determines these.
-/// @param interpreted  of the word after `interpret:`
-/// Cost: O(steps x size of the tables), times the size of the numbers; BudgetError if even the first is too much
-/// (5 x 10^7).
+/// Forecasts the word. Nullopt for a map, and for a word if productions look at neighbours (see resolve_contexts), if
+/// it is cut, or if the system has parameters or random choices: only deriving determines these.
+/// @param interpreted  forecast the word after `interpret:`
+/// Cost: O(steps x size of the tables), times the size of the numbers. @throws BudgetError if the first factor is
+/// above 5 x 10^7
 std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 
-/// The same without exact counts, at a cost that does not grow with the numbers.
+/// Like forecast(), but without exact counts, at a cost that does not depend on the size of the numbers.
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
 /// Estimates the number of symbols of a forecast word that draw lines, discs or surfaces.
 double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
 
-/// Estimates the number of lines and curves of the letters of labels.
+/// Estimates the number of lines and curves in the letters of labels.
 double label_lines(const Grammar& grammar, const Forecast& forecast);
 
 /// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.
@@ -55,15 +56,16 @@ double expected_symbols(const Grammar& grammar, bool interpreted);
 /// symbol of the first word, in every step with contexts. The budget may stop it earlier.
 double matching_seconds(const Grammar& grammar, double budget);
 
-/// The largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.
+/// Returns the largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget);
 
 /// Throws BudgetError, with the length and the largest derivation length that fits, if the word costs more than
-/// `budget` nodes. What forecast() does not tell of passes: DerivationOptions limits it.
+/// `budget` nodes. Accepts systems that cannot be forecast; DerivationOptions limits them.
 void require_affordable(const Grammar& grammar, bool interpreted, double budget);
 
-/// A grammar that derives the same word in at most most_steps steps: itself, or, for a longer derivation in which
-/// every symbol is replaced by at most one, the composition of all its steps as a single one. Else BudgetError.
+/// Returns a grammar that derives the same word in at most most_steps steps: `grammar` itself, or, for a longer
+/// derivation that replaces each symbol by at most one, the composition of all its steps into one.
+/// @throws BudgetError for other systems
 Grammar shorten(const Grammar& grammar);
 
 }  // namespace sikku

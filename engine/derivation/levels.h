@@ -16,8 +16,8 @@ constexpr std::size_t longest_run = 4096;
 /// Number of symbols or frames between two calls of DerivationOptions::watch.
 constexpr std::uint64_t between_watches = std::uint64_t{1} << 16;
 
-/// The tables from the last level upwards: level 0 is the finished word, level r has r tables still to come.
-/// Adjacent levels of one table are one stretch, so that a million steps cost nothing to describe.
+/// Tables by level: level 0 is the finished word; at level r, r tables are still to be applied. Adjacent levels of
+/// one table are stored as one stretch, so that a million steps take no memory.
 class Levels {
 public:
     Levels(const Grammar& grammar, bool interpreted) {
@@ -28,7 +28,7 @@ public:
         }
     }
     std::int64_t count() const { return count_; }
-    /// The largest number of neighbouring levels that `table` rules.
+    /// Largest number of adjacent levels of `table`.
     std::int64_t longest_stretch(const Table& table) const {
         std::int64_t longest = 0;
         for (std::size_t i = 0; i < stretches_.size(); ++i) {
@@ -40,7 +40,7 @@ public:
     /// The table that rewrites a symbol at `level` >= 1.
     const Table& table(std::int64_t level) const { return *stretches_[stretch(level)].table; }
 
-    /// The last level below `level` that another stretch rules; 0 if there is none.
+    /// The last level of the stretch below that of `level`; 0 if there is none.
     std::int64_t stretch_begin(std::int64_t level) const {
         const std::size_t i = stretch(level);
         return i == 0 ? 0 : stretches_[i - 1].end;

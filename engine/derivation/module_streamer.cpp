@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_pending = std::size_t{1} << 27;  // parameters, while words are streamed
 
-/// Depth-first expansion through `levels` where each module is another: parameters, chance.
+/// Expands words depth first through `levels` if modules differ: with parameters or random choices.
 class ModuleStreamer {
 public:
     ModuleStreamer(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink)
@@ -68,13 +68,13 @@ private:
         const Symbol* first;
         const Symbol* next;
         const Symbol* end;
-        std::size_t begin;     // where the stack ends when the frame is done
+        std::size_t begin;     // size of the stack after the frame
         std::size_t argument;  // of the next child
         std::int64_t level;
         std::uint64_t place;  // of the parent
     };
 
-    /// Room for so many values at the top of the stack.
+    /// Returns space for `count` values at the top of the stack.
     double* room(std::size_t count) {
         if (top_ + count > stack_.size()) {
             if (top_ + count > most_pending) throw BudgetError("too many parameters are pending at a time");
@@ -95,7 +95,7 @@ private:
         return *table_;
     }
 
-    /// Hands over what stays of the children of the last frame, up to one that is expanded.
+    /// Emits the unchanged children of the last frame up to the next one with productions, and expands that.
     void advance() {
         Frame& frame = frames_.back();
         const Symbol* const begin = frame.next;
@@ -117,7 +117,7 @@ private:
         expand(symbol, argument, place, frame.level);
     }
 
-    /// A module whose arguments lie in the stack at `argument`, with `level` tables to come.
+    /// Expands a module whose arguments are in the stack at `argument`, with `level` tables still to be applied.
     void expand(Symbol symbol, std::size_t argument, std::uint64_t place, std::int64_t level) {
         const std::size_t top = top_;
         while (level > 0) {
@@ -125,7 +125,7 @@ private:
             const Chance chance{place, first_step_ + levels_.count() - level};
             const auto candidates = rules.candidates(symbol);
             if (candidates.empty()) {
-                // What stays once stays under the same table.
+                // A symbol that is unchanged once stays unchanged under the same table.
                 level = rules.has_random_conditions() ? level - 1 : table_begin_;
                 continue;
             }
@@ -159,7 +159,7 @@ private:
             }
             --level;
             if (level == 0 && successor.size() <= longest_run) {
-                // The last step goes into the run at once.
+                // The last step is written directly into the run.
                 if (count_ + successor.size() > longest_run) flush();
                 visit(successor.size());
                 std::copy(successor.begin(), successor.end(), symbols_.begin() + static_cast<std::ptrdiff_t>(count_));
@@ -184,7 +184,7 @@ private:
                 }
                 return;
             }
-            // A unit takes the place of its parent.
+            // A unit successor replaces its parent.
             symbol = successor.front();
             if (has_places_) place = child_place(place, 0);
             std::copy(values, values + own.size(), stack_.begin() + static_cast<std::ptrdiff_t>(top));
@@ -249,7 +249,7 @@ private:
     std::vector<std::uint32_t> arity_;
     std::vector<char> active_;  // symbols that some table rewrites
     std::vector<Frame> frames_;
-    std::vector<double> stack_;  // arguments of what the frames hold
+    std::vector<double> stack_;  // arguments of the symbols in the frames
     std::size_t top_ = 0;        // of the stack
     Word symbols_;               // of the next run
     std::size_t count_ = 0;
@@ -258,8 +258,8 @@ private:
     std::uint64_t visited_ = 0;
     std::uint64_t next_look_ = between_watches;
     std::uint64_t handed_over_ = 0;
-    std::map<const Table*, std::unique_ptr<Choices>> choices_of_;  // of those that were asked for
-    // The table that rewrites at the level last asked for, and at those above table_begin_.
+    std::map<const Table*, std::unique_ptr<Choices>> choices_of_;  // for the tables used so far
+    // The table of the level last requested and of the levels above table_begin_.
     const Table* table_ = nullptr;
     const Choices* choices_ = nullptr;
     std::int64_t table_begin_ = 0;

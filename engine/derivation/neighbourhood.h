@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// Matching compares more symbols than the options allow.
+/// Thrown if matching compares more symbols than the options allow.
 class MatchingError : public BudgetError {
     using BudgetError::BudgetError;
 };
@@ -29,7 +29,7 @@ public:
         most_ = most_ > std::numeric_limits<std::uint64_t>::max() - free ? std::numeric_limits<std::uint64_t>::max()
                                                                          : most_ + free;
     }
-    /// @throws MatchingError; what `watch` of the options throws
+    /// Counts compared symbols. @throws MatchingError; exceptions of `watch` of the options
     void add(std::uint64_t compared) {
         count_ += compared;
         if (count_ >= next_look_) look();

@@ -88,7 +88,7 @@ public:
     }
 
     /// Descends to the symbol of the word at `position`, and reports each symbol on the way: its origin, and its
-    /// place in the word that holds it. Returns whether there is one.
+    /// place in the word that contains it. False if there is no such symbol.
     template <class Report>
     bool descend(std::uint64_t position, Pulse& pulse, const Report& report) const {
         std::uint64_t before = position - 1;  // symbols of the part that precede it

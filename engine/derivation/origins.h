@@ -1,4 +1,4 @@
-// engine/derivation/origins.h: which symbol of which production a symbol of the word comes from.
+// engine/derivation/origins.h: traces symbols of the word back to symbols of the axiom and of productions.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -32,12 +32,12 @@ public:
     explicit OriginTracer(const Document& document);
     ~OriginTracer();
 
-    /// The place in the pattern that a symbol of the word comes from: in the successor of the last production that
-    /// applied, or in the axiom; empty beyond the word. Cost: O(steps x length of the successors). @param position
-    ///  in the word, counted from 1
+    /// Returns the place in the pattern that a symbol of the word comes from: in the successor of the last production
+    /// applied, or in the axiom; empty beyond the word. Cost: O(steps x length of the successors).
+    /// @param position  in the word, counted from 1
     Origin origin(std::uint64_t position, const Monitor& monitor = {}) const;
-    /// The symbols that were rewritten, from the axiom to the word, and last the one that `interpret:` rewrote, if it
-    /// did. Symbols that stay for several steps appear once. Empty beyond the word.
+    /// Returns the symbols that were rewritten, from the axiom to the word, and last the one that `interpret:`
+    /// rewrote, if any. Symbols that stay for several steps appear once. Empty beyond the word.
     std::vector<PathStep> path(std::uint64_t position) const;
 
 private:
@@ -45,7 +45,7 @@ private:
     std::unique_ptr<const Implementation> implementation_;
 };
 
-/// The origins of symbols at several positions. @throws as above; Stopped
+/// Returns the origins of symbols at several positions. @throws as above; Stopped
 std::vector<Origin> origins(const Document& document, std::span<const std::uint64_t> positions,
                             const Monitor& monitor = {});
 

@@ -1,4 +1,4 @@
-// engine/derivation/plain_form.h: systems with parameters as systems without.
+// engine/derivation/plain_form.h: converts systems with parameters into systems without.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -7,10 +7,10 @@
 
 namespace sikku {
 
-/// A plain system that derives the same words in as many steps: each letter with its values becomes a symbol, as far
-/// as they are reached in steps(). `f(x) --> f(x*s)` needs one symbol for each step. Such systems can therefore be
-/// composed without being derived, like plain ones. Symbols print as their modules did. Nullopt for productions with
-/// contexts or chance, for cuts, and for more than 100,000 different modules. A plain system is returned as it is.
+/// Returns a plain system that derives the same words in as many steps: each letter with values that the derivation
+/// reaches becomes a symbol. `f(x) --> f(x*s)` needs one symbol for each step. Such systems can be composed without
+/// being derived, like plain ones. Symbols are printed like their modules. Nullopt for productions with contexts or
+/// random choices, for cuts, and for more than 100,000 different modules. A plain system is returned unchanged.
 /// Cost: O(modules x length of their successors + modules x steps).
 std::optional<Grammar> plain_form(const Grammar& grammar);
 

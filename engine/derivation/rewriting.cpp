@@ -22,7 +22,7 @@ bool looks_into_branches(const Grammar& grammar, const Table& table) {
 /// For each symbol of a new word, the index of its predecessor.
 using Parents = std::vector<std::uint32_t>;
 
-/// The word without its cut symbols and what follows them in their branches.
+/// Returns the word without its cut symbols and the symbols after them in their branches.
 /// Source: Prusinkiewicz, Hammel, Hanan & Mech 1996, equation 13.
 ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word, Parents& kept) {
     ModuleWord result;
@@ -49,7 +49,7 @@ ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word, Parents&
     return result;
 }
 
-/// Does the predecessor, of which the first symbol is known to be there, stand in the word at that place?
+/// True if the predecessor, whose first symbol is known to match, occurs in the word at `at`.
 bool stands_at(const Word& predecessor, const Word& word, std::size_t at, MatchingWork& work) {
     if (predecessor.size() == 1) return true;
     if (predecessor.size() > word.size() - at) return false;
@@ -59,7 +59,7 @@ bool stands_at(const Word& predecessor, const Word& word, std::size_t at, Matchi
     return end == predecessor.end();
 }
 
-/// One step of a system with parameters or chance.
+/// Makes one step of a system with parameters or random choices.
 class ModuleRewriter {
 public:
     ModuleRewriter(const Grammar& grammar, const Table& table, const ModuleWord& word, std::int64_t step,
@@ -172,7 +172,7 @@ private:
     std::int64_t step_;
     MatchingWork& work_;
     std::optional<Neighbourhood> neighbourhood_;
-    std::vector<std::uint32_t> begin_;  // of each symbol's arguments, where contexts ask for them
+    std::vector<std::uint32_t> begin_;  // index of each symbol's first argument; empty unless contexts need it
     std::size_t at_ = 0;
     std::size_t argument_ = 0;  // of the symbol at_
     std::span<const double> formals_;

@@ -10,7 +10,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t shortest_block = 32;  // below this a block is copied into the run being gathered
+constexpr std::size_t shortest_block = 32;  // shorter blocks are copied into the run being gathered
 
 /// Expansions of (symbol, level) that are short enough to be kept, as pieces of one arena.
 class Blocks {
@@ -66,7 +66,7 @@ private:
             const Word* successor = table.successor(symbol);
             Entry entry;
             if (!needed[symbol]) {
-                // never asked for
+                // never requested
             } else if (!successor) {
                 entry = entries_[below + symbol];
             } else if (successor->size() == 1) {
@@ -153,7 +153,7 @@ public:
     void stream(const Word& word) {
         push(word, levels_.count());
         for (std::uint64_t visited = 1; !frames_.empty(); ++visited) {
-            // Erased symbols may take long without a run.
+            // Erasing symbols may take long without producing a run.
             if (visited % between_watches == 0 && watch_) watch_(0);
             Frame& frame = frames_.back();
             const Symbol symbol = *frame.next++;
@@ -218,7 +218,7 @@ private:
         return chains_.try_emplace(&table, table, symbols_, levels_.longest_stretch(table)).first->second;
     }
 
-    /// A symbol that no table rewrites below `level` stays for good.
+    /// Lowers `level` to the next one whose table rewrites the symbol; true if there is none.
     bool stays_below(Symbol symbol, std::int64_t& level) const {
         while (level > 0 && !levels_.table(level).successor(symbol)) level = levels_.stretch_begin(level);
         return level == 0;
@@ -251,7 +251,7 @@ private:
 
     std::size_t symbols_;
     const Levels& levels_;
-    std::map<const Table*, UnitChains> chains_;  // made when a long chain is met
+    std::map<const Table*, UnitChains> chains_;  // created for a table with a long chain
     Blocks blocks_;
     const std::function<void(std::uint64_t)>& watch_;
     Pruner* pruner_;

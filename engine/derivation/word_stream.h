@@ -29,8 +29,8 @@ public:
     WordStream& operator=(const WordStream&) = delete;
 
     enum class Next : std::uint8_t { piece, end, waiting };
-    /// Reads the next piece into `piece`, reusing its memory. Returns `waiting` if none is ready after
-    /// `patience`. @throws what derive() throws, once; then the stream has ended
+    /// Reads the next piece into `piece`, reusing its memory. Returns `waiting` if none is ready after `patience`.
+    /// @throws exceptions of derive(), once; then the stream has ended
     Next next(WordPiece& piece, std::chrono::milliseconds patience);
 
     /// Stops the thread and ends the stream. May be called from any thread except while it reads.

@@ -22,7 +22,7 @@ public:
     /// Number of roots of unity: k, or 2k if k is odd.
     int roots() const { return roots_; }
 
-    /// A number times the root of unity of that index, of roots().
+    /// Product of a number and the root of unity with that index, of roots().
     template <class Coordinates>
     Coordinates rotated(const Coordinates& number, int index) const {
         index = (index % roots_ + roots_) % roots_;
@@ -69,7 +69,7 @@ public:
 
     /// Radians anticlockwise from the direction of 1, rounded.
     long double angle(const Number& number) const;
-    /// 1, 0 or -1. Coordinates must be below 2^62.
+    /// Signs of the real and the imaginary part: 1, 0 or -1. Coordinates must be below 2^62.
     int sign_real(const Number& number) const { return sign(number, cosines_, false); }
     int sign_imaginary(const Number& number) const { return sign(number, sines_, true); }
 

@@ -23,13 +23,13 @@ bool is_step(const Command& command) {
     return command.action == Action::draw || command.action == Action::move;
 }
 
-/// The length of a step as a decimal; of an edge, how often it is repeated.
+/// The length of a step as a decimal; for an edge, its factor.
 double decimal_length(const SymbolInfo& symbol) {
     if (symbol.command.edge == 0) return symbol.command.value;
     return symbol.arguments.empty() ? 1.0 : symbol.arguments.front();
 }
 
-/// The steps of all symbols on a lattice of known headings. False if they do not fit one.
+/// Places the steps of all symbols on a lattice of known headings. place() is false if they do not fit one.
 class StepPlacer {
 public:
     StepPlacer(const Grammar& grammar, Lattice& lattice) : grammar_(grammar), lattice_(lattice) {}
@@ -83,7 +83,7 @@ private:
             denominator_ = common_denominator(denominator_, edge == 0 ? own : own * edge_denominators_[edge - 1]);
             if (denominator_ == 0) return false;
         }
-        // Together they may need more than 64 bits.
+        // Their multiples may together need more than 64 bits.
         return std::all_of(grammar_.symbols().begin(), grammar_.symbols().end(), [&](const SymbolInfo& symbol) {
             return !is_step(symbol.command) ||
                    std::fabs(symbol.command.value) * static_cast<double>(denominator_) <= 0x1p40;

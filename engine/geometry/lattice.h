@@ -62,11 +62,11 @@ struct Lattice {
         return sum * static_cast<Number>(unit);
     }
 
-    /// Where the i-th coordinate's unit points to in the plane.
+    /// Direction of the i-th coordinate's unit in the plane.
     glm::dvec2 basis(int i) const { return direction[static_cast<std::size_t>(i)]; }
 };
 
-/// The lattice that all turns and lengths of the grammar fit; doubles where there is none. Cost: O(symbols + k +
+/// Returns the lattice that all turns and lengths of the grammar fit; doubles if there is none. Cost: O(symbols + k +
 /// edges).
 Lattice make_lattice(const Grammar& grammar);
 

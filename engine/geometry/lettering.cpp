@@ -164,7 +164,7 @@ constexpr Mark marks[] = {
 
 using Polyline = std::vector<glm::dvec2>;
 
-/// In units, y up, from where the glyph begins, on the line it stands on.
+/// A glyph in font units, y up, from its left border on the baseline.
 struct Glyph {
     double width = 0.0;
     std::vector<Polyline> strokes;
@@ -207,7 +207,7 @@ Glyph glyph_of(std::string_view text) {
     return glyph;
 }
 
-/// The strokes of a mark on a glyph. An accent takes the place of the dot on i and j.
+/// Adds a mark to a glyph. An accent replaces the dot on i and j.
 void add_mark(Glyph& glyph, const Mark& mark) {
     const double middle = (glyph.low + glyph.high) / 2;
     const double line = mark.place == Place::below ? 0.0 : glyph.top + mark_gap;
@@ -221,7 +221,7 @@ void take_dot(Glyph& glyph) {
     measure(glyph);
 }
 
-/// A smaller glyph, raised.
+/// Scales and raises a glyph.
 Glyph scaled(const Glyph& glyph, double scale, double up) {
     Glyph result = glyph;
     result.width *= scale;
@@ -232,7 +232,7 @@ Glyph scaled(const Glyph& glyph, double scale, double up) {
     return result;
 }
 
-/// One glyph after another.
+/// Joins two glyphs.
 Glyph joined(Glyph first, const Glyph& second) {
     for (Polyline stroke : second.strokes) {
         for (glm::dvec2& point : stroke) point.x += first.width;
@@ -243,7 +243,7 @@ Glyph joined(Glyph first, const Glyph& second) {
     return first;
 }
 
-/// Raised letters and fractions.
+/// Adds raised letters and fractions.
 void add_small_glyphs(std::map<char32_t, Glyph>& glyphs) {
     constexpr double smaller = 0.6;
     const auto raised = [&](char32_t code) { return scaled(glyphs[code], smaller, (1 - smaller) * capital); };
@@ -258,7 +258,7 @@ void add_small_glyphs(std::map<char32_t, Glyph>& glyphs) {
     }
 }
 
-/// All there are, by code point.
+/// All glyphs, by code point.
 const std::map<char32_t, Glyph>& font() {
     static const std::map<char32_t, Glyph> made = [] {
         std::map<char32_t, Glyph> glyphs;
@@ -279,7 +279,7 @@ const std::map<char32_t, Glyph>& font() {
         add_small_glyphs(glyphs);
         glyphs[U'‐'] = glyphs[U'‑'] = glyphs[U'-'];
         glyphs[U'❤'] = glyphs[U'♥'];
-        // They have neither ink nor width.
+        // Invisible characters have neither ink nor width.
         for (const char32_t invisible : {U'\u00AD', U'\u200B', U'\u200C', U'\u200D', U'\uFE0F', U'\uFEFF'})
             glyphs[invisible] = Glyph{};
         for (const char32_t space : {U'\u00A0', U'\u2009', U'\u202F', U'\t', U'\n', U'\r'})
@@ -331,7 +331,7 @@ std::size_t take_tamil(std::string_view text, Glyph& glyph) {
     return ends[syllable->characters];
 }
 
-/// Calls `see` with each glyph, marks added, and with the bytes it takes.
+/// Calls `see` with each glyph, marks included, and with the bytes it takes.
 template <class See>
 void each_glyph(std::string_view text, See&& see) {
     const auto& glyphs = font();
@@ -367,7 +367,7 @@ void each_glyph(std::string_view text, See&& see) {
     }
 }
 
-/// Where the polyline is a polygon in place of a curve, the direction of that; else no direction.
+/// Direction at a point of a polyline that stands for a curve; 0 0 elsewhere.
 glm::dvec2 tangent(glm::dvec2 before, glm::dvec2 at, glm::dvec2 after) {
     constexpr double sharpest = 0.55;  // cosine of the turn that is still a curve
     constexpr double straight = 6.0;   // longer lines are lines, if the next is much shorter
@@ -377,11 +377,11 @@ glm::dvec2 tangent(glm::dvec2 before, glm::dvec2 at, glm::dvec2 after) {
     if (glm::dot(u, v) < sharpest) return glm::dvec2(0.0);
     if (in > straight && in > 2 * out) return u;
     if (out > straight && out > 2 * in) return v;
-    // That of the circle through the three.
+    // Tangent of the circle through the three points.
     return glm::normalize(u * out + v * in);
 }
 
-/// Hands the stroke on with its curves made round.
+/// Passes on a stroke with its curves made smooth.
 void write_stroke(const Polyline& points, glm::dvec2 start, double scale, const Pen& pen, PathSink& sink) {
     const auto placed = [&](glm::dvec2 point) { return start + scale * point; };
     const std::size_t last = points.size() - 1;
@@ -398,7 +398,7 @@ void write_stroke(const Polyline& points, glm::dvec2 start, double scale, const 
         const glm::dvec2 along = length > 0 ? (to - from) / length : glm::dvec2(0.0);
         glm::dvec2 first = tangents[i], second = tangents[i + 1];
         const auto none = [](glm::dvec2 direction) { return direction == glm::dvec2(0.0); };
-        // At an end the curve goes as at its other end: an arc.
+        // An end without a direction mirrors the other end: an arc.
         const auto mirrored = [&](glm::dvec2 direction) {
             return 2.0 * glm::dot(direction, along) * along - direction;
         };
@@ -426,14 +426,14 @@ void write_stroke(const LetterStroke& stroke, glm::dvec2 start, double scale, co
     sink.end_stroke(stroke.is_closed);
 }
 
-/// Bytes of the beginning that is at most `units` wide.
+/// Number of bytes of the longest beginning that is at most `units` wide.
 std::size_t fitting(std::string_view text, double units) {
     double width = 0;
     std::size_t bytes = 0;
     bool fits = true;
     each_glyph(text, [&](const Glyph& glyph, std::size_t taken, bool) {
         width += glyph.width;
-        // A hair more, as widths are sums.
+        // With a margin for rounding, as widths are sums.
         fits = fits && width <= units * (1 + 1e-12);
         if (fits) bytes += taken;
     });
@@ -511,7 +511,7 @@ std::vector<std::string> wrapped(std::string_view utf8, double height, double wi
             const std::size_t space = rest.rfind(' ', end);
             if (space != std::string_view::npos && space > 0) end = space;
         }
-        // Less than one character has room.
+        // Not even one character fits.
         if (end == 0) break;
         lines.emplace_back(trimmed(rest.substr(0, end)));
         rest = trimmed(rest.substr(end));

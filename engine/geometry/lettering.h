@@ -16,14 +16,14 @@ namespace sikku {
 /// signs of titles, and modern Tamil. Other characters, and bytes that are not UTF-8, become a box; a line break is a
 /// space.
 
-/// Height of accents above capital letters, and of descenders below the line, as parts of the height.
+/// Height of accented capital letters, and depth of descenders below the baseline, as parts of the height.
 constexpr double letter_ascent = 1.4;
 constexpr double letter_descent = 0.4;
 
-/// From the beginning of the text to where the next would begin.
+/// Width from the beginning of a text to that of the next.
 double text_width(std::string_view utf8, double height);
 
-/// Does the font have every character of it?
+/// True if the font contains every character of the text.
 bool has_letters(std::string_view utf8);
 
 /// Lists the characters of several texts that the font lacks, each once, for messages: `日 (U+65E5)`; empty if none
@@ -33,14 +33,14 @@ std::string missing_letters(const std::vector<std::string>& texts);
 /// Returns a warning about missing characters. @param missing  a list of them that is not empty
 std::string letters_warning(const std::string& missing);
 
-/// Writes from `start`, on the line that letters stand on, to the right, with y up: strokes of lines and curves.
+/// Writes text from `start` on the baseline to the right, with y up, as strokes of lines and curves.
 void write_text(std::string_view utf8, glm::dvec2 start, double height, const Pen& pen, PathSink& sink);
 
 /// The text if it is at most `width` wide, else as much of its beginning as fits with `…` after it.
 std::string shortened(std::string_view utf8, double height, double width);
 
-/// The text in at most `most` lines (at least one) of at most that width, broken at spaces, within a word only where
-/// it has no line for itself. What is left over in the last line is shortened.
+/// Breaks a text into at most `most` lines (at least one) of at most that width, at spaces, and within words that are
+/// longer than a line. The rest is shortened in the last line.
 std::vector<std::string> wrapped(std::string_view utf8, double height, double width, std::size_t most);
 
 }  // namespace sikku

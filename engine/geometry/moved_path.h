@@ -1,4 +1,4 @@
-// engine/geometry/moved_path.h: moves, turns, mirrors and scales a drawing on its way.
+// engine/geometry/moved_path.h: moves, turns, mirrors and scales a drawing.
 #pragma once
 
 #include "engine/geometry/path.h"

@@ -14,7 +14,7 @@ glm::dvec2 left_of(glm::dvec2 along) {
     return {-along.y, along.x};
 }
 
-/// How far a point lies from the curve, whose nearest point is near `t`.
+/// Distance of a point from the curve, whose nearest point is near `t`.
 double distance_from(glm::dvec2 from, const Bezier& curve, double t) {
     for (int i = 0; i < 3; ++i) {
         const glm::dvec2 gap = point_of(curve, t) - from;

@@ -8,9 +8,9 @@
 
 namespace sikku {
 
-/// Unit tangent of a curve at t; where it stands still, that of the curve nearby.
+/// Unit tangent of a curve at t; where the derivative is 0, that of the curve nearby.
 glm::dvec2 tangent_of(const Bezier& curve, double t);
-/// Curvature at t, positive to the left; 0 where the curve stands still.
+/// Curvature at t, positive to the left; 0 where the derivative is 0.
 double curvature_of(const Bezier& curve, double t);
 
 /// Adds the control points of Béziers (three for each, without the start) that run `distance` to the left of a curve

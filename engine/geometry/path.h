@@ -7,8 +7,8 @@
 
 namespace sikku {
 
-/// How the line looks from here on. The colour is an index into the style's palette; it may be negative or
-/// past the palette's end, and is then taken modulo its size.
+/// Width and colour of a line. The colour is an index into the style's palette; it may be negative or past the
+/// palette's end, and is then taken modulo its size.
 struct Pen {
     double width = 1.0;      ///< a factor of the style's stroke width, or, if `width_set`, a width in its unit
     bool width_set = false;  ///< set by `#(w)` or `!(w)`
@@ -17,22 +17,22 @@ struct Pen {
     bool operator==(const Pen&) const = default;
 };
 
-/// Receives a drawing, in drawing order, a block of points at a time. Pattern units (one turtle step is 1), y up,
-/// no page yet. Every span dies with the call. A stroke is begin_stroke, then any number of lines, curves and
-/// change_pen, then end_stroke; strokes never nest. Polygons and discs may arrive in the middle of a stroke.
+/// Receives a drawing in drawing order, in blocks of points, in turtle steps, with y up and not yet on a page. Spans
+/// are valid only during the call. A stroke is begin_stroke, then any number of lines, curves and change_pen, then
+/// end_stroke; strokes never nest. Polygons and discs may arrive in the middle of a stroke.
 class PathSink {
 public:
     virtual ~PathSink() = default;
 
-    /// The pen comes down at `start`. Followed by at least one line or curve before end_stroke.
+    /// Lowers the pen at `start`. At least one line or curve follows before end_stroke().
     virtual void begin_stroke(glm::dvec2 start, const Pen& pen) = 0;
-    /// Straight lines, each from where the last one ended to the next of `ends`.
+    /// Draws straight lines, each from the end of the last one to the next of `ends`.
     virtual void lines(std::span<const glm::dvec2> ends) = 0;
-    /// Cubic Béziers, three control points each: the first starts where the line is, the last is where it ends.
+    /// Draws cubic Béziers of three control points each, of which the third is the end.
     virtual void curves(std::span<const glm::dvec2> controls) = 0;
-    /// The same stroke goes on from where it is with another pen.
+    /// Continues the stroke with another pen.
     virtual void change_pen(const Pen& pen) = 0;
-    /// The pen is lifted. `closed`: the stroke ended exactly where it began.
+    /// Lifts the pen. @param closed  true if the stroke ended exactly where it began
     virtual void end_stroke(bool closed) = 0;
 
     /// A filled polygon of at least three vertices, without the first repeated at the end; it may cross itself
@@ -48,11 +48,11 @@ public:
     /// An upright text with its middle at `centre`, whose capital letters are `height` steps high. Never called
     /// within a stroke. By default, draws its strokes as lines and curves.
     virtual void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen);
-    /// A part of the drawing ends: see Grammar::with_marks().
+    /// Ends a part of the drawing: see Grammar::with_marks().
     virtual void mark() {}
 };
 
-/// Passes a drawing on to another sink; derived classes override what they change.
+/// Passes a drawing on to another sink; derived classes override the calls that they change.
 template <typename Sink>
 class Forwarding : public Sink {
 public:
@@ -90,6 +90,14 @@ public:
     void disc(glm::dvec2, double, const Pen&) override {}
 };
 
+/// Forwards only polygons.
+class OnlyPolygons : public WithoutStrokes<PathFilter> {
+public:
+    using WithoutStrokes::WithoutStrokes;
+    void area(std::span<const glm::dvec2>, const Pen&) override {}
+    void disc(glm::dvec2, double, const Pen&) override {}
+};
+
 /// Receives the outlines of polygons between the points of strokes, so that a polygon can follow the curves drawn
 /// along it. Outlines nest; a point of a stroke belongs to the most recently begun outline.
 class OutlineSink {
@@ -98,7 +106,7 @@ public:
     virtual void begin_outline(glm::dvec2 at) = 0;
     /// Adds a vertex reached without drawing.
     virtual void outline_vertex(glm::dvec2 at) = 0;
-    /// `is_area`: it has at least three vertices.
+    /// @param is_area  true if the outline has at least three vertices
     virtual void end_outline(const Pen& pen, bool is_area) = 0;
 };
 

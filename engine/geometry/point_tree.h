@@ -14,7 +14,7 @@
 
 namespace sikku {
 
-/// A k-d tree over points of the plane, which are known by their index. Memory: about 24 bytes a point.
+/// A k-d tree over points of the plane, which are identified by their index. Memory: about 24 bytes a point.
 /// Source: Bentley, Multidimensional binary search trees used for associative searching, 1975.
 class PointTree {
 public:
@@ -36,7 +36,7 @@ public:
         }
     }
 
-    /// Cost: O(log n); the point must be there.
+    /// Removes a point that is in the tree. Cost: O(log n).
     void remove(std::uint32_t id) {
         const std::uint32_t place = place_[id];
         entries_[place].there = false;
@@ -62,7 +62,7 @@ private:
     static constexpr std::size_t leaf_size = 8;
     struct Node {
         double split = 0;
-        std::uint32_t count = 0;  // of points that are there
+        std::uint32_t count = 0;  // of points not removed
         int axis = 0;
     };
     struct Entry {
@@ -91,7 +91,7 @@ private:
         }
         const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
         const std::size_t middle = ids.size() / 2;
-        // By their index where they are equal, so that the order is the same everywhere.
+        // Equal points are ordered by index, so that the order is the same everywhere.
         std::nth_element(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(middle), ids.end(),
                          stoppable(monitor, [&](std::uint32_t a, std::uint32_t b) {
                              const double left = points[a][axis];

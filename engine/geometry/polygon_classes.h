@@ -20,7 +20,7 @@ struct PolygonClass {
     bool operator==(const PolygonClass&) const = default;
 };
 
-/// Numbers values that errors make unequal: values near an earlier one get its number.
+/// Numbers values that differ by errors: values near an earlier one get its number.
 class RoughNumbers {
 public:
     /// The number of the nearest value within `error`, or a new one, for which `added` is called. Cost: a search.
@@ -57,9 +57,9 @@ public:
 
     /// Cost: k log k for k corners, and a search among the classes.
     PolygonClass classify(std::span<const glm::dvec2> corners);
-    /// The same for lengths and angles that the caller distinguishes. @param corners  anticlockwise, none on a
-    /// straight stretch @param sides  for each of them a number of the side that begins there, and one of the angle
-    /// at its end
+    /// The same for lengths and angles that the caller distinguishes.
+    /// @param corners  anticlockwise, none on a straight stretch
+    /// @param sides  for each corner, a number of the side that begins there, and one of the angle at its end
     PolygonClass classify(std::span<const glm::dvec2> corners, const std::vector<std::int64_t>& sides);
     std::size_t shapes() const { return shapes_.size(); }
 

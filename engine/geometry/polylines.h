@@ -31,7 +31,7 @@ struct TraceOptions {
 
 /// Traces the lines that the turtle draws in the plane; polygons, discs and labels are left out.
 /// Cost: about 15 ns and 16 bytes per point. @throws BudgetError, also for more points than half of the memory holds;
-/// WordError; what `watch` throws
+/// WordError; exceptions of `watch`
 Polylines<glm::dvec2> trace(const Grammar& grammar, const TraceOptions& options);
 
 /// The same in space, with 24 bytes per point, for grammars with Grammar::is_spatial(). `moves_draw` has no effect.

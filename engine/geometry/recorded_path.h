@@ -1,4 +1,4 @@
-// engine/geometry/recorded_path.h: keeps a drawing, to be drawn again.
+// engine/geometry/recorded_path.h: stores a drawing and draws it again.
 #pragma once
 
 #include "engine/geometry/path.h"
@@ -25,7 +25,7 @@ public:
     }
     void mark() override { add(Call::mark, {}, {}); }
 
-    /// Draws it again. Receives the same calls with the same points.
+    /// Draws it again: `sink` receives the same calls with the same points.
     void draw(PathSink& sink) const;
     bool empty() const { return calls_.empty(); }
     std::size_t points() const { return points_.size(); }

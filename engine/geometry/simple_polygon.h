@@ -9,19 +9,19 @@
 
 namespace sikku {
 
-/// Positive if `point` lies on the left of the way from `a` to `b`.
+/// Positive if `point` lies to the left of the line from `a` to `b`.
 inline double side_of(glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) {
     return (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
 }
 
-/// Positive for anticlockwise corners.
+/// Area, positive for anticlockwise corners.
 inline double signed_area(std::span<const glm::dvec2> corners) {
     double area = 0;
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) area += side_of(corners[0], corners[i], corners[i + 1]);
     return area / 2;
 }
 
-/// Do two sides of a polygon cross at inner points? Cost: quadratic.
+/// True if two sides of a polygon cross at inner points. Cost: quadratic.
 inline bool crosses_itself(std::span<const glm::dvec2> corners) {
     const std::size_t count = corners.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -34,7 +34,7 @@ inline bool crosses_itself(std::span<const glm::dvec2> corners) {
     return false;
 }
 
-/// Do sides of a polygon that are not neighbours have points in common? Cost: quadratic.
+/// True if sides of a polygon that are not neighbours have points in common. Cost: quadratic.
 inline bool touches_itself(std::span<const glm::dvec2> corners) {
     const std::size_t count = corners.size();
     const auto overlap = [](double a, double b, double c, double d) {

@@ -136,7 +136,7 @@ private:
         std::size_t node = 0;        ///< of the inserted edges' tree
         std::size_t places = 0;      ///< in it, when the branch began
         std::uint64_t branch = 0;    ///< a number for the branch, from those of its mother and sisters
-        std::uint64_t branches = 0;  ///< that it has borne
+        std::uint64_t branches = 0;  ///< number of its branches so far
     };
     struct Instruction {
         Action action;
@@ -220,7 +220,7 @@ private:
         }
     }
 
-    /// Turns a new branch. Its numbers do not depend on what else grows, so that it keeps its place as others grow.
+    /// Turns a new branch at random, independently of others, so that it keeps its direction while they grow.
     void sway() {
         state_.branch = mixed(state_.branch + state_.branches);
         state_.branches = 0;
@@ -337,7 +337,7 @@ private:
         const glm::dvec3 heading = orientation * ahead;
         const glm::dvec3 across = glm::cross(vertical, heading);
         const double size = glm::length(across);
-        // Upright, any left is level.
+        // If the heading is vertical, any left is level.
         if (size < 1e-9) return;
         const glm::dvec3 left = across / size;
         orientation = glm::normalize(glm::quat_cast(glm::dmat3(heading, left, glm::cross(heading, left))));

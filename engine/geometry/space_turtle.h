@@ -14,15 +14,15 @@
 
 namespace sikku {
 
-/// Receives a drawing in space, in drawing order. Pattern units (one turtle step is 1): x to the right, y up, z
-/// towards the reader. Every span dies with the call.
+/// Receives a drawing in space, in drawing order, in turtle steps: x to the right, y up, z towards the reader. Spans
+/// are valid only during the call.
 class SpaceSink {
 public:
     virtual ~SpaceSink() = default;
 
-    /// A round stem from `from` to `to`, which may be the same. It begins as wide as `before`, the pen with which
-    /// the turtle came to `from`, and ends as wide as `pen`, in whose colour it is.
-    /// @param goes_on  the last segment ended where this one begins, and nothing came between
+    /// Draws a round stem from `from` to `to`, which may be the same, in the colour of `pen`. It begins as wide as
+    /// `before`, the pen with which the turtle reached `from`, and ends as wide as `pen`.
+    /// @param goes_on  true if the last segment ended where this one begins, and nothing was drawn between them
     virtual void segment(const glm::dvec3& from, const Pen& before, const glm::dvec3& to, const Pen& pen,
                          bool goes_on) = 0;
     /// A filled polygon of at least three vertices, without the first repeated at the end; it need not be flat.
@@ -34,9 +34,9 @@ public:
     }
     /// A predefined surface. @param map  from its coordinates
     virtual void surface(const Surface& surface, const glm::dmat4x3& map, const Pen& pen) = 0;
-    /// `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
+    /// Draws a sphere. `radius` is in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void sphere(const glm::dvec3& centre, double radius, const Pen& pen) = 0;
-    /// A text whose middle is at `centre`, whose capital letters are `height` steps high.
+    /// Writes a text whose middle is at `centre` and whose capital letters are `height` steps high.
     virtual void label(std::string_view text, const glm::dvec3& centre, double height, const Pen& pen) = 0;
 };
 
@@ -47,7 +47,7 @@ struct SpaceBounds {
     bool operator==(const SpaceBounds&) const = default;
 };
 
-/// What a walk through a word tells of it; the turtle starts at 0 0 0, one step is 1.
+/// Measurements of a word that a turtle walks through, starting at 0 0 0; one step is 1.
 struct SpaceSurvey {
     std::uint64_t drawn = 0;         ///< segments drawn
     std::uint64_t moves = 0;         ///< steps, drawn or not
@@ -67,12 +67,12 @@ struct SpaceSurvey {
 /// Source: Prusinkiewicz & Hanan 1989, sections 2.5 (its matrices act on rows) and 3.1 (tropism).
 class SpaceTurtle : public SymbolSink {
 public:
-    /// Draws into `sink`, if there is one; what it surveys it tells in any case.
-    /// @param sway  degrees, 0 or more: each branch leans to a side by up to as much, and rolls by up to as much, at
-    ///              random by the grammar's seed
+    /// Draws into `sink`, if there is one; surveys the word in any case.
+    /// @param sway  degrees, 0 or more: maximum angle by which each branch leans to a side, and by which it rolls, at
+    /// random by the grammar's seed
     static std::unique_ptr<SpaceTurtle> make(const Grammar& grammar, SpaceSink* sink = nullptr, double sway = 0);
 
-    /// After finish().
+    /// Valid after finish().
     virtual const SpaceSurvey& survey() const = 0;
 };
 

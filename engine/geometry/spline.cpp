@@ -22,7 +22,7 @@ void SplineSink::lines(std::span<const glm::dvec2> ends) {
 }
 
 void SplineSink::curves(std::span<const glm::dvec2> controls) {
-    // A curve that is one already keeps its corners as control points.
+    // Only the ends of existing curves become control points.
     for (std::size_t i = 2; i < controls.size(); i += 3) lines(controls.subspan(i, 1));
 }
 
@@ -46,7 +46,7 @@ void SplineSink::label(std::string_view text, glm::dvec2 centre, double height, 
     sink_.label(text, centre, height, pen);
 }
 
-/// A curve's piece is handed on as soon as no later point can change it.
+/// Passes a piece of the curve on as soon as no later point can change it.
 void SplineSink::add(glm::dvec2 point) {
     recent_[count_ % recent_.size()] = {point, pen_};
     if (count_ < first_.size()) first_[count_] = {point, pen_};
@@ -78,7 +78,7 @@ void SplineSink::end_stroke(bool) {
     sink_.end_stroke(is_closed_);
 }
 
-/// Fewer than 4 segments (3 if closed): few enough to be looked at together.
+/// Fewer than 4 segments (3 if closed) are few enough to be processed together.
 void SplineSink::emit_short() {
     const std::size_t segments = count_ - 1;
     std::vector<Control> controls(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(count_));

@@ -11,18 +11,19 @@
 
 namespace sikku {
 
-/// Takes the points of each stroke as the control points of a uniform cubic B-spline and hands the curve on as cubic
+/// Takes the points of each stroke as the control points of a uniform cubic B-spline and passes the curve on as cubic
 /// Béziers; nothing is flattened. A stroke that ends where it began is a closed curve, smooth at its start, too. An
-/// open one runs from its first point to its last (clamped knots); of fewer than 4 segments, it triples its end
+/// open one runs from its first point to its last (clamped knots); with fewer than 4 segments, it triples its end
 /// points instead. Polygons, discs and labels pass unchanged; outlines become areas that follow the curves
 /// (SplineOutlines).
 ///
-/// Whether a stroke is closed must be known when it begins; a first pass with a StrokeCensus tells.
+/// It must be known at the beginning of a stroke whether it is closed: a first pass with a StrokeCensus determines
+/// that.
 /// Memory: O(1) beside SplineOutlines. Source: Prusinkiewicz & Hanan 1989, section 2.2 (figures 2.10 and 2.11); de
 /// Boor's knot insertion.
 class SplineSink : public PathSink, public OutlineSink {
 public:
-    /// @param closed  for each stroke, in order, whether it is; kept by reference
+    /// @param closed  for each stroke, in order, true if it is closed; kept by reference
     SplineSink(PathSink& sink, const std::vector<bool>& closed) : sink_(sink), closed_(closed), outlines_(sink) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
@@ -58,9 +59,9 @@ private:
     SplineOutlines outlines_;
     std::size_t stroke_ = 0;  // strokes begun
     bool is_closed_ = false;
-    bool begun_ = false;                // something of this stroke was handed on
+    bool begun_ = false;                // part of this stroke was passed on
     Pen pen_;                           // of the points that arrive
-    Pen sent_;                          // the last one handed on
+    Pen sent_;                          // the last one passed on
     std::array<Control, 3> first_;      // the first control points
     std::array<Control, 6> recent_;     // the last ones, by index modulo 6
     std::size_t count_ = 0;             // control points so far

@@ -80,7 +80,7 @@ void SplineOutlines::end(const Pen& pen, bool is_area) {
     settle();
 }
 
-/// Are all curves of the run known?
+/// True if all curves of the run are known.
 bool SplineOutlines::is_known(const Run& run) const {
     if (run.is_point || stroke(run).ended) return true;
     const Stroke& drawn = stroke(run);

@@ -55,8 +55,8 @@ private:
     struct Outline {
         std::vector<Run> runs;
         glm::dvec2 last{0.0};      // vertex
-        std::uint64_t stroke = 0;  // when it began: the first that it needs
-        std::uint64_t piece = 0;   // and the first Bézier
+        std::uint64_t stroke = 0;  // the first stroke that it needs
+        std::uint64_t piece = 0;   // the first Bézier that it needs
         Pen pen;
     };
 

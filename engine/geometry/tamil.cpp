@@ -63,7 +63,7 @@ struct Node {
     glm::dvec2 at{0.0};
 };
 
-/// The direction of a stroke at a node, or none.
+/// The direction of a stroke at a node, or 0 0.
 glm::dvec2 direction(std::span<const Node> nodes, std::size_t i, bool is_closed) {
     const std::size_t last = nodes.size() - 1;
     if (is_closed && (i == 0 || i == last)) return {std::copysign(1.0, nodes[1].at.x - nodes[0].at.x), 0.0};
@@ -77,7 +77,7 @@ glm::dvec2 direction(std::span<const Node> nodes, std::size_t i, bool is_closed)
     if (command == 'H') return {std::copysign(1.0, before.x), 0.0};
     if (command == 'V') return {0.0, std::copysign(1.0, before.y)};
     if (i == last) return glm::dvec2(0.0);
-    // That of the circle through the three.
+    // Tangent of the circle through the three points.
     return glm::normalize(before * glm::length(after) / glm::length(before) +
                           after * glm::length(before) / glm::length(after));
 }

@@ -11,7 +11,7 @@
 namespace sikku {
 
 /// A part of a letter that is written without lifting the pen, in units of a 21st of a capital letter's height, y up
-/// from the line that letters stand on.
+/// from the baseline.
 struct LetterStroke {
     struct Piece {
         bool is_curve = false;
@@ -26,8 +26,8 @@ struct LetterStroke {
 /// A written syllable, or a letter by itself.
 struct TamilSyllable {
     std::vector<LetterStroke> strokes;
-    double width = 0.0;          ///< from where it begins to where the next begins
-    std::size_t characters = 0;  ///< number of code points it takes
+    double width = 0.0;          ///< distance to the beginning of the next
+    std::size_t characters = 0;  ///< number of code points
 };
 
 /// The syllable with which a text begins: a vowel, or a consonant with its vowel sign or pulli; signs that are

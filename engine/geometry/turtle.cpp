@@ -49,7 +49,7 @@ public:
         const auto& step = steps_[lattice_.edge[symbol] * lattice_.headings + state.heading];
         for (std::size_t i = 0; i < Rank; ++i) state.at[i] += step[i] * length;
     }
-    // Modules that state their steps or angles lie on no lattice.
+    // Modules with variable steps or angles do not lie on a lattice.
     void step_by(State&, double) const {}
     void turn_by(State&, double) const {}
     void turn(State& state, Symbol symbol) const {
@@ -64,7 +64,7 @@ public:
     double heading(const State& state) const {
         return lattice_.first_heading + 360.0 * state.heading / lattice_.headings;
     }
-    /// Far enough from the end of 64 bits for another run of symbols?
+    /// True if the coordinates leave enough of 64 bits for another run of symbols.
     bool in_range(const State& state) const {
         return std::all_of(state.at.begin(), state.at.end(), [](std::int64_t coordinate) {
             return coordinate < (std::int64_t{1} << 62) && coordinate > -(std::int64_t{1} << 62);
@@ -77,7 +77,7 @@ private:
     std::vector<std::array<std::int64_t, Rank>> steps_;  // by Lattice::edge and heading
 };
 
-/// Positions in doubles; headings modulo k, or in degrees where no k serves.
+/// Positions in doubles; headings modulo k, or in degrees if there is no k.
 class PlaneWalker {
 public:
     struct State {
@@ -125,7 +125,7 @@ struct Sinks {
     OutlineSink* outlines = nullptr;
 };
 
-/// The turtle over one way of walking. `Surveying` looks, else it draws.
+/// A turtle for one kind of walker, which surveys if `Surveying`, and draws otherwise.
 template <class Walker, bool Surveying>
 class WalkingTurtle final : public Turtle {
 public:
@@ -219,7 +219,7 @@ private:
         Pen pen;
     };
 
-    /// With `Own`, a module that states the command's value.
+    /// Executes a command; with `Own`, its value is the module's argument.
     template <bool Own>
     void obey(Symbol symbol, const Instruction& command) {
         ++position_;
@@ -410,7 +410,7 @@ private:
         vertices_begin_.pop_back();
     }
 
-    /// Tells the places of the polygon's vertices, of which there are `count`.
+    /// Passes on the places of the polygon's `count` vertices.
     void tell_vertices(std::size_t count) {
         std::span<const std::int64_t> all = std::span(vertices_).subspan(vertices_begin_.back());
         if (!all.empty()) all = all.first(count * std::tuple_size_v<decltype(coordinates_of(state_.place))>);
@@ -443,7 +443,7 @@ private:
         down_ = false;
     }
 
-    /// Before a segment is drawn: the pen is down, and it is the right one.
+    /// Lowers the pen, or changes it, before a segment is drawn.
     void lower() {
         if (!down_) {
             down_ = true;
@@ -510,7 +510,7 @@ private:
     Place start_;
     std::vector<glm::dvec2> points_;
     std::vector<std::int64_t> coordinates_;  // of points_
-    std::vector<std::int64_t> vertices_;     // coordinates of the vertices of open polygons, if places are told
+    std::vector<std::int64_t> vertices_;     // coordinates of the vertices of open polygons, for places_
     std::vector<std::size_t> vertices_begin_;
     std::span<const double> arguments_;  // of the module, if it states them
     std::unordered_map<Symbol, std::pair<LabelText, std::vector<double>>> labels_;  // with constant parameters

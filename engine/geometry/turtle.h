@@ -17,7 +17,7 @@ struct Bounds {
     glm::dvec2 high{0.0};
 };
 
-/// What a walk through a word tells of it; the turtle starts at 0 0, one step is 1.
+/// Measurements of a word that a turtle walks through, starting at 0 0; one step is 1.
 struct Survey {
     std::uint64_t drawn = 0;     ///< segments drawn
     std::uint64_t moves = 0;     ///< steps, drawn or not
@@ -31,16 +31,16 @@ struct Survey {
     std::int64_t depth = 0;  ///< deepest nesting of brackets
 };
 
-/// Receives where a turtle draws, in whole coordinates of its grammar's lattice.
+/// Receives the points of a turtle's lines, in whole coordinates of its grammar's lattice.
 class PlaceSink {
 public:
     virtual ~PlaceSink() = default;
-    /// Lattice::rank coordinates for each point that the PathSink is told next, by begin_stroke or by lines; empty
-    /// if that is 0. The span lives until the PathSink was told.
+    /// Receives Lattice::rank coordinates for each point of the PathSink's next call of begin_stroke() or lines();
+    /// empty if the rank is 0. The span is valid until that call returns.
     virtual void places(std::span<const std::int64_t> coordinates) = 0;
-    /// The same for the vertices of a polygon between `{` and `}` that the PathSink is told next. @param position  of
-    /// the `}` in the word, from 1
-    /// @param is_closed  the outline ended where it began; marked vertices always close
+    /// The same for the vertices of the next polygon between `{` and `}` that the PathSink receives.
+    /// @param position  of the `}` in the word, from 1
+    /// @param is_closed  true if the outline ended where it began; marked vertices always close
     virtual void vertices(std::span<const std::int64_t> /*coordinates*/, std::uint64_t /*position*/,
                           bool /*is_closed*/) {}
 };
@@ -51,19 +51,19 @@ public:
 /// sections 2.1 and 3.1.
 class Turtle : public SymbolSink {
 public:
-    /// Draws into `sink`. With `moves_draw` a step that is not drawn belongs to the stroke all the same: it is a
-    /// control point of a spline. Then brackets lift the pen, and only they.
+    /// Draws into `sink`. With `moves_draw`, steps that do not draw belong to the stroke, too, as control points of a
+    /// spline; then only brackets lift the pen.
     static std::unique_ptr<Turtle> drawing(const Grammar& grammar, PathSink& sink, bool moves_draw);
     /// As above, but polygons go to `outlines`.
     static std::unique_ptr<Turtle> outlining(const Grammar& grammar, PathSink& sink, OutlineSink& outlines,
                                              bool moves_draw);
-    /// The same, and tells `places` each point in exact coordinates, too.
+    /// As drawing(), but also passes the exact coordinates of each point to `places`.
     static std::unique_ptr<Turtle> tracing(const Grammar& grammar, PathSink& sink, PlaceSink& places,
                                            bool moves_draw);
-    /// Draws nothing and looks at everything.
+    /// Measures the word without drawing.
     static std::unique_ptr<Turtle> surveying(const Grammar& grammar);
 
-    /// After finish(), of a surveying turtle.
+    /// Valid after finish() of a surveying turtle.
     virtual Survey survey() const = 0;
 };
 

@@ -16,7 +16,7 @@ namespace sikku {
 /// @throws WordError that names the symbol, counted from 1
 [[noreturn]] void throw_at(std::uint64_t position, std::string_view what);
 
-/// What `action` does to the pen; `value` is finite. Nothing, if it is none of width and colour.
+/// Changes the pen if `action` sets its width or colour; `value` is finite.
 inline void change_pen(Pen& pen, Action action, double value) {
     switch (action) {
         case Action::width_set:
@@ -37,7 +37,7 @@ inline void change_pen(Pen& pen, Action action, double value) {
     }
 }
 
-/// A parameter of `{` other than 0 is the type of a cylinder in cpfg.
+/// Refuses a parameter of `{` other than 0, which is the type of a cylinder in cpfg.
 inline void refuse_cylinder(std::uint64_t position, double type) {
     if (type == 0) return;
     throw_at(position,
@@ -47,7 +47,7 @@ inline void refuse_cylinder(std::uint64_t position, double type) {
 
 constexpr std::size_t deepest_nesting = std::size_t{1} << 20;
 
-/// The states that `[` keeps for `]`.
+/// The states that `[` saves for `]`.
 template <class State>
 class BracketStack {
 public:
@@ -74,9 +74,8 @@ private:
     std::vector<Saved> saved_;
 };
 
-/// The polygons between `{` and `}`, of vertices that a walker's places lead to. Branches do not concern them.
-/// Those of an outline begin with the place of `{`; those of a framework have only the vertices that are added, and
-/// equal ones that follow each other are one.
+/// The open polygons between `{` and `}`, which do not depend on branches. An outline begins with the place of `{`; a
+/// polygon of a framework has only the vertices that are added, of which successive equal ones are merged.
 template <class Place, class Point>
 class PolygonStack {
 public:
@@ -99,7 +98,7 @@ public:
         polygon.vertices.push_back(point_of(place));
         polygon.last = place;
     }
-    /// Its vertices, without the first repeated at the end.
+    /// Ends the last polygon and returns its vertices, without the first repeated at the end.
     std::vector<Point> end(std::uint64_t position) {
         if (open_.empty()) throw_at(position, "'}' without '{'");
         Polygon polygon = std::move(open_.back());
@@ -109,7 +108,7 @@ public:
         if (returns) polygon.vertices.pop_back();
         return std::move(polygon.vertices);
     }
-    /// The outline that ended last ended where it began; frameworks always close.
+    /// True if the last outline ended where it began; frameworks always close.
     bool was_closed() const { return was_closed_; }
     void finish() const {
         if (!open_.empty()) throw_at(open_.back().position, "this '{' is not closed");
@@ -127,9 +126,9 @@ private:
     bool was_closed_ = true;
 };
 
-/// The places that a walker came through, as a tree, and the inserted edges that are open in it. Closing an edge
-/// closes a cycle in the tree: from where the edge began back to the branching point, and on to where it ends.
-/// Memory: that of the branches that lead to the walker and to the ends of open edges.
+/// The places that a walker visited, as a tree, and the open inserted edges. Closing an edge closes a cycle in the
+/// tree: from the beginning of the edge back to the branching point and on to its end. Memory: that of the branches
+/// that lead to the walker and to the ends of open edges.
 template <class Place>
 class InsertedEdges {
 public:
@@ -142,7 +141,7 @@ public:
     void start(const Place& place) {
         if (in_use_) nodes_.push_back({place, 0, 0});
     }
-    /// After each step. `node` is the walker's own, which its state keeps.
+    /// Call after each step. `node` belongs to the walker's state.
     void step(const Place& place, std::size_t& node, std::uint64_t position) {
         if (!in_use_) return;
         if (nodes_.size() >= most) throw_at(position, "more than 16,777,216 steps lead to inserted edges");
@@ -151,7 +150,7 @@ public:
     }
     /// Number of places so far, for pop().
     std::size_t size() const { return nodes_.size(); }
-    /// The walker is back from a branch that began when there were `size` places.
+    /// Call when the walker is back from a branch that began when there were `size` places.
     void pop(std::size_t size) {
         if (in_use_ && (open_.empty() || open_.back().newest < size)) nodes_.resize(size);
     }
@@ -159,7 +158,7 @@ public:
         if (open_.size() >= deepest_nesting) throw_at(position, "inserted edges nest deeper than 1,048,576");
         open_.push_back({node, open_.empty() ? node : std::max(node, open_.back().newest), position});
     }
-    /// The places of the cycle, from the beginning of the edge to its end.
+    /// Ends an edge and returns the places of its cycle, from its beginning to its end.
     std::vector<Place> close(std::size_t node, std::uint64_t position) {
         if (open_.empty()) throw_at(position, "the end of an inserted edge without its beginning");
         std::size_t first = open_.back().node;

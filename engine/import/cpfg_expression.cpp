@@ -11,7 +11,7 @@ namespace sikku::cpfg {
 namespace {
 
 constexpr std::size_t most_nesting = 256;                            // of an expression
-constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as written anew
+constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as rewritten
 constexpr double degree = 0.017453292519943295;
 
 /// Increments a counter during its lifetime.
@@ -41,7 +41,7 @@ void combine(Value& left, std::string_view sign, int level, const Value& right, 
     } else if (sign == "^") {
         left = {in_parentheses(left, 9) + "^" + in_parentheses(right, 9), 8, left.is_random};
     } else {
-        // The levels are those of the pattern language; a sign after an operator is hard to read.
+        // The levels are those of the pattern language; a signed operand is put in parentheses for legibility.
         if (left.precedence < level) left.text = "(" + left.text + ")";
         left.text += sign;
         left.text += in_parentheses(right, right.precedence == 7 ? 8 : level + 1);
@@ -98,7 +98,7 @@ bool Expressions::is_number(const std::string& name, Macro& macro) {
                 kind = Macro::Kind::number;
             }
         } catch (const Fault&) {
-            // Expanded where it is used, it is told what is wrong with it.
+            // The error is reported where the define is expanded.
         }
         formals_ = formals;
         locals_ = locals;

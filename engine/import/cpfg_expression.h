@@ -17,7 +17,7 @@ struct Value {
     std::string text;
     int precedence = 9;  ///< of its outermost operator, as in engine/language/expression.cpp; 9 without one
     bool is_random = false;
-    bool is_enclosed = false;  ///< in parentheses, which are not written
+    bool is_enclosed = false;  ///< in parentheses, which `text` omits
 };
 
 /// Adds parentheses if the outermost operator of the value has a lower precedence than `lowest`.
@@ -33,7 +33,7 @@ public:
     Value read(Reader& reader) { return binary(reader, 1); }
     /// Reads the rest of a line as a whole number.
     long long whole_number(Reader& reader);
-    /// The next character of an expression that is not a blank; 0 at the end.
+    /// Returns the next character of an expression that is not a blank; 0 at the end.
     char next(Reader& reader) {
         return reader.peek([this](const std::string& name, Macro& macro) { return is_number(name, macro); });
     }
@@ -64,7 +64,7 @@ public:
 private:
     struct Operator {
         std::string_view sign;  ///< in the pattern language
-        std::size_t bytes = 0;  ///< 0: none stands here
+        std::size_t bytes = 0;  ///< 0: no operator
         int level = 0;
     };
     Operator operator_here(Reader& reader);
@@ -83,7 +83,7 @@ private:
     std::set<std::string, std::less<>> formals_;
     std::map<std::string, Value, std::less<>> locals_;
     std::size_t number_depth_ = 0;
-    std::size_t unwritten_ = 0;  // expressions being read that the pattern does not hold
+    std::size_t unwritten_ = 0;  // expressions being read that are not written to the pattern
     std::size_t nesting_ = 0;
 };
 

@@ -19,7 +19,7 @@ std::string written(const std::vector<Formal>& modules, std::string_view between
     return text;
 }
 
-/// A blank before a backslash at the end would go on with the next line.
+/// Ends a line. Removes a blank before a final backslash, with which it would continue the line.
 std::string line_of(std::string text) {
     if (text.ends_with(" \\")) text.erase(text.size() - 2, 1);
     return text + '\n';
@@ -69,7 +69,7 @@ std::optional<std::string> renamed(const Value& condition, const std::vector<For
     return result;
 }
 
-/// What stands after a production that always applies to the same never does.
+/// Drops productions that can never apply, because an earlier one with the same modules always does.
 void drop_dead(std::vector<Rule>& rules, Report& report) {
     std::set<std::string> certain;
     std::erase_if(rules, [&](const Rule& rule) {
@@ -98,8 +98,8 @@ std::set<std::string> letters_of(const std::string& word) {
     return letters;
 }
 
-/// Rounds of a decomposition after which no production applies, at most `depth`: as many as letters derive one
-/// another in a chain. A letter that derives itself may continue as long as its conditions allow.
+/// Rounds after which no production of a decomposition applies, at most `depth`: the longest chain of letters that
+/// derive each other. A letter that derives itself may continue as long as its conditions allow.
 long long rounds_of(const std::vector<Rule>& rules, long long depth) {
     std::map<std::string, std::set<std::string>> derived;
     for (const Rule& rule : rules) derived[rule.predecessor.front().letter].merge(letters_of(rule.successor));
@@ -190,8 +190,8 @@ public:
     }
 
 private:
-    /// cpfg takes the first production that matches. A context-free one before one with contexts is so kept from
-    /// being overtaken.
+    /// cpfg applies the first production that matches; patterns first try those with contexts. Conditions keep these
+    /// from overtaking earlier context-free ones.
     void restore_order() {
         std::size_t written_bytes = 0;
         std::map<std::string, std::vector<std::size_t>> plain;  // context-free ones so far, by their first letter
@@ -285,7 +285,7 @@ private:
         }
     }
 
-    /// What cpfg's turtle does otherwise than a pattern's, said by productions.
+    /// Writes productions for symbols that cpfg's turtle interprets differently.
     std::string interpretation() {
         std::string lines;
         std::set<std::string> certain;
@@ -314,7 +314,7 @@ private:
             } else if (letter == "@v") {
                 successor = "$";
             } else if (letter == "/" || letter == "\\") {
-                // Up is away from the reader there, as the code of cpfg has it.
+                // In the code of cpfg, up points away from the reader.
                 successor = letter == "/" ? "\\" : "/";
                 if (count > 0) successor += "(a1)";
             } else if ((letter == "!" || letter == "#") && count == 0 && view_.width_increment == 0) {
@@ -334,7 +334,7 @@ private:
         return lines.empty() ? "" : "\ninterpret:\n" + lines;
     }
 
-    /// `ignore:` or `consider:`; a pattern's `consider:` never ignores brackets, and its lists hold no comma.
+    /// Writes `ignore:` or `consider:`; patterns' `consider:` never ignores brackets, and lists contain no commas.
     std::string list() {
         if (!system_.has_list) return "";
         const auto is_listed = [&](const std::string& letter) {

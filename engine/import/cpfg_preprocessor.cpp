@@ -15,7 +15,7 @@ bool is_comment(const std::string& text, std::size_t slashes) {
     return before < slashes && (slashes + 2 == text.size() || is_blank(text[slashes + 2]));
 }
 
-/// The value of an integer expression of C with its defines expanded; undefined names are 0. Without division,
+/// True if an integer expression of C, with defines expanded, is not 0; undefined names are 0. Without division,
 /// integers are exact in doubles.
 bool holds(const std::string& text, std::size_t at) {
     if (text.find_first_of("/.") != std::string::npos) {
@@ -111,7 +111,7 @@ void Preprocessor::directive(std::size_t begin, std::size_t end) {
     if (what == "if" || what == "ifdef" || what == "ifndef") {
         if (conditions_.size() >= most_defines_deep) mistake(begin, "conditions nest more than 200 deep");
         const bool was_active = is_active();
-        // First, so #else and #endif are matched even if the condition is invalid.
+        // Pushed first, so that #else and #endif are matched even if the condition is invalid.
         conditions_.push_back({begin, false, was_active});
         if (was_active) conditions_.back().holds = conditions_.back().has_held = condition(what, at, end);
     } else if (what == "elif" || what == "else" || what == "endif") {
@@ -228,7 +228,7 @@ void Preprocessor::define(std::size_t at, std::size_t end) {
     while (at < end && is_blank(text_[at])) ++at;
     macro.body = text_.substr(at, end - at);
     while (!macro.body.empty() && is_blank(macro.body.back())) macro.body.pop_back();
-    // A name that means two things in one file is expanded where it stands.
+    // A name that is defined twice is expanded where it is used.
     if (!defined_once_.insert(name).second) macro.kind = Macro::Kind::text;
     defines_.macros.insert_or_assign(name, std::move(macro));
 }

@@ -35,14 +35,15 @@ struct Defines {
     std::size_t budget = std::size_t{16} << 20;
 };
 
-/// What is left of a logical line, with the defines that are being expanded.
+/// Reads a logical line and expands its defines.
 class Reader {
 public:
     Reader(Defines& defines, std::string_view line, std::size_t at) : defines_(defines) {
         frames_.push_back({{}, line, 0, 0, nullptr, at});
     }
 
-    /// The next character that is no blank, defines expanded; 0 at the end. `keep` says which are left as they are.
+    /// Returns the next character that is not a blank, with defines expanded; 0 at the end. `keep(name, macro)` is
+    /// true for defines that are not expanded.
     template <class Keep>
     char peek(Keep keep) {
         while (true) {
@@ -57,16 +58,16 @@ public:
             if (frame.at < frame.checked || !expand(frame, keep)) return text[frame.at];
         }
     }
-    /// Defines expanded, all of them.
+    /// The same with all defines expanded.
     char peek() {
         return peek([](const std::string&, Macro&) { return false; });
     }
 
-    /// The text right here, up to where a define that is being expanded ends.
+    /// Unread text of the line, or of the define that is being expanded.
     std::string_view ahead() const { return frames_.back().text.substr(frames_.back().at); }
     void take(std::size_t bytes = 1) { frames_.back().at += bytes; }
 
-    /// An offset into the file: of a define that is being expanded, where it is used.
+    /// Offset in the file; within a define, that of its use in the line.
     std::size_t where() const {
         return frames_.size() > 1 ? frames_[1].used_at : frames_.front().used_at + frames_.front().at;
     }
@@ -76,12 +77,12 @@ private:
         std::string own;
         std::string_view text;
         std::size_t at;
-        std::size_t checked;  // up to here nothing is a define
+        std::size_t checked;  // no define begins before this offset
         const Macro* macro;
-        std::size_t used_at;  // of the first frame, where the line begins
+        std::size_t used_at;  // offset of the define's use; in the first frame, of the line
     };
 
-    /// If a define stands here, its text is read next; else what stands here is looked at no more.
+    /// Expands the define at the current place. False if there is none; the same text is not checked again.
     template <class Keep>
     bool expand(Frame& frame, Keep keep) {
         const std::string_view text = frame.text;
@@ -130,11 +131,11 @@ private:
     std::string filled_in(const Macro& macro, const std::vector<std::string_view>& arguments) const;
 
     Defines& defines_;
-    std::deque<Frame> frames_;  // their texts stay where they are
+    std::deque<Frame> frames_;  // a deque, because views into its texts must stay valid
 };
 
-/// Replaces comments by blanks; keeps line ends. Only at the beginning of a line or between blanks does `//` begin a
-/// comment: in words it is two rolls, which the preprocessors of the time did not remove.
+/// Replaces comments by blanks; keeps line ends. `//` begins a comment only at the beginning of a line or between
+/// blanks; in words it is two rolls, which the preprocessors of the time did not remove.
 void blank_comments(std::string& text, Report& report);
 
 /// Executes preprocessor directives.
@@ -150,8 +151,7 @@ public:
     }
     /// Executes one directive, from its '#' to the end of the line.
     void directive(std::size_t begin, std::size_t end);
-    /// True if a line that begins like this is one of the directives by name, `#` alone included. `#(0.1)` and `# F`
-    /// are words.
+    /// True if the line begins with the name of a directive or is `#` alone. `#(0.1)` and `# F` are words.
     static bool is_directive(std::string_view line);
     /// Reports a condition without #endif.
     void finish();

@@ -68,7 +68,7 @@ private:
         for (std::size_t at = 0; at < text_.size() && section_ != Section::after;) {
             std::size_t end = line_end(at);
             if (is_directive(at)) {
-                // A backslash at the end goes on with the next line.
+                // A backslash at the end continues the line.
                 while (
                     end < text_.size() && end > at &&
                     (text_[end - 1] == '\\' || (text_[end - 1] == '\r' && end > at + 1 && text_[end - 2] == '\\'))) {
@@ -80,7 +80,7 @@ private:
                 at = end + 1;
                 continue;
             }
-            // A line that begins with a tab continues the one before; braces of C do, too.
+            // A line that begins with a tab continues the one before; so does an open brace of C.
             while (end + 1 < text_.size() &&
                    ((text_[end + 1] == '\t' && !is_directive(end + 1)) || open_braces(at, end) > 0)) {
                 text_[end] = ' ';
@@ -96,7 +96,7 @@ private:
 
     /// Number of open braces of a block of C that began in this line; 0 in other lines.
     std::size_t open_braces(std::size_t begin, std::size_t end) {
-        // What was counted once is not counted again, however many lines there are.
+        // Lines that were counted are not counted again, however many follow.
         if (counted_begin_ != begin) {
             const std::string_view line = std::string_view(text_).substr(begin, end - begin);
             std::size_t first = nothing;
@@ -126,7 +126,7 @@ private:
         try {
             work();
         } catch (const Fault& fault) {
-            // Whoever has that many does not read on.
+            // Further errors would not help.
             if (++faults_ > most_faults) section_ = Section::after;
             if (!fault.is_loss) {
                 report_.error(fault.at, fault.message);
@@ -176,7 +176,7 @@ private:
             system_.homomorphism_depth = expressions_.whole_number(reader);
             if (system_.homomorphism_depth > 1) system_.homomorphism_depth_at = begin;
         } else if ((section_ == Section::homomorphism || section_ == Section::decomposition) && keyword == "seed:") {
-            return;  // of random choices, which a homomorphism does not make and which have one seed here
+            return;  // seeds of random choices: homomorphisms make none, and patterns have a single seed
         } else {
             production(whole, begin);
         }
@@ -211,7 +211,7 @@ private:
             try {
                 system_.axiom = words_.word(reader, section_ == Section::homomorphism);
             } catch (const Fault& fault) {
-                mistake(fault.at, fault.message);  // there is no system without it
+                mistake(fault.at, fault.message);  // a system needs an axiom
             }
             if (reader.peek() != 0) mistake(reader.where(), "expected a symbol here");
         } else if (keyword == "ringlsystem") {
@@ -238,7 +238,7 @@ private:
         }
     }
 
-    /// `{a = 1; b = 2*a;}`: what is set here and nowhere else is a define.
+    /// Reads `{a = 1; b = 2*a;}`. Names that are set only here become defines.
     void start(Reader& reader, std::size_t begin) {
         try {
             if (expressions_.next(reader) != '{') lose(begin, "");
@@ -259,7 +259,7 @@ private:
         }
     }
 
-    /// In the whole file: names before a single '=', or behind '&'.
+    /// Number of times that the whole file contains the name before a single '=' or after '&'.
     std::size_t times_assigned(const std::string& name) {
         if (assigned_.empty()) {
             for (std::size_t at = 0; at < text_.size();) {
@@ -346,7 +346,7 @@ private:
                std::string_view("+-*/%").find(after[0]) != std::string_view::npos;
     }
 
-    /// Reads one statement. False if it is not an assignment to a local variable; its name has no value then.
+    /// Reads one statement. False if it is not an assignment to a local variable; then its name has no value.
     bool statement(Reader& reader, std::size_t at) {
         if (expressions_.next(reader) == ';') {
             reader.take();
@@ -376,7 +376,7 @@ private:
                 return true;
             }
         } catch (const Fault&) {
-            // C has more expressions than productions have.
+            // C has expressions that productions lack.
         }
         expressions_.set_local(name, {""});
         return false;
@@ -385,7 +385,7 @@ private:
     /// Skips the rest of a block; variables that it sets have no value.
     void skip_block(Reader& reader, std::size_t at) {
         std::size_t depth = 1;
-        bool steps_variable = false;  // `++` or `--` stands before
+        bool steps_variable = false;  // `++` or `--` precedes
         while (const char byte = expressions_.next(reader)) {
             if (const std::string name = expressions_.identifier(reader); !name.empty()) {
                 const bool follows_change = steps_variable;
@@ -436,7 +436,7 @@ private:
         system_.rules.push_back(std::move(rule));
     }
 
-    /// `[B=]` says that the branch may go on, as `[B]` does in patterns.
+    /// Translates a right context. `[B=]` matches branches that continue after B, as `[B]` does in patterns.
     std::vector<Formal> right_context(std::vector<Formal> modules, std::size_t at) {
         std::vector<Formal> result;
         std::size_t depth = 0;

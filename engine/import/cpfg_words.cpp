@@ -27,7 +27,7 @@ bool is_arrow(const Reader& reader) {
     return reader.ahead().starts_with("-->") || reader.ahead().starts_with("-o>");
 }
 
-/// One symbol, or two after '@'. The surface that '~' names is no command of the turtle.
+/// Reads one symbol, or two characters after '@'. A surface's name after '~' is not a command of the turtle.
 std::string Words::symbol(Reader& reader) {
     const std::size_t at = reader.where();
     const char byte = reader.peek();
@@ -103,7 +103,7 @@ std::string Words::word(Reader& reader, bool is_drawn) {
     return result;
 }
 
-/// A module of a homomorphism's successor: nothing is between it and the turtle.
+/// Finishes a module in a homomorphism's successor, which the turtle reads directly.
 void Words::finish(std::string& result, const std::string& letter, std::vector<std::string> arguments,
                    std::size_t at) {
     if (letter == "%" || letter == "'" || letter == "@." || letter == "$") return;
@@ -125,7 +125,7 @@ void Words::finish(std::string& result, const std::string& letter, std::vector<s
     append(result, letter, arguments);
 }
 
-/// Widths are pixels unless the view says otherwise.
+/// Notes modules that set widths, which are pixels unless the view states otherwise.
 void Words::note_width(const std::string& letter, const std::vector<std::string>& arguments) {
     if ((letter == "!" || letter == "#") && !arguments.empty()) letters.sets_width = true;
 }

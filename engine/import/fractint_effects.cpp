@@ -24,7 +24,7 @@ Effects::Effects(const Entry& entry) : entry_(entry) {
 }
 
 void Effects::find_reached() {
-    // What each letter with a rule leads to, itself included: as the commands of all of them.
+    // Letters that each letter with a rule leads to, itself included.
     std::map<char, Flags> leads;
     for (const auto& [letter, rule] : entry_.rules) {
         leads[letter].set(index_of(letter));
@@ -51,16 +51,16 @@ void Effects::find_reached() {
     }
 }
 
-/// The commands whose sides ! exchanges, of the headings that steps of the system take.
+/// Turns that ! exchanges and that affect headings of steps in the system.
 std::string_view Effects::turns() const {
     return has_own_steps_ && has_other_steps_ ? "+-/\\" : has_other_steps_ ? "/\\" : "+-";
 }
 
-/// Which letters are followed, up to the end of their branch, by what their effect bears upon.
+/// Letters that a sensitive letter follows before the end of their branch.
 Flags Effects::followed(const Flags& sensitive) const {
     Flags result;
     const auto look = [&](const Tokens& word, bool after) {
-        std::vector<std::pair<bool, bool>> outer;  // what follows the branch; is anything in it sensitive
+        std::vector<std::pair<bool, bool>> outer;  // `after` and `in_branch` of the enclosing branches
         bool in_branch = false;
         for (std::size_t i = word.size(); i-- > 0;) {
             const Token& token = word[i];
@@ -149,7 +149,7 @@ void apply(const Token& token, const Entry& entry, const std::map<char, Effect>&
             add(effect.steps, token.letter == '+' ? side : -side, entry.angle);
             break;
         case '|':
-            // Modulo whole turns, clockwise.
+            // Half a turn clockwise, rounded down to whole steps of the angle.
             add(effect.around, -(entry.angle / 2), entry.angle);
             break;
         case '\\':

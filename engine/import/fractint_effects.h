@@ -15,13 +15,13 @@ namespace sikku::fractint {
 struct Effect {
     std::vector<std::int64_t> halves;
     bool flips = false;
-    std::int64_t steps = 0;       ///< the turns of + and -, in turns of the entry's angle: 0 to less than that angle
-    std::int64_t around = 0;      ///< likewise those of |, which ! does not exchange
-    std::int64_t billionths = 0;  ///< the turns of \\ and /, in billionths of degrees, below 360 degrees
+    std::int64_t steps = 0;       ///< turns of + and -, in units of 360 degrees / angle: 0 to angle - 1
+    std::int64_t around = 0;      ///< likewise of |, which ! does not exchange
+    std::int64_t billionths = 0;  ///< turns of \\ and /, in billionths of degrees, below 360 degrees
     bool operator==(const Effect&) const = default;
 };
 
-/// Keeps a reference to the entry.
+/// Computes the effects of the letters of an entry. Keeps a reference to it.
 class Effects {
 public:
     explicit Effects(const Entry& entry);
@@ -32,7 +32,7 @@ public:
     bool leads_to_turns(char letter) const { return leads_to_turns_.test(index_of(letter)); }
     /// True if the letter turns the heading of the steps that the system uses.
     bool turns_count(char letter) const { return turns().find(letter) != std::string_view::npos; }
-    /// True if steps of F or G and of D or M occur together, which have headings of their own.
+    /// True if steps of F or G and steps of D or M, which have separate headings, both occur.
     bool has_two_headings() const { return has_own_steps_ && has_other_steps_; }
     /// True if the letter leads to steps of the second heading.
     bool leads_to_second(char letter) const { return has_two_headings() && leads_to_second_.test(index_of(letter)); }
@@ -69,7 +69,7 @@ private:
     bool is_settled_ = false;
 };
 
-/// Goes through one token, its rule having the effects `below`.
+/// Applies the effect of one token. @param below  effects of the letters with rules
 void apply(const Token& token, const Entry& entry, const std::map<char, Effect>& below, Effect& effect);
 
 /// The heading of D and M minus that of F and G, in degrees.

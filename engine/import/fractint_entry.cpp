@@ -49,7 +49,7 @@ private:
         entry_.comments += (entry_.comments.empty() ? "" : " ") + pattern_line(comment, 200);
     }
 
-    /// True if it is the axiom.
+    /// Reads a line; true if it is the axiom.
     bool read_line(std::size_t begin, std::size_t end) {
         const std::string& text = file_->text();
         const auto is_blank = [&](std::size_t i) { return text[i] == ' ' || text[i] == '\t' || text[i] == '\r'; };
@@ -84,7 +84,7 @@ private:
             return false;
         }
         if (key.size() != 1) fail(file_, diagnostics_, begin, "expected 'Angle n', 'Axiom word' or a rule 'c=word'");
-        // Older Fractints take rules for colours.
+        // Older versions of Fractint use such rules for colours.
         if (std::string_view("+-/\\@|!][").find(key) != std::string_view::npos) {
             fail(file_, diagnostics_, begin, fmt::format("a rule for the command '{}' is not allowed", key));
         }
@@ -92,7 +92,7 @@ private:
             fail(file_, diagnostics_, begin, "a rule must be for one ASCII character");
         }
         Tokens body = tokens(at, stop);
-        // Rules for the same character follow one another.
+        // Rules for the same character are concatenated.
         Tokens& rule = entry_.rules[key[0]];
         rule.insert(rule.end(), body.begin(), body.end());
         return false;
@@ -128,7 +128,7 @@ private:
         return result;
     }
 
-    /// `Q` and `I`, in any order, then digits and points, the decimal number.
+    /// Reads `Q` and `I` in any order, then a decimal number of digits and points.
     void read_number_of(Token& token, std::size_t& at, std::size_t end) {
         const std::string& text = file_->text();
         bool root = false;
@@ -172,7 +172,7 @@ private:
     const SourcePointer& file_;
     Diagnostics& diagnostics_;
     Entry entry_;
-    std::vector<double> numbers_;  // the different ones after @
+    std::vector<double> numbers_;  // distinct numbers after @
     std::vector<std::string> number_texts_;
     std::size_t word_bytes_ = 0;
 };

@@ -39,7 +39,7 @@ inline std::size_t index_of(char letter) {
     return static_cast<unsigned char>(letter);
 }
 
-/// The first `wanted` in [begin, end), or `end`.
+/// Position of the first `wanted` in [begin, end), or `end`.
 std::size_t find_before(const std::string& text, char wanted, std::size_t begin, std::size_t end);
 
 /// Thrown after an error in an entry was reported.
@@ -67,7 +67,7 @@ struct Entry {
     int angle = 0;  ///< turns are 360 degrees divided by this number
     Tokens axiom;
     std::map<char, Tokens> rules;
-    Factors factors;  ///< of the different numbers after @
+    Factors factors;  ///< of the distinct numbers after @
 
     /// The rule of a letter, or null.
     const Tokens* rule_of(char letter) const {

@@ -21,7 +21,7 @@ constexpr const char* palette =
     "#000000 #0000aa #00aa00 #00aaaa #aa0000 #aa00aa #aa5500 #aaaaaa #555555 #5555ff #55ff55 #55ffff #ff5555 #ff55ff "
     "#ffff55 #ffffff";
 
-/// A symbol of the pattern: a letter, or one with a number, as it is or with left and right exchanged.
+/// A symbol of the pattern: a letter, or one with a number, unchanged or with left and right exchanged.
 struct Key {
     char letter = 0;
     double number = 0.0;
@@ -33,7 +33,7 @@ std::string repeated(char letter, std::int64_t times) {
     return std::string(static_cast<std::size_t>(times), letter);
 }
 
-/// What the turtle does on a command without a rule; `c10` sets a colour.
+/// Translates a colour command without a rule; `c10` sets a colour.
 std::string colour_command(char letter, double number) {
     const auto n = static_cast<std::int64_t>(number);
     if (letter == 'c') return fmt::format(";({})", n);
@@ -42,7 +42,7 @@ std::string colour_command(char letter, double number) {
 
 struct Line {
     std::string left;
-    std::vector<std::string> right;  ///< by the steps that the successor has to go, 0 first
+    std::vector<std::string> right;  ///< by the remaining steps of the successor, from 0
 };
 
 bool all_same(const std::vector<std::string>& list) {
@@ -56,7 +56,7 @@ public:
         : entry_(entry), effects_(effects), file_(file), diagnostics_(diagnostics), losses_(losses), room_(room) {}
 
     std::string write() {
-        // Names are known once all words were written; then blanks go between symbols.
+        // Names are known only after all words were written; then blanks go between symbols.
         std::vector<Line> lines = write_lines();
         if (!names_.empty()) {
             names_used_ = true;
@@ -111,7 +111,7 @@ private:
                 flipped && entry_.rule_of(token.letter) && effects_.leads_to_turns(token.letter)};
     }
 
-    /// How a symbol with a rule, or without a meaning of its own, is called.
+    /// Name of a symbol that has a rule or no meaning of its own.
     std::string symbol(const Key& key) {
         if (is_plain(key.letter) && !(takes_number(key.letter) && entry_.rule_of(key.letter))) {
             if (is_letter(key.letter)) {
@@ -119,7 +119,7 @@ private:
             }
             if (!key.flipped) return std::string(1, key.letter);
         }
-        // C10, or a character that words of patterns cannot hold.
+        // C10, or a character that words of patterns cannot contain.
         std::string name = fmt::format("{}{:x}", key.flipped ? 'q' : 'p', index_of(key.letter));
         if (takes_number(key.letter)) {
             const char first = key.letter == 'c' ? 'C' : key.letter == '<' ? 'U' : 'V';
@@ -130,7 +130,7 @@ private:
         return name;
     }
 
-    /// Base of the length, and powers of the factors: `s*sqrt(3)/2`.
+    /// Writes a length: its base times powers of the factors, such as `s*sqrt(3)/2`.
     std::string length(std::string_view base, const std::vector<std::int64_t>& halves) const {
         const std::vector<double>& factors = entry_.factors.values;
         std::string over;
@@ -158,7 +158,7 @@ private:
         return std::string(base) + over + under;
     }
 
-    /// The heading of D and M against the turtle's, which is that of F and G: `d+30`.
+    /// Writes the heading of D and M relative to the turtle's, which is that of F and G: `d+30`.
     std::string heading(bool is_relative, const Effect& state) const {
         const double lead = lead_of(state, entry_);
         if (!is_relative) return fmt::format("{}", lead);
@@ -187,7 +187,7 @@ private:
                !(letter == '|' && effects_.turns_around());
     }
 
-    /// The word as the turtle is to get it, its symbols having `level` steps to go.
+    /// Translates a word whose symbols have `level` remaining steps.
     std::string word(const Tokens& tokens, std::string_view base, bool flipped, std::size_t level) {
         const std::map<char, Effect>& below = effects_.at(level);
         Effect state;
@@ -227,7 +227,7 @@ private:
             } else if (letter == '+' || letter == '-') {
                 grow(text, (letter == '+') != state.flips ? "+" : "-");
             } else if (letter == '\\' || letter == '/') {
-                // Where there are two headings, this one is a parameter.
+                // With two headings, this one is a parameter.
                 if (token.number != 0 && !effects_.has_two_headings()) {
                     grow(text, fmt::format("{}({})", (letter == '\\') != state.flips ? '+' : '-', token.number));
                 }
@@ -246,7 +246,7 @@ private:
         if (bytes > most_pattern) fail(file_, diagnostics_, entry_.at, "the pattern of this system exceeds 4 MB");
     }
 
-    /// The axiom, then a line for each symbol that is reached and has a rule.
+    /// Writes the axiom, then a line for each symbol that is reached and has a rule.
     std::vector<Line> write_lines() {
         const std::size_t levels = effects_.levels();
         std::vector<Line> lines;
@@ -279,7 +279,7 @@ private:
         return sized && led ? "(s,d)" : sized ? "(s)" : led ? "(d)" : "";
     }
 
-    /// A letter that nothing else is called by.
+    /// Returns an unused symbol.
     std::string begin_symbol() {
         Flags used;
         const auto look = [&](const Tokens& word) {
@@ -355,7 +355,7 @@ private:
     std::string interpretation() {
         std::string lines;
         if (has_turn_around_ && entry_.angle % 2 == 1) {
-            // As far as whole turns go, clockwise, whatever ! says.
+            // Half a turn clockwise, rounded down to whole steps; ! does not exchange it.
             lines += "| --> " + repeated('-', entry_.angle / 2) + '\n';
         }
         for (const auto& [letter, name] : step_letters_) {

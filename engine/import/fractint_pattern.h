@@ -8,7 +8,7 @@
 namespace sikku::fractint {
 
 /// Returns the text of a pattern file.
-/// @param room  bytes that may still be written; what is written is taken from it
+/// @param room  bytes that may still be written; reduced by those written
 /// @throws BadEntry after reporting an error
 std::string write_pattern(const Entry& entry, const Effects& effects, const SourcePointer& file,
                           Diagnostics& diagnostics, ImportLosses& losses, std::size_t& room);

@@ -34,10 +34,10 @@ private:
     const Grammar& grammar_;
 };
 
-/// True if the word of the derivation length draws something, or is too long to tell.
+/// True if the word of the derivation length draws something, or is too long to be checked.
 bool draws_something(const Grammar& grammar) {
     if (!may_draw(grammar)) return false;
-    if (grammar.is_plain() && grammar.whole_word_steps() == 0) return true;  // that was exact
+    if (grammar.is_plain() && grammar.whole_word_steps() == 0) return true;  // may_draw() was exact
     DerivationOptions options;
     options.interpreted = true;
     options.limit_whole_words(most_derived);

@@ -14,11 +14,11 @@ namespace sikku {
 /// The program that a file was written for.
 enum class ImportFormat { cpfg, fractint };
 
-/// A system that was found in a file, and the pattern made of it.
+/// A system found in a file, and its pattern.
 struct ImportedSystem {
     std::string name;     ///< in the file
     int line = 1;         ///< where it begins
-    std::string pattern;  ///< text of a pattern file; empty if the system has mistakes
+    std::string pattern;  ///< text of a pattern file; empty if the system has errors
     std::vector<std::string>
         losses;         ///< features that the pattern lacks, each with its line; the pattern lists them, too
     bool draws = true;  ///< false if the pattern draws nothing at its derivation length
@@ -31,39 +31,39 @@ constexpr std::size_t most_import_bytes = std::size_t{64} << 20;
 /// lpfg and L-Py. Cost: linear.
 std::optional<ImportFormat> import_format(std::string_view text);
 
-/// The system of a cpfg file; of several in one file the first, as the others are its sub-L-systems. A C
-/// preprocessor's lines are obeyed; #include is not. Derives to what cpfg derives, symbol by symbol, in doubles where
-/// cpfg keeps single precision, and with choices by chance of its own.
-/// @param view  the view file, or null: of its settings the angle, the scale and the width of lines are taken
-/// Mistakes and losses go to `diagnostics`. Cost: linear in the files and in what their defines expand to, at most
-/// 16 MB; quadratic in the productions of one symbol.
+/// Imports the L-system of a cpfg file: the first one, as further ones are its sub-L-systems. Obeys C preprocessor
+/// directives except #include. The pattern derives the same symbols as cpfg, in doubles where cpfg uses single
+/// precision, and with other random choices. Errors and losses go to `diagnostics`.
+/// @param view  the view file, or null; its angle, scale and line widths are imported
+/// Cost: linear in the files and in the expansion of their defines, at most 16 MB; quadratic in the productions of
+/// one symbol.
 /// Source: Mech, CPFG Version 4.0 User's Manual, 2005, section 5.
 std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourcePointer& view,
                                         Diagnostics& diagnostics);
 
-/// The entries of a Fractint collection, at most 10,000; those called `comment` or nothing are none. The pattern
-/// draws what Fractint draws, of any order: `@` becomes a parameter of the steps, what `!` exchanges has symbols of
-/// its own, and tables tell the last steps apart where that matters. `derivation length:` is 2, as Fractint proposes.
-/// Errors and losses go to `diagnostics`; an error drops only its entry. An entry may expand to 4 MB, all together to
-/// 16 MB plus twice the file. Cost: linear in the file for each of at most 20 different levels.
+/// Imports the entries of a Fractint collection, at most 10,000, except those without a name or named `comment`. The
+/// patterns draw the same as Fractint, at any order: `@` becomes a parameter of the steps, symbols that `!` exchanges
+/// have counterparts, and tables distinguish the last steps where that matters. `derivation length:` is 2, as
+/// Fractint proposes. Errors and losses go to `diagnostics`; an error drops only its entry. An entry may expand to 4
+/// MB, all together to 16 MB plus twice the file. Cost: linear in the file for each of at most 20 different levels.
 /// Source: Fractint 20.04, section "L-Systems" of its documentation, lsys.c and lsysf.c.
 std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnostics& diagnostics);
 
-/// A name for the file of a pattern, without ending: lower case, digits and single hyphens; `system` if nothing of
-/// `name` can stay.
+/// Returns a file name without extension for a pattern: lower-case letters, digits and single hyphens; `system` if
+/// `name` contains no letters or digits.
 std::string import_file_name(std::string_view name);
 
-/// Helps those that write pattern files: what is lost on the way, told with its place.
+/// Collects the features that an import loses, with their places.
 class ImportLosses {
 public:
-    /// @param diagnostics  gets a warning for each
+    /// @param diagnostics  receives a warning for each
     ImportLosses(const SourcePointer& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
     void add(std::size_t at, const std::string& what);
-    /// Adds a diagnostic for another file than the system's.
+    /// Adds a loss in another file than the system's.
     void add(const SourcePointer& file, std::size_t at, const std::string& what);
-    /// Line of a place of the file. Cost: the way from the place asked for before.
+    /// Line number of an offset. Cost: linear in the distance from the previous offset.
     int line(std::size_t at);
-    /// Begins with another system.
+    /// Returns the losses so far and begins with another system.
     std::vector<std::string> take();
     const std::vector<std::string>& list() const { return list_; }
 
@@ -80,12 +80,12 @@ private:
 /// A file's name without its folders, for the `source:` of a pattern.
 std::string import_base_name(std::string_view path);
 
-/// The keys `title:`, `source:` and `description:`, losses told in the last.
+/// Writes the keys `title:`, `source:` and `description:`; the last one lists the losses.
 std::string import_head(std::string_view title, std::string_view source, std::string_view description,
                         const std::vector<std::string>& losses);
 
-/// Compiles the pattern of a system and sets `draws`. After an error the pattern is empty, and its first error is an
-/// error at that place.
+/// Compiles the pattern of a system and sets `draws`. If the pattern has errors, empties it and reports the first one
+/// at `where`.
 void compile_import(ImportedSystem& system, const Span& where, Diagnostics& diagnostics);
 
 }  // namespace sikku

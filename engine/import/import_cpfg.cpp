@@ -1,7 +1,7 @@
-// A cpfg file goes through a C preprocessor before cpfg reads it, so what stands in it are not yet words: defines are
-// expanded here as the reader meets them. Those that are numbers stay names in expressions. Expressions are written
-// anew, since powers associate to the left there, signs bind tighter, and angles are degrees. Productions are tried
-// in the order of the file there, those with contexts first here: conditions make up for it.
+// cpfg files pass through a C preprocessor before cpfg reads them, so the reader expands defines. Defines with
+// numeric values remain names in expressions. Expressions are rewritten, because in cpfg powers associate to the
+// left, signs bind tighter, and angles are degrees. cpfg tries productions in the order of the file, patterns try
+// those with contexts first; added conditions compensate for this.
 #include "engine/import/cpfg_pattern.h"
 #include "engine/import/cpfg_reader.h"
 #include "engine/import/cpfg_report.h"

@@ -1,9 +1,8 @@
-// What Fractint does with a system: it walks down the rules depth first and obeys each command as it meets it. Its
-// state is place, two headings (one of + - | for F and G, one of \ / for D and M), step length, whether ! has
-// exchanged left and right, and colour; brackets keep it all. A pattern's turtle has no step length to multiply and
-// exchanges nothing. So lengths go into parameters, symbols that ! exchanges get twins, and both must be known where
-// a symbol is written: each symbol's effect on them, for every number of steps that it has left to go, is composed
-// beforehand.
+// Fractint expands rules depth first and executes each command when it reaches it. Its state is position, two
+// headings (one of + - | for F and G, one of \ / for D and M), step length, colour, and whether ! has exchanged left
+// and right; brackets save all of it. The turtle of patterns neither multiplies its step length nor exchanges sides.
+// Lengths therefore become parameters, symbols that ! exchanges get counterparts, and both must be known where a
+// symbol is written: the effect of each symbol on them is composed beforehand for each number of remaining steps.
 #include "engine/base/text.h"
 #include "engine/import/fractint_pattern.h"
 #include "engine/import/import.h"
@@ -18,7 +17,7 @@ namespace {
 using namespace fractint;
 
 constexpr std::size_t most_entries = 10'000;
-constexpr std::size_t most_written = std::size_t{32} << 20;  // for all of them, some twice; 4 times the file more
+constexpr std::size_t most_written = std::size_t{32} << 20;  // for all entries, some twice; plus 4 times the file
 
 }  // namespace
 

@@ -13,7 +13,7 @@ struct TurnFraction {
     std::int64_t denominator = 1;
 };
 
-/// An angle: exact where the file states one that fits, and always in degrees between -360 and 360, anticlockwise.
+/// An angle: exact if the file states one that fits, and always in degrees between -360 and 360, anticlockwise.
 struct Angle {
     double degrees = 0.0;
     std::optional<TurnFraction> exact;

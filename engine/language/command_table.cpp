@@ -92,7 +92,7 @@ constexpr std::array<SymbolHelp, 18> help_rows = {{
     {"@.", "a dot, twice as wide as the line"},
 }};
 
-/// Its value and angle.
+/// Returns the command of a row, with its value and angle.
 Command command_of_row(const Row& row, const SymbolInfo& symbol, const CommandSettings& settings) {
     const bool takes_argument = symbol.arity > 0;
     const bool has_value = takes_argument || !symbol.arguments.empty();

@@ -1,6 +1,10 @@
 // engine/language/document.h: patterns that were read, checked and compiled, ready for interpreters.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "Sikku needs C++20: compile with -std=c++20"
+#endif
+
 #include "engine/base/monitor.h"
 #include "engine/language/grammar.h"
 #include "engine/language/pattern.h"

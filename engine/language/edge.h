@@ -1,4 +1,4 @@
-// engine/language/edge.h: straight steps that are as long as the way of a word, such as `edge L: -f++f-`.
+// engine/language/edge.h: straight steps that are as long as the path of a word, such as `edge L: -f++f-`.
 #pragma once
 
 #include "engine/language/angle.h"
@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// A step as long as the way from the start to the end of a word, which ends straight ahead of its start, or behind.
+/// A step as long as the distance between the ends of a word, which ends straight ahead of its start, or behind.
 struct EdgeLength {
     /// All steps of the word in one direction.
     struct Part {

@@ -21,14 +21,14 @@ namespace {
 constexpr std::int64_t most_headings = std::int64_t{1} << 20;
 constexpr double rounding = 1e-9;
 
-/// The way of a word: its turn, and how often each step occurs in each heading.
+/// The path of a word: its turn, and how often each step occurs in each heading.
 struct Way {
-    std::int64_t headings = 1;  ///< 0: they are degrees
+    std::int64_t headings = 1;  ///< 0: degrees are used
     std::int64_t heading = 0;
     double degrees = 0;
     std::map<std::pair<std::int64_t, double>, std::int64_t> steps;  ///< by heading and length, if headings > 0
     glm::dvec2 end{0.0};
-    double length = 0;  ///< of the whole way
+    double length = 0;  ///< of the whole path
 
     bool turns() const { return headings > 0 ? heading != 0 : std::fabs(std::remainder(degrees, 360.0)) > rounding; }
 };
@@ -70,7 +70,7 @@ Way way_of(const Word& word, const std::vector<SymbolInfo>& symbols) {
     return way;
 }
 
-/// Where a way ends, found without rounding.
+/// End of a path, found without rounding.
 struct ExactEnd {
     bool is_real = true;  ///< straight ahead or behind
     bool is_zero = true;
@@ -160,7 +160,7 @@ void EdgeReader::add_to(CommandSettings& settings) const {
     }
 }
 
-/// Only moves and turns may stand in the word.
+/// True if the word contains only moves and turns; otherwise reports an error.
 bool EdgeReader::check(const Line& line, const std::vector<SymbolInfo>& symbols) const {
     for (const Symbol symbol : line.word) {
         const SymbolInfo& info = symbols[symbol];

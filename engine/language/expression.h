@@ -19,16 +19,16 @@ struct NameMeaning {
     double value = 0.0;      ///< value of a constant
     std::uint32_t slot = 0;  ///< slot of a formal: index into the values given to evaluate()
 };
-/// Looks a name up; nullopt for one that means nothing here.
+/// Looks a name up; nullopt for an unknown name.
 using NameLookup = std::function<std::optional<NameMeaning>(std::string_view name)>;
 
-/// `+ - * / ^`, comparisons, `&& ||`, functions of the pattern language, in reverse Polish order, what is constant
-/// computed beforehand. Division by zero and domain errors give what IEEE arithmetic gives.
+/// A compiled expression in reverse Polish order: `+ - * / ^`, comparisons, `&& ||` and the functions of the pattern
+/// language, with constant parts computed beforehand. Division by zero and domain errors follow IEEE arithmetic.
 class Expression {
 public:
-    /// Compiles the whole of `text`. Nullopt after a mistake, which goes to `diagnostics`. No recursion: nesting is
+    /// Compiles the whole of `text`. Nullopt after an error, which goes to `diagnostics`. No recursion: nesting is
     /// limited by memory only. Cost: linear.
-    /// @param draws  counts the calls of `random`, each of which draws by its number; null where `random` is not
+    /// @param draws  counts the calls of `random`, whose numbers select their draws; null where `random` is not
     /// allowed
     static std::optional<Expression> compile(const Span& text, const NameLookup& names, Diagnostics& diagnostics,
                                              std::uint32_t* draws = nullptr);
@@ -120,7 +120,7 @@ private:
 
 /// True for a byte that may begin a name of an expression: a letter, `_`, or any byte of a code point beyond ASCII.
 bool begins_name(char byte);
-/// True for a byte that may go on in a name.
+/// True for a byte that may continue a name.
 bool continues_name(char byte);
 
 }  // namespace sikku

@@ -110,7 +110,7 @@ constexpr std::array other_signs = {
     OtherSign{"\u00AD", ""},    OtherSign{"\u201C", ""},    OtherSign{"\u201D", ""},    OtherSign{"\u201E", ""},
 };
 
-/// Longer ones first, where one begins like another.
+/// Longer ones precede their prefixes.
 constexpr std::array<std::string_view, 19> arrows = {
     "--&gt;", "-&gt;",  "=&gt;",   "&rarr;",  "|->",     "\u2192", "\u27F6", "\u21D2", "\u27F9", "\u21A6",
     "\u2794", "\u279C", "\u2013>", "\u2014>", "\u2212>", "->",     "=>",     "::=",    ":="};
@@ -129,7 +129,7 @@ bool is_word_byte(char byte) {
     return is_letter(byte) || static_cast<unsigned char>(byte) >= 0x80;
 }
 
-/// Words, with the marks of sentences, but without signs of a turtle.
+/// True for words with punctuation, without signs of a turtle.
 bool is_prose(std::string_view text) {
     return !text.empty() && is_word_byte(text.front()) && std::all_of(text.begin(), text.end(), [](char byte) {
         return is_word_byte(byte) || is_digit(byte) || is_blank(byte) ||
@@ -147,7 +147,7 @@ std::string folded(std::string_view name) {
     return result;
 }
 
-/// A text with the signs of ASCII.
+/// Replaces typographic characters by ASCII signs.
 std::string plain(std::string_view text) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
@@ -253,7 +253,7 @@ std::string_view bare(std::string_view line) {
     return line;
 }
 
-/// With the signs that HTML writes as `&gt;`.
+/// Replaces HTML entities such as `&gt;`.
 std::string without_entities(std::string_view line) {
     constexpr std::array<std::pair<std::string_view, char>, 4> entities = {
         {{"&gt;", '>'}, {"&lt;", '<'}, {"&minus;", '-'}, {"&amp;", '&'}}};
@@ -267,7 +267,7 @@ std::string without_entities(std::string_view line) {
     return text;
 }
 
-/// One code point, with parameters perhaps, and contexts.
+/// True for one code point, possibly with parameters and contexts.
 bool is_predecessor(std::string_view text) {
     text = trimmed(text);
     if (text.empty() || text.size() > 200) return false;
@@ -356,8 +356,8 @@ public:
     }
 
 private:
-    /// The advice without lines that a pattern would not accept. Their error is the answer where the line was
-    /// certainly meant as a production.
+    /// Returns the advice without lines that a pattern would not accept, or their error if the line was certainly
+    /// meant as a production.
     LineAdvice accepted() {
         std::string problem;
         const std::size_t before = advice_.lines.size();
@@ -576,7 +576,7 @@ std::string LineAdvice::text() const {
 }
 
 LineAdvice advice_for_line(std::string_view line, bool has_axiom) {
-    // The parser and the compiler, which read what is advised, would ask for advice on it in turn.
+    // The parser and the compiler, which check the advice, would request advice themselves.
     thread_local bool is_trial = false;
     if (is_trial) return {};
     struct Trial {
@@ -669,7 +669,7 @@ std::size_t find_late_remark(std::string_view line, const std::function<bool(std
             if (is_word && is_long && !has_parameter && !is_name(line.substr(i, end - i))) return at;
             i = std::max(end, i + 1);
         }
-        return nothing;  // what follows another mark is a part of this
+        return nothing;  // marks after the first belong to its remark
     }
     return nothing;
 }

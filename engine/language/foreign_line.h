@@ -15,7 +15,7 @@ struct LineAdvice {
     std::string axiom;               ///< the word, if one of the lines states the axiom
     bool is_needless = false;        ///< it lists variables or constants, or is a heading
     std::string_view reason{};       ///< how a pattern does without a line that is not needed; may be empty
-    std::string problem;             ///< error of a line that is missing here, as a pattern would not accept it
+    std::string problem;             ///< error of a line that is left out because a pattern would not accept it
     bool is_understood() const { return is_needless || !lines.empty() || !problem.empty(); }
     /// `write 'X --> F+X'`; `leave this line out` if it is not needed; the problem if there is no line.
     std::string text() const;

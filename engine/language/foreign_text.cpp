@@ -34,7 +34,7 @@ bool begins_with_word(std::string_view line, std::string_view word) {
     return line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t';
 }
 
-/// Sees the lines of a C-like text without its comments of several lines.
+/// Skips comments of several lines in a C-like text.
 class CommentSkipper {
 public:
     /// True if the line begins outside of a comment.

@@ -19,9 +19,9 @@ namespace sikku {
 
 struct MapSystem;
 
-/// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)`
-/// and `F(2.5)` are three symbols; or, where a production names or computes the parameters, the type of a module:
-/// a letter with their number, the values standing beside the symbols of a word.
+/// A symbol of one grammar, counted from 0: a letter together with its constant parameters, so that `F`, `F(1)` and
+/// `F(2.5)` are three symbols; or, where a production names or computes the parameters, the type of a module: a
+/// letter with their number. Their values are stored beside the symbols of a word.
 using Symbol = std::uint32_t;
 using Word = std::vector<Symbol>;
 
@@ -29,7 +29,7 @@ using Word = std::vector<Symbol>;
 struct ModuleWord {
     Word symbols;
     std::vector<double> arguments;      ///< SymbolInfo::arity values for each symbol, in order
-    std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol, or none: that of an axiom
+    std::vector<std::uint64_t> places;  ///< in stochastic systems one for each symbol; empty for an axiom
 };
 
 /// The effect of a symbol on a turtle.
@@ -61,13 +61,14 @@ struct Command {
     Action action = Action::pass;
     double value = 0.0;
     Angle angle;
-    /// The module's first argument times `value` is the value; of a turn, pitch or roll, degrees.
+    /// True if the value is `value` times the module's first argument; for a turn, pitch or roll, in degrees.
     bool takes_argument = false;
-    /// Of a step, whether its end is a vertex of the open polygon; of polygon_begin, whether it begins with one.
+    /// For a step, true if its end is a vertex of the open polygon; for polygon_begin, true if the polygon begins
+    /// with one.
     bool is_vertex = true;
     std::uint32_t surface = 0;  ///< index into Grammar::surfaces()
     std::uint32_t label = 0;    ///< index into Grammar::labels()
-    std::uint32_t edge = 0;     ///< of a step, index into Grammar::edges() plus 1; 0: its value is its exact length
+    std::uint32_t edge = 0;     ///< for a step, index into Grammar::edges() plus 1; 0: its value is its exact length
 };
 
 /// A symbol as the file writes it.
@@ -75,9 +76,9 @@ struct SymbolInfo {
     std::string letter;              ///< without parameters: one code point, `@` and one, or a listed name
     std::vector<double> arguments;   ///< constant parameters
     bool is_name = false;            ///< listed under `symbols:`
-    std::uint32_t letter_index = 0;  ///< the same for `F` and `F(2)`; into Grammar::letters()
+    std::uint32_t letter_index = 0;  ///< index into Grammar::letters(); the same for `F` and `F(2)`
     Command command;
-    std::uint32_t arity = 0;  ///< number of parameters that each module states for itself
+    std::uint32_t arity = 0;  ///< number of variable parameters of each module
 };
 
 /// left < predecessor > right : condition --> successor : weight
@@ -88,7 +89,7 @@ struct Production {
     Word right;  ///< with brackets that balance, if it looks into branches
     Word successor;
     std::optional<Expression> condition{};  ///< none: always
-    std::optional<Expression> weight{};     ///< none: not chosen by chance
+    std::optional<Expression> weight{};     ///< none: no random choice
     std::vector<Expression> arguments{};    ///< arguments of the successor's symbols with arity, in order
     std::uint32_t group = 0;                ///< the same in a table for equal predecessor and contexts
     std::uint32_t text = 0;                 ///< index of its text among those of its table, shared ones first
@@ -106,7 +107,7 @@ public:
 
     /// True if every production replaces one symbol without contexts.
     bool context_free() const { return context_free_; }
-    /// Context-free tables of plain grammars: the successor of a symbol, or null if it stays as it is.
+    /// Context-free tables of plain grammars: the successor of a symbol, or null if it is unchanged.
     const Word* successor(Symbol symbol) const {
         const std::int32_t index = symbol < first_.size() ? first_[symbol] : -1;
         return index < 0 ? nullptr : &productions_[static_cast<std::size_t>(index)].successor;
@@ -119,7 +120,7 @@ public:
     }
     const Production& production(std::uint32_t index) const { return productions_[index]; }
     const std::vector<Production>& productions() const { return productions_; }
-    /// Do conditions depend on chance, so that a module that stays in one step may not in the next?
+    /// True if conditions are random, so that a module that is unchanged in one step may change in the next.
     bool has_random_conditions() const { return has_random_conditions_; }
 
 private:
@@ -160,22 +161,22 @@ public:
     const Table* interpretation() const { return interpretation_ ? &*interpretation_ : nullptr; }
     /// Derivation length n, as the file, the variant or the caller set it.
     std::int64_t steps() const { return steps_; }
-    /// The table of each step, from the first to the last; steps sum to steps(), unless after() has taken
-    /// the first of them away.
+    /// The table of each step, from the first to the last; steps sum to steps(), unless after() has removed the first
+    /// of them.
     const std::vector<ScheduleRun>& schedule() const { return schedule_; }
-    /// Steps that after() has taken away.
+    /// Number of steps that after() has removed.
     std::int64_t steps_done() const;
 
-    /// Some modules state their parameters for themselves.
+    /// True if some modules have variable parameters.
     bool is_parametric() const { return is_parametric_; }
-    /// Some successors, conditions or parameters are a matter of chance.
+    /// True if some successors, conditions or parameters are random.
     bool is_stochastic() const { return is_stochastic_; }
-    /// Neither: what a symbol becomes depends on nothing but the table, and on its neighbours in tables that are not
-    /// context-free. Only such systems are forecast and folded.
+    /// True if it is neither parametric nor stochastic: a successor depends only on the table, and on neighbours in
+    /// tables that are not context-free. Only such systems are forecast and folded.
     bool is_plain() const { return !is_parametric_ && !is_stochastic_; }
-    /// Where chance starts.
+    /// The seed of random choices.
     std::uint64_t seed() const { return seed_; }
-    /// The symbol `%`, if words hold it: a step begins by removing it and what follows in its branch.
+    /// The symbol `%`, if words contain it: a step first removes it and the symbols after it in its branch.
     std::optional<Symbol> cut() const { return cut_; }
 
     /// The map system, or null if the pattern derives words. With a map, the grammar states only the derivation
@@ -186,24 +187,24 @@ public:
     const std::optional<Tropism>& tropism() const { return tropism_; }
     /// The predefined surfaces; see surface.h.
     const std::vector<std::shared_ptr<const Surface>>& surfaces() const { return surfaces_; }
-    /// The steps whose lengths are those of words.
+    /// The steps whose lengths are those of words, stated by `edge`.
     const std::vector<EdgeLength>& edges() const { return *edges_; }
     /// The texts that symbols write, and the height of their capital letters in steps.
     const std::vector<LabelText>& labels() const { return *labels_; }
     double letter_height() const { return letter_height_; }
-    /// Can the axiom lead to a symbol that writes a label, `interpret:` included?
+    /// True if the axiom can lead to a symbol that writes a label, `interpret:` included.
     bool has_labels() const;
-    /// Does the turtle need the third dimension: to pitch, to roll, to be bent?
+    /// True if the turtle needs the third dimension: to pitch, to roll or to be bent.
     bool is_spatial() const { return is_spatial_; }
     double scale_percent() const { return scale_percent_; }
-    /// Does context matching see that symbol?
+    /// True if context matching ignores the symbol.
     bool ignored(Symbol symbol) const { return ignored_[symbol] != 0; }
     /// Names of several characters, sorted.
     const std::vector<std::string>& names() const { return names_; }
     bool is_push(Symbol symbol) const { return symbols_[symbol].command.action == Action::push; }
     bool is_pop(Symbol symbol) const { return symbols_[symbol].command.action == Action::pop; }
 
-    /// For each symbol: can the axiom lead to it, `interpret:` included? (1 or 0)
+    /// For each symbol, 1 if the axiom can lead to it, `interpret:` included, else 0.
     std::vector<char> reachable() const;
 
     /// The same system with another derivation length; nullopt if its schedule is too short for it.
@@ -218,17 +219,17 @@ public:
 
     /// The same system with a mark, a symbol without meaning, after each part that draws and is derived in the last
     /// `order` steps from one symbol that they rewrite: the sub-curves of that order. Without marks if the derivation
-    /// is no longer; nullopt for systems that are not plain or look at neighbours.
+    /// is not longer; nullopt for systems that are not plain or look at neighbours.
     /// @param sounding  1 for symbols that count as drawing, by symbol; may be empty
     std::optional<Grammar> with_marks(std::int64_t order, const std::vector<char>& sounding = {}) const;
     /// The mark of with_marks().
     std::optional<Symbol> mark() const { return mark_; }
 
-    /// A system that replaces each symbol by map[symbol], or by nothing where that is no symbol, in one step.
+    /// A system that replaces each symbol by map[symbol], or by nothing if that is not a valid symbol, in one step.
     Grammar with_map(const std::vector<Symbol>& map) const;
 
-    /// A plain system with nothing left to derive or to interpret, whose word is `word`: modules that state their
-    /// parameters become symbols of their own. Nullopt if there are more than 524,288 of them.
+    /// A plain system without further steps or homomorphism, whose word is `word`: modules with variable parameters
+    /// become symbols of their own. Nullopt if there are more than 524,288 of them.
     std::optional<Grammar> written_out(const ModuleWord& word) const;
 
     /// A plain system with the same settings and schedule, and with these symbols and productions instead. It has no
@@ -281,8 +282,8 @@ private:
 /// A module as a plain symbol: its values become constant parameters of its command.
 SymbolInfo with_values(const SymbolInfo& symbol, std::span<const double> values);
 
-/// Compiles and checks what a pattern states. All mistakes go to `diagnostics`; the grammar returned is of use only
-/// if there were none. Cost: linear in the file.
+/// Compiles and checks a pattern. All errors go to `diagnostics`; the grammar is usable only if there were none.
+/// Cost: linear in the file.
 Grammar compile_grammar(const Pattern& pattern, Diagnostics& diagnostics);
 
 /// The symbols of `word` as `sikku derive` prints them.
@@ -295,7 +296,7 @@ bool needs_blank(const Grammar& grammar, Symbol before, Symbol after);
 /// One symbol as it is printed, parameters in the shortest digits that read back the same.
 /// @param arguments  those of the module, if its symbol has none of its own
 std::string symbol_text(const SymbolInfo& symbol, std::span<const double> arguments = {});
-/// The same at the end of `text`.
+/// Appends the same to `text`.
 void append_symbol(const SymbolInfo& symbol, std::span<const double> arguments, std::string& text);
 
 }  // namespace sikku

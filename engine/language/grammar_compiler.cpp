@@ -336,7 +336,7 @@ private:
         }
     }
 
-    /// A production for a number of parameters that no word states can never apply.
+    /// Warns of productions for a number of parameters that no word states, which can never apply.
     void warn_of_types(const std::map<Symbol, Span>& looked_at) {
         if (looked_at.empty() || diagnostics_.has_errors()) return;
         std::vector<char> stated(grammar_.symbols_.size(), 0);

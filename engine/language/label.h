@@ -20,9 +20,8 @@ struct LabelText {
 
     /// The highest parameter that it shows; 0 if it shows none.
     std::uint32_t parameters() const;
-    /// @param arguments  of the module, at least parameters() of them, finite. Whole numbers up to 10^15 are written
-    /// in
-    ///                   full, others with six digits.
+    /// @param arguments  of the module, finite, at least parameters() of them. Whole numbers up to 10^15 are written
+    /// in full, others with six digits.
     std::string text(std::span<const double> arguments) const;
 };
 

@@ -143,7 +143,7 @@ private:
         return false;
     }
 
-    /// Reads the label after a `~`. @param what  the token after it
+    /// Reads the label after a `~`. @param token  the token after it
     bool read_label(const Token& token, MapPart& part) {
         if (token.kind == TokenKind::error) return false;
         if (token.kind != TokenKind::label) return wrong(token.where, "expected a label after '~'");
@@ -300,7 +300,7 @@ private:
                 fmt::format("{} tables of {} labels are too many: expected at most {} entries in total", own.size(),
                             labels, most_entries));
         }
-        // Those that keep a label.
+        // Productions that keep their labels.
         std::vector<std::uint32_t> table;
         for (Label label = 0; label < labels; ++label) {
             table.push_back(static_cast<std::uint32_t>(system_.productions.size()));

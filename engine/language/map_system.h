@@ -35,10 +35,10 @@ struct MapProduction {
     std::vector<MapBranch> left;   ///< in the order of a walk from head to tail
 };
 
-/// How vertices are placed in the plane.
+/// Placement of vertices in the plane.
 enum class Placing : std::uint8_t { straight, gravity, pressure };
 
-/// Where gravity holds the vertices of the outline.
+/// Shape on which gravity holds the vertices of the outline.
 enum class MapOutline : std::uint8_t { polygon, circle };
 
 /// A system of productions on the edges of planar maps. Edges become edges and branches; two matching branches of a
@@ -63,7 +63,7 @@ struct MapSystem {
     }
 };
 
-/// Compiles and checks a pattern that has the key `map`. All errors go to `diagnostics`; the system is of use only if
+/// Compiles and checks a pattern that has the key `map`. All errors go to `diagnostics`; the system is usable only if
 /// there were none. Cost: linear in the file.
 MapSystem compile_map_system(const Pattern& pattern, const SymbolNames& names, Diagnostics& diagnostics);
 

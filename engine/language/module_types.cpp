@@ -14,7 +14,7 @@ std::string type_key(std::string_view letter, std::size_t parameters) {
     return fmt::format("{}({}", letter, parameters);
 }
 
-/// Hands each letter with parameters to `take`, up to the first mistake, which is reported when the word is read.
+/// Passes each letter with parameters to `take`, up to the first error, which is reported when the word is read.
 template <class Take>
 void look_through(const SymbolNames& names, const Span& span, Take take) {
     WordScanner scanner(names, span, nullptr);

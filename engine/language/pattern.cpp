@@ -55,7 +55,7 @@ std::string folded_key(std::string_view name) {
     return std::string(row->before_symbol()) + std::string(trimmed(whole.substr(row->before_symbol().size() - 1)));
 }
 
-/// The first byte that is NUL or no valid UTF-8, or npos.
+/// The first byte that is NUL or not valid UTF-8, or npos.
 std::size_t first_bad_byte(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
         const std::size_t length = text[i] == 0 ? 0 : utf8_length(text.substr(i));
@@ -247,7 +247,7 @@ private:
         return true;
     }
 
-    /// ` // ` before letters in a word is two rolls, but was perhaps meant as a comment.
+    /// Warns of ` // ` before letters in a word, which is two rolls but may be meant as a comment.
     void warn_of_late_comment(const Span& whole) {
         const std::string_view text = whole.view();
         for (std::size_t i = text.find(" // "); i != std::string_view::npos; i = text.find(" // ", i + 1)) {
@@ -262,8 +262,8 @@ private:
         }
     }
 
-    /// ` # ` before a word in a word is a symbol that may be meant as a comment; so are the comment marks of other
-    /// languages.
+    /// Warns of ` # ` before a word in a word, which is a symbol but may be meant as a comment, and of the comment
+    /// marks of other languages.
     void warn_of_remark(const Span& whole) {
         const std::size_t at =
             find_late_remark(whole.view(), [this](std::string_view word) { return is_of_symbols(word); });
@@ -275,7 +275,7 @@ private:
                                          mark));
     }
 
-    /// Quotation marks around a word are symbols of it.
+    /// Warns of quotation marks around a word, which are symbols.
     void warn_of_quotes(const Span& word) {
         std::string_view text = word.view();
         if (text.ends_with("\",") || text.ends_with("\";")) text.remove_suffix(1);
@@ -471,7 +471,7 @@ private:
         if (!rest.empty()) diagnostics_.error(rest, "the productions of 'interpret:' stand on the lines after it");
     }
 
-    /// The rows of a patch follow its name at once.
+    /// True for a row of a patch; rows directly follow its name.
     bool is_row(std::string_view text) const {
         if (!is_in_patch_) return false;
         const std::string begin = lower_case(text.substr(0, 3));
@@ -518,7 +518,7 @@ private:
         pattern_.variants.push_back(std::move(result));
     }
 
-    /// At commas outside parentheses that are followed by `name =`: a comma may also be a symbol of a word.
+    /// Splits a list at commas outside parentheses that `name =` follows: a comma may also be a symbol of a word.
     static std::vector<Span> split_settings(const Span& list) {
         std::vector<Span> items;
         const std::string_view text = list.view();
@@ -589,13 +589,13 @@ private:
 
     Pattern& pattern_;
     Diagnostics& diagnostics_;
-    const Diagnostics before_;  // those of others
+    const Diagnostics before_;  // diagnostics before this text
     Section section_ = Section::common;
     bool interpret_seen_ = false;
     bool is_in_patch_ = false;
     std::size_t productions_ = 0;
     std::size_t settings_ = 0;
-    std::vector<Span> unknown_;  // lines of no known kind
+    std::vector<Span> unknown_;  // lines that are not understood
     std::size_t repeated_ = 0;   // keys that are unknown and were stated before
     std::size_t advised_ = 0;    // lines in another notation
     std::string axiom_;          // as another notation states it

@@ -47,7 +47,7 @@ struct PatchText {
     std::vector<Span> rows;
 };
 
-/// `variant NAME: a = 1, derivation length = 3`: what differs from the file.
+/// `variant NAME: a = 1, derivation length = 3`: values that override those of the file.
 struct Variant {
     Span name;
     std::vector<Key> settings;
@@ -60,7 +60,7 @@ struct Setting {
     Setting(std::string from, std::string name, std::string text)
         : origin(std::move(from)), key(std::move(name)), value(std::move(text)) {}
 
-    std::string origin;  ///< where it was said, for messages: `--set` and `set` show key and value, `-n` the value
+    std::string origin;  ///< source, for messages: `--set` and `set` show key and value, `-n` the value
     std::string key;
     std::string value;
 };
@@ -91,8 +91,8 @@ constexpr std::size_t most_pattern_bytes = std::size_t{64} << 20;
 /// UTF-8, and comments without end. Cost: linear; memory: the text, twice if it has comments.
 SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics);
 
-/// Reads the text of a pattern file: lines, keys, productions, tables, variants; mistakes go to `diagnostics`.
-/// Rejects more than 64 MB, NUL bytes and invalid UTF-8. Cost: linear.
+/// Reads the text of a pattern file: lines, keys, productions, tables, variants; errors go to `diagnostics`. Rejects
+/// more than 64 MB, NUL bytes and invalid UTF-8. Cost: linear.
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
@@ -101,7 +101,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                      Diagnostics& diagnostics);
 
 /// Reports every key that is not in language_keys(), with the nearest one, and keys of words in maps and of maps in
-/// words. Values are checked by those that read them.
+/// words. Values are checked where they are read.
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics);
 
 /// True if a line states an axiom, as in every pattern, even one with errors. Cost: linear.

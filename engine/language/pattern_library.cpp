@@ -13,17 +13,6 @@
 namespace sikku {
 namespace {
 
-/// The folder of patterns beside the program or module, in the build folder or as installed.
-std::filesystem::path bundled_folder() {
-    std::error_code error;
-    const std::filesystem::path beside = binary_folder();
-    if (!beside.empty()) {
-        auto folder = (beside / SIKKU_PATTERNS_RELATIVE).lexically_normal();
-        if (std::filesystem::is_directory(folder, error)) return folder;
-    }
-    return SIKKU_PATTERNS_INSTALLED;
-}
-
 std::vector<LibraryPattern> listed(const std::filesystem::path& folder) {
     std::vector<LibraryPattern> found;
     std::error_code error;
@@ -57,20 +46,20 @@ std::vector<std::string> toml_names(const std::filesystem::path& folder) {
 }  // namespace
 
 std::vector<std::string> bundled_arrangements() {
-    return toml_names(bundled_folder() / "arrangements");
+    return toml_names(installed_file("patterns") / "arrangements");
 }
 
 std::optional<std::filesystem::path> bundled_arrangement(std::string_view name) {
     const std::vector<std::string> names = bundled_arrangements();
     if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
-    return bundled_folder() / "arrangements" / (std::string(name) + ".toml");
+    return installed_file("patterns") / "arrangements" / (std::string(name) + ".toml");
 }
 
 PatternLibrary::PatternLibrary(const std::filesystem::path& folder)
     : folder_(folder), patterns_(std::make_shared<const std::vector<LibraryPattern>>(listed(folder))) {}
 
 const PatternLibrary& PatternLibrary::bundled() {
-    static const PatternLibrary library(bundled_folder());
+    static const PatternLibrary library(installed_file("patterns"));
     return library;
 }
 

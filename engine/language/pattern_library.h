@@ -1,6 +1,8 @@
 // engine/language/pattern_library.h: lists a folder of pattern files.
 #pragma once
 
+#include "engine/base/installation.h"
+
 #include <filesystem>
 #include <memory>
 #include <string>

@@ -147,7 +147,7 @@ private:
             Group& group = groups.try_emplace({*left, *predecessor, *right}).first->second;
             if (group.number == 0) group.number = static_cast<std::uint32_t>(groups.size());
             if (group.is_image) {
-                // Images of common productions give way to what a table states.
+                // Productions of a table replace images of common ones.
                 before -=
                     std::erase_if(productions, [&](const Production& one) { return one.group == group.number; });
                 const std::uint32_t own = group.number;
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    /// `F : 0.3 --> FF` has a weight where a condition stands.
+    /// Warns of a weight in place of a condition, as in `F : 0.3 --> FF`.
     void warn_of_weight(const Span& condition, double value) {
         double number = 0;
         if (!read_number(condition.trimmed().view(), number) || value == 0 || value == 1) return;

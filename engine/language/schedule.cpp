@@ -113,7 +113,7 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
             return std::nullopt;
         }
         total += std::max(count, 0.0);
-        // As a double n may be rounded up to 2^63, which is no number of steps.
+        // As a double, n may be rounded up to 2^63, which is not a valid number of steps.
         const std::int64_t own = count >= n ? steps : static_cast<std::int64_t>(std::max(count, 0.0));
         if (own > 0) runs.push_back({item.table, own});
     }

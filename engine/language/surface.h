@@ -15,10 +15,10 @@ namespace sikku {
 struct Patch {
     std::array<glm::dvec3, 16> points;
     int colour = 0;                       ///< index of the palette; 0: that of the turtle
-    std::vector<std::size_t> neighbours;  ///< sorted; patches with which it shares edges and is smooth there
+    std::vector<std::size_t> neighbours;  ///< sorted; patches with which it shares smooth edges
 };
 
-/// In coordinates of its own. The turtle stands at `contact`, looking along `heading`, and goes on from `end`.
+/// A surface in its own coordinates. The turtle is at `contact`, faces `heading`, and continues from `end`.
 struct Surface {
     std::string name;
     std::vector<Patch> patches;

@@ -47,7 +47,7 @@ public:
         for (const Table& table : grammar.tables()) {
             for (const Production& production : table.productions()) read(production);
         }
-        // Only what is drawn in its place counts.
+        // Letters with productions under `interpret:` are not skipped.
         if (!grammar.interpretation()) return;
         for (const Production& production : grammar.interpretation()->productions()) {
             facts_[letter_of(production.predecessor.front())].is_skipped = false;
@@ -121,7 +121,7 @@ std::vector<std::string> moves_without_ink(const Letters& letters, const Grammar
     return letters.names(found);
 }
 
-/// True if points of the line are all that moves are in this pattern.
+/// True if moves only add points to the line of this pattern.
 bool moves_draw(const Pattern& pattern) {
     const Key* line = pattern.find("line");
     return line && line->value.view() == "spline";
@@ -139,7 +139,7 @@ std::string enumerated(const std::vector<std::string>& names, std::string_view q
     return text;
 }
 
-/// `forward: F G`: the key with the letters that have that effect and these, too.
+/// `forward: F G`: the key with the letters that have that effect, and with `names`.
 std::string key_with(std::string_view key, Action action, const Grammar& grammar,
                      const std::vector<std::string>& names) {
     std::set<std::string> steps;
@@ -211,7 +211,7 @@ void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics
     std::string message =
         fmt::format("{} {} nothing; '{}' makes {}", enumerated(names, "'"), is_one ? "draws" : "draw",
                     key_with("forward", Action::draw, grammar, names), is_one ? "it a step" : "them steps");
-    // Where others draw, these may be gaps.
+    // If other letters draw, these may be gaps.
     if (can_draw(grammar)) {
         message += fmt::format(", '{}' a step without ink", key_with("move", Action::move, grammar, names));
     }
@@ -232,7 +232,7 @@ bool may_draw(const Grammar& grammar) {
     std::size_t visits = 0;
     std::vector<char> present(symbols.size(), 0);
     for (const Symbol symbol : grammar.axiom()) present[symbol] = 1;
-    /// The symbols after a step: a symbol stays, too, if its productions need more than it.
+    /// Finds the symbols after a step. A symbol also stays if its productions have further requirements.
     const auto advance = [&](const Table& table) {
         std::vector<char> next(symbols.size(), 0);
         const auto add = [&](const Word& word) {

@@ -17,23 +17,23 @@ namespace sikku {
 /// - its productions consist of the letter alone, several times, as in `G --> GG`; or
 /// - a step's productions contain it, and its own productions contain it, both outside of brackets, as in
 ///   `F --> F+G`, `G --> F-G`. In curves with nodes, such as Hilbert's in X and Y, F derives no node.
-/// If there are none, nothing in the system draws, and the pattern has no `line: spline`, whose points they would be:
+/// If there are none, nothing in the system draws, and the pattern has no `line: spline`, in which moves are points:
 /// the letters that move, as in `X --> f[+X]f`.
 /// Cost: linear in the grammar.
 std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& grammar);
 
-/// Warns of these letters at the first production of the first one.
+/// Warns about these letters at the first production of the first one.
 void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
 
-/// True for what leaves ink: steps, discs, polygons, surfaces, labels.
+/// True for actions that leave ink: steps that draw, discs, polygons, surfaces, labels.
 bool is_ink(Action action);
 
 /// True if a word of the system, of any derivation length, may contain a symbol that draws. Cost: linear.
 bool can_draw(const Grammar& grammar);
 
 /// True if the word of the derivation length may contain a symbol that draws: exact for plain systems without
-/// contexts, otherwise conditions, contexts and chance count as fulfilled. Cost: at most about a million symbols of
-/// successors; beyond, that of can_draw(), which is the answer then.
+/// contexts, otherwise as if conditions, contexts and random choices were always fulfilled. Cost: at most about a
+/// million symbols of successors; beyond that, returns can_draw().
 bool may_draw(const Grammar& grammar);
 
 /// For a word that draws nothing: names the letters that move, as `; 'f' moves without drawing; 'forward: f' makes it

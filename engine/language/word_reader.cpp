@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t large_word = std::size_t{1} << 22;  // bytes
-constexpr std::size_t most_parameters = 64;               // of a module that states them for itself
+constexpr std::size_t most_parameters = 64;               // variable parameters of a module
 
 }  // namespace
 
@@ -56,7 +56,7 @@ std::optional<Word> WordReader::word(const Span& span, WordPlace place, std::vec
     return result;
 }
 
-/// Hands each symbol to `take`, with its parameters if it states them for itself; false after the first mistake.
+/// Passes each symbol to `take`, with its variable parameters; false after the first error.
 template <class Take>
 bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
     WordScanner scanner(names_, span, &diagnostics_);

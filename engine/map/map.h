@@ -43,7 +43,7 @@ struct MapEdge {
 class Map {
 public:
     Map() = default;
-    /// The cell that the axiom states, and the outside.
+    /// Creates the cell that the axiom states, and the outside.
     explicit Map(const MapSystem& system);
 
     std::size_t vertices() const { return vertices_; }
@@ -71,8 +71,8 @@ private:
     std::vector<std::uint64_t> ends_;   // of each wall
 };
 
-/// Hands the map as text to `write`, piece by piece: `edge LABEL TAIL HEAD BORN` for each edge, then `cell +0 -3 …`
-/// for each cell, then `outer …`. Two maps are equal if their texts are.
+/// Writes the map as text, piece by piece: `edge LABEL TAIL HEAD BORN` for each edge, then `cell +0 -3 …` for each
+/// cell, then `outer …`. Two maps are equal if their texts are.
 void print_map(const Map& map, const MapSystem& system, const std::function<void(std::string_view)>& write);
 
 }  // namespace sikku

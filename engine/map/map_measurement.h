@@ -17,7 +17,7 @@ struct MapMeasurement {
     std::size_t vertices = 0;
     std::size_t outer = 0;                      ///< edges of the outer wall
     std::map<std::string, std::size_t> labels;  ///< number of edges of each label that occurs
-    std::map<std::size_t, std::size_t> sides;   ///< number of cells with so many edges
+    std::map<std::size_t, std::size_t> sides;   ///< number of cells for each number of edges
     std::string remark;                         ///< see undivided_remark()
 };
 

@@ -47,7 +47,7 @@ public:
 private:
     static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-    /// A branch of the cell in hand.
+    /// A branch of the current cell.
     struct Branch {
         std::uint32_t at = 0;  ///< number of half-edges of the wall before it
         std::uint32_t vertex = 0;
@@ -55,7 +55,7 @@ private:
         std::uint32_t partner = nobody;
     };
 
-    /// A daughter that still has to be made: what lies between two matching branches, and the new wall.
+    /// A daughter that is still to be made, between two matching branches and along the new wall.
     struct Daughter {
         std::uint32_t first = 0;  ///< branch
         std::uint32_t last = 0;
@@ -116,8 +116,8 @@ private:
         }
     }
 
-    /// Finds, for each branch, the first one after it that matches and stands in another corner. Pairs keep being in
-    /// one corner, or not, when the cell divides, so that this is done once for a cell.
+    /// Finds, for each branch, the first one after it that matches and stands in another corner. Whether two branches
+    /// share a corner does not change when the cell divides, so this is done once for a cell.
     void find_partners() {
         std::size_t later = branches_.size();  // from here on they are in nearest_
         for (std::size_t i = branches_.size(); i > 0; --i) {
@@ -148,8 +148,8 @@ private:
         return {map_.edges_.size() - 1, back};
     }
 
-    /// Emits the wall from half-edge `begin` to `end`, without what branches from `first` to before `last` cut off
-    /// from it; that is put on the list of daughters.
+    /// Emits the wall from half-edge `begin` to `end`, without the parts that branches from `first` to before `last`
+    /// cut off from it, which are added to the list of daughters.
     void emit(std::uint32_t begin, std::uint32_t end, std::uint32_t first, std::uint32_t last, bool may_divide) {
         for (std::uint32_t i = first; i < last && may_divide; ++i) {
             const std::uint32_t partner = branches_[i].partner;
@@ -165,8 +165,8 @@ private:
         append(begin, end);
     }
 
-    /// Divides the cell in hand. Branches before the first that matches never match again, neither do those that a
-    /// wall leaves in different daughters: each is looked at once.
+    /// Divides the current cell. Branches before the first that matches never match again, nor do those that a wall
+    /// leaves in different daughters: each is examined once.
     void divide() {
         find_partners();
         emit(0, static_cast<std::uint32_t>(half_edges_.size()), 0, static_cast<std::uint32_t>(branches_.size()),
@@ -189,11 +189,11 @@ private:
     Pulse pulse_;
     std::uint32_t step_ = 0;
     Map map_;
-    // Of the cell in hand:
+    // State of the current cell:
     std::vector<HalfEdge> half_edges_;
     std::vector<Branch> branches_;
     std::vector<Daughter> daughters_;
-    std::vector<std::uint32_t> nearest_;  // by bucket, the nearest branch after those in hand
+    std::vector<std::uint32_t> nearest_;  // by bucket, the nearest branch after the current ones
 };
 
 namespace {
@@ -289,7 +289,7 @@ void MapDerivation::require_affordable(std::uint32_t table) {
     const double bytes = static_cast<double>(map_.edges().size()) * bytes_of_old_edge + edges * bytes_of_new_edge +
                          forecast.branches * bytes_of_branch;
     if (edges_made_ <= limits_.edges && bytes <= limits_.bytes && edges < static_cast<double>(most_map_edges)) return;
-    // With a schedule a shorter derivation takes other steps.
+    // With a schedule, a shorter derivation consists of different steps.
     const std::string advice =
         grammar_.has_schedule() ? "" : fmt::format("; the largest derivation length that fits is {}", step_);
     const std::string limit =

@@ -11,8 +11,8 @@
 
 namespace sikku {
 
-/// What became of the edges and cells of a map in a derivation step. Each list has a last entry more: the number of
-/// edges before the new walls, of vertices, of cells.
+/// Parts and daughters of the edges and cells of a map in a derivation step. Each list has one more entry at its end:
+/// the number of edges before the new walls, of vertices, or of cells.
 struct MapOrigins {
     std::vector<std::uint32_t> first_edge;    ///< of each old edge, its first part; parts are numbered tail to head
     std::vector<std::uint32_t> first_vertex;  ///< of each old edge, the first vertex inside it
@@ -22,15 +22,17 @@ struct MapOrigins {
 /// Sizes known from the number of edges of each label, before a step is made.
 struct MapForecast {
     double edges = 0;     ///< parts of the old edges, exactly
-    double walls = 0;     ///< at most as many walls are added
+    double walls = 0;     ///< maximum number of walls added
     double vertices = 0;  ///< exactly
     double branches = 0;  ///< of all edges
 };
 
-/// Cost: linear in the edges.
+/// Forecasts the sizes after a step. Cost: linear in the edges.
 MapForecast forecast_step(const Map& map, const MapSystem& system, std::uint32_t table);
 
-/// Makes one derivation step. @param table  into MapSystem::tables @param step  number of the step, counted from 1
+/// Makes one derivation step.
+/// @param table  index into MapSystem::tables
+/// @param step  number of the step, counted from 1
 /// Cost: linear in the map and its branches, about 30 bytes for each new edge and 12 for each old one.
 /// @throws BudgetError above 2^31 edges; Stopped
 Map step_map(const Map& map, const MapSystem& system, std::uint32_t table, std::uint32_t step, MapOrigins& origins,
@@ -55,7 +57,7 @@ public:
     /// Number of steps made.
     std::int64_t steps() const { return step_; }
     const Map& map() const { return map_; }
-    /// Of the last step.
+    /// Origins in the last step.
     const MapOrigins& origins() const { return origins_; }
     Map take() { return std::move(map_); }
 

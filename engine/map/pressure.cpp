@@ -14,7 +14,7 @@ constexpr double largest_force = 1e-8;
 constexpr int most_newton_steps = 1000;
 
 /// Half of (b - a), turned a quarter anticlockwise: with the neighbours a and b of a vertex in a clockwise wall, the
-/// derivative of the area after its position.
+/// derivative of the area with respect to its position.
 glm::dvec2 turned(const glm::dvec2& a, const glm::dvec2& b) {
     return {0.5 * (a.y - b.y), 0.5 * (b.x - a.x)};
 }
@@ -134,7 +134,7 @@ private:
     std::vector<std::uint32_t> begins_;  // of each cell in corners_
     std::vector<double> areas_;
     std::vector<double> pressures_;
-    VertexVector derivatives_;  // of the area of a cell after its corners
+    VertexVector derivatives_;  // of the area of a cell with respect to its corners
 };
 
 double largest_component(const VertexVector& forces) {

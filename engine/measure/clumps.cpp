@@ -37,7 +37,7 @@ Clumps::Clumps(const Grammar& grammar, const Parts<double>& parts) : itself_(gra
                 children.push_back({&symbol, nullptr, heading});
                 continue;
             }
-            // Composed in a heading that does not occur: nobody will ask for it.
+            // Composed in a heading that does not occur; the result is not used.
             if (!parts.occurs(level, heading)) break;
             const DrawnPart<double>& part = parts.part(symbol, level, heading);
             largest = std::max(largest, part.extent);
@@ -46,8 +46,8 @@ Clumps::Clumps(const Grammar& grammar, const Parts<double>& parts) : itself_(gra
         }
         open.clear();
         const float small = largest * small_share;
-        bool joins = false;      // the last clump takes others in
-        bool has_large = false;  // and holds a large part
+        bool joins = false;      // the last clump may be extended
+        bool has_large = false;  // the last clump contains a large part
         for (const Child& child : children) {
             const bool stands_alone =
                 !child.part || (!child.part->draws() && (child.part->x != 0 || child.part->y != 0));

@@ -9,29 +9,29 @@
 
 namespace sikku {
 
-/// A stretch of a successor that holds one large part at most, and around it turns, symbols that draw nothing, and
-/// parts a sixteenth as large: what can be looked at as one.
+/// Consecutive symbols of a successor that can be treated as one: turns, symbols that draw nothing, and parts, of
+/// which at most one is larger than a sixteenth of the largest part of the successor.
 struct Clump {
     const Symbol* begin = nullptr;
     const Symbol* end = nullptr;
     DrawnPart<double> part;
 };
 
-/// The successors of all parts that draw, in clumps: there are half as many as symbols, or fewer. Brackets and steps
-/// that do not draw stand alone.
+/// Divides the successors of all parts that draw into clumps, typically half as many as symbols, or fewer. Brackets
+/// and steps that do not draw form clumps of their own.
 class Clumps {
 public:
-    /// `parts` must outlive them. Cost: O(parts x length of their successors), in time and memory.
+    /// `parts` must outlive this object. Cost: O(parts x length of their successors), in time and memory.
     explicit Clumps(const Grammar& grammar, const Parts<double>& parts);
 
-    /// The clumps that the part with that index becomes. Valid for parts that draw, above level 0.
+    /// Clumps of the successor of the part with that index. Valid for parts that draw, above level 0.
     std::span<const Clump> below(std::size_t part) const {
         return std::span(clumps_).subspan(below_[part].first, below_[part].count);
     }
     const std::vector<Clump>& all() const { return clumps_; }
 
 private:
-    std::vector<Symbol> itself_;  // each symbol, for those that become themselves
+    std::vector<Symbol> itself_;  // each symbol, as the successor of those without productions
     struct Range {
         std::uint32_t first = 0, count = 0;
     };

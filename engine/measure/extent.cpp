@@ -1,5 +1,9 @@
 #include "engine/measure/extent.h"
 
+#include "engine/derivation/exact_counts.h"
+#include "engine/derivation/forecast.h"
+#include "engine/measure/exact_quantity.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -20,15 +24,15 @@ void tell_counts(const Grammar& grammar, const std::vector<Integer>& counts, Mea
         letters[grammar.symbols()[i].letter] += counts[i];
         total += counts[i];
     }
-    result.symbols = Quantity::of(total);
-    for (const auto& [letter, count] : letters) result.counts.emplace_back(letter, Quantity::of(count));
+    result.symbols = quantity_of(total);
+    for (const auto& [letter, count] : letters) result.counts.emplace_back(letter, quantity_of(count));
 }
 
 bool closes_polygon(const Command& command) {
     return command.action == Action::polygon_end || command.action == Action::edge_end;
 }
 
-/// drawn, moves, length and polygons, from the numbers of symbols of the interpreted word.
+/// Computes drawn, moves, length and polygons from the symbol counts of the interpreted word.
 void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
     const Lattice lattice = make_lattice(grammar);
     Integer drawn = 0;
@@ -52,10 +56,10 @@ void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Meas
             length += counts[i].template convert_to<double>() * std::fabs(command.value);
         }
     }
-    result.drawn = Quantity::of(drawn);
-    result.moves = Quantity::of(moves);
-    result.polygons = Quantity::of(polygons);
-    result.length = lattice.rank > 0 ? Quantity::of(lattice, units) : Quantity::of(length);
+    result.drawn = quantity_of(drawn);
+    result.moves = quantity_of(moves);
+    result.polygons = quantity_of(polygons);
+    result.length = lattice.rank > 0 ? quantity_of(lattice, units) : Quantity::of(length);
 }
 
 Fold as_fold(const Survey& survey) {
@@ -73,7 +77,7 @@ Fold as_fold(const Survey& survey) {
     return fold;
 }
 
-/// The number of those symbols of a word that `counted` picks, of a word too long to be counted exactly.
+/// Sums `counted` over the symbols of a word that is too long to be counted exactly.
 template <class Counted>
 Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted) {
     double value = 0;
@@ -92,7 +96,7 @@ Quantity about(const Grammar& grammar, const Forecast& forecast, Counted counted
     return {value, fmt::format("about 10^{:.0f}", std::floor(largest + std::log10(parts)))};
 }
 
-/// How often each symbol occurs.
+/// Counts how often each symbol occurs.
 class Census : public SymbolSink {
 public:
     explicit Census(const Grammar& grammar) : counts_(grammar.symbols().size()) {}
@@ -105,14 +109,14 @@ private:
     std::vector<std::uint64_t> counts_;
 };
 
-/// The word is walked through, for what only a turtle knows. With `counts_steps`, they are counted, too.
+/// Walks a turtle through the word to find its geometry, and counts its steps if `counts_steps`.
 void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, Measurement& result) {
     const auto tell = [&](const auto& survey) {
         if (!counts_steps) return;
-        result.drawn = Quantity::of(Integer(survey.drawn));
-        result.moves = Quantity::of(Integer(survey.moves));
+        result.drawn = quantity_of(Integer(survey.drawn));
+        result.moves = quantity_of(Integer(survey.moves));
         result.length = Quantity::of(survey.length);
-        result.polygons = Quantity::of(Integer(survey.polygons));
+        result.polygons = quantity_of(Integer(survey.polygons));
     };
     result.derived = true;
     options.interpreted = true;
@@ -139,7 +143,7 @@ void note_labels(const Grammar& grammar, const DerivationOptions& options, bool 
     result.geometry->ink = as_fold(turtle->survey()).ink;
 }
 
-/// Of systems that cannot be forecast: both words are walked through.
+/// Measures a system that cannot be forecast: walks through the words before and after `interpret:`.
 Measurement walked(const Grammar& grammar, DerivationOptions options) {
     Measurement result;
     result.n = grammar.steps();

@@ -14,27 +14,28 @@
 
 namespace sikku {
 
-/// Everything `sikku measure` tells. Unit steps of the turtle, starting at 0 0.
+/// Quantities that `sikku measure` reports. The turtle starts at 0 0; one step is 1.
 struct Measurement {
     std::int64_t n = 0;
     Quantity symbols;                                      ///< of the word before `interpret:`
-    std::vector<std::pair<std::string, Quantity>> counts;  ///< of it, by letter, sorted; those that occur
-    Quantity drawn;                                        ///< segments; from here on after `interpret:`
+    std::vector<std::pair<std::string, Quantity>> counts;  ///< of that word, by letter, sorted, without zeros
+    Quantity drawn;                                        ///< segments; this and the following after `interpret:`
     Quantity moves;                                        ///< steps, drawn or not
     Quantity length;                                       ///< drawn, in steps
     Quantity polygons;                                     ///< closed by `}` or an inserted edge
-    /// Absent if the word is too long for even the fold (then only counts are told), and in three dimensions.
+    /// Absent in three dimensions, and if the word is too long even for the fold; then only counts are measured.
     std::optional<Fold> geometry;
     std::optional<SpaceSurvey> space;  ///< in three dimensions: see Grammar::is_spatial()
-    bool derived = false;              ///< the word had to be walked, or was kept whole for contexts
+    bool derived = false;              ///< true if the word was walked through, or kept whole for contexts
 };
 
-/// Measures by the fold if the system allows it, otherwise (and always in space) by one pass over the word. Contexts
+/// Measures by fold() if the system allows it, otherwise (and always in space) by one pass over the word. Contexts
 /// are resolved first.
-/// @param budget  most nodes of that pass; above it, a BudgetError
+/// @param budget  maximum number of nodes visited in that pass; above it, plain systems have no geometry, and others
+/// throw BudgetError
 /// @param watch   as in DerivationOptions
-/// @throws WordError for brackets that do not balance, steps that are not finite; BudgetError for words kept whole
-/// that are too long, and if even the forecast is too much
+/// @throws WordError for unbalanced brackets and for steps that are not finite; BudgetError if words kept whole are
+/// too long, or if even the forecast is too costly
 Measurement measure(const Grammar& grammar, double budget, const std::function<void(std::uint64_t)>& watch = {});
 
 }  // namespace sikku

@@ -1,6 +1,8 @@
 #include "engine/measure/fold.h"
 
 #include "engine/base/numbers.h"
+#include "engine/derivation/forecast.h"
+#include "engine/measure/exact_quantity.h"
 
 #include <fmt/format.h>
 
@@ -16,10 +18,10 @@ namespace {
 constexpr double most_work = 3e7;
 constexpr std::size_t longest_axiom = 1'000'000;  // a long word is walked as cheaply as composed
 constexpr std::size_t most_frames = 4096;
-constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, placed in all
+constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, in total
 
 struct Overflow {};  // 64 bits do not suffice
-struct TooMuch {};   // to be composed
+struct TooMuch {};   // composition is too costly
 
 // --- sines in any precision ----------------------------------------------------------------------------------------
 
@@ -93,7 +95,7 @@ public:
     using Point = std::array<Int, Rank>;
     using Heading = std::uint32_t;
     static constexpr bool wide = std::is_same_v<Int, Integer>;
-    /// In the plane, or, for rank 2, an affine image of it: enough to tell what is convex, and then exact.
+    /// Coordinates in the plane, or, for rank 2, in an affine image of it, which suffices for convexity and is exact.
     using Key = std::conditional_t<Rank == 2 || wide, Int, long double>;
     struct Vertex {
         Point at;
@@ -158,8 +160,8 @@ public:
         }
         return result;
     }
-    /// Is b to the right of, or on, the line from a to c? Within the keys' rounding it is on it, so that the corners
-    /// along a straight edge do not pile up.
+    /// True if b is to the left of the line from a to c, or on it within the keys' rounding, so that corners along a
+    /// straight edge do not accumulate.
     bool is_dent(const Vertex& a, const Vertex& b, const Vertex& c) const {
         using Wide = std::conditional_t<Rank == 2 && !wide, Int128, Key>;
         const Wide ax = static_cast<Wide>(b.key[0]) - a.key[0];
@@ -182,7 +184,7 @@ public:
         return lattice_.first_heading + 360.0 * heading / lattice_.headings;
     }
 
-    /// Turns points into coordinates of the plane, in turtle steps.
+    /// Converts points to coordinates of the plane, in turtle steps.
     class Embedding {
     public:
         explicit Embedding(const LatticeSpace& space) : space_(space) {
@@ -233,7 +235,7 @@ public:
     };
 
 private:
-    // Differences fit into 64 bits and their products into 128; or a long double counts them in ones.
+    // Differences fit into 64 bits and their products into 128; or a long double holds them exactly.
     static constexpr std::int64_t limit = std::int64_t{1} << (Rank == 2 ? 59 : 52);
     unsigned fraction_bits() const { return bits_ + 64; }
 
@@ -243,7 +245,7 @@ private:
     std::array<std::array<Key, 2>, Rank> key_basis_;
 };
 
-/// Doubles.
+/// A plane with coordinates in doubles.
 class PlaneSpace {
 public:
     using Point = glm::dvec2;
@@ -316,7 +318,7 @@ private:
     const Grammar& grammar_;
 };
 
-// --- what composes -------------------------------------------------------------------------------------------------
+// --- composition ---------------------------------------------------------------------------------------------------
 
 template <class Space>
 class Folder {
@@ -357,16 +359,16 @@ private:
         std::vector<Vertex> corners;
         std::size_t limit = 512;  // above it, the corners are made convex again
     };
-    /// What is seen until the next ']' that the part does not open itself.
+    /// Extent up to the next ']' whose '[' is outside of the part.
     struct Frame {
-        Hull box;  // positions stepped to
+        Hull box;  // positions reached
         Hull ink;  // ends of segments drawn; unused if every step draws
     };
     struct Open {
         Placed state;
         Integer position;
     };
-    /// How many pairs a stretch of a word leaves open, and the lowest of these numbers on the way.
+    /// Number of pairs that a part of a word leaves open, and the lowest such number within it.
     struct Nesting {
         Integer net = 0;
         Integer low = 0;
@@ -378,8 +380,8 @@ private:
         }
         bool is_balanced() const { return net == 0 && low == 0; }
     };
-    /// The effect of a stretch of a word: frames[0] is seen from where it begins; each ']' without '[' begins a new
-    /// frame, seen from the state that it restores. `open` and `end` lie in the last frame.
+    /// Effect of a part of a word. frames[0] is relative to its start; each ']' without '[' begins a new frame,
+    /// relative to the state that it restores. `open` and `end` belong to the last frame.
     struct Element {
         std::vector<Frame> frames;
         std::vector<Integer> pops;  // positions of those ']', counted from 0
@@ -387,7 +389,7 @@ private:
         Placed end;
         Integer symbols = 0;
         bool draws = false;
-        std::int64_t net = 0;  // of the nesting
+        std::int64_t net = 0;  // net depth of brackets
         std::int64_t highest = 0;
         Nesting braces, edges;  // of polygons, and of inserted edges
         bool has_cylinder = false;
@@ -557,7 +559,7 @@ private:
             throw WordError(fmt::format("symbol {} of the word: this '[' is not closed",
                                         Integer(whole.open.back().position + 1).str()));
         }
-        // Where the fault lies, a walk tells.
+        // A walk finds the place of the error.
         if (!whole.braces.is_balanced() || !whole.edges.is_balanced() || whole.has_cylinder) throw TooMuch();
         const typename Space::Embedding embedding(space_);
         const Frame& frame = whole.frames.front();
@@ -601,7 +603,7 @@ Fold fold_exactly(const Lattice& lattice, const Grammar& grammar, unsigned bits)
     }
 }
 
-/// How many times longer than itself an edge may be in coordinates, as a number of bits.
+/// Bits that coordinates of an edge may need beyond those of its length.
 double extra_bits(const Grammar& grammar) {
     double most = 1;
     for (const EdgeLength& edge : grammar.edges()) {
@@ -613,7 +615,7 @@ double extra_bits(const Grammar& grammar) {
     return std::ceil(std::log2(most));
 }
 
-/// Compositions, weighed by the size of the numbers.
+/// Number of compositions, weighted by the size of the numbers.
 double work_of(const Grammar& grammar, double bits) {
     const std::vector<char> needed = grammar.reachable();
     double work = 0;
@@ -631,12 +633,12 @@ double work_of(const Grammar& grammar, double bits) {
 
 }  // namespace
 
-Quantity Quantity::of(const Integer& whole) {
+Quantity quantity_of(const Integer& whole) {
     const auto value = whole.convert_to<double>();
     return {value, std::fabs(value) < 0x1p53 ? "" : whole.str()};
 }
 
-Quantity Quantity::of(const Lattice& lattice, const std::array<Integer, most_coordinates>& real) {
+Quantity quantity_of(const Lattice& lattice, const std::array<Integer, most_coordinates>& real) {
     Integer size = 1;
     for (const Integer& coordinate : real) size += abs(coordinate);
     const auto bits = static_cast<unsigned>(msb(size)) + 64;

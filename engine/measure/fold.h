@@ -1,10 +1,10 @@
 // engine/measure/fold.h: computes the effect of a word on a turtle by composition, without deriving the word.
 #pragma once
 
-#include "engine/derivation/forecast.h"
-#include "engine/geometry/lattice.h"
+#include "engine/language/grammar.h"
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -12,18 +12,15 @@
 
 namespace sikku {
 
-/// A number of any size: exact digits where a double no longer counts in ones (from 2^53 on).
+/// A number of any size: with digits from 2^53 on, where doubles do not hold all whole numbers.
 struct Quantity {
     double value = 0.0;
     std::string digits;  ///< empty below 2^53; else a whole decimal number, or "about 10^k"
 
-    static Quantity of(const Integer& whole);
     static Quantity of(double value);
-    /// A real number of the lattice's ring, by its coordinates.
-    static Quantity of(const Lattice& lattice, const std::array<Integer, most_coordinates>& real);
 };
 
-/// The net effect of the interpreted word on a turtle that starts at 0 0; unit steps.
+/// Net effect of the interpreted word on a turtle that starts at 0 0, in turtle steps.
 struct Fold {
     std::array<Quantity, 4> box;                 ///< xmin ymin xmax ymax of all positions, the start included
     std::optional<std::array<Quantity, 4>> ink;  ///< of the segments drawn
@@ -35,13 +32,14 @@ struct Fold {
     std::vector<glm::dvec2> ink_hull;  ///< convex hull of the segments drawn; empty if none is
 };
 
-/// Composes the effect of each (symbol, steps to go) from those of its successor. Exact wherever the lattice of the
-/// grammar is: in 64 bits, and in as many as it takes beyond. Nothing is derived.
-/// Nullopt if productions look at neighbours, if the composition itself would be too much (about 10^7 compositions of
-/// numbers of 64 bits, 5 x 10^6 corners of hulls), if brackets are left open over more than 4096 levels, if braces do
-/// not balance, or if doubles do not hold the coordinates.
+/// Composes the effect of each symbol with each number of remaining steps from those of its successor, without
+/// deriving anything. Exact if the lattice of the grammar is: in 64 bits, and in more where necessary. Nullopt for
+/// maps, if the system has parameters or random choices, if productions look at neighbours, if the composition itself
+/// is too costly (about 3 x 10^7 compositions of 64-bit numbers, 5 x 10^6 corners of hulls, axioms of 10^6 symbols),
+/// if a part has more than 4096 unmatched brackets, if braces do not balance, or if doubles do not hold the
+/// coordinates.
 /// @throws WordError for brackets that do not balance in the word
-/// Cost: O(symbols x steps) compositions, each of the size of the hulls (usually below 30 corners).
+/// Cost: O(symbols x steps) compositions, each linear in the corners of the hulls (usually below 30).
 std::optional<Fold> fold(const Grammar& grammar);
 
 }  // namespace sikku

@@ -29,10 +29,10 @@ std::string json(const std::vector<Quantity>& list) {
     return text + "]";
 }
 
-/// What the plane and space have in common: numbers of two axes or of three.
+/// Geometry of a drawing in the plane or in space, with two or three axes.
 struct Geometry {
     std::vector<Quantity> box, ink, end;
-    std::optional<double> heading;  ///< of the plane
+    std::optional<double> heading;  ///< in the plane only
     bool closed = false;
     std::int64_t depth = 0;
 };

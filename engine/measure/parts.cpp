@@ -22,7 +22,7 @@ struct Vector {
 /// A unit step, exact at multiples of 90 degrees.
 template <class Number>
 Vector<Number> direction(double first, std::uint32_t heading, std::uint32_t headings) {
-    // Whole as long as it can be: 360 degrees times a whole number before the division.
+    // Multiplied before the division, so that degrees stay whole as long as possible.
     long double degrees = static_cast<long double>(first) + 360.0L * heading / headings;
     degrees = std::fmod(std::fmod(degrees, 360.0L) + 360.0L, 360.0L);
     const int quarter = static_cast<int>(degrees / 90.0L);
@@ -66,7 +66,7 @@ void DrawnPart<Number>::append(const DrawnPart& next) {
         low = draws() ? glm::min(low, at + next.low) : at + next.low;
         high = draws() ? glm::max(high, at + next.high) : at + next.high;
         extent = static_cast<float>(std::max(high.x - low.x, high.y - low.y));
-        // Two masses become one; Steiner's theorem.
+        // Combines two masses by Steiner's theorem.
         const double all = ink + next.ink;
         const double share = all > 0 ? next.ink / all : 0;
         const glm::dvec2 apart = at + next.centre - centre;
@@ -79,14 +79,14 @@ void DrawnPart<Number>::append(const DrawnPart& next) {
     y += next.y;
 }
 
-/// Which headings occur at which level, from the axiom down. False if there are too many.
+/// Finds the headings that occur at each level, from the axiom down. False if there are too many.
 template <class Number>
 bool Parts<Number>::find_headings(const Grammar& grammar, const std::vector<std::uint32_t>& turn) {
-    // How far each symbol turns, whatever its heading.
+    // Turn of each symbol, by level.
     std::vector<std::vector<std::uint32_t>> turns{turn};
     const auto is_bracket_of = [&](Symbol symbol) { return grammar.is_push(symbol) || grammar.is_pop(symbol); };
     std::vector<std::uint32_t> open;
-    /// Calls visit(child, heading) for each symbol of a word but brackets; returns the heading at its end.
+    /// Calls visit(child, heading) for each symbol of a word except brackets; returns the heading at its end.
     const auto walk = [&](const Word& word, std::size_t level, std::uint32_t heading, auto&& visit) {
         open.clear();
         for (const Symbol child : word) {
@@ -184,7 +184,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
     parts.headings_ = lattice.headings;
     parts.symbols_ = grammar.symbols().size();
     if (grammar.interpretation()) parts.tables_.push_back(grammar.interpretation());
-    // Before it is known which headings occur.
+    // Estimated before the headings that occur are known.
     const std::size_t per_level = parts.symbols_ * parts.headings_ / 16 + 1;
     for (std::size_t i = grammar.schedule().size(); i > 0; --i) {
         const ScheduleRun& run = grammar.schedule()[i - 1];
@@ -208,8 +208,8 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
 
     parts.place_symbols(grammar, lattice, reached, moves_draw);
 
+    std::vector<std::pair<DrawnPart<Number>, std::uint32_t>> saved;  // only x, y and headings are used
     /// False if brackets do not balance or numbers are not finite.
-    std::vector<std::pair<DrawnPart<Number>, std::uint32_t>> saved;  // only places and headings of them
     const auto compose = [&](const Word& word, int level, std::uint32_t heading, DrawnPart<Number>& part) {
         const std::uint32_t first = heading;
         saved.clear();
@@ -229,7 +229,7 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
                 saved.pop_back();
                 continue;
             }
-            // A symbol may be composed in a heading in which only others occur: nobody will ask for it.
+            // A symbol may be composed in a heading in which only others occur; the result is not used.
             if (!parts.occurs(level, heading)) return true;
             const DrawnPart<Number>& next = parts.parts_[parts.index(child, level, heading)];
             part.append(next);

@@ -14,47 +14,47 @@ namespace sikku {
 
 struct Lattice;
 
-/// What a symbol with some steps still to come draws, from where the turtle is; in turtle steps, in its heading.
+/// Drawing of a symbol with some steps still to come, in one heading; in turtle steps, relative to the turtle.
 template <class Number>
 struct DrawnPart {
-    Number x = 0, y = 0;     ///< where the turtle goes
-    std::uint32_t turn = 0;  ///< of its heading, in headings
-    bool returns = false;    ///< it ends near where it began: its chord would be next to nothing
+    Number x = 0, y = 0;     ///< displacement of the turtle
+    std::uint32_t turn = 0;  ///< change of its heading, in headings
+    bool returns = false;    ///< ends so near its start that its chord is almost nothing
     float extent = -1;       ///< the longer side of its box; below 0: it draws nothing
-    glm::dvec2 low{0.0};     ///< box of what is drawn, never too small
+    glm::dvec2 low{0.0};     ///< box of the drawing, never too small
     glm::dvec2 high{0.0};
-    double ink = 0.0;        ///< length of all that is drawn, branches included
-    glm::dvec2 centre{0.0};  ///< its centre of mass,
-    glm::dvec3 spread{0.0};  ///< and its covariance: xx, xy, yy
+    double ink = 0.0;        ///< length drawn, branches included
+    glm::dvec2 centre{0.0};  ///< centre of mass of the drawing
+    glm::dvec3 spread{0.0};  ///< its covariance: xx, xy, yy
 
     bool draws() const { return extent >= 0; }
-    /// Goes on with what `next` draws, from where this has led; `turn` and `returns` are left alone.
+    /// Appends the drawing of `next` where this one ends; `turn` and `returns` are unchanged.
     void append(const DrawnPart& next);
 };
 
-/// The parts of all symbols at all levels, in the headings in which they occur, of a drawing with one pen: straight
-/// steps and turns by parts of 360 degrees, with brackets that close in the word in which they open. Number: double;
-/// long double, which holds whole coordinates up to 2^64; Quad, up to 2^113. Where headings are multiples of 90
-/// degrees and steps whole numbers, sums of these are exact.
+/// Parts of all symbols at all levels, in the headings in which they occur, for drawings with one pen: straight
+/// steps, turns by fractions of 360 degrees, and brackets that close in the word in which they open. Number is
+/// double, long double (whole coordinates up to 2^64) or Quad (up to 2^113). Sums are exact if headings are multiples
+/// of 90 degrees and steps are whole numbers.
 template <class Number>
 class Parts {
 public:
-    /// `grammar` must outlive them. With `moves_draw`, steps that do not draw are drawn all the same, as of a spline.
+    /// `grammar` must outlive the parts. With `moves_draw`, steps that do not draw are drawn, too, as for a spline.
     /// Nullopt for other drawings (maps, contexts, colours, widths, polygons, discs, brackets that stay open, angles
-    /// that are no parts of a turn), for more than a million parts, and for lengths that doubles do not hold. Cost:
-    /// O(size of the tables x steps x headings).
+    /// that are not fractions of a turn), for more than a million parts, and for lengths that doubles do not hold.
+    /// Cost: O(size of the tables x steps x headings).
     static std::optional<Parts> make(const Grammar& grammar, bool moves_draw = false);
 
-    /// Tables that are applied to the axiom, `interpret:` included.
+    /// Number of tables that are applied to the axiom, `interpret:` included.
     int levels() const { return static_cast<int>(tables_.size()); }
     std::uint32_t headings() const { return headings_; }
-    /// The part of a symbol with `level` tables still to come, in a heading in which it occurs there.
+    /// The part of a symbol with `level` tables still to be applied, in a heading that occurs at that level.
     const DrawnPart<Number>& part(Symbol symbol, int level, std::uint32_t heading) const {
         return parts_[index(symbol, level, heading)];
     }
-    /// In no order.
+    /// All parts, in no particular order.
     const std::vector<DrawnPart<Number>>& all() const { return parts_; }
-    /// Whether anything occurs in that heading with so many tables still to come.
+    /// True if a symbol occurs in that heading with `level` tables still to be applied.
     bool occurs(int level, std::uint32_t heading) const {
         return rows_[static_cast<std::size_t>(level) * headings_ + heading] != UINT32_MAX;
     }
@@ -63,7 +63,7 @@ public:
         const auto row = static_cast<std::size_t>(level) * headings_ + heading;
         return static_cast<std::size_t>(rows_[row]) * symbols_ + symbol;
     }
-    /// What a symbol becomes when `level` tables are still to come: one less for what it becomes. Null: itself.
+    /// Successor of a symbol with `level` tables still to be applied (one fewer for the successor); null: itself.
     const Word* successor(Symbol symbol, int level) const {
         return tables_[static_cast<std::size_t>(level) - 1]->successor(symbol);
     }

@@ -12,7 +12,7 @@ namespace {
 using Tile = std::uint32_t;
 constexpr Tile none = std::numeric_limits<Tile>::max();
 
-/// Removes tiles with fewer than three remaining neighbours as long as there are any. The order of removal.
+/// Removes tiles with fewer than three remaining neighbours as long as there are any. Returns the order of removal.
 std::vector<Tile> peel(const TileNeighbours& neighbours, std::vector<char>& is_removed) {
     std::vector<std::size_t> degree(neighbours.tiles());
     std::vector<Tile> order;
@@ -52,7 +52,7 @@ public:
             index /= 64;
         }
     }
-    /// False if it was not in the set.
+    /// Removes a number; false if it was not in the set.
     bool erase(std::uint32_t index) {
         if ((levels_.front()[index / 64] >> index % 64 & 1U) == 0) return false;
         for (auto& level : levels_) {
@@ -82,7 +82,7 @@ private:
 /// Source: Marques-Silva & Sakallah 1999, "GRASP"; Moskewicz et al. 2001, "Chaff".
 class ThreeColours {
 public:
-    /// @param takes_part  tiles to be coloured, others are ignored
+    /// @param is_removed  tiles to be ignored; all others are coloured
     ThreeColours(const TileNeighbours& neighbours, const std::vector<char>& is_removed, const ColourBudget& budget,
                  const Monitor& monitor)
         : neighbours_(neighbours),
@@ -125,7 +125,7 @@ public:
             assign(next, phase_[next], {});
         }
     }
-    /// After search() has returned yes.
+    /// Colour of a tile; valid after search() returned yes.
     Tile colour(Tile tile) const {
         for (Tile c = 0; c < 3; ++c) {
             if (value_[3 * tile + c] == 1) return c;
@@ -138,7 +138,7 @@ private:
     using Variable = std::uint32_t;
     using Literal = std::uint32_t;
     static constexpr std::int8_t unknown = -1;
-    /// Why a variable has its value.
+    /// Reason for the value of a variable.
     struct Reason {
         enum class Kind : std::uint8_t { decision, other, siblings, clause } kind = Kind::decision;
         std::uint32_t index = 0;  ///< the other variable, or the clause
@@ -183,7 +183,7 @@ private:
         add_causes(v, reason, conflict_);
         return true;
     }
-    /// Variables that led to a variable's value.
+    /// Adds the variables that led to a variable's value.
     void add_causes(Variable v, const Reason& reason, std::vector<Variable>& causes) const {
         switch (reason.kind) {
             case Reason::Kind::decision:
@@ -203,7 +203,7 @@ private:
         }
     }
 
-    /// Draws all conclusions; true if there is a conflict.
+    /// Propagates all values; true if there is a conflict.
     bool propagate() {
         while (next_ < trail_.size()) {
             pulse_();
@@ -239,7 +239,7 @@ private:
         }
         return excluded == 2 && imply(left, 1, {Reason::Kind::siblings, 0});
     }
-    /// Of clauses that watch a literal which became false.
+    /// Propagates through the clauses that watch a literal which became false.
     bool propagate_clauses(Literal literal) {
         std::vector<std::uint32_t>& watching = watches_[literal];
         std::size_t kept = 0;
@@ -270,7 +270,7 @@ private:
     }
 
     /// Finds the first choice to which all causes of the conflict lead (first unique implication point), keeps the
-    /// clause that excludes them together, and goes back.
+    /// clause that excludes them together, and backtracks.
     void learn() {
         std::vector<Literal> clause(1);
         std::vector<Variable> causes = conflict_;

@@ -15,23 +15,23 @@ enum class Colourable : std::uint8_t { yes, no, undecided };
 
 /// Result of find_colours().
 struct TileColouring {
-    int at_least = 1;                    ///< so many are needed
-    int at_most = 1;                     ///< so many suffice
+    int at_least = 1;                    ///< lower bound of the number needed
+    int at_most = 1;                     ///< a number that suffices
     std::vector<std::uint32_t> colours;  ///< of the tiles, at_most different ones
 };
 
 /// Limits of a search for three colours.
 struct ColourBudget {
     std::uint64_t conflicts = 20'000;
-    std::uint64_t steps = 10'000'000;  ///< values set, clauses and causes looked at; 20 more for each tile
+    std::uint64_t steps = 10'000'000;  ///< values set, clauses and causes visited; 20 more for each tile
 };
 
 /// Numbers tiles so that neighbours differ, with few numbers: one if none touch, two if there are no odd cycles,
 /// often three, four where exchanging the colours of chains of tiles (Kempe 1879) succeeds, seldom more. Cost:
-/// linear, but for exchanges.
+/// linear, except for exchanges.
 std::vector<std::uint32_t> colours_of_neighbours(const TileNeighbours& neighbours, const Monitor& monitor);
 
-/// The parity of distances, if neighbours always differ in it.
+/// Returns the parity of distances as colours; nullopt if neighbours do not always differ in it.
 std::optional<std::vector<std::uint32_t>> two_colours(const TileNeighbours& neighbours);
 
 /// Colours tiles with as few colours as possible: as colours_of_neighbours(), and with three if that has more and an

@@ -1,4 +1,4 @@
-// engine/tiling/cut_list.h: the pieces that a tiling is made of, by kind, for those who cut them.
+// engine/tiling/cut_list.h: lists the pieces of a tiling by kind, for cutting.
 #pragma once
 
 #include "engine/tiling/tiling.h"
@@ -23,16 +23,18 @@ struct CutKind {
     std::vector<glm::dvec2> corners;  ///< of its first tile, anticlockwise, in millimetres
 };
 
-/// Sorts tiles into kinds. Cost: linear. @param step  millimetres  @param keeps_direction  pieces that are turned
-/// against each other by other angles than 180 degrees are of different kinds
+/// Sorts tiles into kinds. Cost: linear.
+/// @param step  millimetres
+/// @param keeps_direction  pieces turned against each other by angles other than 180 degrees are of different kinds
 std::vector<CutKind> cut_list(const TilingResult& result, double step, bool keeps_direction = false);
 
 /// Describes polygons that are left out or overlap, as one line; empty if all polygons are tiles that do not
 /// overlap.
 std::string missing_pieces(const TilingExamination& examination);
 
-/// A table with one line for each kind, and the sums. @param title  title of the pattern  @param n  derivation
-/// length, if there is one
+/// Formats a table with one line for each kind, and the sums.
+/// @param title  title of the pattern
+/// @param n  derivation length, if there is one
 std::string cut_list_text(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                           double step);
 /// The same as one line of JSON.

@@ -1,4 +1,4 @@
-// engine/tiling/exactness.h: why positions of a turtle are rounded.
+// engine/tiling/exactness.h: explains why positions of a turtle are rounded.
 #pragma once
 
 #include "engine/geometry/lattice.h"
@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// Why positions are doubles: the first angle or length that keeps them off a lattice. Empty if they are exact.
+/// Returns the first angle or length that keeps positions off a lattice; empty if they are exact.
 /// @param lattice  make_lattice() of the grammar
 std::string inexact_reason(const Grammar& grammar, const Lattice& lattice);
 

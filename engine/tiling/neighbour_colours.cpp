@@ -52,14 +52,14 @@ public:
           colours_(neighbours.tiles(), none),
           seen_(neighbours.tiles(), none) {}
 
-    /// False if a tile was left over after exchanges.
+    /// Colours the tiles; false if one is left over after exchanges.
     bool colour(const std::vector<Tile>& order, Tile count) {
         for (const Tile tile : order) {
             if (!take_free(tile, count) && !exchange(tile, count)) return false;
         }
         return true;
     }
-    /// The first free colour for each remaining tile.
+    /// Gives each remaining tile its first free colour.
     void finish(const std::vector<Tile>& order) {
         for (const Tile tile : order) {
             if (colours_[tile] == none) take_free(tile, none - 1);

@@ -13,7 +13,7 @@
 
 namespace sikku {
 
-/// A grid of square cells over a box, about as many as there will be things in it.
+/// A grid of square cells over a box, about as many as there are things in it.
 class PlaceGrid {
 public:
     PlaceGrid(glm::dvec2 low, glm::dvec2 high, std::size_t things) : low_(low) {
@@ -25,7 +25,7 @@ public:
     }
     std::size_t cells() const { return static_cast<std::size_t>(columns_ * rows_); }
     std::size_t cell(glm::dvec2 at) const { return static_cast<std::size_t>(row(at.y) * columns_ + column(at.x)); }
-    /// Visits the cells that a line comes within `margin` of, and perhaps some beside them.
+    /// Visits the cells that a line comes within `margin` of, and possibly some beside them.
     template <class Visit>
     void along(glm::dvec2 from, glm::dvec2 to, double margin, Visit&& visit) const {
         if (from.y > to.y) std::swap(from, to);
@@ -89,7 +89,7 @@ public:
     void visit(std::size_t cell, Visit&& visit) const {
         for (std::size_t i = begin_[cell]; i < begin_[cell + 1]; ++i) visit(list_[i]);
     }
-    /// Visits those that were added so far.
+    /// Visits the entries of a cell that were added so far.
     template <class Visit>
     void visit_added(std::size_t cell, Visit&& visit) const {
         for (std::size_t i = begin_[cell]; i < next_[cell]; ++i) visit(list_[i]);

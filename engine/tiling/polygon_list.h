@@ -18,7 +18,7 @@ struct PolygonList {
     std::vector<std::size_t> begin{0};   ///< index of the first corner of each polygon, and of the end of the last
     std::vector<std::int32_t> colour{};  ///< colour of each polygon
     std::vector<std::string> colour_names{};  ///< names of colours from 0 on, as far as they have one
-    std::vector<std::string> notes{};         ///< what was left out, one line each
+    std::vector<std::string> notes{};         ///< omissions, one line each
 
     std::size_t size() const { return colour.size(); }
     std::span<const glm::dvec2> polygon(std::size_t i) const {

@@ -32,7 +32,7 @@ glm::dvec2 inner_middle(std::span<const glm::dvec2> corners);
 /// Up to 25 points spread over the interior of a polygon; at least one.
 std::vector<glm::dvec2> points_within(std::span<const glm::dvec2> corners);
 
-/// Finds polygons by points within them. Keeps a reference to them.
+/// Finds polygons by points within them. Keeps a reference to the list.
 class PolygonFinder {
 public:
     /// Cost: linear for polygons of similar sizes.

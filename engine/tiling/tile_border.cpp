@@ -38,15 +38,14 @@ public:
 private:
     bool is_border(std::uint32_t side) const { return pieces_.twin[side] == no_number; }
 
-    /// The border piece with which the tiles begin, anticlockwise, that are connected around the end of a border
-    /// piece.
+    /// The border piece with which the fan of tiles around the end of a border piece begins, anticlockwise.
     std::uint32_t begin_of_fan(std::uint32_t side) const {
         std::uint32_t next = pieces_.next(side);
         while (!is_border(next)) next = pieces_.next(pieces_.twin[next]);
         return next;
     }
-    /// Around each point, the border piece that begins there after another one, anticlockwise: between the tiles of
-    /// one and those of the other lies the complement.
+    /// Finds, for each border piece, the next one anticlockwise that begins at the same point: the complement lies
+    /// between their tiles.
     void find_followers() {
         follower_.assign(pieces_.sides(), no_number);
         for (std::uint32_t point = 0; point < plane_.points(); ++point) {
@@ -163,7 +162,7 @@ private:
         if (p == r || p == s || q == r || q == s) return std::nullopt;
         const glm::dvec2 from = plane_.at(p), way = plane_.at(q) - from;
         const double first = determinant(way, plane_.at(r) - from), second = determinant(way, plane_.at(s) - from);
-        // Both far on the same side?
+        // Both are far away on the same side.
         const double margin = plane_.tolerance() * std::sqrt(scalar_product(way, way));
         if ((first > margin && second > margin) || (first < -margin && second < -margin)) return std::nullopt;
         if (plane_.side(p, q, r) * plane_.side(p, q, s) >= 0) return std::nullopt;
@@ -209,7 +208,7 @@ private:
                 if (loop_of_[side] == number) return;
                 const glm::dvec2 a = start(side), b = end(side);
                 if ((a.y > middle.y) == (b.y > middle.y)) return;
-                // To the left of the middle?
+                // Counts crossings to the left of the middle.
                 const int place = side_of_middle(side, own);
                 const int step = b.y < a.y && place > 0 ? 1 : b.y > a.y && place < 0 ? -1 : 0;
                 winding += step;
@@ -219,7 +218,7 @@ private:
             for (const std::uint32_t other : crossed) {
                 if (std::exchange(windings[other], 0) >= 0) continue;
                 std::uint32_t& nearest = gap_around_[number];
-                // Of nested gaps, the smallest one.
+                // The smallest of nested gaps.
                 if (nearest == no_number || result_.loops[other].area > result_.loops[nearest].area) nearest = other;
             }
             if (winding == (loop.is_outer ? 0 : 1)) continue;

@@ -33,9 +33,9 @@ struct TileBorder {
     std::uint64_t regions = 0;     ///< groups of tiles that are joined by pieces
     std::uint64_t components = 0;  ///< groups of tiles that are joined by pieces or at corners
     std::vector<TileGap> gaps;     ///< in the order of their loops; empty if tiles overlap
-    /// Each component has one loop around it.
+    /// True if each component has one loop around it.
     bool loops_agree = false;
-    /// Sum of the areas of tiles equals that within the loops: exactly, or to about 1e-9 of it.
+    /// True if the sum of the areas of tiles equals that within the loops: exactly, or to about 1e-9 of it.
     bool areas_agree = false;
 };
 

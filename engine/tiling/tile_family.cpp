@@ -14,7 +14,7 @@
 namespace sikku {
 namespace {
 
-/// The sum of some masses.
+/// Adds a mass to a sum.
 void add(PolygonMass& sum, const PolygonMass& mass) {
     const double area = sum.area + mass.area;
     if (area > 0) sum.centre = (sum.centre * sum.area + mass.centre * mass.area) / area;

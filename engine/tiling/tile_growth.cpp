@@ -1,5 +1,7 @@
 #include "engine/tiling/tile_growth.h"
 
+#include "engine/derivation/exact_counts.h"
+#include "engine/derivation/forecast.h"
 #include "engine/derivation/plain_form.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/geometry/turtle.h"
@@ -71,7 +73,7 @@ private:
     PolygonClasses classes_;
 };
 
-/// How a turtle is moved: first by a vector, then turned.
+/// Motion of a turtle: first by a vector, then by a turn.
 struct Move {
     glm::dvec2 way{0.0};
     glm::dvec2 turn{1.0, 0.0};
@@ -108,7 +110,7 @@ public:
 private:
     using Kind = ShapeReader::Kind;
 
-    /// Symbols of words before `interpret:`.
+    /// Finds the symbols of words before `interpret:`.
     void find_reachable() {
         std::set<Symbol> known(grammar_.axiom().begin(), grammar_.axiom().end());
         std::vector<Symbol> left(known.begin(), known.end());
@@ -158,7 +160,7 @@ private:
         return result;
     }
 
-    /// Draws what each symbol draws by itself; false if braces or brackets of one do not balance.
+    /// Finds the tiles that each symbol draws by itself; false if braces or brackets of one do not balance.
     bool read_tiles() {
         ShapeReader reader;
         const bool is_coloured = has_colours();
@@ -237,7 +239,7 @@ private:
         }
         std::map<Symbol, std::size_t> index;
         for (std::size_t i = 0; i < tiles.size(); ++i) index[tiles[i]] = i;
-        // Rows: what a symbol becomes.
+        // Rows: successors of symbols.
         std::vector<std::map<std::size_t, double>> rows(tiles.size());
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Word* successor = grammar_.tables().front().successor(tiles[i]);
@@ -394,7 +396,7 @@ private:
         }
     }
 
-    /// The steps from the first symbol to each other one along the fewest symbols; empty if one is not reached.
+    /// Numbers of steps on the shortest paths from the first symbol to the others; empty if one is not reached.
     static std::vector<std::size_t> steps_from_first(const std::vector<std::map<std::size_t, double>>& rows) {
         constexpr std::size_t unknown = ~std::size_t{0};
         std::vector<std::size_t> steps(rows.size(), unknown), reached = {0};
@@ -410,7 +412,7 @@ private:
         return steps;
     }
 
-    /// Of an irreducible matrix, the greatest common divisor of the lengths of its cycles (Denardo 1977); else 0.
+    /// Greatest common divisor of the lengths of the cycles of an irreducible matrix (Denardo 1977); else 0.
     static std::size_t period_of(const std::vector<std::map<std::size_t, double>>& rows) {
         if (rows.empty()) return 0;
         std::vector<std::map<std::size_t, double>> back(rows.size());

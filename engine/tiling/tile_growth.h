@@ -1,7 +1,7 @@
 // engine/tiling/tile_growth.h: how the numbers of tiles grow, from the productions alone.
 #pragma once
 
-#include "engine/derivation/forecast.h"
+#include "engine/base/integer.h"
 #include "engine/tiling/tiling.h"
 
 #include <optional>
@@ -22,11 +22,11 @@ struct TileKindCount {
 };
 
 struct TileGrowth {
-    std::string unknown;            ///< why nothing follows from the productions; else empty
+    std::string unknown;            ///< why the productions determine nothing; else empty
     std::vector<TileShape> shapes;  ///< with angles, sides and areas only, in the order of the symbols
     std::vector<TileKindCount> counts;
 
-    /// Without these, and with a reason in `no_limit`, numbers do not grow by a factor.
+    /// Absent, with a reason in `no_limit`, if numbers do not grow by a factor.
     std::optional<double> tiles;  ///< factor of the number of tiles in a step, in the limit
     bool is_average = false;      ///< `tiles` is the mean factor of steps that alternate
     /// Shares of all tiles in the limit; empty if they alternate for ever.
@@ -39,8 +39,8 @@ struct TileGrowth {
     std::string no_limit;
 
     std::optional<double> length;  ///< factor of lengths in a step, if it multiplies all moves
-    double turn = 0;               ///< degrees by which it turns them, -180 to 180
-    std::string no_length;         ///< why there is no such factor
+    double turn = 0;               ///< degrees by which a step turns all moves, -180 to 180
+    std::string no_length;         ///< reason for the lack of such a factor
 };
 
 /// Counts tiles by kind after grammar.steps() steps, and finds the limits of their numbers. Cost: that of forecast(),

@@ -55,7 +55,7 @@ private:
     }
     std::uint32_t anchor(std::uint32_t tile) const { return tiles_.corner[tiles_.begin[tile]]; }
 
-    /// Goes inwards from the border, tile by tile.
+    /// Finds the tile farthest from the border, from there inwards.
     void find_middle() {
         std::vector<char> is_reached(tiles_.tiles(), 0);
         std::vector<std::uint32_t> reached;

@@ -60,7 +60,7 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
     // In a tiling, a corner lies inside at most one edge.
     const std::uint64_t most_cuts = 10'000 + 16 * std::uint64_t{points.size()};
     std::atomic<std::uint64_t> compared = 0, cuts_found = 0;
-    // Of the tiles from `first` on, up to `end`.
+    // Finds the cuts of the tiles from `first` to before `end`.
     const auto find = [&](std::uint32_t first, std::uint32_t end, std::vector<Cut>& found) {
         Pulse pulse(monitor);
         std::uint64_t visited = 0;
@@ -131,7 +131,7 @@ void list_sides(TilePieces& pieces, std::size_t points) {
     }
 }
 
-/// Of each side, from its ends: the sides of a piece then have exactly opposite ones.
+/// Computes the heading of each side from its ends, so that the two sides of a piece have exactly opposite ones.
 void find_headings(const TilePlane& plane, TilePieces& pieces) {
     pieces.heading.reserve(pieces.sides());
     for (std::uint32_t side = 0; side < pieces.sides(); ++side) {

@@ -13,7 +13,7 @@ namespace sikku {
 /// The parts of edges between corners, each as one side of its tile, which lies on the left. Sides of a tile follow
 /// each other anticlockwise. Memory: 24 bytes a side, 28 if the plane is not exact.
 struct TilePieces {
-    /// For each tile; one more than there are.
+    /// Index of each tile's first side, and the number of sides at the end.
     std::vector<std::uint32_t> begin;
     /// For each side:
     std::vector<std::uint32_t> from;       ///< the point where it begins
@@ -22,7 +22,7 @@ struct TilePieces {
     std::vector<std::uint32_t> angle;      ///< of the tile where the side begins, as index into TileSet::angles
     std::vector<std::uint32_t> tile;
     std::vector<std::uint32_t> twin;  ///< the same piece in the opposite direction, or no_number
-    /// Sides that begin at a point, anticlockwise: of point p those from out_begin[p] on.
+    /// Sides that begin at a point, anticlockwise: those of point p are in `out` from out_begin[p] on.
     std::vector<std::uint32_t> out_begin;
     std::vector<std::uint32_t> out;
 
@@ -51,7 +51,7 @@ TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor
 /// Pairs of overlapping tiles, each once as far as the first 100,000.
 class TilePairs {
 public:
-    /// False if the pair is known.
+    /// Adds a pair; false if it is already known.
     bool insert(std::uint32_t a, std::uint32_t b) {
         return pairs_.size() >= 100'000 ? !pairs_.contains(std::minmax(a, b))
                                         : pairs_.insert(std::minmax(a, b)).second;

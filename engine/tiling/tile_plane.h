@@ -29,7 +29,7 @@ public:
     }
     /// The same for a known tag.
     std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag);
-    /// no_number, if it was not added.
+    /// The number of a place, or no_number if it was not added.
     std::uint32_t find(const std::int32_t* coordinates, glm::dvec2 place) const;
     /// A hash; equal whole coordinates have equal tags.
     std::uint32_t tag_of(const std::int32_t* coordinates, glm::dvec2 place) const;
@@ -83,19 +83,20 @@ public:
     explicit TilePlane(double tolerance);
 
     bool is_exact() const { return numbers_.has_value(); }
-    /// Positions were measured or rounded, or computed with errors for which least_tolerance is too small or too
-    /// large.
+    /// True if positions were measured or rounded, or computed with errors for which least_tolerance is too small or
+    /// too large.
     bool is_rough() const { return !is_exact() && tolerance_ != least_tolerance; }
     /// Distance within which points are one, if the plane is not exact.
     double tolerance() const { return tolerance_; }
     const Lattice& lattice() const { return lattice_; }
-    /// Only of an exact plane.
+    /// Only for an exact plane.
     const Cyclotomic& numbers() const { return *numbers_; }
 
     /// The number of a point. @param coordinates  those of the lattice; ignored if the plane is not exact
     std::uint32_t point(std::span<const std::int64_t> coordinates, glm::dvec2 place);
-    /// The same for several points of an exact plane, and faster. @param chosen  which of the points  @param numbers
-    /// receives their numbers
+    /// The same for several points of an exact plane, and faster.
+    /// @param chosen  which of the points
+    /// @param numbers  receives their numbers
     void points(std::span<const std::int64_t> coordinates, std::span<const glm::dvec2> places,
                 std::span<const std::uint32_t> chosen, std::vector<std::uint32_t>& numbers);
     /// The number of a known point, or no_number. An exact plane ignores `place`, another one `coordinates`.
@@ -118,7 +119,7 @@ public:
     /// 180 degrees.
     int turn(std::uint32_t first, std::uint32_t second) const;
 
-    /// Sorts the directions of all vectors and their opposites anticlockwise. Only of an exact plane: rounded ones
+    /// Sorts the directions of all vectors and their opposites anticlockwise. Only for an exact plane: rounded ones
     /// have no clear number of directions. Cost: v log v.
     void sort_directions();
     /// Number of different directions, even; the opposite of d is d + directions() / 2.

@@ -264,7 +264,7 @@ private:
         return area;
     }
 
-    /// Turns the outline to its least rotation; its class, or no_number.
+    /// Rotates the outline to its least rotation; returns its class, or no_number.
     std::uint32_t find_class() {
         const std::size_t start = least_rotation(vectors_);
         std::rotate(vectors_.begin(), vectors_.begin() + static_cast<std::ptrdiff_t>(start), vectors_.end());

@@ -15,7 +15,7 @@
 
 namespace sikku {
 
-/// What is wrong with a polygon, or with two.
+/// Error of a polygon, or of two.
 enum class TileFault : std::uint8_t {
     open,       ///< the outline does not end where it began
     empty,      ///< fewer than three corners, or no area
@@ -64,7 +64,7 @@ struct TileClass {
 
 /// Valid tiles in drawing order, without duplicates.
 struct TileSet {
-    /// For each tile; `begin` has one more.
+    /// For each tile; `begin` has one more entry at its end.
     std::vector<std::uint32_t> begin;     ///< index of its first corner
     std::vector<std::uint32_t> in_class;  ///< index into `classes`
     std::vector<std::int32_t> colour;
@@ -72,7 +72,7 @@ struct TileSet {
     std::vector<std::uint32_t> corner;  ///< points, anticlockwise, those on straight stretches left out
 
     std::vector<TileClass> classes;  ///< in the order of their first tiles
-    std::vector<double> angles;      ///< that occur between edges, in degrees
+    std::vector<double> angles;      ///< angles between edges, in degrees
     std::uint32_t shapes = 0;
     std::uint32_t polygons = 0;  ///< all that were drawn
     TileViolations violations;
@@ -114,7 +114,7 @@ private:
 /// Number of corners that fit into the memory of the limits.
 double most_corners(const TileLimits& limits);
 
-/// The largest outline that is searched for crossings.
+/// Maximum number of corners of an outline that is searched for crossings.
 constexpr std::size_t most_corners_of_tile = 20'000;
 
 /// The sizes of polygons whose corners are doubles.
@@ -127,12 +127,13 @@ struct TileScale {
 
     void add(std::span<const glm::dvec2> corners);
     /// The distance within which points can count as one: TilePlane::least_tolerance, unless positions have larger
-    /// errors or edges are shorter than a hundred times that. @throws BudgetError if both is so
+    /// errors or edges are shorter than a hundred times that. @throws BudgetError if both is the case
     double tolerance() const;
 };
 
-/// Derives the word of a grammar and collects its polygons. @param scale  receives their sizes, if the plane is not
-/// exact @throws BudgetError, WordError, Stopped; TilePlane::OutOfRange
+/// Derives the word of a grammar and collects its polygons.
+/// @param scale  receives their sizes, if the plane is not exact
+/// @throws BudgetError, WordError, Stopped; TilePlane::OutOfRange
 TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits& limits, TileScale& scale,
                       const Monitor& monitor);
 

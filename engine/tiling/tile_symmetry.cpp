@@ -53,7 +53,7 @@ public:
 
 private:
     using Vectors = std::vector<std::uint32_t>;
-    /// Where a motion puts the tiles of a class.
+    /// Image of the tiles of a class under a motion.
     struct ClassImage {
         std::uint32_t in_class = 0;
         std::size_t corner = 0;  ///< the one whose image is the first corner
@@ -114,7 +114,7 @@ private:
     }
 
     /// Turns by the angle between a far corner and the corner nearest to its image: the sides that suggested the
-    /// motion are short, and what they are wrong by grows with the distance.
+    /// motion are short, and their error grows with the distance.
     void refine(Motion& motion) {
         if (far_ == no_number) {
             double most = 0;

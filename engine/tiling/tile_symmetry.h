@@ -19,7 +19,7 @@ struct TileSymmetry {
 };
 
 /// Finds the rotations and mirrors that map each tile onto a tile, whatever their colours. Cost: linear for each
-/// symmetry, and little for each motion that is none.
+/// symmetry, and small for each motion that is not a symmetry.
 TileSymmetry find_symmetry(const TilePlane& plane, const TileSet& tiles, const Monitor& monitor);
 
 }  // namespace sikku

@@ -67,7 +67,7 @@ void examine_neighbours(TilingPatch& patch, const TilingOptions& options, Tiling
     patch.colours = std::move(colouring.colours);
 }
 
-/// Vertices must not overlap.
+/// Finds the border of tiles whose vertices do not overlap.
 void examine_border(TilingPatch& patch, const TileVertices& vertices, const Monitor& monitor,
                     TilingExamination& result) {
     patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
@@ -110,7 +110,7 @@ void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExam
     if (result.has_border) result.most_colours = std::min(result.most_colours, 4);
 }
 
-/// A result whose tiles are collected in a plane; then examine() finds the facts.
+/// Returns a result for a plane in which tiles are then collected; examine() finds the facts.
 TilingResult result_in(TilePlane plane) {
     return {{}, {std::move(plane), {}, {}, {}, TileNeighbours(0, {}), {}, {}}};
 }

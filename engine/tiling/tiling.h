@@ -36,7 +36,7 @@ struct VertexFigure {
     std::uint64_t count = 0;
 };
 
-/// What was examined, for exports.
+/// Data of an examination, for exports.
 struct TilingPatch {
     TilePlane plane;
     TileSet tiles;

@@ -9,7 +9,7 @@
 namespace sikku {
 namespace {
 
-/// To a billionth.
+/// Formats a number to a billionth.
 std::string number(double value) {
     const double rounded = std::round(value * 1e9) / 1e9;
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
@@ -32,7 +32,7 @@ std::string json(const std::optional<double>& value) {
 std::string json(const Integer& value) {
     return value < (Integer(1) << 53) ? value.str() : "\"" + value.str() + "\"";
 }
-/// Joins what `format` makes of each.
+/// Joins the results of `format` for all elements.
 template <class List, class Format>
 std::string array(const List& list, Format&& format) {
     std::string text = "[";

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t most_listed = 10;  // violations, gaps, figures in a text
 
-/// To a millionth.
+/// Formats a number to a millionth.
 std::string number(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
@@ -29,7 +29,7 @@ std::string number(double value) {
 std::string place(glm::dvec2 at) {
     return number(at.x) + ' ' + number(at.y);
 }
-/// Degrees to a hundredth.
+/// Formats degrees to a hundredth.
 std::string degrees(double value) {
     return fmt::format("{}", std::round(value * 100) / 100);
 }
@@ -61,7 +61,7 @@ std::vector<double> period(const std::vector<double>& list, double slack) {
     return list;
 }
 
-/// The rotation that is least.
+/// The least rotation of a list.
 std::vector<double> least(std::vector<double> list, double slack) {
     std::vector<double> best = list;
     const auto less = [slack](double a, double b) { return a < b && !near(a, b, slack); };

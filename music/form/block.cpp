@@ -46,7 +46,7 @@ void sort(std::vector<FormNote>& notes) {
     });
 }
 
-/// What the notes of `block` from `begin` to `end` are, beginning at tick 0.
+/// The notes of `block` from `begin` to `end`, moved to tick 0.
 Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
     Block piece;
     piece.length = end - begin;
@@ -84,13 +84,13 @@ bool has_glides(const std::vector<FormNote>& notes) {
     return std::any_of(notes.begin(), notes.end(), [](const FormNote& one) { return one.note.glide.ticks > 0; });
 }
 
-/// What slides to the next note, slides back from it: the next note lasts longer by the slide, at its beginning,
-/// which is its end once time is reversed. A slide that leads to no note becomes a note.
+/// Reverses slides: the slide to a note moves to the beginning of that note, which is its end once time is reversed.
+/// A slide that does not lead to a note becomes a note.
 void turn_glides(std::vector<FormNote>& notes) {
     if (!has_glides(notes)) return;
     std::vector<FormNote> added;
     for (const auto& [voice, line] : voices_of(notes)) {
-        Glide carried;  // of the note before, to this one
+        Glide carried;  // slide from the note before to this one
         for (std::size_t i = 0; i < line.size(); ++i) {
             Note& note = line[i]->note;
             const Glide glide = note.glide;
@@ -135,9 +135,8 @@ bool is_same_class(double a, double b) {
     return std::fabs(std::remainder(a - b, 12)) < 0.01;
 }
 
-/// The chords of a section begin with it and end before its last rest: what is left of a chord between the section
-/// and the next bar line becomes a part of the next chord if it is shorter than a beat, and no chord begins after the
-/// last note.
+/// Trims the chords of a section to begin with it and to end before its last rest: the remainder of a chord before
+/// the first bar line joins the next chord if it is shorter than a beat, and chords after the last note are removed.
 void trim_chords(Block& piece, const Melody& melody) {
     if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
     std::int64_t last = 0;
@@ -162,7 +161,7 @@ void trim_chords(Block& piece, const Melody& melody) {
     sort(piece.notes);
 }
 
-/// From the last note of an ending on, the chord is that of its goal.
+/// Changes the chord from the last note of an ending on to that of its goal.
 void close_chords(Block& block, const Melody& melody, const Note& last, Ending ending) {
     if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
     const bool is_open = ending == Ending::open;
@@ -196,7 +195,7 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
 /// Reverses a section, whose breath stays at its end.
 void reverse_section(Block& piece, const Melody& melody) {
     const std::int64_t length = piece.length;
-    std::int64_t end = 0;  // of the melody
+    std::int64_t end = 0;  // end of the melody
     for (const FormNote& one : piece.notes) {
         if (!is_chord(one, piece, melody)) end = std::max(end, one.note.onset + one.note.duration);
     }
@@ -205,7 +204,7 @@ void reverse_section(Block& piece, const Melody& melody) {
     piece.length = length;
 }
 
-/// The last section of a form ends on the tonic if its cadences alternate.
+/// The ending of a section; the last of a form ends on the tonic if cadences alternate.
 Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
     if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
     const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
@@ -293,7 +292,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     }
     // The last sub-curve breathes like the others if more follows it.
     borders.push_back(block.next);
-    // A rest after the last sub-curve is not one.
+    // A rest after the last sub-curve is not a section.
     const std::int64_t tail = borders[borders.size() - 2];
     const bool has_tail = std::any_of(block.notes.begin(), block.notes.end(), [&](const FormNote& one) {
         return !is_chord(one, block, melody) && one.note.onset >= tail;
@@ -348,7 +347,7 @@ void add_drone(Block& block, const Melody& melody, int first_voice) {
 
 void end_on(Block& block, const Melody& melody, Ending ending) {
     if (ending == Ending::none) return;
-    std::vector<FormNote*> last;  // the last one first
+    std::vector<FormNote*> last;  // in reverse order
     for (auto one = block.notes.rbegin(); one != block.notes.rend() && last.size() < notes_of_ending; ++one) {
         if (one->has_degree && one->note.voice == 0) last.push_back(&*one);
     }

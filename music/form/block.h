@@ -35,7 +35,7 @@ constexpr std::size_t most_block_notes = 4'000'000;
 /// Plays a melody into a block. @throws as play(); ScoreError for too many notes
 Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report);
 
-/// Lets notes slide to the keys that the notes after them have now.
+/// Adjusts slides to the present keys of the notes that follow.
 void link_glides(std::vector<FormNote>& notes);
 
 /// Reverses time.
@@ -43,17 +43,17 @@ void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, each
 /// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections.
-/// @param grammar  of the block, whose derivation length is too small if sub-curves are missing
-/// @param ends  ticks at which the sections of another part end, and these as well; empty: their own
-/// @throws ScoreError if the curve has fewer
+/// @param grammar  grammar of the block, to suggest a derivation length if sub-curves are missing
+/// @param ends  ticks at which sections end, taken from another part; empty: those of the curve
+/// @throws ScoreError if the curve has too few sub-curves
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
               std::span<const std::int64_t> ends = {});
 
-/// Adds the drone of a melody, bar by bar up to the end, which it moves to the end of a bar.
+/// Adds the drone of a melody bar by bar, and extends the block to the end of a bar.
 /// @param first_voice  voice of the drone; 0: the one after the voices of the melody
 void add_drone(Block& block, const Melody& melody, int first_voice);
 
-/// Leads the last notes of the first voice by step to the fifth or the tonic; as many as three.
+/// Leads up to three last notes of the first voice by step to the fifth or the tonic.
 void end_on(Block& block, const Melody& melody, Ending ending);
 
 /// Multiplies all times.

@@ -29,7 +29,7 @@ public:
         const Note& note = *std::prev(after);
         return note.onset + note.duration > tick ? std::optional(note.key) : std::nullopt;
     }
-    /// The key of the last note that began before `tick`.
+    /// The last note that began before `tick`.
     std::optional<Note> before(std::int64_t tick) const {
         const auto after = first_after(tick - 1);
         return after == notes_.begin() ? std::nullopt : std::optional(*std::prev(after));
@@ -65,7 +65,7 @@ public:
             }
         }
         for (const auto& [voice, other] : lines) {
-            // Parallels where both begin a note after another.
+            // Parallels: both voices move from one note to another.
             const auto now = other.at(note.onset);
             if (!last || !now || !other.begins_at(note.onset)) continue;
             const auto before = other.before(note.onset);
@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    /// A fourth is consonant above a lower voice.
+    /// Number of dissonances at a tick. A fourth is consonant above a lower voice.
     static int dissonances(double key, std::int64_t tick, const Lines& lines) {
         constexpr int fourth = 5;
         std::vector<double> sounding;
@@ -119,7 +119,7 @@ private:
         FormNote best = note;
         for (const std::int64_t move : moves) {
             const FormNote tried = moved(note, move);
-            // Folded into the range, it would leap.
+            // Notes folded into the range would leap.
             if (static_cast<double>(move) * (tried.note.key - note.note.key) * melody_.scale.period < 0) continue;
             const int faults = checker_.faults(tried.note, last_ ? std::optional(last_->note) : std::nullopt, lines_);
             const bool repeats = !was_repeated && last_ && last_->note.key == tried.note.key;
@@ -166,7 +166,7 @@ CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<Form
     for (const FormNote& one : fixed) lines[one.note.voice].add(one.note);
     std::map<int, std::vector<FormNote*>> voices;
     for (FormNote& one : part) voices[one.note.voice].push_back(&one);
-    // Chords stay as they are, and the melody above them adapts to them.
+    // Chords are not moved; the melody above them adapts to them.
     for (auto voice = voices.begin(); voice != voices.end();) {
         const auto& notes = voice->second;
         if (std::any_of(notes.begin(), notes.end(), [](const FormNote* one) { return one->has_degree; })) {

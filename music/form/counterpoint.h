@@ -11,8 +11,8 @@ namespace sikku {
 
 /// Result of make_strict().
 struct CounterpointReport {
-    std::uint64_t moved = 0;  ///< notes
-    std::uint64_t left = 0;   ///< parallels and dissonances that no move of up to three degrees avoids
+    std::uint64_t moved = 0;  ///< notes moved
+    std::uint64_t left = 0;   ///< parallels and dissonances that cannot be avoided within three degrees
 };
 
 /// True for the intervals that are consonant between two voices, in semitones rounded: unisons, thirds, fifths,
@@ -21,7 +21,7 @@ bool is_consonant(double low, double high);
 
 /// Moves notes of `part` by up to three degrees, so that on the strong beats of `meter` (see strong_beats()) no voice
 /// of it is dissonant with a voice of `fixed`, and no fifths, octaves or unisons follow each other where both voices
-/// move. A fourth above a lower voice is consonant. The voices of `part` follow one another: each adapts to those
+/// move. A fourth above a lower voice is consonant. The voices of `part` are processed in order: each adapts to those
 /// before it, and to chords and drones of the part. Notes without faults stay where they are; moves avoid repeating
 /// the note before. Notes without degrees count as neighbours, but never move. Cost: O(notes x voices).
 /// @param fixed  by onset; times as in `part`

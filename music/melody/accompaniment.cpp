@@ -71,7 +71,7 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) con
     return notes;
 }
 
-/// The strokes of a tanpura: fifth, tonic, tonic, above a low tonic that rings on.
+/// A bar of a tanpura: fifth, tonic and tonic over a sustained low tonic.
 std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
     const std::int64_t length = melody_.meter.bar();
     const auto [first, second, third] = plucks(melody_.meter);
@@ -93,9 +93,9 @@ std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
     return notes;
 }
 
-/// Voices of a given progression have been led; the last bar of a piece, with its first chord, follows the bar
-/// before. Other chords alternate their position from bar to bar, independently of their neighbours: a fifth on top,
-/// then a third.
+/// The voicing of a chord. Those of a given progression are known; the last bar of a piece, with the first chord,
+/// adapts to the bar before it. Other chords alternate from bar to bar, independently of their neighbours: with the
+/// fifth on top, then with the third.
 Accompaniment::Voicing Accompaniment::voicing_of(std::int64_t bar, const Chord& chord) const {
     const std::vector<Voicing> voicings = voicings_of(chord);
     const auto least = [&](auto cost) {
@@ -132,7 +132,7 @@ std::vector<Accompaniment::Voicing> Accompaniment::voicings_of(const Chord& chor
     if (chord.cents.size() == 2) {
         for (const double key : places(1)) voicings.push_back({bass, key, silent});
         if (interval_class(chord.cents[0] / 100, chord.cents[1] / 100) != 7) return voicings;
-        // Fifths need not go on in parallel: the root alone, in octaves, or the fifth in the bass.
+        // Alternatives to parallel fifths: the root alone, in octaves, or the fifth in the bass.
         const double other = key_above(chord.cents[1], bass_register);
         for (const double key : places(0)) {
             voicings.push_back({bass, key, silent});
@@ -162,7 +162,7 @@ double Accompaniment::distance(const Voicing& voicing) const {
     return off + (interval == 0 ? unrest_of_octave : interval == 5 ? unrest_of_fourth : 0);
 }
 
-/// How far the upper voices move, with a penalty for parallels.
+/// Semitones by which the upper voices move, with penalties for their position and for parallels.
 double Accompaniment::unrest(const Voicing& before, const Voicing& voicing) const {
     double sum = distance(voicing);
     for (std::size_t i = 1; i < voicing.size(); ++i) {
@@ -183,7 +183,7 @@ void Accompaniment::lead_progression() {
     for (std::size_t first = 0; first < choices.front().size(); ++first) {
         std::vector<double> costs(choices.front().size(), std::numeric_limits<double>::infinity());
         costs[first] = 0;
-        std::vector<std::vector<std::size_t>> origins;  // of each choice of each chord after the first
+        std::vector<std::vector<std::size_t>> origins;  // best choice before each choice of a chord
         for (std::size_t i = 1; i <= choices.size(); ++i) {
             const std::vector<Voicing>& from = choices[i - 1];
             const std::vector<Voicing>& to = choices[i % choices.size()];

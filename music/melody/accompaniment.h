@@ -9,15 +9,15 @@
 
 namespace sikku::mapping {
 
-/// Plays what accompanies a melody, bar by bar. Chords have their root in the bass, and two voices above it that move
-/// as little as they can; no two voices move in parallel fifths or octaves, where the chords permit. Chords without a
-/// third have one voice above the bass, which perhaps is their fifth.
+/// Plays the drone or the chords of a melody, bar by bar. Chords have their root in the bass, and two voices above it
+/// that move as little as possible; no two voices move in parallel fifths or octaves where the chords permit. Chords
+/// of two tones have one voice above the bass, which may be their fifth.
 class Accompaniment {
 public:
     explicit Accompaniment(const Melody& melody);
 
     /// The notes of a bar that begins at tick `begin`; voices are counted from 0.
-    /// @param chord  of the bar, if there are chords
+    /// @param chord  chord of the bar; null for a drone
     std::vector<Note> bar(std::int64_t begin, const Chord* chord) const;
 
 private:
@@ -30,7 +30,7 @@ private:
     void lead_progression();
     double unrest(const Voicing& before, const Voicing& voicing) const;
     double distance(const Voicing& voicing) const;
-    /// The pitch of that many cents above the tonic, moved by octaves to within an octave above `lowest`.
+    /// The key `cents` above the tonic, moved by octaves to within an octave above `lowest`.
     double key_above(double cents, double lowest) const;
 
     const Melody& melody_;

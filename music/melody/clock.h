@@ -11,7 +11,7 @@
 
 namespace sikku::mapping {
 
-/// Times in steps become ticks: by the unit, by the slots of a rhythm, and later by the breaths taken before.
+/// Converts times in steps to ticks: by the unit or the slots of a rhythm, delayed by the breaths taken before.
 template <class Walk>
 class Clock {
 public:
@@ -22,7 +22,7 @@ public:
         if (has_rhythm_) return slot_ticks(steps - begin_, false) + breaths_;
         return Walk::ticks(steps - begin_, melody_.unit) + breaths_;
     }
-    /// The tick at which a note ends that goes on until `steps`.
+    /// The tick at which a note ends that lasts until `steps`.
     std::int64_t end_ticks(Number steps) const {
         return has_rhythm_ ? slot_ticks(steps - begin_, true) + breaths_ : ticks(steps);
     }
@@ -30,8 +30,8 @@ public:
     Integer longest(const Integer& steps, const Integer& phrases) const {
         return (steps / hits() + 1) * cycle() + phrases * melody_.breath;
     }
-    /// Goes on by so many steps and phrases, which do not begin at bar lines, and takes off `ahead` as many ticks as
-    /// it can: what follows comes so much earlier, on the same hits of the rhythm.
+    /// Advances by a number of steps and phrases, which do not begin at bar lines, and subtracts as many of their
+    /// ticks from `ahead` as possible: later notes come that much earlier, on the same hits of the rhythm.
     /// @param time  in steps
     /// @return the time that follows it, in steps
     std::int64_t skip(std::int64_t time, const Integer& steps, const Integer& phrases, Integer& ahead) {
@@ -39,7 +39,7 @@ public:
         const Integer lasts = exact_ticks(end) - exact_ticks(time) + phrases * melody_.breath;
         const Integer taken = std::min(lasts, ahead);
         ahead -= taken;
-        // Whole cycles are taken off the steps, the rest off the breaths.
+        // Whole cycles are subtracted from the steps, the rest from the breaths.
         Integer breaths = breaths_ + phrases * melody_.breath - taken;
         if (breaths < 0) {
             const Integer cycles = std::min<Integer>((cycle() - 1 - breaths) / cycle(), end / hits());
@@ -53,7 +53,7 @@ public:
     bool is_accented(Number steps) const {
         return has_rhythm_ && melody_.rhythm.hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
     }
-    /// The steps that have surely begun before `tick`, with so many breaths still to come.
+    /// Number of steps that certainly begin before `tick`, with the breaths of `phrases` still to come.
     /// @return below 0 if none
     std::int64_t steps_before(std::int64_t tick, const Integer& phrases) const {
         const Integer left = Integer(tick) - breaths_ - phrases * melody_.breath;
@@ -75,11 +75,11 @@ public:
         breaths_ = (end_ticks(steps) + melody_.breath + bar - 1) / bar * bar;
         begin_ = steps;
     }
-    /// Whether an odd number of phrases has ended.
+    /// True if an odd number of phrases has ended.
     bool is_odd() const { return phrases_ % 2 != 0; }
 
 private:
-    /// Steps after which the rhythm begins again, and what they last in ticks.
+    /// Steps in a cycle of the rhythm; cycle() is its duration in ticks.
     Integer hits() const { return has_rhythm_ ? Integer(melody_.rhythm.hits.size()) : Integer(1); }
     Integer cycle() const { return Integer(has_rhythm_ ? melody_.rhythm.slots : 1) * melody_.unit; }
     Integer exact_ticks(const Integer& steps) const {
@@ -105,7 +105,7 @@ private:
     const Melody& melody_;
     bool has_rhythm_;
     std::int64_t breaths_ = 0;  // ticks
-    Number begin_ = 0;          // steps to which times are added, those of the phrase if it begins at a bar line
+    Number begin_ = 0;          // step from which times count: the start of the phrase if it begins at a bar line
     int phrases_ = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace sikku::mapping {
 
-/// Two voices: one sounds y for as long as it stays, the other x, an octave lower.
+/// Reads two voices: notes of one last while y stays the same, those of the other, an octave lower, while x does.
 template <class Walk>
 class CounterpointReader final : public Reader {
 public:
@@ -116,7 +116,7 @@ private:
 
     std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
 
-    /// Both voices breathe at once.
+    /// Ends the phrases of both voices, which breathe together.
     void end_phrases() {
         if (due_ == 0) return;
         for (Voice& voice : voices_) end_note(voice);
@@ -128,7 +128,7 @@ private:
     }
     glm::dvec2 point() const { return {static_cast<double>(at_.x), static_cast<double>(at_.y)}; }
 
-    /// The note that the turtle comes to sounds while it makes this step.
+    /// Moves the turtle; the note of its new position sounds during this step.
     void advance(const typename Walk::Step& step, bool is_drawn) {
         end_phrases();
         at_.x += step.x;
@@ -151,7 +151,7 @@ private:
             voice.symbol = is_counted_ ? position_ : 0;
             voice.level = level_;
             voice.turned = turned_;
-            // The picture of a note is where its coordinate stays.
+            // A note is shown where its coordinate stays the same.
             voice.from = Walk::is_level(is_upper ? step.y : step.x) ? here_ : point();
             if (is_drawn && is_upper) {
                 lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, height);
@@ -165,7 +165,7 @@ private:
         throw Enough();
     }
 
-    /// Whether no note of the piece is held back.
+    /// True if no note of the piece is held back.
     bool is_past_piece() const {
         if (!emitter_.is_shaped()) return true;
         const bool is_held = std::any_of(voices_.begin(), voices_.end(), [&](const Voice& voice) {
@@ -194,7 +194,7 @@ private:
     Walk walk_;
     Clock<Walk> clock_;
     std::int64_t lower_;
-    bool is_piece_;     ///< its tonic is still to come
+    bool is_piece_;     ///< its tonic is not known yet
     bool moves_sound_;  // nothing is drawn: moves are notes
     int level_;         // level of notes that begin with the next step
     typename Walk::Position at_;

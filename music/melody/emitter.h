@@ -21,7 +21,7 @@ namespace sikku::mapping {
 /// Represents a height, a degree or a position that is not known yet.
 constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
 
-/// Degrees become keys, and notes reach the sink: cut to the piece that is wanted, counted, a block at a time.
+/// Converts degrees to keys and passes the notes of the requested piece to the sink, counted and in blocks.
 class Emitter {
 public:
     Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
@@ -32,7 +32,7 @@ public:
         for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
     }
 
-    /// What a voice remembers between its notes.
+    /// State of a voice between its notes.
     struct Line {
         int voice = -1;
         std::int64_t last_degree = unknown;
@@ -54,7 +54,7 @@ public:
         place(line, degree, onset, end, velocity, from, to, symbol);
     }
 
-    /// A note of a table of symbols: its key, if it is fixed, is what sounds.
+    /// Passes on a note of a table of symbols; a fixed key sounds as stated.
     void note(Line& line, Shaper::Draft draft) {
         take_time(line, draft.onset, draft.end);
         draft.voice = line.voice;
@@ -66,7 +66,7 @@ public:
         hand_on();
     }
 
-    /// A note whose pitch slides.
+    /// Passes on a note whose pitch slides.
     void gliding_note(Line& line, Shaper::Draft draft) {
         for (std::int64_t* degree : {&draft.degree, &draft.goal}) {
             *degree = (melody_.is_inverted ? -*degree : *degree) + melody_.shift;
@@ -81,36 +81,36 @@ public:
         hand_on();
     }
 
-    /// The phrase of a voice ends with its last note.
+    /// Ends the phrase of a voice with its last note.
     void end_phrase(int voice, bool is_odd) {
         if (!shaper_) return;
         shaper_->end_phrase(voice, is_odd);
         hand_on();
     }
 
-    /// A phrase has ended, and the next one begins at `tick`.
+    /// Records that a phrase has ended and the next begins at `tick`.
     void begin_phrase(std::int64_t tick) const {
         if (options_.phrase_ends) options_.phrase_ends->push_back(tick - options_.from);
     }
 
-    /// Whether nothing that is read at `tick`, the end of the piece or later, matters to the piece.
+    /// True if symbols read from `tick` on, the end of the piece or later, cannot affect the piece.
     bool may_stop(std::int64_t tick) const {
         return !shaper_ || shaper_->first_pending() >= options_.to || tick >= options_.to + 64 * melody_.meter.bar();
     }
 
     bool is_shaped() const { return shaper_.has_value(); }
 
-    /// Triads follow this voice, not the first.
+    /// Lets triads follow this voice instead of the first.
     void follow(int voice) {
         if (shaper_) shaper_->follow(voice);
     }
 
     int depth = 0;        ///< brackets around the next note
     int level = 0;        ///< level of the next note, as in Note
-    Emphasis emphasis{};  ///< of the next note; its velocity comes without the accent
+    Emphasis emphasis{};  ///< emphasis of the next note; its velocity does not include the accent
 
 private:
-    /// Places what is shaped.
+    /// Places the notes that are shaped.
     void hand_on() {
         const int here = depth;
         const int begun = level;
@@ -148,14 +148,14 @@ private:
         return static_cast<std::uint8_t>(std::clamp(velocity + accent, 1, 127));
     }
 
-    /// Plays what accompanies a bar.
+    /// Plays the accompaniment of a bar.
     void accompany(std::int64_t begin, const Chord* chord);
-    /// Places a note with a key of its own, or else by degree.
+    /// Places a note by its fixed key, or else by its degree.
     void place_fixed(Line& line, const Shaper::Draft& note);
     void reserve(Line& line, std::int64_t onset, std::int64_t end);
     /// Holds a note back until it is known where its pitch slides.
     void place_gliding(Line& line, const Shaper::Draft& note);
-    /// Passes on the note of a voice that is held back. @param next  the note after it; null if there is none
+    /// Passes on the note of a voice that was held back. @param next  the note after it; null if there is none
     void settle(int voice, const Shaper::Draft* next, bool falling);
 
     void place(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
@@ -166,7 +166,7 @@ private:
             ++report.lost;
             return;
         }
-        // Also before the piece, so that its voices are those of the whole.
+        // Notes before the piece count, so that voices are those of the whole melody.
         if (line.voice < 0) line.voice = free_voice(onset);
         if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
         busy_until_[static_cast<std::size_t>(line.voice)] = end;
@@ -196,14 +196,14 @@ private:
     }
 
 public:
-    /// Lines that are there from the beginning have their voices from the beginning.
+    /// Assigns a voice to a line that exists from the beginning.
     void take(Line& line, int voice) {
         line.voice = voice;
         if (held_.size() <= static_cast<std::size_t>(voice)) held_.resize(voice + 1U, 0);
         held_[static_cast<std::size_t>(voice)] = 1;
     }
 
-    /// A branch may take the voice of one that has ended.
+    /// Frees the voice of a branch that has ended.
     void release(const Line& line) {
         if (held_back_ > 0 && line.voice >= 0) settle(line.voice, nullptr, false);
         if (line.voice >= 0) held_[static_cast<std::size_t>(line.voice)] = false;
@@ -227,7 +227,7 @@ private:
     }
 
     int free_voice(std::int64_t onset);
-    /// Gives a line its voice, which is not free until `end`.
+    /// Assigns a voice to a line, until `end`.
     void take_time(Line& line, std::int64_t onset, std::int64_t end);
 
     Placed key_of(std::int64_t degree, bool falling) {
@@ -242,7 +242,7 @@ private:
     Placed look_up(std::int64_t degree, bool falling);
     /// The sound of a degree within the range, moved by the interval of a canon.
     Placed answered(Placed placed, bool falling) const;
-    /// @param raw  the key of the degree, perhaps beyond the range
+    /// @param raw  the key of the degree, possibly beyond the range
     Placed within_range(double raw, std::int64_t degree, bool falling);
     [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
 
@@ -253,12 +253,12 @@ private:
     const PlayOptions& options_;
     std::vector<Note> block_;
     std::array<std::vector<Placed>, 2> keys_;
-    std::optional<DegreeRange> range_;  // once a note is beyond it
+    std::optional<DegreeRange> range_;  // created once a note lies beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
     std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
     std::vector<Line> shaped_;               // line of each voice
-    std::vector<std::int64_t> busy_until_;   // of each voice, from the notes already placed
+    std::vector<std::int64_t> busy_until_;   // by voice, from the notes already placed
     std::vector<std::int64_t> taken_until_;  // likewise before shaping, if there is a shaper
     std::vector<char> held_;                 // voices held by a branch that has not ended
     struct Gliding {
@@ -267,7 +267,7 @@ private:
         bool is_held = false;
     };
     std::vector<Gliding> gliding_;  // by voice
-    int held_back_ = 0;             // how many of them are held
+    int held_back_ = 0;             // number of those held
 };
 
 }  // namespace sikku::mapping

@@ -16,7 +16,7 @@
 namespace sikku {
 namespace {
 
-constexpr double highest_value = 127;  // of MIDI
+constexpr double highest_value = 127;  // largest value of a MIDI controller
 
 struct SourceName {
     std::string_view name;
@@ -71,7 +71,7 @@ private:
         diagnostics_.error(key.value.empty() ? key.name_at : key.value, message);
     }
 
-    /// `by SOURCE` and perhaps `LOW-HIGH`, from word `at` on.
+    /// Reads `by SOURCE` and an optional `LOW-HIGH` from word `at` on.
     void read_curve(const Key& key, std::size_t at, ExpressionCurve& curve, std::pair<double, double> usual,
                     double least, double most, std::string_view expected) {
         const std::vector<std::string> words = words_of(key.value.view());

@@ -11,7 +11,7 @@ namespace sikku {
 
 struct Melody;
 
-/// What a curve of expression follows, from its least value in the piece to its greatest.
+/// Quantity that a curve of expression follows, from its least value in the piece to its greatest.
 enum class ExpressionSource {
     none,
     x,       ///< place along the x axis
@@ -54,7 +54,7 @@ struct MelodicExpression {
     ExpressionCurve tempo;  ///< quarters a minute
     ExpressionCurve pan;    ///< 0 left, 64 middle, 127 right
     ExpressionCurve control;
-    int controller = 0;  ///< of MIDI, for `control`
+    int controller = 0;  ///< number of the MIDI controller for `control`
     std::vector<Gamaka> gamakas;
 
     bool any() const {

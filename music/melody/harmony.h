@@ -10,29 +10,29 @@
 
 namespace sikku {
 
-/// What sounds with a melody: nothing; tonic and fifth; in each bar the triad that fits the melody best; the same
-/// curve of a lower order in long notes; given chords, one a bar.
+/// Accompaniment of a melody: none; tonic and fifth; in each bar the triad that fits the melody best; the same curve
+/// of a lower order in long notes; given chords, one a bar.
 enum class Harmony { none, drone, triads, bass, progression };
 
-/// Pitches above the tonic.
+/// A chord as pitches above the tonic.
 struct Chord {
-    std::vector<double> cents;  ///< the root first, within a period
+    std::vector<double> cents;  ///< the root first, the others within a period of it
     std::vector<char> is_tone;  ///< for each degree of the scale
-    /// The degree nearest to `degree` that is a tone of the chord and lies from `low` to `high`; of two, the lower.
-    /// If there is none, `degree`.
+    /// The tone of the chord from `low` to `high` that is nearest to `degree`; of two, the lower. `degree` if there
+    /// is none.
     std::int64_t nearest(std::int64_t degree, std::int64_t low = INT64_MIN, std::int64_t high = INT64_MAX) const;
     bool has(std::int64_t degree) const;
 };
 
-/// The chord on a degree of a scale: of seven notes its first, third and fifth; of other scales the notes nearest to
-/// a third and a fifth, if there are any.
+/// The chord on a degree of a scale: in scales of seven notes its first, third and fifth; in others the notes nearest
+/// to a third and a fifth, if there are any.
 Chord triad_on(const Scale& scale, std::int64_t root);
 
-/// A triad on each degree, in order of preference: I, IV, V, VI, II, III, VII.
+/// Triads in order of preference: I, IV, V, VI, II, III, VII; in scales without seven notes by degree.
 std::vector<Chord> triads_of(const Scale& scale);
 
 /// Reads `I-IV-V7-I`, or `blues` for twelve bars. A 7 makes a chord a dominant seventh.
-/// @param problem  what is wrong, if the result is empty
+/// @param problem  receives the problem if the result is empty
 std::vector<Chord> read_progression(std::string_view text, const Scale& scale, std::string& problem);
 
 /// The degree nearest to a just fifth above the tonic, falling.

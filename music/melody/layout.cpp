@@ -33,7 +33,7 @@ std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std
     return is_good && value >= least && value <= most ? std::optional(value) : std::nullopt;
 }
 
-/// `3:2` or `3/2`, or `2`.
+/// Reads `3:2`, `3/2` or `2`.
 std::optional<Ratio> ratio(std::string_view text) {
     constexpr std::int64_t most = 64;
     const std::size_t mark = std::min(text.find_first_of(":/"), text.size());
@@ -44,7 +44,7 @@ std::optional<Ratio> ratio(std::string_view text) {
     return Ratio{*above / common, *below / common};
 }
 
-/// Cuts off what comes before the next blank, and the blanks after it.
+/// Removes the next word, and the blanks after it, from `text`, and returns it.
 std::string_view next_word(std::string_view& text) {
     text = trimmed(text);
     const std::size_t end = std::min(text.find(' '), text.size());
@@ -102,7 +102,7 @@ private:
         });
     }
 
-    /// `9-16`, or `9-` for all from there.
+    /// Reads `9-16`, or `9-` for all bars from 9.
     void read_excerpt() {
         read_key("excerpt", "expected bars of the melody, such as 1-8, up to 1000000", [&](std::string_view text) {
             if (lower_case(text) == "all") return true;
@@ -155,7 +155,7 @@ private:
             });
     }
 
-    /// `2`, `0.5` or `1/2`.
+    /// Reads `2`, `0.5` or `1/2`.
     static bool read_bars(std::string_view text, double& bars) {
         if (text.find('/') != std::string_view::npos) {
             const auto part = ratio(text);
@@ -180,7 +180,7 @@ private:
         }
     }
 
-    /// `-12`, or `fifth`, `octave below`.
+    /// Reads `-12`, `fifth` or `octave below`.
     static bool read_interval(std::string_view text, Follower& follower) {
         const std::string word = lower_case(next_word(text));
         const auto* found = std::find(intervals.begin(), intervals.end(), word);
@@ -188,7 +188,7 @@ private:
         if (found != intervals.end()) {
             const std::int64_t sign = direction == "below" ? -1 : 1;
             const std::int64_t steps = found - intervals.begin();
-            // Scales have any number of notes; an octave is one in all.
+            // Scales have any number of notes, so an octave is counted in semitones.
             follower.semitones = steps == 7 ? 12.0 * static_cast<double>(sign) : 0;
             follower.degrees = steps == 7 ? 0 : sign * steps;
             return direction.empty() || direction == "below" || direction == "above";

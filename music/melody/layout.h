@@ -1,5 +1,4 @@
-// music/melody/layout.h: how a part lies in its score: where it begins, how fast, how often, in which order, and what
-// follows it in canon.
+// music/melody/layout.h: the layout of a part in its score: start, speed, repetitions, order of sections, and canon.
 #pragma once
 
 #include "engine/language/pattern.h"
@@ -18,7 +17,7 @@ struct Ratio {
     std::int64_t of(std::int64_t ticks) const { return (2 * ticks * above + below) / (2 * below); }
 };
 
-/// What the last notes of a section lead to by step: nothing, the fifth, or the tonic.
+/// Goal of the last notes of a section, approached by step: none, the fifth, or the tonic.
 enum class Ending { none, open, closed };
 
 /// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one.
@@ -29,31 +28,31 @@ struct FormSection {
 
 /// A voice that repeats a part.
 struct Follower {
-    double bars = 0;           ///< how much later it begins
-    double semitones = 0;      ///< how much higher it is,
-    std::int64_t degrees = 0;  ///< or how many degrees of the scale
+    double bars = 0;           ///< delay, in bars
+    double semitones = 0;      ///< interval above the part, in semitones,
+    std::int64_t degrees = 0;  ///< or in degrees of the scale
 };
 
-/// How often a part is played: once; so many times; until the longest part ends; until all loops end together.
+/// How often a part is played: once; a number of times; until the longest part ends; until all loops end together.
 enum class Loop { none, times, fill, common };
 
 /// Where and how a part is played.
 struct Layout {
     double start = 0;            ///< bars of the score before it
     Ratio tempo;                 ///< speed, compared with the score
-    Ratio augmentation;          ///< of all durations
-    std::int64_t first_bar = 1;  ///< of the melody, counted from 1
-    std::int64_t bars = 0;       ///< of the melody; 0: all from the first
+    Ratio augmentation;          ///< factor of all durations
+    std::int64_t first_bar = 1;  ///< first bar of the melody to play, counted from 1
+    std::int64_t bars = 0;       ///< number of bars to play; 0: all from the first
     bool is_retrograde = false;
     std::vector<FormSection> form;     ///< sub-curves in the order in which they are played; empty: as in the curve
-    std::int64_t form_order = 0;       ///< of the sub-curves
-    bool is_order_of_phrases = false;  ///< and the key `phrases` sets it
+    std::int64_t form_order = 0;       ///< order of the sub-curves
+    bool is_order_of_phrases = false;  ///< form_order is set by the key `phrases`
     Loop loop = Loop::none;
     std::int64_t times = 1;
     std::vector<Follower> canon;
-    bool is_strict = false;  ///< notes give way to the parts before: see counterpoint.h
+    bool is_strict = false;  ///< notes yield to earlier parts: see counterpoint.h
 
-    /// True if notes have to be known to the end before the first one is played.
+    /// True if all notes must be known before the first one is played.
     bool needs_whole() const { return is_retrograde || !form.empty() || loop != Loop::none || is_strict; }
 };
 
@@ -61,7 +60,7 @@ struct Layout {
 /// go to `diagnostics`.
 Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// Reads `A1 A2 B A2` or `AABA`: up to 26 letters in up to 256 sections. Empty if it is none.
+/// Reads `A1 A2 B A2` or `AABA`: up to 26 letters in up to 256 sections. Empty for other text.
 std::vector<FormSection> read_form(std::string_view text);
 
 }  // namespace sikku

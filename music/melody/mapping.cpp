@@ -1,5 +1,6 @@
 #include "music/melody/mapping.h"
 
+#include "engine/derivation/forecast.h"
 #include "engine/geometry/lattice.h"
 #include "music/melody/counterpoint_reader.h"
 #include "music/melody/emitter.h"
@@ -19,7 +20,7 @@ namespace {
 
 using namespace mapping;
 
-/// Passes over what lies before the piece.
+/// Skips the part of the word before the piece.
 class Seeker final : public Pruner {
 public:
     Seeker(const Grammar& grammar, const MelodyFold& fold, Reader& reader)
@@ -28,7 +29,7 @@ public:
         if (grammar_.is_push(symbol) || grammar_.is_pop(symbol)) return false;
         const GridStretch* stretch = fold_.stretch(symbol, level);
         if (stretch && reader_.skip(*stretch)) return true;
-        // What is that short is walked: the piece is near.
+        // Short stretches are walked, as the piece is near.
         if (level == 0 || (stretch && stretch->length[0] + stretch->length[1] < 4096)) active = false;
         return false;
     }
@@ -39,7 +40,7 @@ private:
     Reader& reader_;
 };
 
-/// The fold that lets a reader of this melody pass over parts; nullopt if it has to walk.
+/// The fold with which a reader of this melody skips parts of the word; nullopt if it has to walk.
 std::optional<MelodyFold> fold_of(const Grammar& grammar, const Melody& melody, std::optional<Symbol> phrase) {
     if (melody.mapping == Mapping::symbols && !melody.table.empty()) return std::nullopt;
     const bool is_sequence = melody.branches == Branches::sequence || melody.mapping == Mapping::counterpoint;
@@ -108,7 +109,7 @@ Marked marked(Grammar grammar, const Melody& melody) {
     return result;
 }
 
-/// Everything a reader needs, made ready once.
+/// Prepares the data that readers need once, and runs them.
 class Player {
 public:
     /// @param plain  the grammar without marks
@@ -157,7 +158,7 @@ public:
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
         }
-        // A piece may be short where the whole is beyond all measure.
+        // A piece may be affordable where the whole is not.
         const bool is_piece = !has_voices_ && !shares_ && options_.to < INT64_MAX;
         const bool is_long =
             static_cast<double>(options_.to - options_.from) > options_.budget * static_cast<double>(melody_.unit);
@@ -176,7 +177,7 @@ private:
         DerivationOptions derivation;
         derivation.interpreted = true;
         derivation.watch = [this, visited = 0.0](std::uint64_t symbols) mutable {
-            // Where nothing is handed over, watches come every 2^16 nodes.
+            // While no symbols are passed on, the watch is called every 2^16 nodes.
             visited += symbols > 0 ? static_cast<double>(symbols) : 65536.0;
             if (visited > 2 * options_.budget) {
                 throw BudgetError(fmt::format(
@@ -207,7 +208,7 @@ private:
         return is_grid_ && !shares_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
     }
 
-    /// The y that sounds the tonic. The first note is met on the way; but a piece from the middle has to know it.
+    /// The y that sounds the tonic. The first note is found while reading, except for a piece from the middle.
     Origin find_origin() const {
         if (melody_.mapping == Mapping::symbols || melody_.anchor == Anchor::piece) return {};
         if (melody_.anchor == Anchor::first_note) {
@@ -231,7 +232,7 @@ private:
         return survey();
     }
 
-    /// Reads the word once to learn what its branches would last by themselves.
+    /// Reads the word once to measure how long its branches would last by themselves.
     void measure_spans() {
         require_affordable(plain_, true, options_.budget);
         PlayOptions all = options_;
@@ -241,7 +242,7 @@ private:
         all.to = INT64_MAX;
         Melody silent = melody_;
         silent.range = Range::clamp;
-        Nobody nobody;
+        NullSink nobody;
         Emitter unheard(silent, nobody, all);
         const auto reader = make_reader(silent, unheard, {0}, all);
         reader->spans = &spans_;
@@ -249,14 +250,7 @@ private:
         derive(grammar_, *reader, derivation_options());
     }
 
-    /// The sink of a pass that only looks.
-    class Nobody : public NoteSink {
-    public:
-        void notes(std::span<const Note>) override {}
-        void finish(std::int64_t) override {}
-    };
-
-    /// The first voice of the whole melody that has notes; not 0 if all are in branches.
+    /// The first voice of the whole melody that has notes; above 0 if all notes are in branches.
     int first_sounding_voice(Origin origin) const {
         class FirstVoice : public NoteSink {
         public:
@@ -290,7 +284,7 @@ private:
         all.most_voices = std::numeric_limits<int>::max();
         Melody silent = melody_;
         silent.range = Range::clamp;
-        Nobody nobody;
+        NullSink nobody;
         Emitter emitter(silent, nobody, all);
         const auto reader = make_reader(silent, emitter, {0}, all);
         derive(grammar_, *reader, derivation_options());
@@ -314,7 +308,7 @@ private:
         beginning.to = INT64_MAX;
         Melody silent = melody_;
         silent.range = Range::clamp;
-        Nobody nobody;
+        NullSink nobody;
         Emitter emitter(silent, nobody, beginning);
         const auto reader = make_reader(silent, emitter, {0}, beginning);
         reader->seeks_first_note = true;

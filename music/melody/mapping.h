@@ -1,8 +1,8 @@
 // music/melody/mapping.h: turns the symbols of a word into notes.
 #pragma once
 
+#include "engine/base/integer.h"
 #include "engine/derivation/derivation.h"
-#include "engine/derivation/forecast.h"
 #include "music/melody/melody.h"
 #include "music/score/score.h"
 
@@ -37,7 +37,7 @@ struct PlayReport {
     int voices = 0;
     std::int64_t end = 0;   ///< ticks
     bool past = false;      ///< the score ended before the piece began
-    double lowest = 127.0;  ///< keys, without drums; above `highest` if there are drums alone
+    double lowest = 127.0;  ///< keys, without drums; above `highest` if there are only drums
     double highest = 0.0;
     std::map<std::string, std::uint64_t> skipped;  ///< symbols that neither the table nor the mapping reads
     std::vector<std::string> unused;               ///< symbols of the table that the grammar does not contain
@@ -48,7 +48,7 @@ struct PlayReport {
 /// curve lies on the square grid and has neither brackets nor contexts; otherwise it is walked. A branch begins at
 /// the position and time of the turtle.
 /// Memory: O(steps), and the state of open brackets. Cost: O(symbols between from and to).
-/// @throws BudgetError, WordError, ScoreError; what `sink` throws
+/// @throws BudgetError, WordError, ScoreError, and exceptions of `sink`
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.
 PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options);
 
@@ -79,8 +79,8 @@ struct NoteBox {
 /// are not drawn, and without notes.
 std::optional<NoteBox> note_box(const Grammar& grammar, const Melody& melody);
 
-/// The smallest derivation length above that of the grammar, by at most 24, at which the melody has so many phrases.
-/// Nullopt if there is none or if phrases cannot be counted by composition. Cost: as 24 times census().
+/// The smallest derivation length above that of the grammar, by at most 24, at which the melody has `phrases`
+/// phrases. Nullopt if there is none or if phrases cannot be counted by composition. Cost: 24 times that of census().
 std::optional<std::int64_t> smallest_steps(const Grammar& grammar, const Melody& melody, std::int64_t phrases);
 
 }  // namespace sikku

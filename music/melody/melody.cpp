@@ -19,7 +19,7 @@ namespace {
 constexpr double most_tempo = 1000;
 constexpr std::int64_t most_unit = 64 * 4 * ticks_per_quarter;
 
-/// Of the nearest key, with at most one sign.
+/// Spelling of the nearest key, with at most one accidental.
 Spelling usual_spelling(double key) {
     static constexpr std::array<Spelling, 12> usual = {
         {{0, 0}, {1, -1}, {1, 0}, {2, -1}, {2, 0}, {3, 0}, {3, 1}, {4, 0}, {5, -1}, {5, 0}, {6, -1}, {6, 0}}};
@@ -92,7 +92,7 @@ private:
         if (key) choose(name, key->value.view(), chosen, choices, remark);
     }
 
-    /// @param remark  what is expected besides these words
+    /// @param remark  other values that are expected
     template <class Choice>
     void choose(std::string_view name, std::string_view text, Choice& chosen, const Choices<Choice>& choices,
                 std::string_view remark = {}) {
@@ -133,7 +133,7 @@ private:
             if (lower_case(name).ends_with(".scl")) {
                 if (const auto text = file_text(*key)) {
                     const Source source(name, *text);
-                    // Mistakes are told before the file's text is gone.
+                    // Mistakes are reported while `source` exists.
                     if (auto scale = read_scl(source, diagnostics_)) melody_.scale = std::move(*scale);
                 }
             } else if (const Scale* known = find_scale(name)) {
@@ -192,7 +192,7 @@ private:
         }
     }
 
-    /// `3/4` or `2`: two whole numbers, or false.
+    /// Reads `3/4` or `2` as two whole numbers; false for anything else.
     bool fraction(const Key& key, std::int64_t& above, std::int64_t& below) const {
         const std::string_view text = key.value.view();
         const std::size_t slash = text.find('/');
@@ -206,7 +206,7 @@ private:
                (slash == std::string_view::npos || whole(text.substr(slash + 1), below));
     }
 
-    /// `fold`, or `fold C2-C7`.
+    /// Reads `fold` or `fold C2-C7`.
     void read_range() {
         const Key* key = pattern_.find("range");
         if (!key) return;
@@ -305,7 +305,7 @@ private:
                       {{"none", Close::none}, {"ritardando", Close::ritardando}, {"fermata", Close::fermata}});
     }
 
-    /// `1/8`, `bar` for a rest until the next bar line, `1/8 bar` for one of at least an eighth.
+    /// Reads `1/8`, `bar` for a rest until the next bar line, or `1/8 bar` for one of at least an eighth.
     void read_breath(const Key& key) {
         std::string_view text = key.value.view();
         const bool is_to_bar = text == "bar" || text.ends_with(" bar");
@@ -323,7 +323,7 @@ private:
         }
     }
 
-    /// The sub-curves of a form are marked as phrases are.
+    /// Sets the order of the sub-curves of a form, which are marked like phrases.
     void read_sections() {
         Layout& layout = melody_.layout;
         const Key* key = pattern_.find("form");
@@ -339,7 +339,7 @@ private:
         if (layout.form_order == 0) layout.form_order = melody_.phrase_order;
     }
 
-    /// `drone`, `triads`, `bass`, `bass 3` or `progression I-IV-V-I`.
+    /// Reads `drone`, `triads`, `bass`, `bass 3` or `progression I-IV-V-I`.
     void read_harmony() {
         const Key* key = pattern_.find("harmony");
         if (!key) return;
@@ -373,7 +373,7 @@ private:
         }
     }
 
-    /// What sets a part apart from others that play the same curve.
+    /// Reads the keys that distinguish a part from others that play the same curve.
     void read_place() {
         choose<bool>("inversion", melody_.is_inverted,
                      {{"no", false}, {"yes", true}, {"false", false}, {"true", true}});
@@ -390,7 +390,7 @@ private:
         read_sections();
     }
 
-    /// Longer or shorter notes: the unit and the breath change.
+    /// Multiplies the unit and the breath by the augmentation.
     void augment() {
         const Ratio by = melody_.layout.augmentation;
         if (by.is_one()) return;
@@ -451,7 +451,7 @@ private:
         if (!key) return;
         double tempo = 0;
         const std::string_view text = key->value.view();
-        // What comes after a blank is a curve.
+        // A curve follows after a blank.
         const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
         if (!read_number(number, tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
             diagnostics_.error(key->value.empty() ? key->name_at : key->value,
@@ -461,7 +461,7 @@ private:
         melody_.tempo = tempo;
     }
 
-    /// `4/4`, `7/8`, or with groups `3+2+2/8`.
+    /// Reads `4/4`, `7/8`, or with groups `3+2+2/8`.
     void read_meter() {
         const Key* key = pattern_.find("meter");
         if (!key) return;
@@ -526,7 +526,7 @@ private:
             names.push_back(folded[i]);
         }
         if (wanted == "piano") return;  // the first of all, and the default
-        // A part of a name will do: `guitar`, `strings`.
+        // Part of a name is enough: `guitar`, `strings`.
         if (wanted.size() >= 4 && choose_by_word(*key, wanted, folded)) return;
         // The nearest name, or the one with the nearest word.
         std::string_view near = nearest(wanted, names);

@@ -26,30 +26,30 @@ enum class Mapping {
     counterpoint,  ///< y and x are two voices; a note lasts while its coordinate stays the same
     symbols,       ///< the word itself: F a note, + and - a degree up and down, f a rest
 };
-/// What a bracket does to time: a branch is a voice that begins where the turtle is; its notes come one after another
-/// with all others, as `]` restores pitch and depth but not time; or they share the duration of one step of the stem.
-/// Source: Worth & Stepney 2005, whose sequential and hierarchical renderings the latter two are.
+/// Effect of brackets on time: a branch is a voice that begins at the time of the turtle; or all notes follow one
+/// another, as `]` restores pitch and depth but not time; or the notes of a branch share one step of its stem.
+/// Source: Worth & Stepney 2005, sequential and hierarchical rendering, for the latter two.
 enum class Branches { voices, sequence, shares };
 /// The y that sounds the tonic; `piece`: that of the first note played.
 enum class Anchor { first_note, piece, lowest_note, lowest_vertex, centre };
-/// What a vertical run is: nothing, a rest of its length, more of the note before it (or, at the beginning, after
-/// it), a slide of the note before it, or a note in a voice of its own, with its pitch from x:
-/// where the turtle starts sounds the tonic.
+/// Meaning of a vertical run: none, a rest of its length, an extension of the note before it (or, at the beginning,
+/// after it), a slide of the note before it, or a note in a voice of its own, with its pitch from x: the starting
+/// point of the turtle sounds the tonic.
 enum class Vertical { ignore, rest, extend, glissando, voice };
 /// One note for a straight run, or for each step of it.
 enum class Runs { merged, each_step };
-/// What a run is that is neither horizontal nor vertical: a note as long as it is wide, at the height of its middle;
-/// nothing; a mistake.
+/// Meaning of a run that is neither horizontal nor vertical: a note as long as the run is wide, at the height of its
+/// middle; none; a mistake.
 enum class Sloped { project, skip, refuse };
-/// What becomes of a note beyond the lowest and the highest key: moved by whole periods; mirrored at the last degree
-/// within; that degree; a mistake.
+/// Treatment of a note beyond the lowest or highest key: moved by whole periods; mirrored at the last degree within;
+/// replaced by that degree; a mistake.
 enum class Range { fold, reflect, clamp, refuse };
 /// The property that determines how loud a note is.
 enum class Loudness { fixed, by_turn, by_depth, by_length };
 
 /// The share of a note that sounds: all; a part; less in each branch.
 enum class Articulation { legato, detached, by_depth };
-/// What the last notes of a phrase lead to by step: nothing; the tonic; the fifth and the tonic in turn.
+/// Goal of the last notes of a phrase, approached by step: none; the tonic; the fifth and the tonic in turn.
 enum class Cadence { none, tonic, alternate };
 
 /// Ends of a score: none; the last two bars slow down; in addition, the last notes are held.
@@ -59,11 +59,11 @@ enum class Close { none, ritardando, fermata };
 struct Melody {
     Mapping mapping = Mapping::runs;
     Branches branches = Branches::voices;
-    SymbolTable table;           ///< what symbols sound, for Mapping::symbols
+    SymbolTable table;           ///< sounds of symbols, for Mapping::symbols
     Scale scale;                 ///< C major if the file names none
-    std::optional<KeyMap> keys;  ///< of a Scala key map, which then gives all pitches
-    double tonic = 60.0;         ///< MIDI key, perhaps with a fraction, of degree 0
-    Spelling tonic_spelling;     ///< how it is written
+    std::optional<KeyMap> keys;  ///< a Scala key map, which then determines all pitches
+    double tonic = 60.0;         ///< MIDI key of degree 0, possibly fractional
+    Spelling tonic_spelling;     ///< how the tonic is written
     Anchor anchor = Anchor::first_note;
     std::int64_t unit = ticks_per_quarter / 2;  ///< ticks of a step: above 0
     Vertical vertical = Vertical::ignore;
@@ -73,12 +73,12 @@ struct Melody {
     double lowest = 0.0;     ///< MIDI keys between which `range` keeps the melody
     double highest = 127.0;  ///< not below `lowest`
     Loudness loudness = Loudness::fixed;
-    RhythmTemplate rhythm;  ///< of the steps; empty: each lasts `unit`, otherwise that is a slot
+    RhythmTemplate rhythm;  ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
     double swing = 0.5;     ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
-    std::int64_t phrase_order = 0;  ///< phrases are sub-curves of that order; 0: none
+    std::int64_t phrase_order = 0;  ///< order of the sub-curves that are phrases; 0: none
     std::int64_t breath = 0;        ///< ticks of rest after a phrase, or their minimum
-    bool breathes_to_bar = false;   ///< whether the rest lasts until a bar line
+    bool breathes_to_bar = false;   ///< the rest lasts until a bar line
     Articulation articulation = Articulation::legato;
     double sounding = 0.6;  ///< share of a note that sounds, if detached
     Cadence cadence = Cadence::none;
@@ -90,10 +90,10 @@ struct Melody {
     Meter meter;
     int program = 0;             ///< General MIDI, 0 to 127
     double transpose = 0;        ///< semitones, added to every key
-    bool is_inverted = false;    ///< up and down change places around the tonic
+    bool is_inverted = false;    ///< up and down are exchanged around the tonic
     std::int64_t shift = 0;      ///< degrees of the scale, added to every degree
     std::int64_t answer = 0;     ///< interval of a canon in degrees, added once notes are shaped and within the range
-    bool is_accompanied = true;  ///< whether its drone or its chords sound
+    bool is_accompanied = true;  ///< its drone or its chords sound
     Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
@@ -103,29 +103,29 @@ struct Melody {
     }
     /// True if strong beats fall on tones of chords.
     bool has_chords() const { return harmony == Harmony::triads || harmony == Harmony::progression; }
-    /// Voices of drone or chords.
+    /// Number of voices of drone or chords.
     int accompanying_voices() const {
         return !is_accompanied ? 0 : has_chords() ? 3 : harmony == Harmony::drone ? 2 : 0;
     }
-    /// Voices of the melody itself, if branches are none.
+    /// Number of voices of the melody itself, without those of branches.
     int own_voices() const {
         if (mapping == Mapping::symbols) return table.most_notes();
         return mapping == Mapping::counterpoint || (mapping == Mapping::runs && vertical == Vertical::voice) ? 2 : 1;
     }
-    /// The MIDI key of a degree; may lie beyond 0 to 127. With a key map nullopt for a degree that it leaves out.
+    /// The MIDI key of a degree; may lie beyond 0 to 127. Nullopt for a degree that a key map leaves out.
     std::optional<double> key(std::int64_t degree, bool falling) const;
-    /// True if a degree of the scale is no whole number of semitones away from a key.
+    /// True with a key map, or if a pitch of the melody lies between two keys.
     bool is_microtonal() const;
 };
 
-/// Gives the text of a file that `scale:` or `keyboard:` names, or throws.
+/// Returns the text of a file named by `scale:` or `keyboard:`, or throws.
 using FileReader = std::function<std::string(const std::string& path)>;
 
-/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, files
-/// of scales are not read.
+/// Reads and checks the keys that KeyOwner::music owns; an absent key keeps its default. Without `read_file`, scale
+/// files are not read.
 Melody read_melody(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics);
 
-/// Every note higher by `semitones`; whole ones move the tonic's name, and so key signature and spelling, too.
+/// Raises every note by `semitones`. Whole numbers also move the tonic's name, and so key signature and spelling.
 void transpose(Melody& melody, double semitones);
 
 /// Names of the General MIDI programs, 0 to 127.

@@ -25,7 +25,7 @@ Span moved(const Span& span, bool mirrored, const Integer& by) {
     return {span.low + by, span.high + by};
 }
 
-/// Goes on with `next`. Source: the composition of affine maps; the rest is bookkeeping about what is straight.
+/// Appends `next` to `all`. Source: composition of affine maps; the rest keeps track of straight runs.
 void append(GridStretch& all, const GridStretch& next) {
     const int turn = all.turn;
     const std::size_t swapped = turn % 2 == 0 ? 0 : 1;
@@ -72,7 +72,7 @@ void append(GridStretch& all, const GridStretch& next) {
     all.marks += next.marks;
 }
 
-/// Appends stretches, brackets among them.
+/// Appends stretches and brackets.
 class Appender {
 public:
     explicit Appender(GridStretch& all) : all_(all) {}
@@ -109,7 +109,7 @@ Action action_of(const Grammar& grammar, Symbol symbol, bool moves_sound) {
     return moves_sound && action == Action::move ? Action::draw : action;
 }
 
-/// Of a step or a turn of the word read symbol by symbol: the steps follow one another on one axis.
+/// The stretch of a step or a turn in a word read symbol by symbol: all steps lie on one axis.
 std::optional<GridStretch> symbol_primitive(const Grammar& grammar, Symbol symbol, bool moves_sound) {
     GridStretch result;
     const SymbolInfo& info = grammar.symbols()[symbol];
@@ -230,7 +230,7 @@ std::optional<MelodyFold> MelodyFold::make(const Grammar& grammar, FoldOf of, bo
             fold.stretches_.push_back(std::make_shared<const GridStretch>(std::move(stretch)));
         }
     };
-    // Numbers grow with the level: so many levels may be few numbers and much memory.
+    // Numbers grow with the level, so that even few may take much memory.
     if (grammar.interpretation()) add_level(*grammar.interpretation());
     for (std::size_t i = grammar.schedule().size(); i > 0; --i) {
         const ScheduleRun& run = grammar.schedule()[i - 1];

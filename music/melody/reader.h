@@ -18,17 +18,17 @@
 
 namespace sikku::mapping {
 
-constexpr std::int64_t margin_units = 64;  // walked before a bar, so that what leads up to it is known
+constexpr std::int64_t margin_units = 64;  // walked before the piece, so that its context is known
 constexpr std::size_t deepest = std::size_t{1} << 20;
 
-/// The end of the piece was reached; nothing after it is of interest.
+/// Thrown at the end of the piece, as the rest of the word does not matter.
 struct Enough {};
 
 [[noreturn]] inline void fault(std::uint64_t position, std::string_view what) {
     throw WordError(fmt::format("symbol {} of the word: {}", position, what));
 }
 
-/// What is kept between '[' and ']'.
+/// States kept between '[' and ']'.
 template <class State>
 class Brackets {
 public:
@@ -52,9 +52,9 @@ private:
 };
 
 /// The velocity of a note.
-/// @param turned  the sign of the turn that led into it: to the left is louder
-/// @param steps   how long it is
-/// @param depth   brackets around it: softer with each
+/// @param turned  sign of the turn before it: louder after a turn to the left
+/// @param steps   its duration
+/// @param depth   number of brackets around it: softer with each
 inline int loudness(const Melody& melody, int turned, double steps, std::size_t depth, std::int64_t onset) {
     switch (melody.loudness) {
         case Loudness::fixed:
@@ -64,7 +64,7 @@ inline int loudness(const Melody& melody, int turned, double steps, std::size_t 
         case Loudness::by_depth:
             return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
         case Loudness::by_length: {
-            // Long notes carry weight; a phrase of four bars swells towards its middle.
+            // Long notes are louder, and a phrase of four bars swells towards its middle.
             const double weight = 8.0 * std::min(4.0, steps);
             const auto phrase = static_cast<double>(4 * melody.meter.bar());
             const double within = std::fmod(static_cast<double>(onset), phrase) / phrase;
@@ -74,13 +74,13 @@ inline int loudness(const Melody& melody, int turned, double steps, std::size_t 
     return 80;
 }
 
-/// 1 to the left, -1 to the right.
+/// Sign of a turn: 1 to the left, -1 to the right.
 inline int sign_of(const Angle& turn) {
     const double degrees = std::remainder(turn.degrees, 360.0);
     return degrees > 0 ? 1 : degrees < 0 ? -1 : 0;
 }
 
-/// The y that sounds the tonic, doubled; unknown: that of the first note. The x is where the turtle starts.
+/// The y that sounds the tonic, doubled; unknown: that of the first note. The x is that of the turtle's start.
 struct Origin {
     std::int64_t y = unknown;
 };
@@ -93,9 +93,9 @@ struct Marks {
     int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }
 };
 
-/// Ends the last phrases of the word as all others: what would follow them begins after their breath.
-/// @param due  their number
-/// @param end  of the word, in steps
+/// Ends the last phrases of the word like all others, with a breath.
+/// @param due  number of phrases
+/// @param end  end of the word, in steps
 template <class Walk>
 void end_last_phrases(Clock<Walk>& clock, const Emitter& emitter, int due, typename Walk::Number end) {
     if (due == 0) return;
@@ -105,23 +105,23 @@ void end_last_phrases(Clock<Walk>& clock, const Emitter& emitter, int due, typen
 
 class Reader : public SymbolSink {
 public:
-    /// Times and positions after a part that is passed over. Of Readers on the grid only.
+    /// Advances time and position past a part of the word; false if the part has to be read.
     virtual bool skip(const GridStretch&) { return false; }
     virtual std::int64_t lowest_vertex() const { return 0; }
     virtual std::int64_t highest_vertex() const { return 0; }
-    /// Of the first note and of the lowest, before the origin is taken off; unknown without notes.
+    /// Degrees of the first and of the lowest note before the origin is subtracted; unknown without notes.
     virtual std::int64_t first_degree() const { return 0; }
     virtual std::int64_t lowest_degree() const { return 0; }
-    /// Adds to a report what was left out.
+    /// Adds the symbols that were skipped to a report.
     virtual void report_skipped(PlayReport&) const {}
-    bool seeks_first_note = false;  ///< Enough is thrown there
-    /// With `brackets: shares`, for each '[' in the order of the word: what its branch would last by itself, in
-    /// steps. A reader that measures appends to it; others divide by it.
+    bool seeks_first_note = false;  ///< throws Enough at the first note
+    /// With `brackets: shares`: the duration of each branch by itself, in steps, in the order of '[' in the word. A
+    /// reader that measures appends to it; others divide by it.
     std::vector<double>* spans = nullptr;
     bool measures_spans = false;
 
 protected:
-    /// The part of a step that a step within the next bracket lasts; `opened` is then the number of its '['.
+    /// Duration of a step within the next bracket, in steps of the stem; sets `opened` to the number of its '['.
     double share_of(double pace, std::size_t& opened) {
         opened = opened_++;
         if (measures_spans) {
@@ -132,7 +132,7 @@ protected:
         const double span = opened < spans->size() ? (*spans)[opened] : 0;
         return span > 0 ? pace / span : 0;
     }
-    /// What a branch lasts that began `before` and would go on until `now`: a step of its stem, if anything.
+    /// Duration of a branch that lasts from `before` to `now` by itself: a step of its stem, or 0 if it is empty.
     double shared_span(double pace, double before, double now, std::size_t opened) {
         if (measures_spans) (*spans)[opened] = now - before;
         return (*spans)[opened] > 0 ? pace : 0;
@@ -143,7 +143,7 @@ private:
     std::size_t opened_ = 0;
 };
 
-/// What a symbol is to the reader of runs.
+/// Meaning of a symbol for the reader of runs.
 enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, level, not_finite };
 
 /// @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()

@@ -27,7 +27,7 @@ constexpr std::array<Tala, 7> talas = {{{"adi", "4+2+2"},
                                         {"jhaptal", "2+3+2+3"},
                                         {"rupak", "3+2+2"}}};
 
-/// Whole numbers between separators; nullopt if there is anything else.
+/// Reads whole numbers between separators; nullopt for anything else.
 std::optional<std::vector<int>> numbers(std::string_view text, char separator) {
     std::vector<int> result;
     for (;;) {
@@ -113,7 +113,7 @@ RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem)
         std::string slots_text = euclidean(notes, slots);
         const int by = terms->size() == 3 ? ((*terms)[2] % slots + slots) % slots : 0;
         std::rotate(slots_text.begin(), slots_text.begin() + by, slots_text.end());
-        // A cycle begins with a note: what comes before it sounds on from the cycle before.
+        // A cycle begins with a note: slots before it continue the last note of the cycle before.
         std::rotate(slots_text.begin(), slots_text.begin() + static_cast<std::ptrdiff_t>(slots_text.find('x')),
                     slots_text.end());
         return from_slots(slots_text);

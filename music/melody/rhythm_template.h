@@ -24,7 +24,7 @@ struct RhythmTemplate {
         const auto count = static_cast<std::int64_t>(hits.size());
         return index / count * slots + hits[static_cast<std::size_t>(index % count)].onset;
     }
-    /// The slot in which what ends with step `index` - 1 ends.
+    /// The slot at which a note that ends with step `index` - 1 ends.
     std::int64_t end(std::int64_t index) const {
         if (index <= 0) return 0;
         const Hit& last = hits[static_cast<std::size_t>((index - 1) % static_cast<std::int64_t>(hits.size()))];
@@ -36,7 +36,7 @@ struct RhythmTemplate {
 /// Reads `x..x..x.` (x a note, X an accented one, . holds it, ~ is silent; blanks and | do not count), `E(3,8)` or
 /// `E(3,8,2)` (Bjorklund's distribution of 3 notes over 8 slots, rotated by 2), the groups of a tala such as `4+2+2`,
 /// or a tala's name; a tala has a note for each group, the first accented.
-/// @param problem  what is wrong, if the result is empty
+/// @param problem  receives the problem if the result is empty
 /// Source: Toussaint 2005 for E(k,n).
 RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem);
 

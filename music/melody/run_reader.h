@@ -147,13 +147,13 @@ private:
         Position at;
         Pending run;
         Emitter::Line line;
-        Emitter::Line other;  // of vertical runs as a voice
+        Emitter::Line other;  // voice of vertical runs
         Number time = 0;      // steps
         Number other_time = 0;
         Sounding held;    // a note that the next run may make longer
         Number lead = 0;  // vertical steps before the first note
         bool has_sounded = false;
-        double pace = 1;         // what a step lasts, with `brackets: shares`
+        double pace = 1;         // duration of a step, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
     /// Length of a run in steps: its width; with a rhythm off the square grid its actual length, so that each step
@@ -164,7 +164,7 @@ private:
         }
         return Walk::is_level(wide) ? high : wide;
     }
-    /// What so many steps last, in steps of the stem.
+    /// Duration of `steps`, in steps of the stem.
     Number lasting(Number steps) const {
         if constexpr (std::is_floating_point_v<Number>) {
             return steps * state_.pace;
@@ -175,7 +175,7 @@ private:
     std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
     static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
 
-    /// True if a part lies before the piece with some margin. It may reach a little into what is counted.
+    /// True if a part lies before the piece, with some margin; it may reach a little beyond `ahead_`.
     bool has_room(const Integer& steps, const Integer& phrases) const {
         if (ahead_ > 0) return clock_.longest(steps, phrases) <= ahead_ + counted_in_skips;
         const std::int64_t room =
@@ -183,25 +183,25 @@ private:
         return room >= 0 && steps <= room;
     }
 
-    /// A part of the word that recurs, as its straight runs.
+    /// A recurring part of the word as straight runs.
     struct Block {
         struct Straight {
-            std::uint32_t turn;  ///< quarters, before it
+            std::uint32_t turn;  ///< quarter turns before it
             std::int64_t length;
-            std::uint64_t symbol;  ///< of the block, counted from 1, that begins it
+            std::uint64_t symbol;  ///< symbol of the block that begins it, counted from 1
             int marks;             ///< phrases that end with it
             int level;             ///< order of the largest sub-curve that ends with it
         };
         std::vector<Straight> runs;
-        std::uint32_t turn = 0;     ///< after the last
+        std::uint32_t turn = 0;     ///< quarter turns after the last
         int marks = 0;              ///< phrases that end before the first
         int level = 0;              ///< order of the largest sub-curve that ends before the first
         std::uint64_t symbols = 0;  ///< number of symbols without marks
         bool is_known = false;
-        bool is_simple = false;  ///< nothing but steps drawn and turns
+        bool is_simple = false;  ///< contains only drawn steps and turns
     };
 
-    /// False if the block holds what has to be read symbol by symbol.
+    /// Plays a block; false if it must be read symbol by symbol.
     bool play_block(const Run& run) {
         const auto number = static_cast<std::size_t>(run.block);
         if (number >= blocks_.size()) blocks_.resize(number + 1);
@@ -302,7 +302,7 @@ private:
         if (melody_.vertical == Vertical::voice) state_.other_time += lasting(high);
     }
 
-    /// A sub-curve ends: the phrase ends with the run that is under way, or with the last note.
+    /// Ends a sub-curve: the phrase ends with the current run, or with the last note.
     void mark() { ++(state_.run.is_open ? state_.run.marks : due_); }
 
     /// Ends a sub-curve of that order: the next note begins one of the same order.
@@ -326,10 +326,10 @@ private:
         due_ = 0;
     }
 
-    /// Whether no note of the piece is held back.
+    /// True if no note of the piece is held back.
     bool is_past_piece() const {
         const bool is_held = state_.held.is_open && ticks(state_.held.onset) < options_.to;
-        // Where the last note slides, the next one tells.
+        // The next note determines where the last one slides.
         if (!emitter_.is_shaped()) return !is_held || melody_.vertical != Vertical::glissando;
         return !is_held && emitter_.may_stop(ticks(state_.time));
     }
@@ -368,7 +368,7 @@ private:
         }
     }
 
-    /// A note at the height `twice` / 2 was met: the first one sounds the tonic, if the melody says so.
+    /// Registers a note at the height `twice` / 2: the first one sounds the tonic, depending on the anchor.
     void meet(Number twice, Number end) {
         if (melody_.anchor == Anchor::piece && clock_.end_ticks(end) <= options_.from) return;
         if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
@@ -480,8 +480,8 @@ private:
         }
     }
 
-    /// The note before a vertical run goes on and slides to its end. A run that no note leads into, or that turns
-    /// back, is a note of its own.
+    /// Extends the note before a vertical run, and lets it slide to the end of the run. A run without a note before
+    /// it, or one that turns back, is a note of its own.
     void glissando(const Pending& run, Number steps, int velocity) {
         Sounding& held = state_.held;
         const Number rise = state_.at.y - run.from.y;
@@ -505,7 +505,7 @@ private:
         state_.time = held.end;
     }
 
-    /// The branch begins where and when the stem is, which may be within a run.
+    /// Opens a branch at the position and time of the stem, which may be within a run.
     void open() {
         if (melody_.branches != Branches::voices) return open_in_line();
         if (state_.run.is_open) {
@@ -514,7 +514,7 @@ private:
             const Number high = std::abs(state_.at.y - run.from.y);
             const Number before = state_.time;
             const bool is_note = Walk::is_level(high) || (!Walk::is_level(wide) && melody_.sloped == Sloped::project);
-            // What sounds already counts as met before what the branch will play.
+            // The sounding note is registered before those of the branch.
             const Number steps = steps_of(wide, high);
             if (is_note) meet(run.from.y + state_.at.y, before + steps);
             stack_.open(state_, position_);
@@ -538,7 +538,7 @@ private:
         state_.lead = 0;
     }
 
-    /// Branches follow one another: the note ends, and time goes on.
+    /// Opens a branch that follows in the same line: the note ends, and time continues.
     void open_in_line() {
         end_run();
         release_held();

@@ -30,7 +30,7 @@ Shaper::Shaper(const Melody& melody)
     if (changes_degrees && is_bounded) range_.emplace(melody);
 }
 
-/// What is beyond the range is brought into it first, so that chords and cadences are those of what sounds.
+/// Moves a note into the range first, so that chords and cadences apply to the sounding degree.
 void Shaper::keep_within(Draft& note) const {
     if (!range_ || note.is_fixed()) return;
     const std::int64_t inside = range_->inside(note.degree);
@@ -96,7 +96,7 @@ std::span<const Shaper::Draft> Shaper::take() {
     return taken_;
 }
 
-/// The last note becomes the goal, those before it approach it by step from their side.
+/// Moves the last note to the goal; those before it approach it by step from their side.
 void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
     if (melody_.cadence == Cadence::none) return;
     const bool is_open = melody_.cadence == Cadence::alternate && !is_odd;
@@ -152,7 +152,7 @@ void Shaper::harmonise(Draft note) {
     bar_.push_back(note);
 }
 
-/// Where a note is held over a whole bar and more, its chord sounds again.
+/// Repeats the chord of a note that is held beyond its bar.
 void Shaper::go_on_until(std::int64_t tick) {
     if (!latest_.chord || sounding_until_ <= latest_.end) return;
     const std::int64_t bar = melody_.meter.bar();
@@ -160,7 +160,7 @@ void Shaper::go_on_until(std::int64_t tick) {
     if (latest_.end < end) chords_.push_back({latest_.end, end, latest_.chord});
 }
 
-/// Chooses the triad with which the most sounds, its beginnings on strong beats twice.
+/// Chooses the triad that contains most of the bar by duration; notes on strong beats and last notes count twice.
 void Shaper::close_bar() {
     if (bar_.empty()) return;
     const Chord* best = nullptr;

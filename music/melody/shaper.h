@@ -15,11 +15,11 @@
 
 namespace sikku::mapping {
 
-/// Holds back the last notes of each voice until it is known whether they end a phrase. What becomes of a note
+/// Holds back the last notes of each voice until it is known whether they end a phrase. The result for a note
 /// depends only on its time and on the notes around it, so that a piece from the middle sounds as in the whole.
 class Shaper {
 public:
-    /// A note without a key of its own. Not a number.
+    /// Key of a note that is stated by degree: not a number.
     static constexpr double by_degree = std::numeric_limits<double>::quiet_NaN();
     struct Draft {
         std::int64_t degree = 0;
@@ -32,9 +32,9 @@ public:
         glm::dvec2 to{0.0};
         std::uint64_t symbol = 0;
         int voice = 0;
-        bool is_last = false;    ///< of its phrase
+        bool is_last = false;    ///< last note of its phrase
         bool is_moved = false;   ///< its degree was brought into the range
-        double key = by_degree;  ///< of notes that cadences and chords leave as they are; else by_degree
+        double key = by_degree;  ///< fixed key, which cadences and chords do not change; else by_degree
         bool is_drum = false;
         std::int64_t glide = 0;  ///< ticks at its end in which its pitch slides to the next note
         std::int64_t goal = 0;   ///< degree that it slides to if no note begins at its end
@@ -44,22 +44,22 @@ public:
     };
 
     explicit Shaper(const Melody& melody);
-    /// Triads follow this voice. The first is 0.
+    /// Sets the voice that triads follow, counted from 0.
     void follow(int voice) { leader_ = voice; }
     void add(int voice, Draft note);
     void end_phrase(int voice, bool is_odd);
-    /// No notes follow. @param is_end  the melody ends here, and with it a phrase
+    /// Ends the notes. @param is_end  the melody ends here, and with it a phrase
     void finish(bool is_end);
     /// Onset of the first note that is held back; INT64_MAX if there is none.
     std::int64_t first_pending() const;
-    /// A chord of bars that are complete.
+    /// A chord of complete bars.
     struct BarChord {
-        std::int64_t begin = 0;  ///< tick of the first
-        std::int64_t end = 0;    ///< after the last
+        std::int64_t begin = 0;  ///< tick of the first bar
+        std::int64_t end = 0;    ///< tick after the last
         const Chord* chord = nullptr;
     };
     std::vector<BarChord> take_chords() { return std::exchange(chords_, {}); }
-    /// The given chord of the bar with that tick; null if chords are not given.
+    /// The given chord of the bar that contains `tick`; null if chords are not given.
     const Chord* given_chord(std::int64_t tick) const;
     /// The notes that are ready, by voice in order. Valid until the next call.
     std::span<const Draft> take();
@@ -77,18 +77,18 @@ private:
     std::int64_t swung(std::int64_t tick) const;
 
     const Melody& melody_;
-    std::optional<DegreeRange> range_;         // where it changes degrees by other than whole periods
+    std::optional<DegreeRange> range_;         // set if it changes degrees by other than whole periods
     std::size_t held_;                         // notes of a voice that are held back
     std::int64_t fifth_;                       // degrees from the tonic to the fifth
     std::vector<std::int64_t> strong_beats_;   // ticks of a bar
     std::vector<std::vector<Draft>> pending_;  // by voice
     std::vector<Chord> triads_;
     int leader_ = 0;
-    std::vector<Draft> bar_;  // of the voice that chords follow, until its chord is known
+    std::vector<Draft> bar_;  // bar of the voice that chords follow, until its chord is known
     std::vector<BarChord> chords_;
-    BarChord latest_;                  // chosen
-    std::int64_t sounding_until_ = 0;  // the last note of its bar
-    std::int64_t last_bar_ = -1;       // its tick, once the melody has ended
+    BarChord latest_;                  // the last one chosen
+    std::int64_t sounding_until_ = 0;  // end of the last note of its bar
+    std::int64_t last_bar_ = -1;       // tick of the last bar, once the melody has ended
     std::vector<Draft> ready_;
     std::vector<Draft> taken_;
 };

@@ -7,7 +7,7 @@
 
 namespace sikku::mapping {
 
-/// The word itself, symbol by symbol.
+/// Reads the word itself, symbol by symbol.
 class SymbolReader final : public Reader {
 public:
     /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
@@ -67,7 +67,7 @@ public:
                         open_in_line();
                         break;
                     }
-                    // The stem's note goes on through its branches.
+                    // The stem's note continues through its branches.
                     stack_.open(state_, position_);
                     state_.sounding = unknown;
                     state_.line = {};
@@ -137,14 +137,14 @@ private:
         int begun = 0;  // level of the sounding note
         Emitter::Line line;
         int louder = 0;           // added to velocities
-        int level = 0;            // the velocity of notes that state none; 0: as the melody says
+        int level = 0;            // velocity of notes that state none; 0: that of the melody
         bool is_dynamic = false;  // the level is stated as a dynamic
         std::int64_t octave = 0;
-        double pace = 1;         // what a step lasts, with `brackets: shares`
+        double pace = 1;         // duration of a step, with `brackets: shares`
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
 
-    /// A symbol of the table.
+    /// Reads a symbol of the table.
     void read_entry(const SymbolEntry& entry) {
         if (!entry.problem.empty()) fault(position_, fmt::format("{}, of '{}'", entry.problem, entry.row.symbol));
         const SymbolRow& row = entry.row;
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    /// The notes of a row, the first in the voice of the branch, others in voices that are free.
+    /// Plays the notes of a row: the first in the voice of the branch, others in free voices.
     void sound_row(const SymbolRow& row, double onset) {
         const double steps = state_.time - onset;
         int velocity = row.velocity > 0   ? row.velocity
@@ -215,7 +215,7 @@ private:
         return draft;
     }
 
-    /// A degree, moved as notes are; a key by as many semitones as the degree nearest to it.
+    /// The draft of a pitch: degrees are moved like notes, keys by as many semitones as the degree nearest to them.
     Shaper::Draft pitched(const TablePitch& pitch) const {
         const auto period = static_cast<std::int64_t>(melody_.scale.size());
         const auto rise = [&](std::int64_t from, std::int64_t to) {
@@ -236,7 +236,7 @@ private:
         return draft;
     }
 
-    /// Branches follow one another: the note ends, and time goes on.
+    /// Opens a branch that follows in the same line: the note ends, and time continues.
     void open_in_line() {
         end_note();
         stack_.open(state_, position_);
@@ -264,7 +264,7 @@ private:
         due_ = 0;
     }
 
-    /// Equal symbols side by side are one long note, unless each step is to be heard.
+    /// Sounds a step. Adjacent steps of one degree form a long note, unless each step is to be heard.
     void sound(double length) {
         if (state_.sounding != state_.degree || melody_.runs == Runs::each_step) {
             end_note();
@@ -309,12 +309,12 @@ private:
     Emitter& emitter_;
     const PlayOptions& options_;
     Clock<PlaneWalk> clock_;
-    std::int64_t end_ = 0;  // of the phrase that has just ended
+    std::int64_t end_ = 0;  // end of the phrase that has just ended
     int due_ = 0;           // phrases that end with the note
     int level_;             // level of the next note
     bool may_stop_;
     std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
-    std::vector<std::uint64_t> skipped_;  // by symbol; of turns, those whose parameter has no effect
+    std::vector<std::uint64_t> skipped_;  // by symbol; turns count if their parameter has no effect
     bool moves_sound_;                    // the word has no F: its f are notes
     std::int64_t origin_;
     State state_;

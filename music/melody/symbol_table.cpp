@@ -53,7 +53,7 @@ std::optional<int> level_of(std::string_view name) {
     return std::nullopt;
 }
 
-/// The degree nearest to so many cents above the tonic.
+/// The degree nearest to a pitch in cents above the tonic.
 std::int64_t nearest_degree(const Scale& scale, double cents) {
     const auto size = static_cast<std::int64_t>(scale.size());
     const double period = std::fabs(scale.period);
@@ -67,7 +67,7 @@ std::int64_t nearest_degree(const Scale& scale, double cents) {
     return best;
 }
 
-/// A note such as `C4` as a symbol names it: a letter from A to G, `b` or `s` (sharp), an octave; 4 without.
+/// Key of a symbol that names a note: a letter from A to G, optional `b` or `s` (sharp), and an octave, by default 4.
 std::optional<double> named_key(std::string_view symbol) {
     if (symbol.empty() || symbol.front() < 'A' || symbol.front() > 'G') return std::nullopt;
     std::string name(symbol);
@@ -178,7 +178,7 @@ private:
         return words;
     }
 
-    /// A note value with a `/`, and a velocity, from word `at` on. @return what is wrong, or nothing
+    /// Reads a note value with a `/`, and a velocity, from word `at` on. @return the problem; empty if there is none
     std::string read_ending(const std::vector<std::string_view>& words, std::size_t at, bool has_velocity,
                             SymbolRow& row) const {
         if (at < words.size() && words[at].find('/') != std::string_view::npos) {
@@ -227,7 +227,7 @@ private:
         return {};
     }
 
-    /// Adds a pitch if `word` is the name of a note. @param problem  receives what is wrong with it
+    /// Adds a pitch if `word` is the name of a note. @param problem  receives its problem
     bool read_name(std::string_view word, SymbolRow& row, std::string& problem) const {
         const auto note = parse_note(word);
         if (!note) return false;
@@ -258,7 +258,7 @@ private:
         return problem.empty() ? read_ending(words, at, true, row) : problem;
     }
 
-    /// True for what should be the number of a degree.
+    /// True for a word that is neither a note value nor a dynamic, and so should be the number of a degree.
     static bool whole_word(std::string_view word) {
         return word.find('/') == std::string_view::npos && !level_of(word);
     }
@@ -276,7 +276,7 @@ private:
             if (!problem.empty()) return problem;
         }
         if (at == 0) {
-            // A numeral stands for degrees that the scale may not have, as in sevenths.
+            // A numeral may stand for pitches outside the scale, as in sevenths.
             const bool is_one = words[0].find('-') == std::string_view::npos && words[0] != "blues";
             const auto chords = is_one ? read_progression(words[0], melody_.scale, problem) : std::vector<Chord>();
             if (chords.empty()) {
@@ -296,7 +296,7 @@ private:
         return read_ending(words, at, true, row);
     }
 
-    /// Drums between `+`; the last is followed by note value and velocity, and its name may end in a number.
+    /// Reads drums separated by `+`. Note value and velocity follow the last, whose name may end in a number.
     std::string read_drum(const std::vector<std::string_view>& words, SymbolRow& row) const {
         std::size_t begin = 0;
         for (;;) {
@@ -335,7 +335,7 @@ private:
             if (!drum.alias.empty()) folded.emplace_back(drum.alias);
         }
         const std::vector<std::string_view> known(folded.begin(), folded.end());
-        // Short names of drummers.
+        // Common short names of drums.
         static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> usual = {
             {{"kick", "bass drum"},
              {"snare", "snare drum"},
@@ -352,7 +352,7 @@ private:
     }
 
     static std::string read_change(const std::vector<std::string_view>& words, SymbolRow& row) {
-        constexpr double usual = 12;  // of velocity
+        constexpr double usual = 12;  // default change of velocity
         const std::string_view first = words.empty() ? std::string_view() : words[0];
         const auto level = level_of(first);
         std::size_t at = 1;
@@ -363,7 +363,7 @@ private:
             row.amount = usual;
             sign = first == "louder" ? 1 : -1;
         } else if (first == "octave") {
-            // `octave up`, `octave down 2`, `octave -1`, or up alone.
+            // `octave up`, `octave down 2`, `octave -1`, or `octave` alone for up.
             row.change = SoundChange::octave;
             const bool has_direction = words.size() > 1 && (words[1] == "up" || words[1] == "down");
             const auto number = words.size() > 1 ? whole(words[1]) : std::nullopt;
@@ -421,10 +421,10 @@ private:
     Melody& melody_;
     Diagnostics& diagnostics_;
     std::set<std::string> names_;
-    std::map<std::string, std::string> keys_;  // of symbols
+    std::map<std::string, std::string> keys_;  // key that states each symbol
 };
 
-/// Puts the parameters of a module in place of what its row states. @return what is wrong with them
+/// Replaces the values of a row by the parameters of a module. @return the problem; empty if there is none
 std::string apply_parameters(const std::vector<double>& parameters, SymbolRow& row) {
     std::size_t at = 0;
     const auto next = [&]() -> std::optional<double> {

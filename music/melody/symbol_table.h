@@ -1,4 +1,4 @@
-// music/melody/symbol_table.h: what symbols of a word sound, from the keys note, drum, chord, rest and change.
+// music/melody/symbol_table.h: the sounds of the symbols of a word, from the keys note, drum, chord, rest and change.
 #pragma once
 
 #include "engine/language/grammar.h"
@@ -16,10 +16,10 @@ struct Melody;
 /// A pitch of a row: a degree of the scale, or a MIDI key with the degree nearest to it.
 struct TablePitch {
     std::int64_t degree = 0;
-    std::optional<double> key{};  ///< before transposition; of drums their keys in General MIDI
+    std::optional<double> key{};  ///< before transposition; for drums their keys in General MIDI
 };
 
-/// What a symbol changes for the notes after it.
+/// Property that a symbol changes for the notes after it.
 enum class SoundChange {
     velocity,  ///< adds to the velocity
     level,     ///< sets the velocity of notes that state none
@@ -32,21 +32,21 @@ struct SymbolRow {
     enum class Kind { note, drum, chord, rest, change };
     std::string symbol;  ///< as SymbolInfo::letter
     Kind kind = Kind::note;
-    std::vector<TablePitch> pitches;  ///< at most 10; of notes none if the module states its degree
+    std::vector<TablePitch> pitches;  ///< at most 10; none for a note whose module states the degree
     double steps = 1;                 ///< duration in steps of the unit, above 0
-    int velocity = 0;                 ///< 1 to 127; 0: as the key `velocity` says
+    int velocity = 0;                 ///< 1 to 127; 0: that of the key `velocity`
     bool is_dynamic = false;          ///< the velocity is stated as `ppp` to `fff`, `loud` or `soft`
     SoundChange change = SoundChange::velocity;
-    double amount = 0;  ///< of the change
+    double amount = 0;  ///< amount of the change
 
     bool is_sounding() const { return kind != Kind::rest && kind != Kind::change; }
     bool is_drum() const { return kind == Kind::drum; }
 };
 
-/// The rows of a pattern.
+/// The table of symbols of a pattern.
 struct SymbolTable {
     std::vector<SymbolRow> rows;
-    bool has_named_notes = false;  ///< symbols without a row that are names of notes sound these
+    bool has_named_notes = false;  ///< symbols without a row sound the notes they name
 
     bool empty() const { return rows.empty() && !has_named_notes; }
     /// Largest number of notes that one symbol sounds.
@@ -59,8 +59,8 @@ void read_symbol_table(const Pattern& pattern, Melody& melody, Diagnostics& diag
 /// A symbol of a grammar as the table reads it, with the parameters of its module.
 struct SymbolEntry {
     bool has_row = false;
-    SymbolRow row;        ///< parameters replace what the key states
-    std::string problem;  ///< of the parameters; empty: none
+    SymbolRow row;        ///< with parameters in place of the stated values
+    std::string problem;  ///< problem of the parameters; empty: none
 };
 
 /// An entry for each symbol of the grammar; none if the table is empty. Parameters of modules are, in this order: the
@@ -70,7 +70,7 @@ std::vector<SymbolEntry> entries_of(const Grammar& grammar, const Melody& melody
 /// Rows whose symbols no word of the grammar contains.
 std::vector<std::string> unused_rows(const Grammar& grammar, const SymbolTable& table);
 
-/// Whether symbols that the axiom can lead to sound drums, and pitches.
+/// Reports whether symbols derivable from the axiom sound drums, and whether they sound pitches.
 struct SoundKinds {
     bool has_drums = false;
     bool has_pitches = true;

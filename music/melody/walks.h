@@ -14,8 +14,8 @@
 
 namespace sikku::mapping {
 
-constexpr std::int64_t farthest = std::int64_t{1} << 61;  // of a coordinate, of a time in steps
-constexpr std::int64_t latest = std::int64_t{1} << 62;    // of ticks
+constexpr std::int64_t farthest = std::int64_t{1} << 61;  // limit of coordinates and of times in steps
+constexpr std::int64_t latest = std::int64_t{1} << 62;    // limit of ticks
 
 /// Coordinates on the square grid, counted in steps, headings in quarter turns.
 class GridWalk {
@@ -49,7 +49,7 @@ public:
         at.heading = (at.heading + static_cast<std::uint32_t>(stretch.turn)) & 3;
     }
     static bool is_level(std::int64_t rise) { return rise == 0; }
-    /// Both lie along an axis and neither is nothing. In doubles, as their product may be too large.
+    /// Compares two steps along an axis, neither of which is 0. Uses doubles, as products may overflow.
     static bool same_direction(const Step& a, const Step& b) {
         return static_cast<double>(a.x) * static_cast<double>(b.x) +
                    static_cast<double>(a.y) * static_cast<double>(b.y) >
@@ -57,7 +57,7 @@ public:
     }
     static std::int64_t ticks(std::int64_t steps, std::int64_t unit) {
         std::int64_t product = 0;
-        // A division to see whether it fits would take longer than all else that a note takes.
+        // Checking for overflow by division would cost more than all other work for a note.
         return __builtin_mul_overflow(steps, unit, &product) || product > latest ? latest : product;
     }
     static std::int64_t length(const Step& step) { return std::abs(step.x) + std::abs(step.y); }
@@ -84,7 +84,7 @@ private:
     const Lattice& lattice_;
 };
 
-/// Doubles, any angle.
+/// Coordinates in doubles, for any angle.
 class PlaneWalk {
 public:
     using Number = double;

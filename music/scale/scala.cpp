@@ -1,4 +1,4 @@
-// The files of Scala: scales (.scl) and key maps (.kbm).
+// Reads Scala files: scales (.scl) and key maps (.kbm).
 #include "music/scale/scale.h"
 
 #include <fmt/format.h>
@@ -11,11 +11,11 @@
 namespace sikku {
 namespace {
 
-/// More than that is no scale; the offsets of spans need less than 4 GB.
+/// Maximum size of a file. Offsets of spans need less than 4 GB.
 constexpr std::size_t most_bytes = 16'000'000;
-/// Twenty times the range that is heard; also guards against numbers without end.
+/// Twenty times the audible range; also excludes infinity.
 constexpr double most_cents = 240'000.0;
-/// Of a .kbm: keys of a pattern, and its degrees.
+/// Limit of the number of keys, and of the degrees, in the pattern of a .kbm file.
 constexpr int most_degrees = 100'000;
 constexpr double highest_frequency = 1e6;
 
@@ -26,7 +26,7 @@ bool is_digit(char byte) {
     return byte >= '0' && byte <= '9';
 }
 
-/// Latin-1 as UTF-8; what is UTF-8 already stays.
+/// Converts Latin-1 to UTF-8; keeps text that is UTF-8 already.
 std::string to_utf8(std::string_view text) {
     bool is_utf8 = true;
     for (std::size_t i = 0; i < text.size() && is_utf8;) {
@@ -54,14 +54,14 @@ struct Piece {
     std::string_view text;
 };
 
-/// The lines of a file that are no comments.
+/// The lines of a file that are not comments.
 class Lines {
 public:
     explicit Lines(const Source& source) : source_(source), text_(source.text()) {
         if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     }
 
-    /// The next line without its end, which is CR, LF or both; false at the end of the text.
+    /// Reads the next line without its end, which is CR, LF or both; false at the end of the text.
     bool next(Piece& line) {
         while (at_ < text_.size()) {
             const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
@@ -71,7 +71,7 @@ public:
         }
         return false;
     }
-    /// Likewise the next that is not blank, without blanks at both ends.
+    /// Reads the next line that is not blank, without blanks at either end.
     bool next_filled(Piece& line) {
         while (next(line)) {
             while (!line.text.empty() && is_blank(line.text.front())) {
@@ -85,7 +85,7 @@ public:
     }
 
     Span span(const Piece& piece) const { return {&source_, piece.at, piece.text.size()}; }
-    /// Where something is missing.
+    /// The end of the text, for messages about missing lines.
     Span end() const { return {&source_, text_.size(), 0}; }
 
 private:
@@ -94,17 +94,17 @@ private:
     std::size_t at_ = 0;
 };
 
-/// What comes before the first blank or `!`; whatever follows is a remark.
+/// The text before the first blank or `!`; the rest is a remark.
 Piece first_word(const Piece& line) {
     return {line.at, line.text.substr(0, line.text.find_first_of(" \t!"))};
 }
 
-/// What stands there, for a message.
+/// The text of a piece in quotes, for a message.
 std::string quoted(const Piece& piece) {
     return fmt::format("'{}'", printable(to_utf8(piece.text), 40));
 }
 
-/// False, and told, for what is no text of moderate length.
+/// Reports a file that is too long or contains a NUL byte, and returns false for it.
 bool is_text(const Source& source, const char* kind, Diagnostics& diagnostics) {
     const std::string& text = source.text();
     if (text.size() > most_bytes) {
@@ -119,19 +119,19 @@ bool is_text(const Source& source, const char* kind, Diagnostics& diagnostics) {
     return true;
 }
 
-/// A whole number, with a sign perhaps, and nothing else.
+/// Reads a whole number with an optional sign; false for anything else.
 bool read_whole(std::string_view text, std::int64_t& value) {
     if (text.size() > 1 && text[0] == '+' && is_digit(text[1])) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && !text.empty();
 }
 
-/// Without sign, point or exponent.
+/// True for digits without sign, point or exponent.
 bool is_digits(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// `-5.25`, `386.`, `.5`: a sign perhaps, digits, a point.
+/// True for an optional sign, digits and a point: `-5.25`, `386.`, `.5`.
 bool is_decimal(std::string_view text) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     const std::size_t point = text.find('.');
@@ -167,7 +167,7 @@ public:
         notes.push_back(0.0);
         std::int64_t found = 0;
         Piece last;
-        // Every pitch is looked at, so that all mistakes are told at once.
+        // Every pitch is read, so that all mistakes are reported at once.
         while (found < count && lines_.next_filled(line)) {
             ++found;
             last = first_word(line);
@@ -296,7 +296,7 @@ private:
         return true;
     }
 
-    /// Text may follow the notes, but a line that looks like one more note is told.
+    /// Warns of a line after the notes that looks like another note; other text may follow.
     void warn_of_more(std::int64_t count) {
         Piece line;
         while (lines_.next_filled(line)) {
@@ -309,7 +309,7 @@ private:
         }
     }
 
-    /// The name of the file without its folder and ending.
+    /// The file name without folder and extension.
     std::string name() const {
         std::string_view path = source_.name();
         if (const std::size_t slash = path.find_last_of('/'); slash != std::string_view::npos) {
@@ -371,7 +371,7 @@ private:
         diagnostics_.error(where, message);
     }
 
-    /// False at the end of the file; a mistake is told and the next line looked at.
+    /// Reads a number, or reports a mistake in its line; false at the end of the file.
     bool read_header(const char* what, int least, int most, int& value, Piece& place) {
         Piece line;
         if (!lines_.next_filled(line)) {
@@ -425,7 +425,7 @@ private:
                 map.degrees.emplace_back(static_cast<int>(degree));
             }
         }
-        // Keys that the map leaves out may be left out of the file at its end, too.
+        // Lines of unmapped keys may be missing at the end of the file.
         if (!failed_) map.degrees.resize(static_cast<std::size_t>(size));
         while (lines_.next_filled(line)) {
             const Piece word = first_word(line);
@@ -444,7 +444,7 @@ private:
     bool failed_ = false;
 };
 
-/// Cents of a key above degree 0; nothing if the map leaves it out.
+/// Cents of a key above degree 0; nullopt if the map leaves it out.
 std::optional<double> cents_of_key(const Scale& scale, const KeyMap& map, int key) {
     const std::int64_t away = std::int64_t{key} - map.middle;
     if (map.degrees.empty()) return scale.cents(away, false);

@@ -20,7 +20,7 @@
 namespace sikku {
 namespace {
 
-/// Notes that are nearer to each other than that, in cents, are the same.
+/// Notes closer than this, in cents, are the same.
 constexpr double same_note = 0.01;
 
 std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
@@ -29,7 +29,7 @@ std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
 
 // --- names ------------------------------------------------------------------------------------------------------
 
-/// The plain letter of a code point with an accent, 0 for what is left out of keys, -1 for all others.
+/// The plain letter of an accented code point, 0 for characters that keys omit, -1 for all others.
 int plain_letter(char32_t point) {
     constexpr std::string_view latin_1 = "aaaaaaaceeeeiiiidnooooo*ouuuuytsaaaaaaaceeeeiiiidnooooo*ouuuuyty";
     constexpr std::string_view latin_a =
@@ -41,7 +41,7 @@ int plain_letter(char32_t point) {
         char32_t last;
         char letter;
     };
-    // From U+1E00 on: the letters with dots below and the like, in which Indian names are written.
+    // From U+1E00 on: letters with dots below and the like, used in Indian names.
     static constexpr std::array<Block, 36> more = {
         {{0x1E01, 'a'}, {0x1E07, 'b'}, {0x1E09, 'c'}, {0x1E13, 'd'}, {0x1E1D, 'e'}, {0x1E1F, 'f'},
          {0x1E21, 'g'}, {0x1E2B, 'h'}, {0x1E2F, 'i'}, {0x1E35, 'k'}, {0x1E3D, 'l'}, {0x1E43, 'm'},
@@ -51,7 +51,7 @@ int plain_letter(char32_t point) {
          {0x1EB7, 'a'}, {0x1EC7, 'e'}, {0x1ECB, 'i'}, {0x1EE3, 'o'}, {0x1EF1, 'u'}, {0x1EF9, 'y'}}};
     if (point == 0xA0 || (point >= 0x2B9 && point <= 0x2C1) || (point >= 0x300 && point <= 0x36F)) return 0;
     if (point >= 0x2010 && point <= 0x2019) return 0;  // dashes and quotes
-    if (point == 0x266F) return 0;                     // the sign of a sharp is left out as # is
+    if (point == 0x266F) return 0;                     // the sharp sign is omitted like #
     if (point == 0x266D) return 'b';
     if (point >= 0xC0 && point <= 0xFF) return latin_1[point - 0xC0];
     if (point >= 0x100 && point <= 0x17F) return latin_a[point - 0x100];
@@ -62,7 +62,7 @@ int plain_letter(char32_t point) {
     return -1;
 }
 
-/// What names are compared by: small letters and digits without accents, blanks, `-`, `_`, `'` and `#`.
+/// The key by which names are compared: lower-case letters and digits without accents, blanks, `-`, `_`, `'`, `#`.
 std::string folded(std::string_view name) {
     std::string key;
     for (std::size_t i = 0; i < name.size();) {
@@ -89,8 +89,8 @@ std::string folded(std::string_view name) {
     return key;
 }
 
-/// Names of Indian music are put into Latin letters in many ways: Kiravani, Keeravani; Gowrimanohari, Gaurimanohari;
-/// Charukeshi, Charukesi. What is left is the same in all of them.
+/// Reduces transliterations of one Indian name to the same text: Kiravani, Keeravani; Gowrimanohari, Gaurimanohari;
+/// Charukeshi, Charukesi.
 std::string loosely_folded(std::string_view key) {
     std::string text(key);
     const auto replace = [&](std::string_view from, std::string_view to) {
@@ -116,7 +116,7 @@ std::string loosely_folded(std::string_view key) {
     return result;
 }
 
-/// Fewest letters changed, left out, put in or exchanged with their neighbour that make `b` of `a`.
+/// Edit distance: the fewest substitutions, deletions, insertions and swaps of neighbours that turn `a` into `b`.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> earlier(b.size() + 1);
     std::vector<std::size_t> above(b.size() + 1);
@@ -138,7 +138,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 // --- the data file ----------------------------------------------------------------------------------------------
 
-/// The text before `mark`, which `text` loses together with it; all of it if there is none.
+/// Removes the text before `mark`, and the mark, from `text` and returns it trimmed; all of it without a mark.
 std::string_view take_until(std::string_view& text, std::string_view mark) {
     const std::size_t at = std::min(text.find(mark), text.size());
     const std::string_view piece = trimmed(text.substr(0, at));
@@ -177,7 +177,7 @@ std::vector<double> read_notes(std::string_view text, double period, int divisio
     return notes;
 }
 
-/// `19: 0 3 6 8 11 14 17 down 0 3 5 8 11 13 16 = 2/1`
+/// Reads `19: 0 3 6 8 11 14 17 down 0 3 5 8 11 13 16 = 2/1`.
 void read_pitches(std::string_view text, int division, Scale& scale) {
     const std::size_t equals = text.find('=');
     if (equals != std::string_view::npos) {
@@ -192,7 +192,7 @@ void read_pitches(std::string_view text, int division, Scale& scale) {
 
 constexpr std::array<std::string_view, 2> prefixes = {"raga-", "maqam-"};
 
-/// An id as people write it.
+/// The title of a scale, made from its id.
 std::string title_of(std::string_view id) {
     for (const std::string_view prefix : prefixes) {
         if (id.starts_with(prefix)) id.remove_prefix(prefix.size());
@@ -278,7 +278,7 @@ constexpr std::array<std::string_view, 72> mela_names = {"Kanakangi",
                                                          "Kosalam",
                                                          "Rasikapriya"};
 
-/// Names that are more than another spelling.
+/// Other names of melakarta, apart from variant spellings.
 const std::vector<std::pair<std::size_t, std::vector<std::string>>>& more_mela_names() {
     static const std::vector<std::pair<std::size_t, std::vector<std::string>>> names = {
         {8, {"carnatic-todi"}}, {29, {"shankarabharanam"}}, {36, {"chalanattai"}}, {51, {"pantuvarali"}},
@@ -287,8 +287,8 @@ const std::vector<std::pair<std::size_t, std::vector<std::string>>>& more_mela_n
     return names;
 }
 
-/// The formula of Venkatamakhin: the six chakras of a half go through the pairs of second and third, the six ragas
-/// of a chakra through the pairs of sixth and seventh; the fourth is pure in the first half and raised in the second.
+/// Melakarta `n` by the formula of Venkatamakhin: the six chakras of a half take all pairs of second and third, the
+/// six ragas of a chakra those of sixth and seventh; the fourth is pure in the first half and raised in the second.
 Scale melakarta(int n) {
     static constexpr std::array<std::array<int, 2>, 6> pairs = {{{1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
     static constexpr std::array<std::string_view, 12> chakras = {
@@ -318,7 +318,7 @@ constexpr std::size_t several = std::numeric_limits<std::size_t>::max();
 struct Catalogue {
     std::vector<Scale> scales;
     std::unordered_map<std::string, std::size_t> keys;        ///< folded id, title or name → scale
-    std::unordered_map<std::string, std::size_t> loose_keys;  ///< of Indian scales; `several` if more have it
+    std::unordered_map<std::string, std::size_t> loose_keys;  ///< likewise for Indian scales; `several` if ambiguous
     std::unordered_map<std::string, std::vector<std::size_t>> ambiguous;  ///< folded word → scales
 
     Catalogue() {
@@ -409,7 +409,7 @@ const Scale* find_key(const std::string& key) {
     return found == all.keys.end() ? nullptr : &all.scales[found->second];
 }
 
-/// `mela29`, `melakarta029`: the number, or 0.
+/// The number in `mela29` or `melakarta029`, or 0.
 int mela_number(std::string_view key) {
     for (const std::string_view prefix : {"melakarta", "mela"}) {
         if (!key.starts_with(prefix)) continue;
@@ -422,14 +422,14 @@ int mela_number(std::string_view key) {
     return 0;
 }
 
-constexpr int most_steps = 1200;  // of an octave
+constexpr int most_steps = 1200;  // equal steps to the octave
 
-/// The digits that a key begins with.
+/// The leading digits of a key.
 std::string_view leading_digits(std::string_view key) {
     return key.substr(0, std::min(key.find_first_not_of("0123456789"), key.size()));
 }
 
-/// True for `31edo`, `31equal`, `31tet`, whatever the number.
+/// True for `31edo`, `31equal` or `31tet`, with any number.
 bool names_equal_steps(std::string_view key) {
     const std::string_view rest = key.substr(leading_digits(key).size());
     return rest.size() < key.size() && (rest == "edo" || rest == "equal" || rest == "tet");
@@ -444,12 +444,12 @@ int equal_steps(std::string_view key) {
     return error == std::errc() && n <= most_steps ? n : 0;
 }
 
-/// Hyphens do not matter in words, but before and within a number they do: -5-edo and 3-1-edo are no scales.
+/// True if hyphens or the like precede or divide the leading number: -5-edo and 3-1-edo are not scales.
 bool splits_number(std::string_view name, std::string_view key) {
     return !trimmed(name).starts_with(leading_digits(key));
 }
 
-/// Equal division of the octave, made when it is first asked for. Thread-safe; the result stays valid.
+/// The equal division of the octave, created on first use. Thread-safe; the result stays valid.
 const Scale* equal_scale(int steps) {
     static std::mutex mutex;
     static std::map<int, Scale> made;
@@ -468,10 +468,10 @@ const Scale* equal_scale(int steps) {
     return &scale;
 }
 
-/// Longer words than any scale has; they are not looked for.
+/// Longer names are not looked up, as no scale has one.
 constexpr std::size_t longest_name = 100;
 
-/// The key without `raga`, `ragam` or `maqam` at its beginning.
+/// The key without a leading `raga`, `ragam`, `raag` or `maqam`.
 std::string without_kind(const std::string& key) {
     for (const std::string_view kind : {"ragam", "raga", "raag", "maqam"}) {
         if (key.starts_with(kind) && key.size() > kind.size()) return key.substr(kind.size());
@@ -479,7 +479,7 @@ std::string without_kind(const std::string& key) {
     return key;
 }
 
-/// The note of `notes` nearest to `cents` in one direction, `cents` itself if it is one.
+/// The note of `notes`, in any period, nearest to `cents` in one direction; `cents` itself if it is a note.
 double next_note(const std::vector<double>& notes, double period, double cents, bool falling) {
     const double step = std::fabs(period);
     double best = falling ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
@@ -521,7 +521,7 @@ const Scale* find_scale(std::string_view name) {
     const std::string key = folded(name);
     if (key.empty() || splits_number(name, key)) return nullptr;
     if (const int n = mela_number(key)) return find_key(fmt::format("mela{}", n));
-    // A word that means several scales finds none, however it is written.
+    // An ambiguous word finds no scale, however it is spelled.
     const std::string bare = without_kind(key);
     for (const std::string& one : {key, bare}) {
         if (const Scale* scale = find_key(one)) return scale;
@@ -551,7 +551,7 @@ std::vector<std::string> similar_scales(std::string_view name) {
         return result;
     }
 
-    // Of each scale the word that is nearest; then the nearest of those.
+    // Finds the nearest word of each scale, then the nearest of these.
     const std::size_t enough = std::max<std::size_t>(1, key.size() / 3);
     std::vector<std::pair<std::size_t, std::string>> found;
     for (const Scale& scale : all.scales) {

@@ -47,7 +47,7 @@ std::string_view sign_of(int quarters) {
     return signs[static_cast<std::size_t>(std::clamp(quarters, -4, 4) + 4)];
 }
 
-/// `C,`, `C` (middle C), `c`, `c'`. @param octaves  that players add for the clef
+/// Formats a letter: `C,`, `C` (middle C), `c`, `c'`. @param octaves  octaves that players add for the clef
 std::string letter_of(const Pitch& pitch, int octaves = 0) {
     const int octave = pitch.octave - octaves;
     std::string text(1, (octave > 4 ? "cdefgab" : "CDEFGAB")[pitch.letter]);
@@ -102,7 +102,7 @@ public:
         put("M:{}\nL:1/8\nQ:{}/{}={}\n{}", meter_name(head_.meter), beat.value.dotted ? 3 : 1,
             beat.value.divisor * (beat.value.dotted ? 2 : 1),
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
-        // abc2midi would hold fermatas twice as long, which are held already, and break chords a little.
+        // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.
         if (notation_.is_held) put("%%MIDI fermatafixed\n");
         put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
         int number = 0;
@@ -110,7 +110,7 @@ public:
             const Part& part = notated.part;
             const VoiceMarks marks = marks_of(notated);
             for (const Staff& staff : notated.staves) {
-                // Both hands have one name.
+                // Both hands share one name.
                 const bool is_other_hand = notated.bracket == Bracket::brace && &staff != &notated.staves.front();
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
                     const bool has_name = k == 0 && !is_other_hand && !notated.name.empty();
@@ -146,7 +146,7 @@ private:
         return result;
     }
 
-    /// Which voices share a staff, and which staves are joined.
+    /// States which voices share a staff, and which staves are joined.
     std::string score() const {
         std::string text;
         int number = 0;
@@ -166,7 +166,7 @@ private:
         return number > 1 ? "%%score" + text + "\n" : "";
     }
 
-    /// The drums of the score as notes on the staff; a sign keeps those apart that have one place.
+    /// Finds the notes of the drums on the staff; a sign distinguishes drums with the same place.
     void find_drums() {
         std::map<int, int> at_height;
         for (const NotatedPart& part : notation_.parts) {
@@ -183,7 +183,7 @@ private:
         }
     }
 
-    /// Programs print the lines of the text as they are: fewer bars where one has many notes.
+    /// Number of bars on a line, which programs print unchanged: fewer if a bar has many notes.
     std::int64_t bars_on_a_line() const {
         std::ptrdiff_t most = 0;
         for (const NotatedPart& part : notation_.parts) {
@@ -215,7 +215,7 @@ private:
     }
 
     /// The dynamics of a part by voice: a level stands in the first voice of its staff, or of the other hand, in
-    /// which a note begins; hairpins and what ends them in the first voice of the staff.
+    /// which a note begins; hairpins and their ends in the first voice of the staff.
     static VoiceMarks marks_of(const NotatedPart& part) {
         VoiceMarks marks;
         for (const Staff& staff : part.staves) {
@@ -298,8 +298,8 @@ private:
         }
     }
 
-    /// Between notes, at a space without width, as programs do not agree on whether a note with the mark is under the
-    /// line. They have no lines of two octaves.
+    /// A mark at a space without width between notes, as programs disagree on whether a note with the mark is under
+    /// the line. They do not support lines of two octaves.
     static std::string line_of_octaves(int octaves, char side) {
         if (octaves == 0) return {};
         return fmt::format("!8v{}{}!y0 ", octaves > 0 ? 'a' : 'b', side);
@@ -323,7 +323,7 @@ private:
         return (is_signed ? std::string(sign_of(pitch.quarters)) : "") + letter_of(pitch, octaves);
     }
 
-    /// @param octaves  that players add for the clef
+    /// @param octaves  octaves that players add for the clef
     void write_symbol(const NotatedSymbol& symbol, int octaves, const std::array<int, 7>& signs,
                       std::set<int>& altered) {
         const bool is_bar = symbol.length == notation_.bar_length && symbol.kind != SymbolKind::note;

@@ -7,9 +7,10 @@
 
 namespace sikku {
 
-/// Writes ABC 2.1: the pattern and what made it as comments, then one tune with a voice for each voice of each staff.
-/// Lengths are in eighths. Clefs with an octave become those without. Accidentals hold for one note as for all of its
-/// letter in the bar, so that readers of any rule agree. Quarter tones are `^/` and `_/`. @throws what `out` throws
+/// Writes ABC 2.1: the recipe and the pattern as comments, then one tune with a voice for each voice of each staff.
+/// Lengths are in eighths. Clefs with an octave are replaced by those without. Accidentals are written so that rules
+/// by which they apply to one note or to its letter in the bar agree. Quarter tones are `^/` and `_/`.
+/// @throws exceptions of `out`
 void write_abc(const Notation& notation, const ScoreHead& head, Output& out);
 
 }  // namespace sikku

@@ -41,7 +41,7 @@ static_assert(std::endian::native == std::endian::little, "samples are handed ov
 
 // ---- files
 
-/// Buffered, from front to back.
+/// Writes a file from front to back, with a buffer.
 class Output {
 public:
     Output(const fs::path& file, fs::path name) : name_(std::move(name)) {
@@ -85,7 +85,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
             "sound needs the program fluidsynth, which is not in PATH; install it and a soundfont: {}", advice));
     }
     const fs::path soundfont = find_soundfont();
-    // fluidsynth says nothing about files that it cannot read, and takes names with a dash for options.
+    // fluidsynth does not report files that it cannot read, and interprets names with a dash as options.
     if (!is_readable_file(midi)) fail(midi, "read", errno != 0 ? errno : ENOENT);
     Rendering rendering;
     rendering.name = shown;
@@ -96,8 +96,8 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
     const Descriptor source(ends[0]);
     Descriptor drain = lifted(Descriptor(ends[1]));
 
-    // No settings of the user's: the same everywhere. A chorus would blur microtones. Floats have no loudest value,
-    // so that nothing is clipped whatever the gain.
+    // Ignores the user's settings, so that the result is the same everywhere. A chorus would blur microtones. Floats
+    // do not clip at any gain.
     Process process({.program = *program,
                      .arguments = {"-n",
                                    "-i",
@@ -154,7 +154,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
         const std::size_t frames = filled / frame_bytes;
         for (std::size_t i = 0; i < frames * channels; ++i) {
             const float size = std::abs(block[i]);
-            // Also false for what is no number.
+            // Also false for NaN.
             if (!(size < 1e6F)) throw failed("gave no readable sound; is it built with libsndfile?");
             rendering.peak = std::max(rendering.peak, size);
         }
@@ -163,7 +163,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
         if (rendering.frames > most_frames) {
             throw std::runtime_error("the music is too long to become sound: a WAV file holds 6 hours 45 minutes");
         }
-        // Also at the end: what interrupts this program interrupts fluidsynth too, which is no failure of it.
+        // Also at the end: a signal that interrupts this program ends fluidsynth too, which is then not a failure.
         if (watch && (got == 0 || rendering.frames >= next_watch)) {
             watch(static_cast<double>(rendering.frames) / rate);
             next_watch = rendering.frames + std::uint64_t{20} * rate;
@@ -174,7 +174,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
     const int status = process.wait();
     if (WIFSIGNALED(status)) throw failed(fmt::format("was ended by signal {}", WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0) throw failed(fmt::format("failed with status {}", WEXITSTATUS(status)));
-    // It calls it a success to render with a soundfont or a MIDI file that it could not read.
+    // fluidsynth reports success even if it could not read the soundfont or the MIDI file.
     const std::string words = last_words(messages.get(), "fluidsynth");
     if (rendering.frames == 0) throw failed("rendered nothing");
     for (const std::string_view mark : {"error:", "panic:", "not a SoundFont or MIDI file"}) {
@@ -189,7 +189,7 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
 class Samples {
 public:
     explicit Samples(const Rendering& rendering) : rendering_(rendering), floats_(block_frames * channels) {
-        // 10^(-1/20). The quietest things that can be called a sound are far above the noise of the arithmetic.
+        // 10^(-1/20). The quietest sound is far above the noise of the arithmetic.
         constexpr double minus_one_decibel = 0.8912509381337456;
         constexpr float silence = 1e-6F;
         scale_ = rendering.peak > silence ? 32768.0 * minus_one_decibel / static_cast<double>(rendering.peak) : 0.0;
@@ -224,7 +224,7 @@ void put_little(std::string& out, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
 }
 
-/// As they lie in a WAV file.
+/// Writes samples as in a WAV file.
 void put_samples(std::string& out, const std::vector<std::int16_t>& samples) {
     out.clear();
     for (const std::int16_t sample : samples) put_little(out, static_cast<std::uint16_t>(sample), 2);
@@ -256,7 +256,7 @@ void write_wav(const Rendering& rendering, Output& out) {
 
 // ---- FLAC
 
-/// Source: RFC 1321.
+/// The checksum MD5. Source: RFC 1321.
 class Md5 {
 public:
     void add(std::string_view bytes) {
@@ -330,10 +330,10 @@ private:
     std::string buffer_;
 };
 
-/// Bits, the highest first.
+/// Writes bits, the highest first.
 class Bits {
 public:
-    /// The lowest `count` bits of `value`, at most 32.
+    /// Appends the lowest `count` bits of `value`, at most 32.
     void put(std::uint32_t value, int count) {
         if (count == 0) return;
         const std::uint64_t mask = (std::uint64_t{1} << count) - 1;
@@ -369,16 +369,16 @@ std::uint32_t crc(std::string_view bytes, int width, std::uint32_t polynomial) {
     return value & (top | (top - 1));
 }
 
-/// One channel of one block, as a fixed predictor and what is left over, in Rice codes.
+/// One channel of one block: a fixed predictor and its residuals in Rice codes.
 struct Subframe {
     std::size_t order = 0;
     int partition_order = 0;
     std::vector<std::uint32_t> folded;  ///< residuals from `order` on: 0, -1, 1, -2, …
-    std::vector<int> parameters;        ///< of each partition
+    std::vector<int> parameters;        ///< Rice parameter of each partition
     std::uint64_t bits = 0;             ///< without its head
 };
 
-/// The Rice parameter that takes fewest bits for numbers with this sum (within a bit each), and those bits.
+/// The Rice parameter with the fewest bits for numbers with this sum (within a bit each), and that number of bits.
 std::pair<int, std::uint64_t> rice_parameter(std::uint64_t sum, std::uint64_t count) {
     constexpr int most = 14;
     int best = 0;
@@ -396,7 +396,7 @@ std::pair<int, std::uint64_t> rice_parameter(std::uint64_t sum, std::uint64_t co
 Subframe predicted(const std::vector<std::int32_t>& samples, int sample_bits) {
     constexpr std::size_t most_order = 4;
     const std::size_t count = samples.size();
-    // Differences of differences; the order with the smallest sum is taken.
+    // Differences of increasing order; the order with the smallest sum is chosen.
     std::array<std::uint64_t, most_order + 1> sums{};
     std::array<std::int32_t, most_order + 1> last{};
     for (std::size_t i = 0; i < count; ++i) {
@@ -509,7 +509,7 @@ std::string flac_frame(const std::vector<std::int16_t>& samples, std::uint32_t n
     out.put(9, 4);                               // 44.1 kHz
     out.put(choice.code, 4);
     out.put(0b1000, 4);  // 16 bits
-    // The number, as UTF-8 codes one of up to 31 bits.
+    // The number of the frame, coded like a code point of up to 31 bits in UTF-8.
     if (number < 0x80) {
         out.put(number, 8);
     } else {
@@ -527,9 +527,9 @@ std::string flac_frame(const std::vector<std::int16_t>& samples, std::uint32_t n
     return std::move(out.bytes());
 }
 
-/// Source: RFC 9639. Blocks of fixed size, fixed predictors, Rice codes: what every player reads.
+/// Writes blocks of fixed size, fixed predictors and Rice codes, which every player supports. Source: RFC 9639.
 void write_flac(const Rendering& rendering, Output& out) {
-    // The checksum of the samples stands in front of them.
+    // The checksum of the samples precedes them.
     Md5 checksum;
     std::string bytes;
     for (Samples samples(rendering);;) {

@@ -10,33 +10,33 @@ namespace sikku {
 /// 16 bits, two channels, 44,100 frames a second in either.
 enum class AudioFormat { wav, flac };
 
-/// Called about ten times a second of work; `seconds` of sound are rendered. What it throws ends the work.
+/// Called about ten times a second of work, with the seconds of sound rendered; an exception ends the work.
 using AudioWatch = std::function<void(double seconds)>;
 
-/// Longer music is refused: what a WAV file of 4 GB holds, 6 hours 45 minutes.
+/// Maximum duration: that of a WAV file of 4 GB, 6 hours 45 minutes.
 constexpr double most_audio_seconds = 24'347;
 
-/// The soundfont that render_audio takes: what the environment variable SIKKU_SOUNDFONT names, else the first of
+/// The soundfont that render_audio uses: the one named by the environment variable SIKKU_SOUNDFONT, else the first of
 /// those that distributions install below /usr/share/sounds or /usr/share/soundfonts (default-GM before others, then
 /// alphabetically).
-/// @throws std::runtime_error if there is none, or if SIKKU_SOUNDFONT names no readable file; it tells what to
-/// install
+/// @throws std::runtime_error if there is none (with a package to install), or if SIKKU_SOUNDFONT does not name a
+/// readable file
 std::filesystem::path find_soundfont();
 
 /// Renders `midi` with the program `fluidsynth` found in PATH and writes `output`, which is replaced. The loudest
-/// sample is at -1 dBFS; a score without sound stays silent. The sound is as long as the score and three seconds more
-/// for the last notes to fade (with FluidSynth 2.3). The same bytes each time for the same FluidSynth and soundfont.
+/// sample is at -1 dBFS; a score without sound stays silent. The sound is three seconds longer than the score, for
+/// the last notes to fade (with FluidSynth 2.3). The same FluidSynth and soundfont give the same bytes each time.
 ///
-/// Memory: a few hundred kB here and what FluidSynth and the soundfont take. Disk: for the time of the work twice the
-/// size of the WAV, nameless, in the folder of `output`, so that nothing is left behind whatever happens. Cost: a
-/// second for some hundred seconds of music.
+/// Memory: a few hundred kB, besides that of FluidSynth and the soundfont. Disk: temporarily twice the size of the
+/// WAV in the folder of `output`, in a file without a name, so that nothing is ever left behind. Cost: a second for
+/// some hundred seconds of music.
 ///
-/// `output` is not written before the rendering has succeeded, and always from front to back.
+/// `output` is written once the rendering has succeeded, from front to back.
 /// @param shown  name of the output in messages, where `output` is a temporary file; empty: `output`
-/// @return the loudest sample before that, in units of full scale; 0 if the soundfont has no sound for these keys
-/// @throws std::runtime_error if fluidsynth or a soundfont is missing (it tells what to install), if fluidsynth fails
-///         (with what it printed), if a file cannot be read or written, and for more sound than a WAV file of 4 GB
-///         holds, 6 hours 45 minutes
+/// @return the loudest sample before scaling, in units of full scale; 0 if the soundfont has no sound for these keys
+/// @throws std::runtime_error if fluidsynth or a soundfont is missing (with a package to install), if fluidsynth
+///         fails (with its messages), if a file cannot be read or written, and for more sound than a WAV file of 4 GB
+///         can contain, 6 hours 45 minutes
 double render_audio(const std::filesystem::path& midi, const std::filesystem::path& output, AudioFormat format,
                     const AudioWatch& watch = {}, const std::filesystem::path& shown = {});
 

@@ -12,7 +12,7 @@
 
 namespace sikku::child {
 
-/// @throws std::runtime_error that names the file, what was tried and the cause
+/// @throws std::runtime_error that names the file, the attempted action and the cause
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view doing, int error);
 
 void write_all(int descriptor, const char* bytes, std::size_t count, const std::filesystem::path& name);
@@ -21,8 +21,8 @@ void write_all(int descriptor, const char* bytes, std::size_t count, const std::
 std::size_t read_at(int descriptor, char* bytes, std::size_t count, std::uint64_t position,
                     const std::filesystem::path& name);
 
-/// A file without a name in the folder of `output`, or where temporary files go if that folder takes none (as that
-/// of a device). It is gone with its last descriptor.
+/// Creates a file without a name in the folder of `output`, or in that of temporary files if the former does not
+/// support one (such as that of a device). The file vanishes with its last descriptor.
 Descriptor nameless_file(const std::filesystem::path& output);
 
 bool is_readable_file(const std::filesystem::path& path);
@@ -30,7 +30,7 @@ bool is_readable_file(const std::filesystem::path& path);
 /// The program of that name in PATH.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
-/// The end of what a program printed, a line each.
+/// The last lines that a program printed.
 std::string last_words(int messages, std::string_view program);
 
 }  // namespace sikku::child

@@ -1,4 +1,4 @@
-// music/score/comments.h: the pattern and what made the score, as comments of formats that consist of lines.
+// music/score/comments.h: the pattern and the recipe of a score, as comments of line-based formats.
 #pragma once
 
 #include "music/score/score.h"
@@ -12,8 +12,8 @@ namespace sikku {
 /// comments in some languages and hide text in others, become blanks; invalid or unprintable UTF-8 becomes `?`.
 std::string single_line(std::string_view text);
 
-/// What made the score, then the pattern, a comment for each line: `% `, `; ` or `// ` and the line, without carriage
-/// returns and with blanks for tabs.
+/// The recipe of the score, then the pattern, with a comment for each line: `% `, `; ` or `// ` and the line, without
+/// carriage returns and with blanks for tabs.
 std::string head_comments(const ScoreHead& head, std::string_view sign);
 
 /// False if such comments contain blanks or `?` instead of some characters of the text, other than tabs.

@@ -33,7 +33,7 @@ bool has_pan(const Curves& curves) {
                        [](const ControlPoint& point) { return point.number == ControlPoint::pan; });
 }
 
-/// The tempo from beat to beat: where it changes at once, the beat has two.
+/// The tempo as a `t` statement: at a sudden change it has two values for one beat.
 std::string tempo_statement(const ScoreHead& head, const Curves& curves, std::int64_t end) {
     std::string text = fmt::format("t 0 {}", number(head.tempo));
     double last = head.tempo;
@@ -114,18 +114,18 @@ double loudest_sum(const std::vector<Note>& notes) {
     return most / 127.0;
 }
 
-/// Voices add up; so each has its share of the full scale, and voices in unison do not exceed it.
+/// The instruments. Each voice has a share of the full scale, so that their sum does not exceed it, even in unison.
 std::string orchestra(const ScoreHead& head, const std::vector<Note>& notes, bool is_panned, bool glides) {
     int voices = 0;
     for (const Part& part : head.parts) voices += part.voices;
-    // Notes end a little after their time, so that more may sound than the sum says.
+    // Notes end a little after their time, so that more may sound together than computed.
     constexpr double usual = 0.7;
     const double share = usual / std::max({std::sqrt(voices), loudest_sum(notes), 1.0});
     std::string text = "sr = 44100\nksmps = 32\nnchnls = 2\n0dbfs = 1\n";
     const std::string_view outs = is_panned
                                       ? "  outs asound * aenvelope * sqrt(1 - p7), asound * aenvelope * sqrt(p7)\n"
                                       : "  outs asound * aenvelope, asound * aenvelope\n";
-    // From p4 to p8 Hz, from the part p9 of the note on.
+    // Slides from p4 to p8 Hz, after the part p9 of the note.
     constexpr std::string_view slide =
         "  ktime timeinsts\n"
         "  kpart limit (ktime / p3 - p9) / (1.000001 - p9), 0, 1\n"
@@ -181,7 +181,7 @@ void write_csound_file(const ScoreHead& head, const std::vector<Note>& notes, st
     const bool glides = has_glides(notes);
     out.write(orchestra(head, notes, has_pan(curves) || glides, glides) + "</CsInstruments>\n<CsScore>\n");
     write_statements(head, notes, end, out, curves);
-    // Csound does not read what comes after its end.
+    // Csound ignores text after the end of the document.
     out.write("</CsScore>\n</CsoundSynthesizer>\n\n" + head_comments(head, ";"));
 }
 

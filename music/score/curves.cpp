@@ -40,7 +40,7 @@ std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, s
     for (int step = 0; step < steps; ++step) {
         falling.push_back({begin + (end - begin) * step / steps, 1 - (1 - slowest) * (step + 1) / steps});
     }
-    // Both together: as many points for every end.
+    // Combines both; the number of points does not depend on the end.
     std::vector<TempoPoint> map;
     double curve = 1;
     double fall = 1;

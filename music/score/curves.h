@@ -1,4 +1,4 @@
-// music/score/curves.h: what changes while notes sound: tempo, controllers, pitch.
+// music/score/curves.h: changes while notes sound: of tempo, controllers and pitch.
 #pragma once
 
 #include "music/score/score.h"
@@ -12,7 +12,7 @@ namespace sikku {
 /// A tempo from a tick on.
 struct TempoPoint {
     std::int64_t tick = 0;
-    double factor = 1;  ///< of ScoreHead::tempo, above 0
+    double factor = 1;  ///< factor of ScoreHead::tempo, above 0
     bool operator==(const TempoPoint&) const = default;
 };
 
@@ -23,13 +23,13 @@ struct ControlPoint {
     std::int64_t tick = 0;
     int voice = 0;
     int number = pan;  ///< a controller of MIDI, 0 to 127, or `bend`
-    double value = 0;  ///< 0 to 127; of a bend, semitones that are added to the note's key
+    double value = 0;  ///< 0 to 127; for a bend, semitones that are added to the note's key
     bool operator==(const ControlPoint&) const = default;
 };
 
 /// The value of a controller in MIDI.
 int controller_value(const ControlPoint& point);
-/// The value of a controller that is not set.
+/// The default value of a controller.
 int usual_controller_value(int number);
 
 /// The curves of a score.
@@ -43,7 +43,7 @@ struct Curves {
 };
 
 /// All changes of tempo, by tick: those of the curves, and the ritardando, which falls in eight steps to 60 %.
-/// @param end  of the score, in ticks
+/// @param end  end of the score, in ticks
 std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, std::int64_t end);
 
 /// Seconds from the beginning to a tick. @param map  as of tempo_map()

@@ -60,7 +60,7 @@ constexpr std::array<Drum, 47> table = {{
     {81, "Open Triangle", "triangle", "opentriangle", "perc", 4, 5, triangle},
 }};
 
-/// Lower case, without hyphens, `high` as `hi`.
+/// A name in lower case, with blanks for hyphens and `hi` for `high`.
 std::string plain(std::string_view name) {
     std::string result = lower_case(name);
     std::replace(result.begin(), result.end(), '-', ' ');

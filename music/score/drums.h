@@ -12,10 +12,10 @@ enum class NoteHead { normal, cross, diamond, triangle };
 /// A drum of General MIDI.
 struct Drum {
     int key = 35;               ///< MIDI key on channel 10, 35 to 81
-    std::string_view name;      ///< as General MIDI names it
+    std::string_view name;      ///< General MIDI name
     std::string_view alias;     ///< another name, or empty
     std::string_view lilypond;  ///< its name in LilyPond
-    std::string_view strudel;   ///< the sample of Strudel that is nearest
+    std::string_view strudel;   ///< nearest sample of Strudel
     int letter = 0;             ///< its place on the staff as of a treble clef: 0 (C) to 6 (B)
     int octave = 5;             ///< the octave of that place
     NoteHead head = NoteHead::normal;

@@ -8,11 +8,11 @@
 namespace sikku {
 namespace {
 
-constexpr double step = 16;  // of velocity between two levels
+constexpr double step = 16;  // difference in velocity between two levels
 constexpr int levels = 8;
 constexpr double reluctance = 3;
 constexpr std::size_t longest_hairpin = 4;  // bars
-constexpr double least_slope = 2;           // of velocity, from bar to bar
+constexpr double least_slope = 2;           // change of velocity from bar to bar
 constexpr double accent = 14;
 constexpr std::int64_t least_rest = ticks_per_quarter / 2;  // shortest rest that a hairpin does not cross
 
@@ -23,7 +23,7 @@ double centre(int level) {
 /// The mean velocity of a bar with notes, without accents.
 struct BarLoudness {
     std::int64_t bar = 0;
-    std::int64_t onset = 0;  ///< of its first note
+    std::int64_t onset = 0;  ///< onset of its first note
     double velocity = 0;
     double weight = 0;  ///< ticks in which it sounds
 };
@@ -43,7 +43,7 @@ std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t b
     return bars;
 }
 
-/// Adds a hairpin that leads to a level at `to`, if it has notes enough.
+/// Adds a hairpin that leads to a level at `to`, if it has enough notes.
 void add_hairpin(DynamicMark mark, std::int64_t to, std::span<const Note> notes, std::vector<DynamicMark>& marks) {
     std::int64_t last = -1;
     std::int64_t end = 0;
@@ -60,7 +60,7 @@ void add_hairpin(DynamicMark mark, std::int64_t to, std::span<const Note> notes,
     if (to - end >= least_rest) marks.push_back({end, DynamicMark::Kind::end, mark.level});
 }
 
-/// Adds the dynamics of notes that state none. @param current  level that holds before them; -1: none
+/// Adds the dynamics of notes that state none. @param current  level in force before them; -1: none
 void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& current,
                  std::vector<DynamicMark>& marks) {
     using enum DynamicMark::Kind;

@@ -73,8 +73,8 @@ std::uint64_t number_at(std::string_view text, std::size_t at) {
     return number;
 }
 
-/// Replaces the information of a PDF, with its table of objects and its identifier, which is random. A file in
-/// another layout than Ghostscript's stays as it is.
+/// Replaces the information of a PDF, its table of objects and its random identifier. A file with another layout than
+/// Ghostscript's is not changed.
 std::string with_texts(std::string pdf, const ScoreHead& head) {
     constexpr std::string_view start_mark = "startxref\n";
     constexpr std::string_view table_mark = "xref\n0 ";

@@ -11,11 +11,11 @@ namespace sikku {
 
 /// Runs the program `lilypond` found in PATH on a file for it and writes the print as `output`, which is replaced.
 /// Works in a folder of its own below that of temporary files, which is removed. `watch` is called about twenty times
-/// a second; what it throws ends the work. Cost: one or two seconds, and one for each ten pages.
-/// The file contains the pattern and what made it, as PDF files of prints do; the same bytes each time for the same
-/// LilyPond and Ghostscript.
+/// a second; an exception ends the work. Cost: one or two seconds, and one for each ten pages.
+/// The file contains the pattern and the recipe, like PDF files of prints. The same LilyPond and Ghostscript give the
+/// same bytes each time.
 /// @param shown  name of the output in messages, where `output` is a temporary file
-/// @throws std::runtime_error if lilypond is missing (it tells what to install) or fails (with what it printed), or
+/// @throws std::runtime_error if lilypond is missing (with a package to install) or fails (with its messages), or
 /// if a file cannot be read or written
 void engrave(std::string_view lilypond, const ScoreHead& head, const std::filesystem::path& output,
              const std::filesystem::path& shown, const std::function<void()>& watch);

@@ -42,7 +42,7 @@ std::vector<GlidePoint> glide_points(const Note& note, double tempo) {
     const std::int64_t steps = std::clamp<std::int64_t>(ticks / apart, 1, wanted);
     const std::int64_t begin = note.onset + note.duration - ticks;
     for (std::int64_t i = 0; i < steps; ++i) {
-        // Without a product that may overflow.
+        // Avoids a product that may overflow.
         const std::int64_t at = ticks / steps * i + ticks % steps * i / steps;
         points.push_back(
             {begin + at, note.key + semitones * static_cast<double>(i + 1) / static_cast<double>(steps)});

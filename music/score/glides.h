@@ -8,11 +8,11 @@
 
 namespace sikku {
 
-/// Semitones of a full pitch bend in scores with glides: the widest that write_midi() takes.
+/// Semitones of a full pitch bend in scores with glides: the widest that write_midi() accepts.
 constexpr int glide_bend_range = 24;
 
-/// Keeps of a note what sounds between two ticks, of which there has to be something. A note that begins within its
-/// slide has the key that it has reached there, perhaps with a fraction.
+/// Cuts a note to the part that sounds between two ticks, which must not be empty. A note that then begins within its
+/// slide gets the key reached there, possibly fractional.
 void cut(Note& note, std::int64_t from, std::int64_t to);
 
 /// The key that sounds at the end of a note.

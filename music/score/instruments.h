@@ -8,8 +8,8 @@ namespace sikku {
 /// The names of one program.
 struct Instrument {
     std::string_view name;          ///< General MIDI name
-    std::string_view printed;       ///< before the first system of a score; several programs may share one
-    std::string_view abbreviation;  ///< before the others
+    std::string_view printed;       ///< printed before the first system of a score; several programs may share one
+    std::string_view abbreviation;  ///< printed before the other systems
     std::string_view lilypond;      ///< the only name that LilyPond accepts for MIDI files
 };
 

@@ -12,7 +12,7 @@
 namespace sikku {
 namespace {
 
-/// A name that is short enough, or its first word, or the beginning of that.
+/// The name if it is short enough, else its first word, or the beginning of that.
 std::string shortened(std::string_view name) {
     constexpr std::size_t most = 10;  // bytes
     if (name.size() <= most) return std::string(name);

@@ -1,4 +1,4 @@
-// music/score/labels.h: the names of parts and their lines, in print before their staves, in MIDI files of tracks.
+// music/score/labels.h: the names of parts and their lines, for staves in print and tracks of MIDI files.
 #pragma once
 
 #include "music/score/notation.h"
@@ -26,7 +26,7 @@ void set_labels(std::span<NotatedPart> parts);
 
 /// The name of a staff or a voice of a part: that of the part, and its number if there are several. `Flute 2`, and
 /// `Flute 1.2` in a part that is numbered itself.
-/// @param part   name or abbreviation of the part, perhaps empty
+/// @param part   name or abbreviation of the part; may be empty
 /// @param index  counted from 0
 std::string line_name(std::string_view part, std::size_t index, std::size_t count);
 

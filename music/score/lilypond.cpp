@@ -39,7 +39,7 @@ std::string lilypond_string(std::string_view text) {
 
 namespace {
 
-/// c d e … b, the sign (quarter tones have theirs), the octave: c' is middle C.
+/// The name of a pitch: c d e … b, a sign (also for quarter tones), the octave: c' is middle C.
 std::string pitch_name(const Pitch& pitch) {
     static constexpr std::array<std::string_view, 9> signs = {"eses", "eseh", "es",   "eh",  "",
                                                               "ih",   "is",   "isih", "isis"};
@@ -60,7 +60,7 @@ std::string_view clef_name(Clef clef) {
     return names[static_cast<std::size_t>(clef)];
 }
 
-/// The meter, with its groups where the file says them or LilyPond does not know them.
+/// The meter, with groups if the pattern states them or LilyPond does not support them by default.
 std::string meter_name(const Meter& meter) {
     const std::string fraction = fmt::format("{}/{}", meter.beats, meter.unit);
     if (!has_groups(meter)) return "\\time " + fraction;
@@ -112,7 +112,7 @@ public:
     }
 
 private:
-    /// How the drums that are used are written, as LilyPond's own tables lack some.
+    /// Writes a table of the drums used, as LilyPond's own tables lack some.
     void write_drum_table() {
         std::set<int> used;
         for (const NotatedPart& part : notation_.parts) {
@@ -144,7 +144,7 @@ private:
         text_.clear();
     }
 
-    /// Systems are farther apart than their staves, and the foot of the page is free.
+    /// Sets systems farther apart than their staves, and keeps the foot of the page free.
     void write_paper() {
         constexpr int usual = 20;
         if (const int size = staff_size(notation_); size != usual) put("#(set-global-staff-size {})\n\n", size);
@@ -153,7 +153,7 @@ private:
             "(stretchability . 60))\n"
             "  last-bottom-spacing = #'((basic-distance . 6) (minimum-distance . 5) (padding . 4) "
             "(stretchability . 30))\n");
-        // LilyPond takes systems with tuplets for lower than they are, and then has to squeeze a page.
+        // LilyPond underestimates the height of systems with tuplets, and would have to squeeze a page.
         if (has_tuplets()) put("  page-breaking-system-system-spacing.padding = #5\n");
         put("}}\n\n");
     }
@@ -179,7 +179,7 @@ private:
         });
     }
 
-    /// Room for names; staves that rest throughout a system are left out of it.
+    /// Reserves room for names, and leaves out staves that rest throughout a system.
     void write_layout() {
         std::size_t longest = 0;
         std::size_t shortest = 0;
@@ -192,7 +192,7 @@ private:
             }
             staves += part.bracket == Bracket::brace ? 1 : part.staves.size();
         }
-        // Millimetres in LilyPond's font, with a gap before the bracket.
+        // Millimetres for a name in LilyPond's font, with a gap before the bracket.
         const auto room = [](std::size_t letters, std::size_t gap) {
             return letters == 0 ? 0 : std::min<std::size_t>(gap + 2 * letters, 80);
         };
@@ -225,12 +225,12 @@ private:
         return {line_name(name, staff, count), line_name(is_solo ? "" : part.abbreviation, staff, count)};
     }
 
-    /// Letters that fit on a line of a page.
+    /// Numbers of letters that fit on a line of a page.
     static constexpr std::size_t title_width = 50;
     static constexpr std::size_t composer_width = 40;
     static constexpr std::size_t source_width = 100;
 
-    /// A text, or its beginning: long ones would fill the page, and more than PostScript can hold.
+    /// A text, or the beginning of one that would fill the page or exceed the limits of PostScript.
     static std::string shortened(std::string_view text, std::size_t most) {
         std::string shown = single_line(text.substr(0, most + 3));  // whole letters
         if (shown.size() <= most && text.size() <= most) return shown;
@@ -244,7 +244,7 @@ private:
         return shown + "\u2026";
     }
 
-    /// A text as a string, or up to four centred lines of it, as long as each other, and a little space.
+    /// A text as a string, or as up to four centred lines of similar length and a little space.
     static std::string text_lines(std::string_view text, std::size_t width) {
         const std::string shown = shortened(text, 7 * width / 2);
         std::vector<std::string> lines = lines_of(shown, width, width);
@@ -256,7 +256,7 @@ private:
         return fmt::format("\\markup \\center-column {{ {} \\vspace #0.2 }}", strings_of(lines));
     }
 
-    /// Lines of at most so many bytes, but for words up to `longest_word`; longer ones are divided.
+    /// Lines of at most `most` bytes, except for words up to `longest_word`; longer words are divided.
     static std::vector<std::string> lines_of(std::string_view name, std::size_t most = 16,
                                              std::size_t longest_word = 32) {
         std::vector<std::string> lines;
@@ -307,7 +307,7 @@ private:
                            drums.empty() ? "" : drum_row(drums.front(), 0));
     }
 
-    /// The opening of a context. @param hands  the group of both hands, which has their name
+    /// The opening of a context. @param are_hands  true for the group of both hands, which has their name
     std::string opening_of(const NotatedPart& part, std::size_t staff, bool are_hands) const {
         const bool is_drums = part.part.is_drums;
         const bool has_hands = part.bracket == Bracket::brace && part.staves.size() > 1;
@@ -347,8 +347,8 @@ private:
         if (is_group) put("    >>\n");
     }
 
-    /// The tempo in beats of the meter, as a whole number: LilyPond accepts no fractions, and truncates them in MIDI
-    /// files.
+    /// The tempo in beats of the meter, as a whole number: LilyPond does not accept fractions, and truncates them in
+    /// MIDI files.
     std::string tempo_mark() const {
         const BeatUnit beat = beat_unit(head_.meter);
         const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();
@@ -419,7 +419,7 @@ private:
         return fmt::format("\\{}", dynamic_name(mark.level));
     }
 
-    /// Clefs and lines of 8va that begin with a symbol; the first clef is written already.
+    /// Writes a clef or a line of 8va that begins with a symbol; the first clef is written already.
     void write_change(const StaffChange& change, Clef& clef, int& octaves) {
         if (change.clef != clef) put("\\clef {} ", clef_name(change.clef));
         if (change.octaves != octaves) put("\\ottava #{} ", change.octaves);
@@ -427,7 +427,7 @@ private:
         octaves = change.octaves;
     }
 
-    /// @param keys  after the first, which is written already
+    /// @param keys  keys after the first, which is written already
     void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
                      std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks) {
         const std::int64_t bar = notation_.bar_length;
@@ -473,7 +473,7 @@ private:
         }
     }
 
-    /// Where fewer beams lead from one note to the next than both have.
+    /// States the number of beams where fewer lead from one note to the next than both have.
     void write_beam_counts(const std::vector<NotatedSymbol>& symbols, std::size_t index) {
         const auto count = [&](std::size_t i, std::initializer_list<Beam> kinds) {
             const auto& beams = symbols[i].beams;
@@ -493,7 +493,7 @@ private:
         put("\\set stemRightBeamCount = #{} ", count(index, {Beam::begin, Beam::inside, Beam::forward_hook}));
     }
 
-    /// Cents above a note, those of a chord from the highest to the lowest.
+    /// Writes cents above a note, those of a chord from the highest to the lowest.
     void write_cents(const NotatedSymbol& symbol) {
         const std::vector<int> cents = printed_cents(symbol);
         if (cents.empty()) return;
@@ -502,7 +502,7 @@ private:
         put("^\\markup\\teeny{}", cents.size() > 1 ? "\\column{" + text + "}" : text);
     }
 
-    /// `c'`, or a chord `<c' e' g'>`.
+    /// Writes `c'`, or a chord `<c' e' g'>`.
     void write_heads(const NotatedSymbol& symbol) {
         const auto name = [](const Pitch& pitch, int drum) {
             return drum > 0 ? std::string(drum_of(drum).lilypond) : pitch_name(pitch);

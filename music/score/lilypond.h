@@ -14,11 +14,11 @@ namespace sikku {
 /// becomes `?`.
 std::string lilypond_string(std::string_view text);
 
-/// Writes a file for LilyPond 2.24 that makes a print and a MIDI file: the pattern and what made it as comments,
+/// Writes a file for LilyPond 2.24 that makes a print and a MIDI file: the recipe and the pattern as comments,
 /// title, composer and source, for each part its staves with the instrument, a line for each bar. Pitches are
-/// exact to the quarter tone, the tempo is to a whole number.
+/// exact to the quarter tone, the tempo is rounded to a whole number.
 /// Texts are written with lilypond_string().
-/// Throws what `sink` throws.
+/// @throws exceptions of `sink`
 void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink);
 
 }  // namespace sikku

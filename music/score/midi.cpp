@@ -31,14 +31,14 @@ namespace {
 
 constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t most_voices = channels - 1;
-/// Half a cent, which no ear tells; and a little, as halves of cents are no binary numbers.
+/// Half a cent, which is inaudible, and a margin, as cents are not exact in binary.
 constexpr double least_fraction = 0.005 + 1e-9;
 constexpr int release = 64;  // the velocity of a note-off that does not matter
 constexpr std::uint32_t unset = ~std::uint32_t{0};
 constexpr int none = -1;
 
 constexpr std::uint64_t plain_note_bytes = 14;
-// What comes before a note that needs it, with the delta of one byte that the note-on then has.
+// Bytes before a note that needs a program, bend or tuning, with the delta of one byte that the note-on then has.
 constexpr std::uint64_t program_bytes = 3;
 constexpr std::uint64_t bend_bytes = 4;
 constexpr std::uint64_t tuning_bytes = 14;
@@ -125,7 +125,7 @@ private:
         return *voice;
     }
 
-    /// Adds the points that came with controls() to those of the voice.
+    /// Adds the points received by controls() to those of the voice.
     void take_controls(Voice& voice) {
         std::vector<ControlPoint>& coming = coming_[static_cast<std::size_t>(voice.number)];
         if (coming.empty()) return;
@@ -202,7 +202,7 @@ private:
             if (!voice) continue;
             last = std::max(last, voice->now);
             if (voice->now > end) break;
-            // In format 0 others may go on until then.
+            // In format 0 other voices may continue until then.
             if (options_.format == 1 && static_cast<std::uint64_t>(end - voice->now) > most_delta) {
                 throw ScoreError(fmt::format(
                     "voice {} is silent for the last {} ticks of the score; a MIDI file can tell rests up "
@@ -230,7 +230,7 @@ private:
                big_endian(tracks, 2) + big_endian(ticks_per_quarter, 2);
     }
 
-    /// @param last  what ends the first track
+    /// @param last  bytes that end the first track
     void write_head(std::uint64_t tracks, const std::string& last) {
         const std::uint64_t size = conductor_.opening().size() + last.size();
         check_track(size);
@@ -270,8 +270,8 @@ private:
         return voice;
     }
 
-    /// The name of a voice as in print. The voices of its part that sound are numbered; for a voice that is streamed,
-    /// as others may still come, so are all.
+    /// The name of a voice as in print. The voices of its part that sound are numbered; for a streamed voice all are,
+    /// as more may follow.
     std::string name_of(const Voice& voice) const {
         const int part = part_of(voice.number);
         const std::string& name = labels_[static_cast<std::size_t>(part)].name;
@@ -288,7 +288,7 @@ private:
         return line_name(name, before, count);
     }
 
-    /// What stands at the beginning of a voice's track, all at tick 0.
+    /// The bytes at the beginning of a voice's track, all at tick 0.
     std::string open(const Voice& voice) const {
         std::string bytes;
         const std::string name = name_of(voice);
@@ -299,14 +299,14 @@ private:
             bytes += parameter_now(channel, bend_range_parameter, options_.bend_range) + no_parameter_now(channel);
         }
         if (options_.microtonal && options_.tuning == Tuning::mts && !voice.is_drums) {
-            // A tuning program of its own, so that voices do not retune each other's keys.
+            // Each voice has its own tuning program, so that voices do not retune each other's keys.
             bytes += parameter_now(channel, tuning_bank_parameter, 0) +
                      parameter_now(channel, tuning_program_parameter, channel) + no_parameter_now(channel);
         }
         return bytes.append({'\0', static_cast<char>(status(0xC0, channel)), static_cast<char>(voice.program)});
     }
 
-    /// Writes the notes at the front that are of this voice; returns how many.
+    /// Writes the first notes as long as they belong to this voice; returns their number.
     template <bool microtonal>
     std::size_t write(Voice& voice, std::span<const Note> notes) {
         char* out = voice.out;
@@ -318,7 +318,7 @@ private:
         for (; i < notes.size() && notes[i].voice == voice.number; ++i) {
             const Note& note = notes[i];
             if (has_glide(note)) break;
-            // Unsigned, so that what is negative is too much.
+            // Unsigned, so that negative values are too large.
             std::uint64_t rest = static_cast<std::uint64_t>(note.onset) - static_cast<std::uint64_t>(now);
             const auto length = static_cast<std::uint64_t>(note.duration);
             const bool is_key = note.key >= 0.0 && note.key <= 127.0;
@@ -362,7 +362,7 @@ private:
         return i;
     }
 
-    /// The same, with what changes before and during the notes.
+    /// Writes notes like write(), with bends and controllers before and during them.
     std::size_t write_curved(Voice& voice, std::span<const Note> notes) {
         std::size_t i = 0;
         for (; i < notes.size() && notes[i].voice == voice.number; ++i) {
@@ -432,7 +432,7 @@ private:
 
     bool bends_notes() const { return is_mpe_ || (options_.microtonal && options_.tuning == Tuning::bend); }
 
-    /// Bends the note that sounds. A key that is too far away is struck anew where the slide has come to.
+    /// Bends the sounding note. If the pitch is too far from its key, the key reached by the slide is struck.
     /// @return the key that sounds now
     int slide(Voice& voice, const GlidePoint& point, int key, int velocity) {
         if (std::fabs(point.key - key) <= bend_range_) {
@@ -446,7 +446,7 @@ private:
         return key;
     }
 
-    /// Writes the points before `until`. @param bends  whether a note of that fraction sounds, which may be bent
+    /// Writes the points before `until`. @param bends  true if a note of that fraction sounds, which may be bent
     void write_controls(Voice& voice, std::int64_t until, bool bends, double fraction) {
         std::size_t used = 0;
         for (const ControlPoint& point : voice.controls) {
@@ -495,7 +495,7 @@ private:
         voice.now = tick;
     }
 
-    /// @param fraction  of a semitone, -0.5 to 0.5
+    /// Bends a channel. @param fraction  fraction of a semitone, -0.5 to 0.5
     char* bend(Voice& voice, char* out, std::uint64_t rest, double fraction) const {
         const int wanted = centre + static_cast<int>(std::lround(fraction * centre / bend_range_));
         if (wanted == voice.bend) return out;
@@ -518,7 +518,7 @@ private:
         return put_byte(out, 0xF7);
     }
 
-    /// Says what is wrong with a note.
+    /// Reports the fault of a note. @throws ScoreError always
     [[noreturn]] static void refuse(const Voice& voice, std::int64_t now, const Note& note) {
         const std::string where = fmt::format("voice {}, tick {}: ", voice.number + 1, note.onset);
         if (note.onset < 0) throw ScoreError(where + "a note before the beginning of the score");
@@ -553,7 +553,7 @@ private:
         voice.out = voice.block.get();
     }
 
-    /// What is not known yet, finish() fills in.
+    /// Writes the head and the beginning of voice 0; finish() fills in the missing numbers.
     void begin_streaming(const Voice& voice) {
         streamed_ = true;
         write_head(0, conductor_.closing(0, wide_delta(0)));
@@ -561,7 +561,7 @@ private:
         sink_.write("MTrk" + big_endian(0, 4) + open(voice));
     }
 
-    /// All voices in one track, by tick and rank; what is equal there, by voice.
+    /// Writes all voices in one track, by tick, rank and voice.
     void write_merged(std::int64_t end) {
         std::vector<std::string> openings;
         openings.reserve(sounding_);  // events refer to them
@@ -616,7 +616,7 @@ private:
     const MidiOptions options_;
     const bool is_mpe_;
     const int bend_range_;
-    const std::vector<int> slots_;     // of channels, by part, if they are shared
+    const std::vector<int> slots_;     // channel slots by part, if channels are shared
     const std::vector<Label> labels_;  // by part
     Conductor conductor_;
     const std::size_t most_collected_ = static_cast<std::size_t>(available_memory() / 4 / sizeof(Note));
@@ -624,7 +624,7 @@ private:
     std::array<std::map<int, int>, channels> sent_;  // values of controllers, by channel, with MPE
     std::vector<std::unique_ptr<Voice>> voices_;     // by number; null while they are silent
     std::size_t sounding_ = 0;
-    std::size_t pitched_ = 0;  // of those, all but drums
+    std::size_t pitched_ = 0;  // number of those that are not drums
     bool streamed_ = false;    // head and the beginning of voice 0 are in the sink
     std::uint64_t head_bytes_ = 0;
     std::uint64_t conductor_end_at_ = 0;

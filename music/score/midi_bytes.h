@@ -7,11 +7,11 @@
 
 namespace sikku::midi {
 
-/// The largest number that four bytes of seven bits hold.
+/// The largest number that four bytes of seven bits can represent.
 constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
 constexpr int channels = 16;
 constexpr int drum_channel = 9;  ///< General MIDI, counted from 0
-constexpr int centre = 8192;     ///< value of no pitch bend
+constexpr int centre = 8192;     ///< value without pitch bend
 
 inline char* put_byte(char* out, int byte) {
     *out = static_cast<char>(byte);
@@ -33,7 +33,7 @@ inline char* put_delta(char* out, std::uint64_t value) {
 
 /// put_delta() as text. @param value  at most most_delta
 std::string delta(std::uint64_t value);
-/// As delta(), but four bytes whatever the value: leading zeros are legal, if wasteful.
+/// Like delta(), but always four bytes: leading zeros are legal, if wasteful.
 std::string wide_delta(std::uint64_t value);
 std::string big_endian(std::uint64_t value, int bytes);
 
@@ -52,7 +52,7 @@ constexpr int key_type = 0x59;
 
 /// A meta event without its delta. @throws ScoreError for 256 MB or more
 std::string meta(int type, std::string_view data);
-/// At the tick of the event before it.
+/// A meta event at the tick of the event before it.
 std::string meta_now(int type, std::string_view data);
 std::string controller_now(int channel, int number, int value);
 
@@ -62,9 +62,9 @@ constexpr int tuning_bank_parameter = 4;
 constexpr int mpe_parameter = 6;
 /// A registered parameter: selects it, then sets both halves of its value.
 std::string parameter_now(int channel, int parameter, int value);
-/// Further data entry changes nothing.
+/// Deselects the parameter, so that further data entry has no effect.
 std::string no_parameter_now(int channel);
-/// Makes channels 2 to 16 those of single notes. The range of the bend is repeated for synthesizers without MPE.
+/// Assigns channels 2 to 16 to single notes. The range of the bend is repeated for synthesizers without MPE.
 std::string mpe_configuration();
 
 }  // namespace sikku::midi

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t header_bytes = 14;
 constexpr std::size_t chunk_head_bytes = 8;
-constexpr int default_tempo = 500'000;  // microseconds a quarter, where a file tells none
+constexpr int default_tempo = 500'000;  // microseconds a quarter, if a file does not state it
 constexpr std::size_t no_fault = std::numeric_limits<std::size_t>::max();
 
 constexpr int end_of_track = 0x2F;
@@ -55,10 +55,10 @@ struct Layout {
     std::uint64_t delta = 0;
     std::size_t delta_bytes = 0;
     std::size_t at = 0;  ///< its status, or the first data byte under running status
-    int status = 0;      ///< 0 if there is none to run on
+    int status = 0;      ///< 0 if running status lacks a status
     bool is_running = false;
-    int type = -1;                 ///< of a meta event
-    std::size_t length_bytes = 0;  ///< of the number that tells the length of a meta or sysex event
+    int type = -1;                 ///< type of a meta event
+    std::size_t length_bytes = 0;  ///< bytes of the length of a meta or sysex event
     std::size_t length_at = 0;
     std::size_t data = 0;
     std::size_t size = 0;
@@ -69,7 +69,7 @@ struct Layout {
 struct Start {
     std::int64_t tick = 0;
     std::size_t at = 0;
-    std::size_t fault = no_fault;  ///< which one tells that its key sounded already
+    std::size_t fault = no_fault;  ///< index of the fault that its key sounded already
 };
 
 /// The note-ons of a key that have no note-off yet; the first is ended first.
@@ -91,18 +91,18 @@ struct Sounding {
 
 struct TrackState {
     int number = 0;               ///< counted from 1
-    std::size_t head = 0;         ///< where the chunk begins
+    std::size_t head = 0;         ///< beginning of the chunk
     std::size_t at = 0;           ///< the next event
-    std::size_t end = 0;          ///< of the chunk, as its head tells; perhaps beyond the file
+    std::size_t end = 0;          ///< end of the chunk by its head, possibly beyond the file
     std::size_t limit = 0;        ///< where reading stops
-    std::int64_t tick = 0;        ///< of the last event
+    std::int64_t tick = 0;        ///< tick of the last event
     int running = 0;              ///< the status that data bytes belong to; 0 if there is none
-    int last_channel_status = 0;  ///< also if a meta or sysex event came since
+    int last_channel_status = 0;  ///< kept after meta and sysex events
     bool sysex_is_open = false;   ///< the last F0 was not ended by an F7
-    std::size_t sysex_at = 0;     ///< where that one began
+    std::size_t sysex_at = 0;     ///< beginning of that message
     bool ended = false;           ///< the end-of-track was seen
-    bool is_extended = false;     ///< it went on after the end that its head tells
-    bool is_readable = true;      ///< up to its end
+    bool is_extended = false;     ///< it continued after the end that its head states
+    bool is_readable = true;      ///< it could be read up to its end
     bool told_second_end = false;
     bool told_events_after_end = false;
     std::size_t sounding = 0;  ///< notes that have not ended
@@ -145,8 +145,8 @@ private:
                           [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
     }
 
-    /// Whether a chunk may begin here: four letters and a length that the file has room for. A track is one
-    /// whatever its length.
+    /// True if a chunk may begin here: four letters and a length that fits into the file. A track may have any
+    /// length.
     bool is_chunk(std::size_t at) const {
         if (at > size() || size() - at < chunk_head_bytes) return false;
         if (has(at, "MTrk")) return true;
@@ -155,7 +155,7 @@ private:
                big_endian(at + 4, 4) <= size() - at - chunk_head_bytes;
     }
 
-    /// Where the next track begins, or the end of the file.
+    /// The beginning of the next track, or the end of the file.
     std::size_t next_track(std::size_t at) const {
         constexpr std::string_view kind = "MTrk";
         const auto found = std::search(bytes_.begin() + static_cast<std::ptrdiff_t>(std::min(at, size())),
@@ -250,7 +250,7 @@ private:
         check_ends();
     }
 
-    /// An hour is more than any last note or rest is meant to last.
+    /// Checks that tracks end within an hour of the last event, as a longer last note or rest is a mistake.
     void check_ends() {
         if (division_ == 0) return;
         double seconds = 1e-6 * tempo_ / division_;  // a tick, after the last event
@@ -329,11 +329,11 @@ private:
         } else {
             read_event(track, event);
         }
-        // Where its length is wrong there is no telling what comes after the end-of-track.
+        // If its length is wrong, the bytes after the end-of-track cannot be interpreted.
         return !(track.ended && track.is_extended);
     }
 
-    /// Whether the track goes on after the end that its head tells, as what comes there is no chunk.
+    /// True if the track continues after the end that its head states, as no chunk begins there.
     bool extend(TrackState& track) {
         if (track.is_extended || track.end >= size() || is_chunk(track.end)) return false;
         track.is_extended = true;
@@ -359,7 +359,7 @@ private:
 
     /// False if the number does not end before `limit`.
     bool read_number(std::size_t& at, std::size_t limit, std::uint64_t& value) const {
-        constexpr std::uint64_t most = std::uint64_t{1} << 28;  // what is longer is wrong anyway
+        constexpr std::uint64_t most = std::uint64_t{1} << 28;  // longer numbers are wrong anyway
         value = 0;
         while (at < limit) {
             const std::uint8_t byte = bytes_[at++];
@@ -396,7 +396,7 @@ private:
                 event.length_bytes = at - event.length_at;
                 event.size = length;
             } else {
-                // As they are on a cable.
+                // System messages as on a cable.
                 event.size = first == 0xF2 ? 2 : first == 0xF1 || first == 0xF3 ? 1 : 0;
             }
         }
@@ -506,7 +506,7 @@ private:
         }
     }
 
-    /// Tells what sounds on, if the track was read to its end.
+    /// Reports notes that still sound, if the track was read to its end.
     void end_notes(const TrackState& track) {
         if (track.sounding == 0) return;
         for (std::size_t i = 0; i < sounding_.size(); ++i) {
@@ -604,8 +604,8 @@ private:
     int declared_ = 0;
     int found_ = 0;
     int division_ = 0;
-    std::vector<Sounding> sounding_;  // of the track, by channel and key
-    std::int64_t last_tick_ = 0;      // of all events but end-of-tracks
+    std::vector<Sounding> sounding_;  // notes of the track, by channel and key
+    std::int64_t last_tick_ = 0;      // tick of the last event other than an end-of-track
     std::int64_t tempo_tick_ = 0;
     int tempo_ = default_tempo;  // the last of the file
     std::vector<End> ends_;

@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// One thing wrong at one byte, counted from 0. The text names track (from 1), tick and channel (from 1).
+/// A fault at a byte, counted from 0. The text names track (from 1), tick and channel (from 1).
 struct MidiFault {
     std::uint64_t at = 0;
     std::string what;
@@ -16,13 +16,13 @@ struct MidiFault {
 
 constexpr std::size_t most_midi_faults = 50;
 
-/// Every fault of a Standard MIDI File that can be told from its bytes, by place; after the 50th it stops looking.
+/// Finds all faults of a Standard MIDI File that its bytes reveal, by place; stops after the 50th.
 ///
-/// Stricter than any program that plays: what the format forbids is a fault, and so is what some programs stumble
-/// over or nobody can have meant: format 2, notes without length, a key that is struck while it sounds, a note-on
-/// before the note-off of the same key at one tick, notes that do not end, an end-of-track an hour after the last
-/// event. Longer headers and chunks of other kinds are legal. After a fault it goes on where that makes sense: a
-/// chunk whose length is wrong is read up to its end-of-track, a data byte above 127 counts as data.
+/// Stricter than any player: besides violations of the format, faults are contents that some programs cannot handle
+/// or that cannot be intended: format 2, notes without length, a key that is struck while it sounds, a note-on before
+/// the note-off of the same key at one tick, notes that do not end, an end-of-track an hour after the last event.
+/// Longer headers and chunks of other kinds are legal. After a fault the check continues where possible: a chunk
+/// whose length is wrong is read up to its end-of-track, a data byte above 127 counts as data.
 /// Cost: one pass; memory only for notes that sound.
 std::vector<MidiFault> check_midi(std::span<const std::uint8_t> bytes);
 

@@ -73,7 +73,7 @@ double Conductor::first_factor() const {
 std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
     static const Curves nothing;
     const Curves& curves = curves_ ? *curves_ : nothing;
-    // A long map is not copied for nothing.
+    // Avoids copying a long map.
     std::vector<TempoPoint> falling;
     if (head_->ritardando != 0) falling = tempo_map(*head_, curves, end);
     const std::vector<TempoPoint>& map = head_->ritardando != 0 ? falling : curves.tempo;
@@ -84,7 +84,7 @@ std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
         // A delta cannot express a later tick.
         const bool is_late = static_cast<std::uint64_t>(point.tick) > most_delta;
         const double tempo = is_late ? head_->tempo : head_->tempo * point.factor;
-        // The score begins with it.
+        // The opening contains the first tempo.
         if (point.tick == 0 && point.factor == first_factor()) continue;
         if (!is_late) last = point.tick;
         result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});

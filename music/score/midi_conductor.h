@@ -14,19 +14,19 @@ struct TempoChange {
     std::int64_t tick;
     std::uint32_t micro;  ///< microseconds a quarter
 
-    /// Without its delta.
+    /// The event without its delta.
     std::string event() const;
 };
 
 class Conductor {
 public:
     /// @param head, curves  have to outlive this; curves may be null
-    /// @throws ScoreError for a tempo, meter, key or program that no file can hold
+    /// @throws ScoreError for a tempo, meter, key or program that a file cannot contain
     Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe);
 
     /// The events at the beginning of the track, all at tick 0.
     const std::string& opening() const { return opening_; }
-    /// Those after the tempo of the beginning, by tick.
+    /// Changes of tempo after the beginning, by tick.
     std::vector<TempoChange> changes(std::int64_t end) const;
     /// The bytes that end the track. Their number is the same for every `end` if `last` is.
     /// @param last  the delta of the end of the track if the tempo does not change

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-/// Reads on from byte to byte; the end of the bytes is an error.
+/// Reads bytes in order; throws at their end.
 class Reader {
 public:
     explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -29,7 +29,7 @@ public:
         for (const std::uint8_t each : take(count)) value = value << 8 | each;
         return value;
     }
-    /// Seven bits a byte, at most four bytes.
+    /// Reads a number of seven bits a byte, at most four bytes.
     std::uint32_t number() {
         std::uint32_t value = 0;
         for (int i = 0; i < 4; ++i) {
@@ -67,7 +67,7 @@ MidiTexts read_midi_texts(std::span<const std::uint8_t> bytes) {
         reader.take(reader.big_endian(4));
         if (reader.is_at_end()) return found;
     }
-    reader.take(8);  // a length that is wrong matters to check_midi() only
+    reader.take(8);  // a wrong length matters only to check_midi()
     int texts = 0;
     for (int running = 0; texts < 2;) {
         reader.number();  // the delta

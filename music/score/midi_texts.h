@@ -13,7 +13,7 @@ struct MidiTexts {
     std::string made;     ///< its second text
 };
 
-/// Whether a regular file is a MIDI file, also one of another name.
+/// True if a regular file is a MIDI file, whatever its name.
 bool is_midi_file(const std::filesystem::path& file);
 
 /// Reads the texts that write_midi puts first into a Standard MIDI File; missing texts stay empty. The bytes may end

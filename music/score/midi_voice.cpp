@@ -3,7 +3,7 @@
 namespace sikku::midi {
 namespace {
 
-/// Where events of a tick come in the file.
+/// The order of events of one tick in the file.
 int rank(unsigned char status) {
     switch (status & 0xF0) {
         case 0xB0:

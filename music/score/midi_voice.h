@@ -27,12 +27,12 @@ struct Voice {
     int program = 0;
     std::int64_t now = 0;  ///< the tick of the last event
     int bend = centre;
-    bool has_new_program = false;            ///< with MPE, before the next note
-    std::span<const ControlPoint> controls;  ///< that are still to come
+    bool has_new_program = false;            ///< with MPE: the program is to be sent before the next note
+    std::span<const ControlPoint> controls;  ///< controls still to come
     std::vector<ControlPoint> own_controls;  ///< those of NoteSink::controls()
-    std::map<int, int> values;               ///< of controllers now, with MPE
-    std::vector<std::uint32_t> tuned;        ///< what each key sounds as, with MTS; in 1/2^14 semitones
-    std::vector<std::string> full;           ///< blocks that were filled, unless they are in the sink
+    std::map<int, int> values;               ///< present values of controllers, with MPE
+    std::vector<std::uint32_t> tuned;        ///< pitch of each key, with MTS, in 1/2^14 semitones
+    std::vector<std::string> full;           ///< filled blocks that are not in the sink
     std::uint64_t full_bytes = 0;            ///< size of all of them
     std::unique_ptr<char[]> block = std::make_unique<char[]>(block_bytes);
     char* out = block.get();
@@ -42,15 +42,15 @@ struct Voice {
     std::uint64_t bytes() const { return full_bytes + open_block().size(); }
 };
 
-/// Goes through the events of a voice; knows just what the writer writes.
+/// Iterates over the events of a voice; supports only those that the writer writes.
 class Events {
 public:
-    /// @param opening  what stands before the events of the voice; both have to outlive this
+    /// @param opening  bytes before the events of the voice; both have to outlive this
     Events(const Voice& voice, std::string_view opening);
 
     bool done() const { return event_.empty(); }
     std::int64_t tick() const { return tick_; }
-    /// Events of all voices are sorted by it.
+    /// Sort key of the events of all voices.
     std::int64_t place() const;
     std::string_view event() const { return event_; }
 
@@ -61,7 +61,7 @@ private:
 
     std::vector<std::string_view> pieces_;
     std::size_t piece_ = 0;
-    std::string_view rest_;   // of the piece
+    std::string_view rest_;   // rest of the piece
     std::string_view event_;  // without its delta
     std::int64_t tick_ = 0;
 };

@@ -30,10 +30,10 @@ public:
     /// @param end    tick; INT64_MAX if unknown: see release()
     /// @param key    a channel does not get the same key again at the tick at which it ended, unless from one voice:
     ///               in files their order would be that of the tracks
-    /// @param voice  of the note
+    /// @param voice  voice of the note
     /// @return channel, counted from 0; -1 if all are in use
     int take(std::int64_t onset, std::int64_t end, int key, int voice);
-    /// The note of that channel ended.
+    /// Ends the note of a channel.
     void release(int channel, std::int64_t tick) { uses_[static_cast<std::size_t>(channel)].end = tick; }
 
 private:

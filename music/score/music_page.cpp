@@ -20,7 +20,7 @@ namespace {
 
 // ---- texts and numbers
 
-/// At most `places` decimals, no zeros at the end, no -0.
+/// Writes a number with at most `places` decimals, without trailing zeros or -0.
 void put(std::string& out, double value, int places) {
     const std::size_t begin = out.size();
     fmt::format_to(std::back_inserter(out), "{:.{}f}", value, places);
@@ -37,7 +37,7 @@ std::string number(double value, int places = 3) {
     return result;
 }
 
-/// Characters, not bytes.
+/// A text of at most `most` characters (not bytes), else its beginning and an ellipsis.
 std::string shortened(std::string_view text, std::size_t most) {
     std::size_t bytes = 0;
     for (std::size_t count = 0; bytes < text.size(); ++count) {
@@ -47,7 +47,7 @@ std::string shortened(std::string_view text, std::size_t most) {
     return std::string(text);
 }
 
-/// Hands its text on in pieces.
+/// Writes text in pieces.
 class Pieces {
 public:
     explicit Pieces(Output& out) : out_(out) {}
@@ -69,7 +69,7 @@ private:
 // ---- colours
 
 /// From the lowest key to the highest, evenly lighter (OKLCH): L 0.40 to 0.72 for paper, 0.62 to 0.90 for a dark
-/// screen, the hue from blue over red to yellow. So the order can be seen in grey and by those who tell no colours.
+/// screen, the hue from blue over red to yellow. So the order is visible in grey and to colour-blind readers.
 constexpr std::array<std::string_view, 9> paper_ramp = {"243b9c", "5338a8", "7a36a8", "9e359c", "bd3885",
                                                         "d44469", "e25949", "e57529", "df911a"};
 constexpr std::array<std::string_view, 9> screen_ramp = {"4e82e5", "887ef2", "b97aed", "e378d9", "ff80b9",
@@ -83,7 +83,7 @@ int channel(std::string_view colour, std::size_t which) {
     return 16 * digit(2 * which) + digit(2 * which + 1);
 }
 
-/// `#rrggbb` of a ramp at 0 to 1.
+/// The colour `#rrggbb` at a position of a ramp, 0 to 1.
 std::string ramp_colour(const std::array<std::string_view, 9>& ramp, double at) {
     const double scaled = std::clamp(at, 0.0, 1.0) * static_cast<double>(ramp.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(scaled), ramp.size() - 2);
@@ -96,7 +96,7 @@ std::string ramp_colour(const std::array<std::string_view, 9>& ramp, double at) 
     return result;
 }
 
-// ---- what both writers look at
+// ---- melody, for both writers
 
 struct Melody {
     std::vector<Note> notes;  ///< by onset, then by voice
@@ -144,7 +144,7 @@ struct Joint {
     glm::dvec2 to{0.0};
 };
 
-/// Only what is parallel to an axis is a run of the curve; a slanting gap is a jump, as after a bracket.
+/// Finds silent pieces: gaps parallel to an axis are runs of the curve, others are jumps, as after a bracket.
 std::vector<Joint> joints(const Melody& melody) {
     constexpr double nothing = 1e-6;
     std::vector<Joint> result;
@@ -162,7 +162,7 @@ std::vector<Joint> joints(const Melody& melody) {
     return result;
 }
 
-/// Tempo, metre, parts in words.
+/// Tempo, meter and parts in words.
 std::string subtitle(const ScoreHead& head, const Melody& melody) {
     std::string text = fmt::format("{} {}, {} quarters a minute, {}/{}", melody.notes.size(),
                                    melody.notes.size() == 1 ? "note" : "notes", number(head.tempo, 2),
@@ -249,7 +249,7 @@ void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
     const std::vector<Joint> gaps = joints(melody);
     out.text() +=
         fmt::format("<g id=\"curve\" fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\">\n", number(width));
-    // In several paths, as readers refuse very long attributes.
+    // Writes several paths, as readers refuse very long attributes.
     constexpr std::size_t joints_of_a_path = 1000;
     for (std::size_t i = 0; i < gaps.size(); i += joints_of_a_path) {
         out.text() += fmt::format("<path class=\"silent\" stroke=\"#9a9aa5\" stroke-width=\"{}\" d=\"",
@@ -276,7 +276,7 @@ void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
 }
 
 void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel, Pieces& out) {
-    // At least an octave high, so that three notes are no three boards.
+    // At least an octave high, so that a few notes do not become wide bars.
     int low = static_cast<int>(std::floor(melody.low)) - 1;
     int high = static_cast<int>(std::ceil(melody.high)) + 1;
     while (high - low < 12) {
@@ -308,7 +308,7 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
             number(middle(key) + 1.0), (key + 120) / 12 - 11);
     }
     out.text() += "</g>\n<g id=\"bars\">\n";
-    // Every bar, or every 2nd, 4th, 8th where that would be a grey field; a number at most every 12 mm.
+    // Every bar, or every 2nd, 4th, 8th if lines would merge into grey; a number at most every 12 mm.
     const auto bar = static_cast<double>(std::max<std::int64_t>(head.meter.bar(), 1)) * width_of_tick;
     std::int64_t every = 1;
     while (bar * static_cast<double>(every) < 3.0) every *= 2;
@@ -326,10 +326,10 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     out.text() += "</g>\n<g id=\"roll\">\n";
     const double thick = std::max(0.86 * row, 0.6);
     for (const Note& note : melody.notes) {
-        // A little is left out at the end, so that the same key twice is two notes.
+        // A gap at the end separates repeated notes.
         const std::int64_t level = note.duration - note.glide.ticks;
         const double full = width_of_tick * static_cast<double>(level);
-        // Notes of a very long score hide each other rather than themselves.
+        // Notes of a very long score overlap rather than vanish.
         const double width = std::max(full > 0.6 ? full - 0.2 : full * 0.7, narrowest_note);
         out.text() += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
                                   ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
@@ -385,7 +385,7 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
     const Melody melody = survey(notes, end);
     Pieces out(sink);
     const std::string title = title_of(head);
-    // The head is the one of prints, so that the pattern is found again in the same way.
+    // The head is that of prints, so that the pattern can be read in the same way.
     out.text() += fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:sikku=\"urn:sikku:print\"\n"
@@ -412,7 +412,7 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
     Panel roll{page_margin + key_names_width, panels_top, page_width - 2.0 * page_margin - key_names_width,
                panels_bottom - panels_top};
     if (melody.has_curve()) {
-        // As wide as the curve wants at full height, but a third of the page at least and half of it at most.
+        // The width of the curve at full height, but at least a third and at most half of the page.
         const glm::dvec2 extent = melody.curve_high - melody.curve_low;
         const double wanted = extent.y > 0.0 ? roll.height * extent.x / extent.y : page_width;
         Panel curve{page_margin, panels_top, std::clamp(wanted, 80.0, 140.0), roll.height};
@@ -431,7 +431,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
     const Melody melody = survey(notes, end);
     Pieces out(sink);
     const std::string title = xml_escaped(title_of(head));
-    // The slider reaches a quarter and four times of the tempo, whatever that is.
+    // The slider ranges from a quarter of the tempo to four times the tempo.
     const double slowest = head.tempo < 8.0 ? head.tempo / 4.0 : std::floor(head.tempo / 4.0);
     const double fastest = std::ceil(head.tempo * 4.0);
     out.text() += fmt::format(
@@ -465,7 +465,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "goes to the beginning.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n";
     if (!head.pattern.empty()) {
         out.text() += "<details>\n<summary>The pattern</summary>\n<pre tabindex=\"0\">";
-        // HTML drops a line feed that stands first.
+        // HTML drops a leading line feed.
         if (head.pattern.front() == '\n') out.text() += '\n';
         out.text() += xml_escaped(head.pattern);
         out.text() += "</pre>\n</details>\n";

@@ -12,13 +12,13 @@
 
 namespace sikku {
 
-/// Keeps a whole melody: a picture or a page of it needs to know every note before the first is written.
+/// Keeps a whole melody, for pictures and pages, which need all notes before the first is written.
 class NoteCollector : public NoteSink {
 public:
     static constexpr std::size_t most_points = 4'000'000;
 
-    /// @param most  notes above which a ScoreError is thrown; its message names `--bars`. Curves may have
-    /// `most_points` points.
+    /// @param most  notes above which a ScoreError is thrown; it suggests to limit the bars or seconds. Curves may
+    /// have `most_points` points.
     explicit NoteCollector(std::size_t most = 100'000) : most_(most) {}
 
     void curves(const Curves& curves) override { curves_ = curves; }
@@ -42,17 +42,19 @@ private:
 /// curve that are silent and parallel to an axis join the notes as thin lines. Notes that all come from one point
 /// have no curve, and the roll is given the whole page. The title, the pattern's text and `made` are in the file.
 ///
-/// `end`: of the score, in ticks; where notes sound longer, they count. Notes in any order. Each note is a `line` in
-/// the group `curve` and a `rect` in the group `roll`, both ordered by onset, then by voice. Memory: a copy of the
-/// notes. Throws what `out` throws.
+/// Each note is a `line` in the group `curve` and a `rect` in the group `roll`, both ordered by onset, then by voice.
+/// Memory: a copy of the notes.
+/// @param notes  in any order
+/// @param end    end of the score, in ticks; notes that sound longer extend it
+/// @throws exceptions of `out`
 void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out);
 
-/// One HTML page that needs nothing but a browser, no network either: it draws the curve while it plays the notes.
-/// Notes are in the file with their ticks as they are and keys to 4 decimals. Tests and other scripts find in
-/// `window.sikku` the `notes` ([onset, duration, key, voice, velocity, from x, from y, to x, to y], ordered by onset,
-/// then by voice, and of notes that slide ticks, semitones and rise of the glide) and `state()`: whether it is
-/// `playing`, `tick` and the sound's `time` in seconds, `tempo`, how many notes have `sounded`, and `recent`, the
-/// indices of the last of them. Arguments, memory and errors as of write_music_svg.
+/// One HTML page that needs only a browser, and no network: it draws the curve while it plays the notes. Notes are in
+/// the file with exact ticks and keys to 4 decimals. Tests and other scripts find in `window.sikku` the `notes`
+/// ([onset, duration, key, voice, velocity, from x, from y, to x, to y], ordered by onset, then by voice, and for
+/// notes that slide ticks, semitones and rise of the glide) and `state()`: whether it is `playing`, `tick` and the
+/// sound's `time` in seconds, `tempo`, how many notes have `sounded`, and `recent`, the indices of the last of them.
+/// Arguments, memory and errors: see write_music_svg().
 void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out,
                       const Curves& curves = {});
 

@@ -63,7 +63,7 @@ struct XmlPart {
     bool ends_group = false;
 };
 
-/// How far the changes of a staff are written.
+/// Progress in writing the changes of a staff.
 struct StaffState {
     const Staff* staff = nullptr;
     std::size_t index = 0;
@@ -99,7 +99,7 @@ private:
         text_.clear();
     }
 
-    /// The ticks of a division: the largest that divides every duration.
+    /// Sets the ticks of a division: the largest number that divides every duration.
     void find_unit() {
         unit_ = std::gcd(ticks_per_quarter, notation_.bar_length);
         for (const NotatedPart& part : notation_.parts) {
@@ -133,7 +133,7 @@ private:
         if (!head_.title.empty()) put("<work><work-title>{}</work-title></work>\n", xml_escaped(head_.title));
         put("<identification>\n");
         if (!head_.composer.empty()) put("<creator type=\"composer\">{}</creator>\n", xml_escaped(head_.composer));
-        // Programs print it at the foot of the first page.
+        // Programs print the rights at the foot of the first page.
         if (!head_.source.empty()) put("<rights type=\"source\">{}</rights>\n", xml_escaped(head_.source));
         const std::string software = head_.made.substr(0, head_.made.find(','));
         put("<encoding><software>{}</software>"
@@ -176,7 +176,7 @@ private:
                            xml_escaped(part.name), xml_escaped(part.abbreviation));
     }
 
-    /// A part with an instrument for each drum that it uses.
+    /// Writes a part with an instrument for each drum that it uses.
     void write_drum_part(std::size_t index) {
         std::set<int> used;
         for (const Staff& staff : parts_[index].staves) {
@@ -201,7 +201,7 @@ private:
         const XmlPart& part = parts_[index];
         const std::vector<KeyChange>& keys = part.part->keys;
         put("<part id=\"P{}\">\n", index + 1);
-        std::vector<std::vector<std::size_t>> next;  // of each staff and voice
+        std::vector<std::vector<std::size_t>> next;  // next symbol of each staff and voice
         std::vector<StaffState> states;
         for (const Staff& staff : part.staves) {
             next.emplace_back(staff.voices.size(), 0);
@@ -285,7 +285,7 @@ private:
             sign.octaves != 0 ? fmt::format("<clef-octave-change>{}</clef-octave-change>", sign.octaves) : "");
     }
 
-    /// In beats of the meter; in other beats than quarters as a whole number.
+    /// Writes the tempo in beats of the meter, rounded to a whole number unless beats are quarters.
     void write_tempo() {
         const BeatUnit beat = beat_unit(head_.meter);
         const double tempo =
@@ -373,7 +373,7 @@ private:
         }
     }
 
-    /// A further note of a chord: as its first note, but without what is written once.
+    /// Writes a further note of a chord like its first note, but without marks that are written once.
     void write_chord_note(const NotatedSymbol& first, const ChordNote& note, const NotatedVoice& voice) {
         NotatedSymbol symbol = first;
         symbol.pitch = note.pitch;
@@ -474,9 +474,9 @@ private:
     fmt::memory_buffer text_;
     std::vector<XmlPart> parts_;
     std::int64_t unit_ = 1;  ///< ticks of a division
-    std::int64_t here_ = 0;  ///< where the reader is, in ticks
+    std::int64_t here_ = 0;  ///< position of the reader, in ticks
     std::size_t part_ = 1;   ///< from 1
-    std::size_t staff_ = 0;  ///< from 1; 0 if there is but one
+    std::size_t staff_ = 0;  ///< from 1; 0 if there is only one
     int voice_ = 1;
 };
 

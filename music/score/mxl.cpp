@@ -1,20 +1,16 @@
 #include "music/score/mxl.h"
 
+#include "engine/base/deflate.h"
+
 #include <zlib.h>
 
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace sikku {
 namespace {
-
-constexpr int raw_window_bits = -15;  // deflate without header and checksum
-constexpr int most_memory = 9;
-constexpr int best_level = 9;
 
 std::string little_endian(std::uint64_t value, int bytes) {
     std::string text;
@@ -22,43 +18,19 @@ std::string little_endian(std::uint64_t value, int bytes) {
     return text;
 }
 
-std::string deflated(std::string_view bytes) {
-    z_stream stream{};
-    if (deflateInit2(&stream, best_level, Z_DEFLATED, raw_window_bits, most_memory, Z_DEFAULT_STRATEGY) != Z_OK) {
-        throw std::bad_alloc();
-    }
-    std::string result;
-    std::vector<char> block(std::size_t{1} << 16);
-    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    int state = Z_OK;
-    while (state == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = deflate(&stream, Z_FINISH);
-        result.append(block.data(), block.size() - stream.avail_out);
-    }
-    deflateEnd(&stream);
-    return result;
-}
-
-/// CRC-32 of ZIP and PNG: polynomial 0xEDB88320.
+/// CRC-32 of ZIP and PNG.
 std::uint32_t checksum(std::string_view bytes) {
-    std::uint32_t value = ~std::uint32_t{0};
-    for (const char byte : bytes) {
-        value ^= static_cast<unsigned char>(byte);
-        for (int i = 0; i < 8; ++i) value = (value >> 1) ^ ((value & 1) != 0 ? 0xEDB88320U : 0U);
-    }
-    return ~value;
+    return static_cast<std::uint32_t>(
+        crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-/// Writes a ZIP archive, an entry after the other.
+/// Writes a ZIP archive, entry by entry.
 class Archive {
 public:
     explicit Archive(Output& out) : out_(out) {}
 
     void add(std::string_view name, std::string_view bytes, bool is_deflated) {
-        const std::string packed = is_deflated ? deflated(bytes) : std::string(bytes);
+        const std::string packed = is_deflated ? deflated(bytes, Deflate::raw) : std::string(bytes);
         constexpr std::uint64_t first_of_1980 = 0x0021;
         // Names are UTF-8 (bit 11).
         const std::string facts = little_endian(20, 2) + little_endian(0x0800, 2) +

@@ -7,10 +7,10 @@
 
 namespace sikku {
 
-/// Writes a ZIP archive with the container file and `score.musicxml`, deflated. The pattern and what made the score
-/// stand first, as they are, so that they can be read without unpacking. The same bytes each time (entries are dated
-/// 1980-01-01).
-/// @throws std::runtime_error for a score of 4 GB; what `out` throws
+/// Writes a ZIP archive with the container file and `score.musicxml`, deflated. The pattern and the recipe of the
+/// score come first, uncompressed, so that they can be read without unpacking. The bytes are the same each time
+/// (entries are dated 1980-01-01).
+/// @throws std::runtime_error for a score of more than 2 GB; exceptions of `out`
 void write_mxl(std::string_view musicxml, Output& out);
 
 }  // namespace sikku

@@ -23,8 +23,8 @@ constexpr std::size_t most_notes = 200'000;
 constexpr std::int64_t most_bars = 100'000;
 constexpr double unheard = 0.01;  // semitones
 
-/// Says which notes need their sign printed: signs hold to the end of the bar, for their octave, in all voices of the
-/// staff; a note tied over the bar line needs none and sets none.
+/// Determines which notes need a printed sign: signs apply to the end of the bar, for their octave, in all voices of
+/// the staff; a note tied over the bar line needs no sign and sets none.
 void set_signs(Staff& staff, const PrintedPart& part, std::int64_t bar) {
     struct Head {
         std::int64_t onset;
@@ -57,8 +57,8 @@ void set_signs(Staff& staff, const PrintedPart& part, std::int64_t bar) {
     }
 }
 
-/// Says which notes have their deviation printed: as signs, once in a bar; in an accompaniment, which repeats its
-/// notes, once. @param bar  ticks
+/// Determines which notes have their deviation printed: like signs, once in a bar; in an accompaniment, which repeats
+/// its notes, once. @param bar  ticks
 void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
     for (NotatedVoice& voice : staff.voices) {
         std::int64_t current_bar = -1;
@@ -81,7 +81,7 @@ void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
     }
 }
 
-/// A bar's rest is printed once, and not where another voice sounds; rests of more than two voices have no room.
+/// Hides rests: a bar's rest is printed once, and only if all voices rest; rests of more than two voices do not fit.
 void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
     std::vector<bool> has_notes(static_cast<std::size_t>(bars), false);
     const auto bar_of = [&](const NotatedSymbol& symbol) {
@@ -106,7 +106,7 @@ void sort_by_onset(std::vector<Note>& notes) {
     std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
 }
 
-/// Hands that state dynamics have their own where these are fewer.
+/// Gives hands that state dynamics their own, if these are fewer marks.
 void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, NotatedPart& notated) {
     std::vector<std::vector<DynamicMark>> of_hands;
     std::size_t count = 0;
@@ -126,7 +126,7 @@ void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, NotatedPart&
     for (std::size_t i = 0; i < of_hands.size(); ++i) notated.staves[i].dynamics = std::move(of_hands[i]);
 }
 
-/// Moves notes to the grid. Returns how many moved.
+/// Moves notes to the grid. @return number of notes moved
 std::uint64_t snap(std::vector<Note>& notes, const Grid& grid) {
     std::uint64_t moved = 0;
     std::int64_t free = 0;
@@ -147,7 +147,7 @@ public:
     VoiceWriter(const Grid& grid, const Meter& meter, NotatedVoice& voice)
         : grid_(grid), meter_(meter), bar_(meter.bar()), voice_(voice) {}
 
-    /// Writes a stroke: the longest value that ends at `end` or before, and rests.
+    /// Writes a stroke: the longest value that ends by `end`, and rests.
     void add_stroke(std::int64_t end, const NotatedSymbol& stroke) {
         const std::int64_t begin = here_;
         const std::size_t first = voice_.symbols.size();
@@ -159,7 +159,7 @@ public:
         add(end, nullptr);
     }
 
-    /// Writes a note, or a rest without `note`, up to `end`.
+    /// Writes a note up to `end`, or a rest if `note` is null.
     void add(std::int64_t end, const NotatedSymbol* note) {
         const std::int64_t begin = here_;
         while (here_ < end) {
@@ -221,7 +221,7 @@ private:
     std::int64_t here_ = 0;
 };
 
-/// A single drum has a staff of one line, which is the lowest of the five.
+/// Sets a single drum on a staff of one line, which is the lowest of the five.
 void set_on_one_line(Staff& staff) {
     staff.lines = 1;
     for (NotatedVoice& voice : staff.voices) {
@@ -259,7 +259,7 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling) {
     };
     const int nearest = static_cast<int>(std::lround(key));
     if (std::fabs(key - nearest) <= 0.25) return written(nearest, 0);
-    // From the semitone below or from the one above: the smaller sign, and of equal ones that from above.
+    // Raises the semitone below or lowers the one above, by the smaller sign; of equal ones, lowers.
     const int below = static_cast<int>(std::floor(key));
     const Pitch raised = written(below, 1);
     const Pitch lowered = written(below + 1, -1);
@@ -397,7 +397,7 @@ void Notator::gather_chords(std::size_t part, std::size_t first_voice) {
     }
 }
 
-/// Parts that share staves begin no notes at the same time.
+/// Combines the chords of parts that share staves, whose notes never begin at the same time.
 void Notator::share_chords() {
     if (chords_.empty()) return;
     std::vector<std::size_t> index(parts_.size());
@@ -457,7 +457,7 @@ void Notator::notate_part(std::size_t index) {
     if (plan.staves.empty()) plan.staves.push_back({{{printed.first_voice, {}}}, {}});
     NotatedPart& notated = begin_part(printed);
     notated.bracket = plan.bracket;
-    std::vector<Note> together;  // of all staves for two hands
+    std::vector<Note> together;  // notes of all staves for two hands
     for (const StaffPlan& planned : plan.staves) {
         Staff& staff = notated.staves.emplace_back();
         if (plan.bracket != Bracket::brace) together.clear();
@@ -476,7 +476,7 @@ void Notator::notate_part(std::size_t index) {
     if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, notated);
 }
 
-/// A ritardando begins in the first voice. Where one voice has a fermata, all have: those that do not hold their last
+/// Begins a ritardando in the first voice. If one voice has a fermata, all get one: those that do not hold their last
 /// note, at the end.
 void Notator::mark_ending(std::int64_t end) {
     std::vector<NotatedSymbol>& first = notation_.parts.front().staves.front().voices.front().symbols;

@@ -18,7 +18,7 @@
 
 namespace sikku {
 
-/// A pitch as it is written. `quarters`: what its sign adds, in quarter tones, -4 (two flats) to 4 (two sharps).
+/// A pitch as it is written. `quarters`: its sign in quarter tones, -4 (two flats) to 4 (two sharps).
 struct Pitch {
     int letter = 0;  ///< 0 (C) to 6 (B)
     int octave = 4;  ///< from C to B, that of middle C is 4; -2 to 9
@@ -34,7 +34,7 @@ struct Pitch {
 enum class SymbolKind {
     note,
     rest,
-    bar_rest,  ///< of a whole bar, whatever its length
+    bar_rest,  ///< rest of a whole bar of any length
     gap        ///< a rest that is not printed: a bar that other voices of the staff fill, or one of a third voice
 };
 
@@ -46,25 +46,25 @@ struct ChordNote {
     bool has_sign = false;
 };
 
-/// A note or a rest with a note value. (Lengths of bar rests and gaps may be those of bars.) Notes longer than that,
-/// and notes across a bar line or the end of a tuplet, are several, tied.
+/// A note or a rest with a note value. (Lengths of bar rests and gaps may be those of bars.) Longer notes, and notes
+/// across a bar line or the end of a tuplet, are several, tied.
 struct NotatedSymbol {
     std::int64_t onset = 0;   ///< ticks
     std::int64_t length = 1;  ///< ticks, those of its value, or fewer in a tuplet
     NoteValue value;
     SymbolKind kind = SymbolKind::rest;
-    bool tied_back = false;     ///< goes on from the symbol before
-    bool tied_forward = false;  ///< goes on into the next one
-    bool has_sign = false;      ///< its accidental (perhaps a natural) has to be printed
+    bool tied_back = false;     ///< continues the symbol before
+    bool tied_forward = false;  ///< continues in the next one
+    bool has_sign = false;      ///< its accidental, which may be a natural, is printed
     bool is_accented = false;   ///< much louder than the notes around it
     bool begins_slide = false;  ///< a line leads to the next note
     bool ends_slide = false;    ///< a line leads here from the note before
-    bool has_fermata = false;   ///< notes and rests at the end
+    bool has_fermata = false;   ///< set for notes and rests at the end
     bool slows_down = false;    ///< a ritardando begins here
-    int leaves = 0;             ///< it slides away to no note: 1 up, -1 down
-    int tuplet = -1;            ///< of NotatedVoice::tuplets; -1: none
-    int cents = 0;              ///< to be printed: how much higher it sounds than its sign says
-    Pitch pitch;                ///< of notes; of drums their place on the staff, as of a treble clef
+    int leaves = 0;             ///< it slides away without a goal: 1 up, -1 down; 0: not
+    int tuplet = -1;            ///< index in NotatedVoice::tuplets; -1: none
+    int cents = 0;              ///< to be printed: how much higher it sounds than written
+    Pitch pitch;                ///< pitch of a note; for drums the place on the staff, as in treble clef
     int drum = 0;               ///< the key of a drum: see drums.h; 0: none
     std::array<Beam, 4> beams{};
     std::vector<ChordNote> chord;  ///< notes above `pitch` that sound with it
@@ -75,12 +75,12 @@ enum class Clef { treble, bass, alto, tenor, treble_8, bass_8, treble_up_8, perc
 
 /// One voice on one staff. Its symbols fill the score from the first bar to the last, bar by bar.
 struct NotatedVoice {
-    int voice = 0;  ///< of the score, from 0
+    int voice = 0;  ///< number in the score, from 0
     std::vector<NotatedSymbol> symbols;
     std::vector<TupletSpan> tuplets;  ///< in ascending order
 };
 
-/// A clef and a line of 8va that hold from `onset` on; a symbol of every voice of the staff begins there.
+/// A clef and a line of 8va that apply from `onset` on; a symbol of every voice of the staff begins there.
 struct StaffChange {
     std::int64_t onset = 0;
     Clef clef = Clef::treble;
@@ -127,7 +127,7 @@ struct NotatedPart {
     Bracket bracket = Bracket::none;
 };
 
-/// A score as it is printed; parts in the order of ScoreHead::parts, but those that take turns are one.
+/// A score as it is printed; parts in the order of ScoreHead::parts, with those that take turns as one.
 struct Notation {
     std::vector<NotatedPart> parts;
     std::vector<std::int64_t> double_bars;  ///< bar lines at which a part changes its key: ticks, ascending
@@ -142,7 +142,7 @@ struct Notation {
 /// Collects a melody and makes a Notation of it.
 ///
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
-/// that are on no grid are rounded to 64ths, never to nothing: a note that would vanish pushes the next one on.
+/// off every grid are rounded to 64ths, but never to length 0: a note that would vanish delays the next one.
 /// Staves: each voice has its own; see staves.h. Voices that never sound are left out. Parts of one instrument that
 /// take turns share staves; see turns.h. Drum strokes are divided between hands and feet; see strokes.h.
 /// Pitches: written as Part::spelling says; half-way between two semitones with a quarter-tone sign. Other pitches
@@ -152,12 +152,12 @@ class Notator final : public NoteSink {
 public:
     explicit Notator(const ScoreHead& head);
 
-    /// Throws ScoreError after 200,000 notes, and for a voice that belongs to no part.
+    /// @throws ScoreError after 200,000 notes, and for a voice without a part
     void notes(std::span<const Note> notes) override;
-    /// Throws ScoreError if the score has more than 100,000 bars.
+    /// @throws ScoreError if the score has more than 100,000 bars
     void finish(std::int64_t end) override;
 
-    /// After finish().
+    /// The result, after finish().
     const Notation& notation() const { return notation_; }
 
 private:
@@ -192,7 +192,7 @@ std::vector<int> drums_of(const Staff& staff);
 
 /// The cents that are printed above a note, those of a chord from the highest note to the lowest.
 std::vector<int> printed_cents(const NotatedSymbol& symbol);
-/// `+14`, `−9` with a minus sign.
+/// Formats cents as `+14`, or `−9` with a minus sign.
 std::string cents_text(int cents);
 
 /// The height of a staff in printer's points (1/72.27 inch), 13 to 20: lower in scores of many staves.

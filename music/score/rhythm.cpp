@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t whole_note = 4 * ticks_per_quarter;
 constexpr std::int64_t eighth_note = ticks_per_quarter / 2;
 
-/// Units are parts of beats.
+/// True if units are parts of beats.
 bool has_short_units(const Meter& meter) {
     return meter.unit >= 8;
 }
@@ -28,15 +28,15 @@ bool is_power_of_two(std::int64_t value) {
     return value > 0 && (value & (value - 1)) == 0;
 }
 
-/// True for lengths with a note value without a dot.
+/// True if the length is a note value without a dot.
 bool is_simple(std::int64_t length) {
     return length % shortest_value == 0 && is_power_of_two(length / shortest_value) && length <= whole_note;
 }
 
-/// Where a bar may be cut, in ticks.
+/// The places at which a bar may be divided, in ticks.
 struct Bar {
     std::int64_t length;
-    std::vector<std::int64_t> ends;  ///< of groups
+    std::vector<std::int64_t> ends;  ///< ends of groups
     std::int64_t middle;             ///< the length if the bar has no middle
     bool is_grouped;                 ///< groups are more than simple beats
 
@@ -67,7 +67,7 @@ struct Bar {
     }
 
 private:
-    /// The largest power of two in `from` is its metrical place.
+    /// True if a value fits the metrical place of `from`, its largest power of two.
     static bool fits_group(std::int64_t from, std::int64_t to) {
         if (from == 0) return true;
         const std::int64_t place = from / shortest_value;
@@ -76,7 +76,7 @@ private:
     }
 };
 
-/// Those of the sorted times that are at least `begin` and less than `end`.
+/// The sorted times from `begin` up to, but excluding, `end`.
 std::span<const std::int64_t> between(std::span<const std::int64_t> times, std::int64_t begin, std::int64_t end) {
     const auto first = std::lower_bound(times.begin(), times.end(), begin);
     const auto last = std::lower_bound(first, times.end(), end);
@@ -187,7 +187,7 @@ bool Grid::divide_parts(std::int64_t from, std::int64_t length, int parts, std::
     return is_exact;
 }
 
-/// @return whether all times are on the grid; the time at `from` always is
+/// Divides a stretch. @return true if all times are on the grid; the time at `from` always is
 bool Grid::divide(std::int64_t from, std::int64_t length, std::span<const std::int64_t> times) {
     if (std::all_of(times.begin(), times.end(),
                     [&](std::int64_t time) { return (time - from) % shortest_value == 0; })) {
@@ -284,7 +284,7 @@ private:
         return is_even && from % pair == 0 && is_printable(pair) ? pair : 0;
     }
 
-    /// Within a group: each begins at a multiple of its length, and only rests at the beginning of a beat have dots.
+    /// The longest rest within a group: rests begin at a multiple of their length, and have dots only at a beat.
     std::int64_t longest_within(std::int64_t from, std::int64_t to, std::int64_t group) const {
         const std::int64_t beat =
             is_simple(group) && group <= ticks_per_quarter ? group : std::min(unit_, ticks_per_quarter);
@@ -367,7 +367,7 @@ int beams_of(const BeamedNote& note) {
     return count;
 }
 
-/// Sets beams of notes that share at least the first. @param parts  notes of the same part share all beams
+/// Sets beams of notes that share at least the first beam. @param parts  notes of the same part share all beams
 void beam(std::span<BeamedNote> notes, std::span<const std::int64_t> parts) {
     if (notes.size() < 2) return;
     for (std::size_t i = 0; i < notes.size(); ++i) {
@@ -396,7 +396,7 @@ void beam(std::span<BeamedNote> notes, std::span<const std::int64_t> parts) {
     }
 }
 
-/// Parts are eighths within a group if there are notes shorter than 16ths; otherwise there is one part.
+/// The part of each note: its eighth within the group if there are notes shorter than 16ths, else the same for all.
 std::vector<std::int64_t> parts_of(std::span<const BeamedNote> notes, std::int64_t group) {
     const bool has_short = std::any_of(
         notes.begin(), notes.end(), [](const BeamedNote& note) { return note.is_note && note.value.divisor > 16; });

@@ -14,7 +14,7 @@ namespace sikku {
 /// The shortest note value, a 64th, in ticks.
 constexpr std::int64_t shortest_value = ticks_per_quarter / 16;
 
-/// 1 a whole note, 2 a half, … 64.
+/// A note value: 1 is a whole note, 2 a half, … 64.
 struct NoteValue {
     int divisor = 4;
     bool dotted = false;
@@ -22,7 +22,7 @@ struct NoteValue {
     std::int64_t ticks() const { return 4 * ticks_per_quarter / divisor * (dotted ? 3 : 2) / 2; }
 };
 
-/// The note value of so many ticks outside tuplets: a power of two from a 64th to a whole, or half as much again.
+/// The note value of a number of ticks outside tuplets: a power of two from a 64th to a whole, or 3/2 of one.
 NoteValue note_value(std::int64_t length);
 
 /// A stretch of a bar that is divided into `actual` equal notes in the time of `normal` notes of the value
@@ -55,7 +55,7 @@ BeatUnit beat_unit(const Meter& meter);
 /// The end of the beat, or the group of x/8, in which a time lies: ticks from the beginning of the score.
 std::int64_t beat_end(std::int64_t time, const Meter& meter);
 
-/// Where notes of one voice may begin and end: at 64ths, and in tuplets at their notes.
+/// The times at which notes of a voice may begin and end: 64ths, and in tuplets their notes.
 class Grid {
 public:
     /// Chooses tuplets so that all `times` (ascending; ticks from the beginning of the score) lie on the grid if
@@ -64,7 +64,7 @@ public:
     Grid(std::span<const std::int64_t> times, const Meter& meter);
 
     const std::vector<TupletSpan>& tuplets() const { return tuplets_; }
-    /// The point of the grid nearest to a time; of two the later one.
+    /// The point of the grid nearest to a time; of two, the later one.
     std::int64_t nearest(std::int64_t time) const;
     /// The first point of the grid after one.
     std::int64_t after(std::int64_t time) const;
@@ -103,13 +103,13 @@ std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, cons
 
 enum class Beam : std::uint8_t { none, begin, inside, end, forward_hook, backward_hook };
 
-/// A note or rest, as far as beams need to know it.
+/// The properties of a note or rest that beams depend on.
 struct BeamedNote {
     std::int64_t onset = 0;  ///< ticks from the beginning of the score
     std::int64_t length = 0;
     NoteValue value;
     bool is_note = true;
-    int tuplet = -1;  ///< of Grid::tuplets()
+    int tuplet = -1;  ///< index in Grid::tuplets()
     std::array<Beam, 4> beams{};
 };
 /// Sets beams: one for eighths, two for 16ths, up to four. Notes are beamed within beats, or the groups of x/8;

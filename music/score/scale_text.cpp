@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-/// The shortest digits that give the number again; no -0.
+/// The shortest digits that reproduce the number, without -0.
 std::string number(double value) {
     return value == 0 ? "0" : fmt::format("{}", value);
 }
@@ -24,7 +24,7 @@ std::string json_numbers(const std::vector<double>& values) {
     return "[" + text + "]";
 }
 
-/// Cents as people read them: at most three digits behind the point.
+/// Cents with at most three decimals.
 std::string cents_text(double cents) {
     std::string text = fmt::format("{:.3f}", cents);
     while (text.ends_with('0')) text.pop_back();
@@ -32,7 +32,7 @@ std::string cents_text(double cents) {
     return text == "-0" ? "0" : text;
 }
 
-/// How many equal steps the period has at least, if every note stands on one; 0 if more than 72 are needed.
+/// The least number of equal steps in a period such that every note is one; 0 if more than 72 are needed.
 int division_of(const Scale& scale) {
     const auto fits = [&](int division) {
         const auto is_step = [&](double cents) {
@@ -49,7 +49,7 @@ int division_of(const Scale& scale) {
     return 0;
 }
 
-/// From each note to the next, the last one to the period.
+/// The steps from each note to the next, and from the last to the period.
 std::string steps_text(const Scale& scale, const std::vector<double>& notes) {
     const int division = division_of(scale);
     std::string text;
@@ -69,13 +69,13 @@ std::string cents_list(const std::vector<double>& notes) {
     return text;
 }
 
-/// Names of the notes above a tonic, with cents where they are none of the twelve: `E-14`.
+/// Names of the notes above a tonic, with cents if they differ from the twelve semitones: `E-14`.
 std::string notes_text(const Scale& scale, const std::vector<double>& notes, const Tonic& tonic) {
     const auto spelling = spell(scale, tonic.spelling);
     std::string text;
     for (const double cents : notes) {
         const double key = tonic.key + cents / 100.0;
-        // A quarter tone is written from below, whatever a rounding made of it.
+        // A quarter tone is always written relative to the semitone below, despite rounding.
         const double nearest = std::ceil(key - 0.5 - 1e-9);
         const auto away = std::lround(100.0 * (key - nearest));
         const auto pitch_class = static_cast<std::size_t>(std::fmod(std::fmod(nearest, 12.0) + 12.0, 12.0));
@@ -89,7 +89,7 @@ std::string notes_text(const Scale& scale, const std::vector<double>& notes, con
     return text;
 }
 
-/// For comparing words: small letters, blanks and dashes left out.
+/// Key for comparing words: lower case, without blanks and dashes.
 std::string key_of(std::string_view text) {
     std::string key = lower_case(text);
     std::erase_if(key, [](char byte) { return std::string_view(" -_'#").find(byte) != std::string_view::npos; });
@@ -98,7 +98,7 @@ std::string key_of(std::string_view text) {
 
 /// One line of the list.
 std::string entry(const Scale& scale) {
-    // The title of most says no more than their id.
+    // Most titles add nothing to the id.
     std::string names = key_of(scale.id).find(key_of(scale.title)) == std::string::npos ? scale.title : "";
     for (const std::string& name : scale.names) names += (names.empty() ? "" : ", ") + name;
     std::string notes = fmt::format("{}", scale.ascent.size());

@@ -1,4 +1,4 @@
-// music/score/scale_text.h: finds scales by words, and formats them as text and as JSON.
+// music/score/scale_text.h: searches for scales by words, and formats them as text and as JSON.
 #pragma once
 
 #include "music/scale/scale.h"

@@ -1,5 +1,5 @@
-// music/score/score.h: notes, and the other contents of a score; every reader of a melody and every writer of a file
-// meets here.
+// music/score/score.h: notes, and the other contents of a score; the interface between readers of melodies and
+// writers of files.
 #pragma once
 
 #include "engine/base/output.h"
@@ -21,17 +21,17 @@ constexpr std::int64_t ticks_per_quarter = 480;
 
 /// A slide of the pitch at the end of a note.
 struct Glide {
-    std::int64_t ticks = 0;  ///< how long it lasts, at most as long as the note; 0: the pitch stays
+    std::int64_t ticks = 0;  ///< duration, at most that of the note; 0: the pitch stays
     float semitones = 0;     ///< from the key to the pitch at the end, evenly
     float rise = 0;          ///< turtle steps up the curve, from `to` of the note, that it comes from
 };
 
-/// Added to the velocity of notes that a rhythm accents.
+/// Velocity added to notes that a rhythm accents.
 constexpr int accent_velocity = 16;
 
 /// Accent and dynamic that the pattern states for a note; they are printed.
 struct Emphasis {
-    bool is_accented = false;  ///< by the rhythm; its velocity includes accent_velocity
+    bool is_accented = false;  ///< accented by the rhythm; its velocity includes accent_velocity
     std::int8_t dynamic = -1;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff; -1: not stated
 };
 
@@ -42,40 +42,46 @@ struct Note {
     double key = 60.0;           ///< MIDI key, 60 is C4; fractions are microtones; within [0, 127]
     std::int16_t voice = 0;      ///< counted from 0
     std::uint8_t velocity = 80;  ///< 1 to 127
-    glm::dvec2 from{0.0};        ///< the piece of the curve it comes from, in turtle steps
+    glm::dvec2 from{0.0};        ///< start of its piece of the curve, in turtle steps
     glm::dvec2 to{0.0};
     std::uint64_t symbol = 0;  ///< position in the word of its first symbol, counted from 1; 0: unknown
     std::uint8_t depth = 0;    ///< brackets around it
     std::uint8_t level = 0;    ///< order of the largest sub-curve that begins with it, if a curve follows levels
     bool is_sliding = false;   ///< its pitch slides to the next note of its voice
-    Glide glide{};             ///< of `vertical: glissando`
+    Glide glide{};             ///< slide of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
     Emphasis emphasis{};
 
-    /// The end of the piece of the curve it comes from.
+    /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }
 };
 
 struct Curves;
 struct ControlPoint;
 
-/// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any order
-/// to each other. Spans die with the call.
+/// Receives a melody, a block of notes at a time: in each voice by onset and without overlap, the voices in any
+/// order. Spans are valid only during the call.
 class NoteSink {
 public:
     virtual ~NoteSink() = default;
-    /// Called once before the first notes, or not at all. `curves` outlives the sink. Without an implementation they
-    /// are left out.
+    /// Called once before the first notes, or not at all. `curves` outlives the sink. The default ignores them.
     virtual void curves(const Curves& /*curves*/) {}
     /// Points of controllers within the notes that come next, in each voice by tick: instead of curves(), for sinks
-    /// that write notes as they come. Without an implementation they are left out.
+    /// that write notes as they come. The default ignores them.
     virtual void controls(std::span<const ControlPoint> /*points*/) {}
     virtual void notes(std::span<const Note> notes) = 0;
-    /// Called once after the last note. `end`: where the score ends, rests included.
+    /// Called once after the last note. @param end  end of the score, rests included
     virtual void finish(std::int64_t end) = 0;
 };
 
-/// Something about a melody that cannot be written: too many voices, a note out of range that is to be refused.
+/// Ignores all notes.
+class NullSink : public NoteSink {
+public:
+    void notes(std::span<const Note>) override {}
+    void finish(std::int64_t) override {}
+};
+
+/// Thrown if a melody cannot be written: for too many voices, or a note out of range that is to be refused.
 class ScoreError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -83,7 +89,7 @@ class ScoreError : public std::runtime_error {
 struct Meter {
     int beats = 4;
     int unit = 4;                           ///< a power of two, 1 to 64
-    std::array<std::uint8_t, 16> groups{};  ///< of beats, as in `3+2+2/8`, then zeros; zeros alone: see groups_of()
+    std::array<std::uint8_t, 16> groups{};  ///< in beats, as in `3+2+2/8`, then zeros; all zeros: see groups_of()
     std::int64_t bar() const { return 4 * ticks_per_quarter * beats / unit; }  ///< ticks
     bool operator==(const Meter&) const = default;
 };
@@ -97,7 +103,7 @@ struct Spelling {
 /// The modes, from the one whose tonic lies lowest among its fifths.
 enum class Mode { lydian, major, mixolydian, dorian, minor, phrygian, locrian };
 
-/// fifths: sharps if positive, flats if negative, -7 to 7.
+/// A key signature. `fifths`: sharps if positive, flats if negative, -7 to 7.
 struct KeySignature {
     int fifths = 0;
     bool minor = false;
@@ -107,27 +113,27 @@ struct KeySignature {
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
-    bool has_instrument_name = false;  ///< `name` is the General MIDI name of its instrument
-    std::string scale;                 ///< scale in words, with its tonic
-    int program = 0;                   ///< General MIDI, 0 to 127
-    int voices = 1;                    ///< at least as many as sound; in a part with fewer notes, some stay silent
-    std::optional<KeySignature> key;   ///< only for major, minor and the modes
-    std::optional<KeySignature> signature;  ///< in print: of other scales, too
-    std::array<Spelling, 12> spelling{};    ///< of each pitch class from C
+    bool has_instrument_name = false;       ///< `name` is the General MIDI name of its instrument
+    std::string scale;                      ///< scale in words, with its tonic
+    int program = 0;                        ///< General MIDI, 0 to 127
+    int voices = 1;                         ///< at least the number that sounds; some may stay silent
+    std::optional<KeySignature> key;        ///< only for major, minor and the modes
+    std::optional<KeySignature> signature;  ///< in print; other scales may have one, too
+    std::array<Spelling, 12> spelling{};    ///< spelling of each pitch class from C
     bool has_chords = false;                ///< notes of one onset and symbol are a chord in print
     bool is_accompaniment = false;  ///< its voices share a staff, and notes of one onset and length are a chord
     bool is_drums = false;          ///< percussion of General MIDI: keys are those of drums.h
 };
 
-/// What a score tells beside its notes. Voices are numbered through the parts in order.
+/// Contents of a score besides its notes. Voices are numbered through all parts in order.
 struct ScoreHead {
     std::string title;
-    std::string composer;         ///< perhaps empty
-    std::string source;           ///< the publication that the pattern comes from, perhaps empty
+    std::string composer;         ///< may be empty
+    std::string source;           ///< the publication that the pattern comes from; may be empty
     std::string pattern;          ///< the text of the pattern file, so that the score can be made again
-    std::string made;             ///< what made it: `sikku 0.1.0, -n 4`
+    std::string made;             ///< the recipe of the score: `sikku 0.1.0, -n 4`
     double tempo = 120.0;         ///< quarters a minute
-    std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: it stays
+    std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
     std::vector<Part> parts;
 };

@@ -34,7 +34,7 @@ Spelling from_line_of_fifths(int position) {
     return {letter[static_cast<std::size_t>(place)], (from_f - place) / 7};
 }
 
-/// The same key with less ink: no E#, B#, Cb, Fb and no double signs.
+/// A simpler spelling of the same key, without E#, B#, Cb, Fb and double signs.
 Spelling simplified(Spelling spelling) {
     const int position = line_of_fifths(spelling);
     if (position >= -6 && position <= 10) return spelling;
@@ -45,7 +45,7 @@ bool closes_at_the_octave(const Scale& scale) {
     return std::fabs(scale.period - 1200.0) < 25.0;
 }
 
-/// The semitone nearest to so many cents, 0 to 11.
+/// The pitch class nearest to a number of cents, 0 to 11.
 int nearest_class(double cents) {
     return static_cast<int>(std::lround(std::fmod(cents, 1200.0) / 100.0) % 12 + 12) % 12;
 }
@@ -63,7 +63,7 @@ bool prefers_flats(const Scale& scale, const std::array<bool, 12>& classes) {
     return scale.id.find("blues") != std::string::npos || (classes[3] && !classes[4]);
 }
 
-/// Gives every degree of a list of seven its own letter; pitch classes that have one keep it.
+/// Gives every degree of a list of seven its own letter; pitch classes that have a letter keep it.
 void spell_degrees(std::vector<double> cents, Spelling tonic, Spellings& result) {
     std::sort(cents.begin(), cents.end());
     const auto set = [&](int semitones, int letter) {
@@ -83,7 +83,7 @@ void spell_degrees(std::vector<double> cents, Spelling tonic, Spellings& result)
     }
 }
 
-/// How many notes of the scale share a letter with another one, if spelled by twelve fifths from `first` on.
+/// Number of notes of the scale that share a letter with another, if spelled by twelve fifths from `first` on.
 int shared_letters(const std::array<bool, 12>& classes, int tonic_position, int first) {
     std::array<int, 7> used{};
     for (int position = first; position < first + 12; ++position) {
@@ -148,13 +148,13 @@ std::optional<KeySignature> key_signature(const Scale& scale, Spelling tonic) {
     const auto ascent = semitones_of(scale.ascent);
     if (!ascent || (!scale.descent.empty() && semitones_of(scale.descent) != ascent)) return std::nullopt;
 
-    // The modes are the stretches of seven fifths that hold the tonic; a mode is known by where its stretch begins.
+    // Modes are the stretches of seven fifths that contain the tonic; the start of its stretch determines a mode.
     for (int below = 0; below < 7; ++below) {
         std::vector<int> mode;
         for (int position = -below; position < 7 - below; ++position) mode.push_back(modulo(7 * position, 12));
         std::sort(mode.begin(), mode.end());
         if (mode != *ascent) continue;
-        // Of major one note lies below the tonic on the line of fifths: F, of C.
+        // In major one note lies below the tonic on the line of fifths: F, in C major.
         const int fifths = line_of_fifths(tonic) + 1 - below;
         if (fifths < -7 || fifths > 7) return std::nullopt;
         return KeySignature{fifths, below == 4, static_cast<Mode>(below)};

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t most_own_staves = 12;
 constexpr std::size_t voices_per_staff = 4;
-constexpr std::size_t most_shared_staves = 12;  // of two voices
+constexpr std::size_t most_shared_staves = 12;  // with two voices each
 
 // ---- instruments
 
-/// A clef with what each note in it costs, so that a usual one is preferred.
+/// A clef with its cost for each note, so that the usual one is preferred.
 struct Candidate {
     Clef clef;
     double cost;
@@ -74,7 +74,7 @@ int middle_line(Clef clef) {
     return 0;
 }
 
-/// What the ledger lines of a note cost: nearly nothing up to two, much from four on.
+/// Cost of the ledger lines of a note: small up to two, large from four on.
 double ledger_cost(int height, Clef clef, int octaves) {
     const int away = std::abs(height - 7 * octaves - middle_line(clef));
     static constexpr std::array<double, 4> few = {0, 0.15, 0.5, 1.5};
@@ -84,8 +84,8 @@ double ledger_cost(int height, Clef clef, int octaves) {
 
 // ---- the cheapest sequence of states
 
-/// Finds the cheapest sequence of `states` for `steps`. @param cost  of a step in a state @param change  from a state
-/// to another before a step
+/// Finds the cheapest sequence of `states` for `steps`. @param cost  cost of a step in a state
+/// @param change  cost of a change of state before a step
 template <typename Cost, typename Change>
 std::vector<std::size_t> cheapest(std::size_t steps, std::size_t states, Cost cost, Change change) {
     std::vector<double> total(states, 0);
@@ -114,7 +114,7 @@ std::vector<std::size_t> cheapest(std::size_t steps, std::size_t states, Cost co
     return result;
 }
 
-/// Costs of a change at a place: 0 after a rest, 1 at a bar line, 2 on a beat, 3 elsewhere.
+/// Index of the cost of a change: 0 after a rest, 1 at a bar line, 2 on a beat, 3 elsewhere.
 std::size_t place_of(std::int64_t onset, bool is_after_rest, std::int64_t bar_length) {
     if (is_after_rest) return 0;
     if (onset % bar_length == 0) return 1;
@@ -136,14 +136,14 @@ double median_key(const std::vector<Note>& notes) {
     return *middle;
 }
 
-/// High voices first.
+/// Sorts voices from the highest to the lowest.
 void sort_by_height(std::vector<StaffVoice>& voices) {
     std::stable_sort(voices.begin(), voices.end(), [](const StaffVoice& a, const StaffVoice& b) {
         return median_key(a.notes) > median_key(b.notes);
     });
 }
 
-/// One voice on two staves: phrases change hands.
+/// Writes a voice on two staves: phrases change hands.
 PartPlan split_by_hand(const Part& part, const std::vector<Note>& notes, int voice, std::int64_t bar_length) {
     constexpr std::array<double, 4> change_cost = {4, 6, 9, 16};
     const auto cost = [&](std::size_t hand, std::size_t i) {
@@ -167,7 +167,7 @@ PartPlan split_by_hand(const Part& part, const std::vector<Note>& notes, int voi
     return plan;
 }
 
-/// True if one clef without changes serves a melody for a keyboard.
+/// True if a single clef suffices for a melody for a keyboard.
 bool fits_one_staff(const Part& part, const std::vector<Note>& notes) {
     for (const Clef clef : {Clef::treble, Clef::bass}) {
         double high = 0;
@@ -187,7 +187,7 @@ bool fits_one_staff(const Part& part, const std::vector<Note>& notes) {
     return false;
 }
 
-/// Voices of a keyboard, high ones for the right hand.
+/// Divides the voices of a keyboard between the hands, high ones to the right.
 PartPlan divide_hands(std::vector<StaffVoice> voices) {
     sort_by_height(voices);
     std::size_t upper = voices.size() / 2;
@@ -204,7 +204,7 @@ PartPlan divide_hands(std::vector<StaffVoice> voices) {
     return plan;
 }
 
-/// Merges notes that several voices have, and shares the rest among few voices.
+/// Merges notes that several voices share, and distributes the rest among few voices.
 PartPlan share_staves(const std::vector<StaffVoice>& voices) {
     PartPlan plan;
     std::vector<std::pair<Note, int>> all;
@@ -224,7 +224,7 @@ PartPlan share_staves(const std::vector<StaffVoice>& voices) {
             continue;
         }
         until = note.onset + note.duration;
-        // The line whose last note is nearest.
+        // Chooses the line whose last note is nearest.
         StaffVoice* free = nullptr;
         for (StaffVoice& line : shared) {
             const Note& last = line.notes.back();
@@ -291,16 +291,16 @@ PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices
 
 namespace {
 
-/// What begins at a time on a staff.
+/// A time on a staff at which symbols begin.
 struct Moment {
     std::int64_t onset = 0;
     bool may_change = false;
     bool is_after_rest = false;
-    std::vector<int> heights;  ///< of notes from here to the next moment
+    std::vector<int> heights;  ///< heights of notes from here to the next moment
 };
 
 std::vector<Moment> moments_of(std::span<const NotatedVoice> voices) {
-    std::map<std::int64_t, std::size_t> begins;  // how many voices begin a symbol that is not tied
+    std::map<std::int64_t, std::size_t> begins;  // number of voices that begin a symbol that is not tied
     std::map<std::int64_t, std::vector<int>> heights;
     std::map<std::int64_t, bool> rests;
     for (const NotatedVoice& voice : voices) {
@@ -377,7 +377,7 @@ std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only
         for (const int height : moments[i].heights) {
             const State& chosen = states[state];
             sum += ledger_cost(height, chosen.clef, chosen.octaves) + chosen.cost;
-            // 8va over notes that are on the staff without it.
+            // Penalty for 8va over notes that would be on the staff without it.
             if (chosen.octaves != 0 && ledger_cost(height, chosen.clef, 0) < 1) sum += 0.8;
         }
         return sum;

@@ -12,7 +12,7 @@ namespace sikku {
 
 /// The notes of one voice on one staff.
 struct StaffVoice {
-    int voice = 0;  ///< of the score
+    int voice = 0;  ///< number in the score
     std::vector<Note> notes;
 };
 struct StaffPlan {
@@ -28,20 +28,21 @@ struct PartPlan {
 /// True for pianos, organs, the celesta, the accordion and the harp, which are written for two hands.
 bool is_keyboard(int program);
 
-/// Distributes voices (of the score from `first_voice` on) over staves.
+/// Distributes the voices of a part over staves.
 ///
 /// Up to four voices of an accompaniment share one staff.
-/// Each voice has a staff of its own, up to four voices of a part in the order of their height. Parts for keyboards
+/// Each voice has a staff of its own; up to four voices of a part are ordered by their height. Parts for keyboards
 /// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
 /// low ones. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases change hands,
-/// where that saves ledger lines. If more than twelve voices sound, notes that another voice has too are merged, and
+/// where that saves ledger lines. If more than twelve voices sound, notes that several voices share are merged, and
 /// the rest is divided into as few lines as possible: up to twelve have staves of their own, more share them in
 /// pairs.
+/// @param first_voice  number of the first voice in the score
 /// @throws ScoreError for more than 24 notes at once
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
                      std::int64_t bar_length);
 
-/// Chooses clefs and lines of 8va for a staff so that ledger lines, changes and octaves read together are fewest;
+/// Chooses clefs and lines of 8va for a staff so that ledger lines, changes and notes under 8va are fewest;
 /// phrases and bars are the best places for changes. Only times at which every voice begins a symbol and none ties
 /// one are used. Cost: O(notes).
 std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only,

@@ -32,7 +32,7 @@ int height_of(const Note& note) {
     return Pitch{drum.letter, drum.octave, 0}.height();
 }
 
-/// Joins strokes that begin together. @param notes  in any order @param merged  is added to
+/// Joins strokes that begin together. @param notes  in any order @param merged  incremented for each merged stroke
 StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& merged) {
     std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
     StrokeLine line;

@@ -17,7 +17,7 @@ struct StrokeLine {
 
 struct StrokeLines {
     std::vector<StrokeLine> lines;  ///< the highest first; at least one
-    std::uint64_t merged = 0;       ///< strokes left out because another voice has the same
+    std::uint64_t merged = 0;       ///< strokes left out because another voice has the same stroke
 };
 
 /// Arranges the strokes of all voices of a part in two lines, as for a drum set: hands above, feet (the bass drum and

@@ -1,5 +1,6 @@
 #include "music/score/strudel.h"
 
+#include "engine/base/base64.h"
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 
@@ -25,7 +26,7 @@ std::string number(double value) {
     return text;
 }
 
-/// `c4`, `f#3`, or a number of a key between two semitones.
+/// Name of a key: `c4`, `f#3`, or the number of one between two semitones.
 std::string name_of(double key) {
     static constexpr std::array<std::string_view, 12> names = {"c",  "c#", "d",  "d#", "e",  "f",
                                                                "f#", "g",  "g#", "a",  "a#", "b"};
@@ -41,7 +42,7 @@ std::string sequence(const std::vector<Note>& notes, std::int64_t end, bool is_d
     std::string text;
     const auto add = [&](std::string_view what, std::int64_t ticks) {
         if (ticks <= 0) return;
-        // A line for some notes, for those who read it.
+        // Breaks lines, for readability.
         constexpr std::size_t line_bytes = 100;
         const std::size_t line = text.rfind('\n');
         const bool is_long = text.size() - (line == std::string::npos ? 0 : line) > line_bytes;
@@ -85,26 +86,11 @@ std::string program_of(const ScoreHead& head, const std::vector<Note>& notes, st
     return text;
 }
 
-std::string base64(std::string_view bytes) {
-    static constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63];
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 std::string strudel_link(const std::string& program) {
     std::string link = "https://strudel.cc/#";
-    for (const char letter : base64(program)) {
+    for (const char letter : to_base64(program, Base64::padded)) {
         if (letter == '+') {
             link += "%2B";
         } else if (letter == '/') {

@@ -18,12 +18,12 @@ struct Stretch {
     std::int64_t last = 0;
 };
 
-/// A part of the score, with what is known of where it sounds.
+/// A part of the score, with the bars in which it sounds.
 struct Source {
     std::size_t index = 0;
     int first_voice = 0;
     std::span<const std::vector<Note>> voices;
-    std::vector<Stretch> bars;  ///< in which it sounds, ascending and apart
+    std::vector<Stretch> bars;  ///< bars in which it sounds, ascending, not adjacent
     double height = 60;         ///< mean key
 };
 
@@ -77,7 +77,7 @@ Source source_of(std::size_t index, int first_voice, std::span<const std::vector
     return source;
 }
 
-/// @return false if one of them has other staves
+/// @return false if the parts need different staves
 bool is_same_instrument(const Part& a, const Part& b) {
     return a.name == b.name && a.program == b.program && a.is_drums == b.is_drums;
 }
@@ -121,7 +121,7 @@ std::vector<Turn> turns_of(const Line& line) {
     return turns;
 }
 
-/// True if the notes of a turn need no signs in a key.
+/// True if the notes of a turn do not need signs in a key.
 bool fits(const Turn& turn, const KeyOfBars& key, std::int64_t bar) {
     const std::array<int, 7> signs = signs_of(key.key);
     for (const auto& voice : turn.source->voices) {
@@ -139,7 +139,7 @@ bool fits(const Turn& turn, const KeyOfBars& key, std::int64_t bar) {
 struct DueChange {
     Stretch bars;
     std::size_t part = 0;
-    std::size_t key = 0;  ///< of its keys
+    std::size_t key = 0;  ///< index in the keys of the part
 };
 
 /// @return the keys of a line @param due  receives the changes
@@ -214,7 +214,7 @@ bool has_same_keys(const PrintedPart& a, const PrintedPart& b) {
                       });
 }
 
-/// Two lines of one keyboard are for two hands.
+/// Joins two lines of one keyboard into a part for two hands.
 void join_hands(std::vector<PrintedPart>& printed) {
     for (std::size_t i = 0; i < printed.size(); ++i) {
         PrintedPart& upper = printed[i];
@@ -233,7 +233,7 @@ void join_hands(std::vector<PrintedPart>& printed) {
     }
 }
 
-/// Notes that need an accidental in a key.
+/// Number of notes that need an accidental in a key.
 std::size_t signs_in(const PrintedPart& part, const std::vector<double>& others, const KeySignature& key) {
     const std::array<int, 7> signs = signs_of(key);
     const auto needs_one = [&](double sound) {

@@ -19,29 +19,28 @@ struct KeyOfBars {
     std::array<Spelling, 12> spelling{};
 };
 
-/// What is printed as one part: a part of the score, or several that take turns.
+/// A printed part: a part of the score, or several that take turns.
 struct PrintedPart {
-    Part part;                         ///< of the first that sounds; its voices are those of `voices`
-    int first_voice = 0;               ///< of the score
+    Part part;                         ///< the first part that sounds, with the number of `voices`
+    int first_voice = 0;               ///< number in the score
     std::vector<std::size_t> sources;  ///< indices of parts of the score
     std::vector<std::vector<Note>> voices;
     std::vector<KeyOfBars> keys;  ///< ascending, the first at 0; neighbours may have the same signs
     const KeyOfBars& key_at(std::int64_t onset) const;
 };
 
-/// Puts parts of the same instrument (the same name, if it is set) together if they sound in no bar together, each
-/// with those of about its height. Two lines of one keyboard, of a voice each, become one part for two hands. What
-/// can be written in the key before it without signs keeps that key. Keys of several parts change at one bar line
-/// where their rests allow that.
-/// Cost: O(parts^2 + notes log notes).
-/// @param voices  of all parts in order: notes by onset
+/// Combines parts of the same instrument (and name, if it is set) that never sound in the same bar, each with those
+/// of about its height. Two lines of one keyboard, of a voice each, become one part for two hands. Turns that can be
+/// written in the previous key without signs keep that key. Keys of several parts change at one bar line if their
+/// rests allow it. Cost: O(parts^2 + notes log notes).
+/// @param voices  voices of all parts in order: notes by onset
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
                                      std::int64_t bar_length);
 
 /// Gives parts on the same tonic the same key signature, so that the staves of a score agree: of their signatures,
 /// the one with the fewest accidentals. A part on another tonic gets the signature of the first part if it then needs
 /// no accidentals. Parts that change their key, and drums, are left alone.
-/// @param others  further keys of each printed part, those of its chords
+/// @param others  further keys (pitches) of each printed part, those of its chords
 void agree_on_keys(std::vector<PrintedPart>& printed, std::span<const std::vector<double>> others);
 
 }  // namespace sikku

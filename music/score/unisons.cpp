@@ -54,8 +54,8 @@ void UnisonMerger::finish(std::int64_t end) {
     }
     notes_.erase(std::remove_if(notes_.begin(), notes_.end(), [](const Note& note) { return note.duration == 0; }),
                  notes_.end());
-    // A note that goes on for another may meet the next one of its voice; so voices are dealt out again.
-    std::map<std::size_t, std::vector<std::pair<std::int16_t, std::int64_t>>> free_at;  // of the voices of a part
+    // A note extended for another may overlap the next one of its voice, so voices are reassigned.
+    std::map<std::size_t, std::vector<std::pair<std::int16_t, std::int64_t>>> free_at;  // by part, voices and ends
     std::vector<std::vector<Note>> voices(parts_.size());
     for (std::size_t i = 0; i < parts_.size(); ++i) free_at[parts_[i]].emplace_back(static_cast<std::int16_t>(i), 0);
     for (Note note : notes_) {
@@ -66,7 +66,7 @@ void UnisonMerger::finish(std::int64_t end) {
             place =
                 std::find_if(places.begin(), places.end(), [&](const auto& one) { return one.second <= note.onset; });
         }
-        // As many notes sound as before at most; so there is a place.
+        // At most as many notes sound as before, so a place is free.
         place->second = note.onset + note.duration;
         note.voice = place->first;
         voices[static_cast<std::size_t>(note.voice)].push_back(note);

@@ -9,9 +9,9 @@
 
 namespace sikku {
 
-/// Collects notes and forwards them so that no two sound at a time on one key of a part, or of parts that share a
-/// channel. Of notes that begin together, the longest stays, with the loudest velocity. A later note ends the one
-/// before, and lasts at least as long as that would have. Voices are forwarded one after another. Memory: O(notes).
+/// Collects notes and forwards them so that a key of a part, or of parts that share a channel, sounds only once at a
+/// time. Of notes that begin together, the longest stays, with the loudest velocity. A later note ends the one
+/// before, and lasts at least until that would have ended. Voices are forwarded one after another. Memory: O(notes).
 class UnisonMerger : public NoteSink {
 public:
     /// @param most  notes above which a ScoreError is thrown

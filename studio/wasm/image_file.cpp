@@ -1,4 +1,4 @@
-// studio/wasm/image_file.cpp: writes PNG in the web build, which has no OpenImageIO.
+// studio/wasm/image_file.cpp: writes PNG in the web build, without OpenImageIO.
 // Source: ISO/IEC 15948 (PNG), sections 5, 9 and 11.
 #include "art/image/image_file.h"
 

@@ -25,7 +25,7 @@ EM_JS(double, zlib_checksum, (bool is_crc, double checksum, const void* bytes, i
 namespace {
 
 int run(z_stream* stream, int flush) {
-    std::uint32_t left[2] = {};  // bytes of input and of output space
+    std::uint32_t left[2] = {};  // bytes of input and of output space left
     const int state = zlib_run(stream->handle, stream->next_in, static_cast<int>(stream->avail_in), stream->next_out,
                                static_cast<int>(stream->avail_out), flush, left);
     stream->next_in += stream->avail_in - left[0];

@@ -1,11 +1,11 @@
 // Tests that hatching keeps clear of ink: random shapes by sampling, and the fields of kolams as plotted.
 #include "art/plotter/clear_hatch.h"
 
-#include "art/draw_settings.h"
 #include "art/drawing/drawing.h"
 #include "art/plotter/plot.h"
 #include "art/plotter/shading.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
 #include "engine/base/output.h"
 #include "tests/plot_tools.h"
 
@@ -185,7 +185,7 @@ std::unique_ptr<Drawn> drawn(const Document& document, const OptionValues& value
     const DrawSettings settings = read_draw_settings(values);
     const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
     result->print.style = read_print_style(styled, settings);
-    result->print.page = settings.page;
+    result->print.page = settings.page.sheet;
     DrawOptions options;
     static_cast<DrawingOptions&>(options) = drawing_options(settings, styled);
     static_cast<PlotSetup&>(options) = plot_setup(settings, PrintFormat::gcode);

@@ -1,7 +1,7 @@
 // tests/art/matrix_test.cpp: every feature of prints is visible in every kind of output, or refused with a reason.
 // docs/matrix.md contains the same table.
-#include "art/print_cell.h"
 #include "art/prints.h"
+#include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
 #include "engine/base/output.h"
 #include "tests/files.h"

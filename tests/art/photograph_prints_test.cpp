@@ -1,8 +1,8 @@
 // tests/art/photograph_prints_test.cpp: kolams read from prints of this program: within borders, and on sheets.
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
-#include "art/print_cell.h"
 #include "art/prints.h"
+#include "art/product/print_cell.h"
 #include "art/reading/photograph.h"
 #include "engine/language/document.h"
 #include "tests/files.h"

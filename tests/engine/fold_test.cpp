@@ -1,4 +1,5 @@
 #include "engine/measure/fold.h"
+#include "engine/measure/exact_quantity.h"
 
 #include "engine/geometry/turtle.h"
 #include "tests/reference.h"
@@ -485,11 +486,11 @@ TEST(FoldExactly, UnitsSmallerThanAStepAreExact) {
 }
 
 TEST(Quantity, HasDigitsFrom2To53On) {
-    EXPECT_EQ(Quantity::of((Integer(1) << 53) - 1).digits, "");
-    EXPECT_EQ(Quantity::of((Integer(1) << 53) - 1).value, 0x1p53 - 1);
-    EXPECT_EQ(Quantity::of(Integer(1) << 53).digits, "9007199254740992");
-    EXPECT_EQ(Quantity::of((Integer(1) << 53) + 1).digits, "9007199254740993");
-    EXPECT_EQ(Quantity::of(-(Integer(1) << 53)).digits, "-9007199254740992");
+    EXPECT_EQ(quantity_of((Integer(1) << 53) - 1).digits, "");
+    EXPECT_EQ(quantity_of((Integer(1) << 53) - 1).value, 0x1p53 - 1);
+    EXPECT_EQ(quantity_of(Integer(1) << 53).digits, "9007199254740992");
+    EXPECT_EQ(quantity_of((Integer(1) << 53) + 1).digits, "9007199254740993");
+    EXPECT_EQ(quantity_of(-(Integer(1) << 53)).digits, "-9007199254740992");
     EXPECT_EQ(Quantity::of(0x1p53).digits, "9007199254740992");
     EXPECT_EQ(Quantity::of(-0x1p54).digits, "-18014398509481984");
     EXPECT_EQ(Quantity::of(0x1p53 - 1).digits, "");

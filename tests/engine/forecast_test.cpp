@@ -1,4 +1,5 @@
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/exact_counts.h"
 
 #include "tests/reference.h"
 

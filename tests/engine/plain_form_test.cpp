@@ -1,6 +1,7 @@
 // The plain form of systems with parameters: derives the same words, and is counted and folded without deriving.
 #include "engine/derivation/plain_form.h"
 #include "engine/derivation/derivation.h"
+#include "engine/derivation/exact_counts.h"
 #include "engine/derivation/forecast.h"
 #include "engine/measure/extent.h"
 #include "engine/measure/fold.h"

@@ -1,16 +1,20 @@
-// A user of the installed libraries.
+// A user of the installed libraries, with a folder of the same name as one of theirs on its include path.
+#include <sikku/art/analysis.h>
+#include <sikku/art/gallery/gallery.h>
+#include <sikku/engine/base/installation.h>
+#include <sikku/engine/measurement.h>
+
+#include <engine/base/output.h>
+
 #include <cstdio>
 
-#include <sikku/art/style/style.h>
-#include <sikku/engine/measure/extent.h>
-
 int main() {
-    sikku::Diagnostics diagnostics;
-    const auto pattern = sikku::parse_pattern("koch", "axiom: F\nF --> F-F++F-F\nangle factor: 6\n", diagnostics);
-    const auto grammar = sikku::compile_grammar(pattern, diagnostics).with_steps(5);
-    diagnostics.throw_if_errors();
-    const auto measured = sikku::measure(*grammar, 1e6);
-    const bool good = measured.drawn.value == 1024 && sikku::parse_colour("navy").has_value();
+    const sikku::Document koch =
+        sikku::parse("koch", "axiom: F\nF --> F-F++F-F\nangle factor: 6\nderivation length: 5\n");
+    const bool measures = sikku::measure_as_json(koch, 1e6).find("1024") != std::string::npos;
+    const auto lines = std::get<sikku::Polylines<glm::dvec2>>(sikku::drawn_lines(koch, 1e6, {}));
+    const bool finds = !sikku::PatternLibrary::bundled().patterns().empty();
+    const bool good = measures && finds && own_output == 1 && !lines.points.empty();
     std::puts(good ? "the libraries work" : "the libraries do not work");
     return good ? 0 : 1;
 }

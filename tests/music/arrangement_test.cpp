@@ -342,7 +342,7 @@ TEST(Arrangement, WarnsOfSharedPan) {
     };
     using Remarks = std::vector<std::string>;
     const std::string shared = "voices of {} share MIDI channels, and with them pan and controllers";
-    const std::string mpe = "; `--tuning mpe` gives each note a channel";
+    const std::string mpe = "; 'tuning' mpe gives each note a channel";
     const std::string pan = "instrument = \"Flute\"\npan = \"by x\"\n";
     EXPECT_EQ(remarks_of(tracks(15, pan)), Remarks());
     EXPECT_EQ(remarks_of(tracks(16, pan)), Remarks({fmt::format(fmt::runtime(shared), "Flute") + mpe}));

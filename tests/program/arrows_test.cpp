@@ -1,5 +1,7 @@
 // tests/program/arrows_test.cpp: checks the includes of each room. art and music never include each other; the engine
 // includes neither.
+#include "art/prints.h"
+#include "music/scores.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +67,7 @@ struct Room {
 /// All permitted includes. Each room includes only from rooms above it in this list, so there are no cycles.
 const std::vector<Room>& rooms() {
     static const std::vector<Room> table = {
-        {"engine/base", "", "boost fast_float tbb posix toml"},
+        {"engine/base", "", "boost fast_float json tbb posix toml zlib"},
         {"engine/language", "engine/base", ""},
         {"engine/derivation", "engine/base engine/language", "boost"},
         {"engine/import", "engine/base engine/language engine/derivation", ""},
@@ -92,10 +94,12 @@ const std::vector<Room>& rooms() {
          "tbb"},
         {"art/cutting", "engine/* art/style art/print art/vector art/plotter art/image art/drawing", ""},
         {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing", "tbb"},
+        {"art/product",
+         "engine engine/* art/style art/print art/raster art/plotter art/relief art/image art/drawing art/sheet", ""},
         {"art", "engine engine/* art/*", ""},
-        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet", "tbb json posix"},
-        {"art/link", "engine/* art/gallery", "zlib json"},
-        {"art/reading", "engine/* art art/kolam art/image art/gallery", "json pugixml"},
+        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet art/product", "tbb json posix"},
+        {"art/link", "engine/*", "json"},
+        {"art/reading", "engine/* art art/kolam art/image", "json pugixml"},
         {"music/scale", "engine/*", ""},
         {"music/score", "engine/* music/scale", "posix zlib"},
         {"music/melody", "engine/* music/scale music/score", ""},
@@ -170,12 +174,33 @@ TEST(Arrows, EachRoomUsesOnlyItsLibraries) {
     }
 }
 
-/// fmt is not part of the interface of the engine: users of the library need not install it.
-TEST(Arrows, HeadersOfTheEngineDoWithoutFmt) {
-    const std::string lists = contents(std::filesystem::path(SIKKU_SOURCE_DIR) / "engine/CMakeLists.txt");
-    for (const auto& [file, name, quoted] : includes_of("engine")) {
-        const bool is_public = file.ends_with(".h") && lists.find(file.substr(7)) != std::string::npos;
-        EXPECT_FALSE(is_public && name.starts_with("fmt/")) << file << " includes " << name;
+/// Headers that are installed, by the list `public_headers(…)` of each library.
+std::set<std::string> public_headers() {
+    static const std::regex header(R"([\w/]+\.h)");
+    std::set<std::string> found;
+    for (const std::string folder : {"engine", "art", "music"}) {
+        const std::string lists = contents(std::filesystem::path(SIKKU_SOURCE_DIR) / folder / "CMakeLists.txt");
+        const std::size_t begin = lists.find("public_headers(");
+        const std::string list = lists.substr(begin, lists.find(')', begin) - begin);
+        for (std::sregex_iterator each(list.begin(), list.end(), header), end; each != end; ++each) {
+            found.insert(folder + "/" + each->str());
+        }
+    }
+    return found;
+}
+
+/// Users of the libraries install GLM, but neither fmt nor Boost.
+TEST(Arrows, PublicHeadersIncludeOnlyPublicHeadersAndGlm) {
+    const std::set<std::string> headers = public_headers();
+    EXPECT_GT(headers.size(), 40u);
+    EXPECT_LE(headers.size(), 60u);
+    for (const char* folder : {"engine", "art", "music"}) {
+        for (const auto& [file, name, quoted] : includes_of(folder)) {
+            if (!headers.contains(file)) continue;
+            EXPECT_TRUE(!quoted || headers.contains(name)) << file << " includes " << name;
+            EXPECT_TRUE(quoted || library_of(name).empty() || library_of(name) == "glm")
+                << file << " includes <" << name << ">";
+        }
     }
 }
 
@@ -220,6 +245,31 @@ TEST(Arrows, EachTypeOfANamespaceHasOneDefinition) {
         }
     }
     EXPECT_GT(types, 1000u);
+}
+
+/// A library names an option as 'size'; the program makes `--size` of it. Recipes in files are command lines, and
+/// styles have properties that look like options.
+TEST(Arrows, LibrariesDoNotNameOptionsOfTheCommandLine) {
+    static const std::regex named(R"(--([a-z]+(?:-[a-z]+)*)(:|\s*\{)?)");
+    std::set<std::string, std::less<>> options = {"file", "set", "variant", "seed"};
+    for (const Interpreter* interpreter : {&prints(), &scores()}) {
+        for (const OptionInfo* option : interpreter->options()) options.emplace(option->name);
+    }
+    for (const char* folder : {"engine", "art", "music"}) {
+        for (const std::string& file : sources_of(folder)) {
+            std::istringstream lines(contents(std::filesystem::path(SIKKU_SOURCE_DIR) / file));
+            for (std::string line; std::getline(lines, line);) {
+                line = line.substr(0, line.find("//"));
+                for (std::sregex_iterator each(line.begin(), line.end(), named), end; each != end; ++each) {
+                    const std::string before = line.substr(0, static_cast<std::size_t>(each->position()));
+                    const bool is_style = (*each)[2].matched || before.ends_with("var(");
+                    const bool is_recipe = before.ends_with("\" ") || before.ends_with("== \"");
+                    if (is_style || is_recipe || std::count(line.begin(), line.end(), '"') < 2) continue;
+                    EXPECT_FALSE(options.contains((*each)[1].str())) << file << ": " << line;
+                }
+            }
+        }
+    }
 }
 
 TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {

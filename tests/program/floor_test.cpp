@@ -1,11 +1,11 @@
 // tests/program/floor_test.cpp: uses documents, interpreters and their tables like a caller of the libraries.
 #include "art/analysis.h"
-#include "art/draw_settings.h"
 #include "art/gallery/gallery.h"
 #include "art/gallery/jobs.h"
 #include "art/gallery/keys.h"
 #include "art/gallery/values.h"
 #include "art/prints.h"
+#include "art/product/draw_settings.h"
 #include "engine/language/document.h"
 #include "music/scores.h"
 #include "tests/files.h"

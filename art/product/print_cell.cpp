@@ -1,6 +1,6 @@
-#include "art/print_cell.h"
+#include "art/product/print_cell.h"
 
-#include "art/border_files.h"
+#include "art/product/border_files.h"
 
 namespace sikku {
 

@@ -1,11 +1,11 @@
-// art/plot_remarks.h: the remarks about a finished drawing and its plot.
+// art/product/plot_remarks.h: the remarks about a finished drawing and its plot.
 #pragma once
 
-#include "art/draw_settings.h"
 #include "art/drawing/draw_options.h"
 #include "art/plotter/hpgl.h"
 #include "art/plotter/plot.h"
 #include "art/print/page.h"
+#include "art/product/draw_settings.h"
 #include "art/style/style.h"
 #include "engine/interpreter.h"
 

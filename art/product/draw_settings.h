@@ -1,4 +1,4 @@
-// art/draw_settings.h: typed settings of a print, and the table of options that sets them.
+// art/product/draw_settings.h: typed settings of a print, and the table of options that sets them.
 #pragma once
 
 #include "art/drawing/draw_options.h"
@@ -32,56 +32,67 @@ namespace sikku {
 enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 /// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
-struct DrawSettings {
-    std::vector<Setting> keys;  ///< keys of the language given as options: `stroke`, `fill`, …
-    double dpi = 300.0;         ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
-    Page page;                  ///< A4 with margins of 10 mm
+///
+/// The paper.
+struct PageSettings {
+    Page sheet;          ///< A4 with margins of 10 mm
+    double dpi = 300.0;  ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
     bool landscape = false;
-    bool fit = false;                  ///< requested explicitly; excludes `step` and `window`
-    std::optional<double> step;        ///< length of one turtle step on paper; absent: fit the page
-    std::optional<ViewWindow> window;  ///< part of the drawing that fills the page
-    std::string window_text;           ///< the window as given, which may have more digits than a double
-    double rotate = 0.0;               ///< anticlockwise
-    bool mirror = false;               ///< before the rotation
-    std::string view;                  ///< value for `view:`; empty: the pattern's
-    std::string light;                 ///< value for `light:`; empty: the pattern's
-    std::optional<std::string> dots;   ///< value for `dots:`; empty: default size and colour
+    bool widens_margin = false;     ///< the margin is the one that the plotter needs
+    std::optional<Page> tile;       ///< sheet of a tiled print
+    std::optional<double> overlap;  ///< overlap of neighbouring sheets; 10 mm
+};
+
+/// Where the drawing lies on the page, and how often.
+struct PlaceSettings {
+    bool fit = false;                   ///< requested explicitly; excludes `step` and `window`
+    std::optional<double> step;         ///< length of one turtle step on paper; absent: fit the page
+    std::optional<double> dot_spacing;  ///< distance between the nearest dots
+    std::optional<ViewWindow> window;   ///< part of the drawing that fills the page
+    std::string window_text;            ///< the window as given, which may have more digits than a double
+    double rotate = 0.0;                ///< anticlockwise
+    bool mirror = false;                ///< before the rotation
+    std::optional<Repeat> repeat;       ///< draw many copies
+    bool composes = false;              ///< place the drawing by its shape and mass
+    bool fills_page = false;            ///< cover the page with a tiling
+    SwatchChoice swatch = SwatchChoice::none;
+    std::optional<Swatch> swatch_place{};  ///< the part found, set when the print is planned
+    glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
+};
+
+/// What is drawn besides the keys of the pattern.
+struct LookSettings {
+    std::string view;                 ///< value for `view:`; empty: the pattern's
+    std::string light;                ///< value for `light:`; empty: the pattern's
+    std::optional<std::string> dots;  ///< value for `dots:`; empty: default size and colour
     bool only_dots = false;
-    std::optional<double> dot_spacing;                                 ///< distance between the nearest dots
-    std::optional<Repeat> repeat;                                      ///< draw many copies
-    bool composes = false;                                             ///< place the drawing by its shape and mass
-    std::optional<std::string> border;                                 ///< value for `border:`
-    std::optional<std::string> title_line;                             ///< text below; empty: the pattern's title
-    std::string edition;                                               ///< text below on the right
-    bool colours_strokes = false;                                      ///< one colour for each strand
+    bool colours_strokes = false;           ///< one colour for each strand
+    std::optional<std::string> border;      ///< value for `border:`
+    std::optional<std::string> title_line;  ///< text below; empty: the pattern's title
+    std::string edition;                    ///< text below on the right
+    double kerf = 0;                        ///< width of a cut along the edges of tiles; 0: they are drawn
+    bool names_tiles = false;               ///< see Print::names_tiles
+};
+
+/// Several derivation lengths, and what moves.
+struct TimeSettings {
     std::optional<std::pair<std::int64_t, std::int64_t>> generations;  ///< derivation lengths, first and last
     bool frames = false;                                               ///< write each generation to its own file
     std::optional<double> frame_time;  ///< display time of each generation in an animation
     std::optional<double> hold;        ///< minimum display time of the last generation
-    std::optional<double> division;    ///< seconds in which tiles divide from one generation to the next
     bool fit_frames = false;           ///< fit each generation to the page
+    std::optional<double> division;    ///< seconds in which tiles divide from one generation to the next
     std::optional<double> animation;   ///< duration of an SVG that draws itself
-    bool fills_page = false;           ///< cover the page with a tiling
-    SwatchChoice swatch = SwatchChoice::none;
-    std::optional<Swatch> swatch_place{};       ///< the part found, set when the print is planned
-    glm::dvec2 swatch_stretch{1.0};             ///< scale across and down that gives the swatch whole pixels
-    double kerf = 0;                            ///< width of a cut along the edges of tiles; 0: they are drawn
-    bool names_tiles = false;                   ///< see Print::names_tiles
-    std::optional<double> lesson;               ///< seconds for each stroke of a drawing lesson
-    std::optional<Page> tile;                   ///< sheet of a tiled print
-    std::optional<double> overlap;              ///< overlap of neighbouring sheets; 10 mm
-    std::optional<std::vector<double>> relief;  ///< heights of a relief; empty: the default
-    std::vector<double> ridges;                 ///< heights of its lines; empty: those of `relief`
-    std::optional<double> base;                 ///< thickness of its base
-    std::optional<double> beyond;  ///< how far the base reaches beyond the drawing; absent: it is the page
-    std::optional<double> groove;  ///< width between its polygons
+    std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
+};
+
+struct PlotSettings {
     bool plotter = false;
     double split = 0.0;                     ///< maximum length of a stroke; 0: no limit
     std::optional<Hatch> hatch;             ///< hatching of filled shapes
     double pen_width = 0.0;                 ///< width of the plotter's pen; 0: the width of each stroke
     int pens = 0;                           ///< maximum number of pens; 0: no limit
     std::optional<HpglPaper> paper;         ///< sheet or limits of an HP-GL plotter
-    bool widens_margin = false;             ///< the margin is the one that the plotter needs
     bool travel = false;                    ///< show pen-up travel
     std::optional<PlotterProfile> profile;  ///< the plotter, whose speeds and G-code are the defaults
     std::vector<PenRule> pen_rules;         ///< settings of single pens, which replace those of the profile
@@ -90,10 +101,33 @@ struct DrawSettings {
     double resume = 0.0;                    ///< length that was drawn before the plot was interrupted
     PlotSpeeds speeds;
     GcodeOptions gcode;
-    Press press;
+};
+
+struct ReliefSettings {
+    std::optional<std::vector<double>> heights;  ///< heights of a relief; empty: the default
+    std::vector<double> ridges;                  ///< heights of its lines; empty: `heights`
+    std::optional<double> base;                  ///< thickness of its base
+    std::optional<double> beyond;  ///< how far the base reaches beyond the drawing; absent: it is the page
+    std::optional<double> groove;  ///< width between its polygons
+};
+
+struct WorkSettings {
     std::optional<int> compression;  ///< level for PNG, 1 to 9; absent: 6, or 4 with grain, which compresses slowly
     double budget = 200e6;           ///< maximum number of derivation nodes visited in one pass
     int threads = 0;                 ///< for pictures; 0: one for each core
+};
+
+struct DrawSettings {
+    std::vector<const OptionInfo*> given{};  ///< options with a value other than none, in the order of the table
+    std::vector<Setting> keys;               ///< keys of the language given as options: `stroke`, `fill`, …
+    PageSettings page;
+    PlaceSettings place;
+    LookSettings look;
+    TimeSettings time;
+    PlotSettings plot;
+    Press press;
+    ReliefSettings relief;
+    WorkSettings work;
 };
 
 /// Every option of a print, in the order of help.
@@ -117,6 +151,8 @@ TileOptions tile_options(const DrawSettings& settings);
 
 /// True if the print is a relief.
 bool is_relief(const DrawSettings& settings, PrintFormat format);
+/// True if it is another model.
+bool is_model(const DrawSettings& settings, PrintFormat format);
 /// The options of a relief. Call if is_relief().
 ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format);
 
@@ -125,5 +161,8 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);
 
 /// Checks that the settings can be combined with each other and with the format. @throws SettingError
 void check_draw_settings(const DrawSettings& settings, PrintFormat format);
+/// The same for a map, and for a drawing in space.
+void check_map_settings(const DrawSettings& settings);
+void check_space_settings(const DrawSettings& settings, PrintFormat format);
 
 }  // namespace sikku

@@ -1,7 +1,7 @@
-// art/border_files.h: loads the patterns of borders.
+// art/product/border_files.h: loads the patterns of borders.
 #pragma once
 
-#include "art/draw_settings.h"
+#include "art/product/draw_settings.h"
 #include "engine/language/document.h"
 
 #include <filesystem>

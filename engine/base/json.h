@@ -1,4 +1,4 @@
-// art/gallery/json.h: parses untrusted JSON.
+// engine/base/json.h: parses untrusted JSON.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// What is wrong with a text, and at which of its bytes, from 1.
+/// An error in a text, at a byte counted from 1.
 class JsonError : public std::runtime_error {
 public:
     JsonError(const std::string& message, std::size_t at) : std::runtime_error(message), byte(at) {}
@@ -17,7 +17,7 @@ public:
 };
 
 /// Objects keep the order of their keys. Time: linear, as objects and the text are limited.
-/// @param key_places  gets the offset of each key of each object, in the order of the text
+/// @param key_places  receives the offset of each key of each object, in the order of the text
 /// @throws JsonError for invalid JSON, more than 50 nested brackets, more than 100,000 values, more than 1,000 keys
 /// in an object, a number outside the range of double, or a duplicate key in an object
 nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_t>* key_places = nullptr);

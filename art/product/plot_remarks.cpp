@@ -1,4 +1,4 @@
-#include "art/plot_remarks.h"
+#include "art/product/plot_remarks.h"
 
 #include "art/style/colour.h"
 #include "engine/base/text.h"
@@ -81,15 +81,15 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
 }
 
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made) {
-    if (!settings.names_tiles || tiles > 0) return;
+    if (!settings.look.names_tiles || tiles > 0) return;
     made.warn("'name-tiles' has no effect: this drawing has no filled polygons with straight edges");
 }
 
 void report_hpgl(const PlotReport& plot, const DrawSettings& settings, const HpglOptions& options, Made& made) {
-    made.fact("HP-GL: " + describe_hpgl(settings.page, options));
-    if (settings.widens_margin) {
-        made.fact(
-            fmt::format("the margin is {:g} mm, beyond which the plotter does not reach", settings.page.margin));
+    made.fact("HP-GL: " + describe_hpgl(settings.page.sheet, options));
+    if (settings.page.widens_margin) {
+        made.fact(fmt::format("the margin is {:g} mm, beyond which the plotter does not reach",
+                              settings.page.sheet.margin));
     }
     constexpr std::size_t most = 8;
     const std::size_t pens = plot.colours - plot.merged.size();
@@ -104,10 +104,10 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
     if (style.dots && report.dots == 0 && report.sheets == 0) {
         warnings.emplace_back("no dots were drawn: the lines enclose none");
     }
-    if (style.fields && report.fields == 0 && !settings.only_dots) {
+    if (style.fields && report.fields == 0 && !settings.look.only_dots) {
         warnings.emplace_back("no fields were filled: the drawing has no closed line");
     }
-    if (is_plot && report.fields > 0 && !settings.hatch) {
+    if (is_plot && report.fields > 0 && !settings.plot.hatch) {
         warnings.emplace_back("plots fill fields only by hatching: set 'hatch'");
     }
     if (!style.powders.empty() && !style.fields && !style.tile_colours) {
@@ -133,16 +133,16 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
 
 std::vector<std::string> space_warnings(const DrawSettings& settings, bool is_spatial, PrintFormat format) {
     std::vector<std::string> warnings;
-    if (!settings.view.empty() && !is_spatial) {
+    if (!settings.look.view.empty() && !is_spatial) {
         warnings.emplace_back("'view' has no effect: the drawing lies in the plane");
     }
     if (!is_spatial && std::any_of(settings.keys.begin(), settings.keys.end(),
                                    [](const Setting& key) { return key.key == "sway"; })) {
         warnings.emplace_back("'sway' has no effect: the drawing lies in the plane");
     }
-    if (!settings.light.empty() && !is_spatial) {
+    if (!settings.look.light.empty() && !is_spatial) {
         warnings.emplace_back("'light' has no effect: the drawing lies in the plane");
-    } else if (!settings.light.empty() && is_vector(format)) {
+    } else if (!settings.look.light.empty() && is_vector(format)) {
         warnings.emplace_back("'light' has no effect: only pictures have light; vectors have flat facets");
     }
     return warnings;

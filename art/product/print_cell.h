@@ -1,7 +1,7 @@
-// art/print_cell.h: converts the settings of a print into a cell of a sheet.
+// art/product/print_cell.h: converts the settings of a print into a cell of a sheet.
 #pragma once
 
-#include "art/draw_settings.h"
+#include "art/product/draw_settings.h"
 #include "art/sheet/sheet.h"
 #include "engine/language/document.h"
 

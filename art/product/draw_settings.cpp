@@ -1,4 +1,4 @@
-#include "art/draw_settings.h"
+#include "art/product/draw_settings.h"
 
 #include "art/raster/raster.h"
 #include "art/style/length.h"
@@ -52,16 +52,16 @@ Page sheet(const char* option, const std::string& text, double dpi) {
 }
 
 void set_step(DrawSettings& settings, const std::string& text) {
-    settings.step = length("step", text, settings.dpi);
-    if (!(*settings.step >= 1e-9 && *settings.step <= longest)) {
+    settings.place.step = length("step", text, settings.page.dpi);
+    if (!(*settings.place.step >= 1e-9 && *settings.place.step <= longest)) {
         refuse_option("step", text, "expected a step of at least 10^-9 mm and at most 10 m");
     }
 }
 
 void set_window(DrawSettings& settings, const std::string& text) {
-    settings.window = parse_window(text);
-    settings.window_text = text;
-    if (!settings.window) {
+    settings.place.window = parse_window(text);
+    settings.place.window_text = text;
+    if (!settings.place.window) {
         refuse_option(
             "window", text,
             "expected X0,Y0,X1,Y1 in turtle steps, decimal numbers without exponents, X0 below X1 and Y0 below Y1");
@@ -69,8 +69,8 @@ void set_window(DrawSettings& settings, const std::string& text) {
 }
 
 void set_repeat(DrawSettings& settings, const std::string& text) {
-    settings.repeat = parse_repeat(text);
-    if (settings.repeat) return;
+    settings.place.repeat = parse_repeat(text);
+    if (settings.place.repeat) return;
     std::string names;
     for (const std::string_view name : repeat_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
     refuse_option("repeat", text,
@@ -82,13 +82,13 @@ void set_repeat(DrawSettings& settings, const std::string& text) {
 
 /// Parses `only`, `SIZE COLOUR`, or `only SIZE COLOUR`.
 void set_dots(DrawSettings& settings, const std::string& text) {
-    settings.only_dots = text == "only" || text.starts_with("only ");
-    settings.dots = settings.only_dots ? text.substr(std::min<std::size_t>(text.size(), 5)) : text;
+    settings.look.only_dots = text == "only" || text.starts_with("only ");
+    settings.look.dots = settings.look.only_dots ? text.substr(std::min<std::size_t>(text.size(), 5)) : text;
 }
 
 void set_dot_spacing(DrawSettings& settings, const std::string& text) {
-    settings.dot_spacing = length("dot-spacing", text, settings.dpi);
-    if (!(*settings.dot_spacing > 0 && *settings.dot_spacing <= longest)) {
+    settings.place.dot_spacing = length("dot-spacing", text, settings.page.dpi);
+    if (!(*settings.place.dot_spacing > 0 && *settings.place.dot_spacing <= longest)) {
         refuse_option("dot-spacing", text, "expected a length above 0 and at most 10 m");
     }
 }
@@ -109,7 +109,7 @@ void set_generations(DrawSettings& settings, const std::string& text) {
     if (last > most_steps) {
         refuse_option("generations", text, fmt::format("expected derivation lengths up to {}", most_steps));
     }
-    settings.generations = {first, last};
+    settings.time.generations = {first, last};
 }
 
 void set_animation(DrawSettings& settings, const std::string& text) {
@@ -117,7 +117,7 @@ void set_animation(DrawSettings& settings, const std::string& text) {
     if ((!text.empty() && !read_number(text, seconds)) || !(seconds > 0 && seconds <= 86'400)) {
         refuse_option("animate", text, "expected seconds, above 0 and at most a day");
     }
-    settings.animation = seconds;
+    settings.time.animation = seconds;
 }
 
 void set_division(DrawSettings& settings, const std::string& text) {
@@ -125,7 +125,7 @@ void set_division(DrawSettings& settings, const std::string& text) {
     if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
         refuse_option("divide", text, "expected seconds for each division, 0.1 to 600");
     }
-    settings.division = seconds;
+    settings.time.division = seconds;
 }
 
 void set_lesson(DrawSettings& settings, const std::string& text) {
@@ -133,17 +133,17 @@ void set_lesson(DrawSettings& settings, const std::string& text) {
     if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
         refuse_option("lesson", text, "expected seconds for each stroke, 0.1 to 600");
     }
-    settings.lesson = seconds;
+    settings.time.lesson = seconds;
 }
 
 /// Parses `SPACING`, followed by `ANGLE` and `cross` in either order.
 void set_hatch(DrawSettings& settings, const std::string& text) {
-    Hatch& hatch = settings.hatch.emplace();
+    Hatch& hatch = settings.plot.hatch.emplace();
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string part = text.substr(begin, end - begin);
         if (begin == 0) {
-            hatch.spacing = length("hatch", part, settings.dpi);
+            hatch.spacing = length("hatch", part, settings.page.dpi);
             if (!(hatch.spacing >= 0.05 && hatch.spacing <= longest)) {
                 refuse_option("hatch", text, "expected a spacing of at least 0.05mm and at most 10 m");
             }
@@ -177,8 +177,8 @@ std::vector<double> heights(const char* option, const std::string& text, double 
 }
 
 void set_relief(DrawSettings& settings, const std::string& text) {
-    settings.relief.emplace();
-    if (!text.empty()) settings.relief = heights("relief", text, settings.dpi);
+    settings.relief.heights.emplace();
+    if (!text.empty()) settings.relief.heights = heights("relief", text, settings.page.dpi);
 }
 
 /// Parses the thickness, and how far the base reaches beyond the drawing.
@@ -186,32 +186,32 @@ void set_base(DrawSettings& settings, const std::string& text) {
     constexpr double most = 1000;
     const std::size_t comma = text.find(',');
     const auto part = [&](const std::string& of) {
-        const double value = length("base", of, settings.dpi);
+        const double value = length("base", of, settings.page.dpi);
         if (!(value >= 0 && value <= most)) refuse_option("base", text, "expected lengths from 0 to 1 m");
         return value;
     };
-    settings.base = part(text.substr(0, comma));
-    settings.beyond.reset();
-    if (comma != std::string::npos) settings.beyond = part(text.substr(comma + 1));
+    settings.relief.base = part(text.substr(0, comma));
+    settings.relief.beyond.reset();
+    if (comma != std::string::npos) settings.relief.beyond = part(text.substr(comma + 1));
 }
 
 void set_groove(DrawSettings& settings, const std::string& text) {
-    settings.groove = length("groove", text, settings.dpi);
-    if (!(*settings.groove >= 0 && *settings.groove <= longest)) {
+    settings.relief.groove = length("groove", text, settings.page.dpi);
+    if (!(*settings.relief.groove >= 0 && *settings.relief.groove <= longest)) {
         refuse_option("groove", text, "expected a width from 0 to 10 m");
     }
 }
 
 void set_pen_width(DrawSettings& settings, const std::string& text) {
-    settings.pen_width = length("pen-width", text, settings.dpi);
-    if (!(settings.pen_width >= 0.05 && settings.pen_width <= 100)) {
+    settings.plot.pen_width = length("pen-width", text, settings.page.dpi);
+    if (!(settings.plot.pen_width >= 0.05 && settings.plot.pen_width <= 100)) {
         refuse_option("pen-width", text, "expected a width between 0.05mm and 100mm");
     }
 }
 
 void set_paper(DrawSettings& settings, const std::string& text) {
-    settings.paper = parse_hpgl_paper(text, settings.dpi);
-    if (!settings.paper) {
+    settings.plot.paper = parse_hpgl_paper(text, settings.page.dpi);
+    if (!settings.plot.paper) {
         refuse_option("hpgl-paper", text,
                       "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
     }
@@ -220,19 +220,19 @@ void set_paper(DrawSettings& settings, const std::string& text) {
 /// Parses a sheet size and the margin that the printer cannot reach.
 void set_tile(DrawSettings& settings, const std::string& text) {
     const std::size_t comma = text.find(',');
-    settings.tile = sheet("tile", text.substr(0, comma), settings.dpi);
-    settings.tile->margin = 5.0;
+    settings.page.tile = sheet("tile", text.substr(0, comma), settings.page.dpi);
+    settings.page.tile->margin = 5.0;
     if (comma == std::string::npos) return;
-    settings.tile->margin = length("tile", text.substr(comma + 1), settings.dpi);
-    if (settings.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
+    settings.page.tile->margin = length("tile", text.substr(comma + 1), settings.page.dpi);
+    if (settings.page.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
 }
 
 void use_profile(DrawSettings& settings, PlotterProfile profile) {
-    settings.speeds = profile.speeds;
-    settings.gcode = profile.gcode;
+    settings.plot.speeds = profile.speeds;
+    settings.plot.gcode = profile.gcode;
     // A plotter that reads SVG is one only by its profile.
-    if (profile.language == PlotLanguage::svg) settings.plotter = true;
-    settings.profile = std::move(profile);
+    if (profile.language == PlotLanguage::svg) settings.plot.plotter = true;
+    settings.plot.profile = std::move(profile);
 }
 
 /// Takes a bundled profile. Files are read by read_draw_settings().
@@ -304,85 +304,99 @@ const std::array own_rows = {
         {.name = "size",
          .help = "page size: A0 to A10, B0 to B6, SRA0 to SRA4, letter, legal, tabloid, ANSI-A to ANSI-E, Arch-A to "
                  "Arch-E, or WIDTHxHEIGHT such as 50x70cm; also C, JIS-B and RA sizes (A4)",
-         .value = "SIZE"},
+         .value = "SIZE",
+         .scope = Scope::page},
         [](S& s, Text t) {
-            const Page page = sheet("size", t, s.dpi);
-            s.page.width = page.width;
-            s.page.height = page.height;
+            const Page page = sheet("size", t, s.page.dpi);
+            s.page.sheet.width = page.width;
+            s.page.sheet.height = page.height;
         }},
-    Option<S>{{.name = "landscape", .help = "landscape page", .kind = flag},
-              [](S& s, Text t) { s.landscape = is_true(t); }},
-    Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH"},
+    Option<S>{{.name = "landscape", .help = "landscape page", .scope = Scope::page, .kind = flag},
+              [](S& s, Text t) { s.page.landscape = is_true(t); }},
+    Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH", .scope = Scope::page},
               [](S& s, Text t) {
-                  s.page.margin = length("margin", t, s.dpi);
-                  if (s.page.margin < 0) refuse_option("margin", t, "expected 0 or more");
+                  s.page.sheet.margin = length("margin", t, s.page.dpi);
+                  if (s.page.sheet.margin < 0) refuse_option("margin", t, "expected 0 or more");
               }},
-    Option<S>{{.name = "fit", .help = "fill the page within its margins (default)", .kind = flag},
-              [](S& s, Text t) { s.fit = is_true(t); }},
+    Option<S>{
+        {.name = "fit", .help = "fill the page within its margins (default)", .scope = Scope::place, .kind = flag},
+        [](S& s, Text t) { s.place.fit = is_true(t); }},
     Option<S>{{.name = "compose",
                .help = "place the drawing by its shape and mass around the optical centre, with room to breathe, "
                        "instead of filling the margins",
+               .scope = Scope::place,
                .kind = flag},
-              [](S& s, Text t) { s.composes = is_true(t); }},
+              [](S& s, Text t) { s.place.composes = is_true(t); }},
     Option<S>{{.name = "step",
                .help = "length of one turtle step on paper, instead of fitting the page",
-               .value = "LENGTH"},
+               .value = "LENGTH",
+               .scope = Scope::scale},
               set_step},
     Option<S>{{.name = "fill-page",
-               .help = "cover the whole page with a tiling, at the length of a step that --step sets (a 40th of the "
+               .help = "cover the whole page with a tiling, at the length of a step that 'step' sets (a 40th of the "
                        "page's shorter side); finds a place and the derivation length it needs",
+               .scope = Scope::tiling,
                .kind = flag},
-              [](S& s, Text t) { s.fills_page = is_true(t); }},
+              [](S& s, Text t) { s.place.fills_page = is_true(t); }},
     Option<S>{
         {.name = "swatch",
          .help = "draw only the smallest rectangle of a periodic tiling whose copies join without a seam, on a page "
-                 "of its size; --step sets the length of a step (a 40th of the page's shorter side); 'turn' also "
+                 "of its size; 'step' sets the length of a step (a 40th of the page's shorter side); 'turn' also "
                  "turns the tiling where that makes the rectangle smaller",
-         .value = "[turn]"},
+         .value = "[turn]",
+         .scope = Scope::tiling},
         [](S& s, Text t) {
             if (!t.empty() && t != "turn") refuse_option("swatch", t, "expected turn, or no value");
-            s.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
+            s.place.swatch = t.empty() ? SwatchChoice::upright : SwatchChoice::turned;
         }},
     Option<S>{{.name = "window",
                .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
                        "derivation length",
-               .value = "X0,Y0,X1,Y1"},
+               .value = "X0,Y0,X1,Y1",
+               .scope = Scope::place},
               set_window},
     Option<S>{{.name = "rotate",
                .help = "rotation in degrees anticlockwise (0)",
                .value = "DEGREES",
+               .scope = Scope::look,
                .unit = "deg",
-               .kind = number},
-              [](S& s, Text t) { s.rotate = to_number(t); }},
-    Option<S>{{.name = "mirror", .help = "mirror left and right, before rotating", .kind = flag},
-              [](S& s, Text t) { s.mirror = is_true(t); }},
+               .kind = number,
+               .neutral = "0"},
+              [](S& s, Text t) { s.place.rotate = to_number(t); }},
+    Option<S>{
+        {.name = "mirror", .help = "mirror left and right, before rotating", .scope = Scope::look, .kind = flag},
+        [](S& s, Text t) { s.place.mirror = is_true(t); }},
     Option<S>{{.name = "view",
                .help = "camera of drawings in space: degrees around and up, or front, side or top; then, for a "
                        "perspective, its distance in radii of the drawing (4)",
                .value = "AZIMUTH,ELEVATION[,perspective[,DISTANCE]]",
+               .scope = Scope::space,
                .sets_more = true,
                .is_key = true},
-              [](S& s, Text t) { s.view = t; }},
+              [](S& s, Text t) { s.look.view = t; }},
     Option<S>{
         {.name = "light",
          .help = "light of pictures of drawings in space: flat, sun or sky; or the sun's degrees to the right of "
                  "the eye and up, and its share of the light, 0 to 1 (0.6)",
          .value = "flat|sun|sky|AZIMUTH,ELEVATION[,SUN]",
+         .scope = Scope::space,
          .sets_more = true,
          .is_key = true},
-        [](S& s, Text t) { s.light = t; }},
+        [](S& s, Text t) { s.look.light = t; }},
     Option<S>{{.name = "dots",
                .help = "draw the dots of a kolam, in a size and colour such as 2mm white; or only the dots, for "
                        "practising",
                .value = "[SIZE COLOUR|only]",
                .group = kolams,
+               .scope = Scope::kolam,
                .sets_more = true,
                .is_key = true},
               set_dots},
     Option<S>{{.name = "dot-spacing",
                .help = "distance between neighbouring dots of a kolam on paper, instead of fitting the page",
                .value = "LENGTH",
-               .group = kolams},
+               .group = kolams,
+               .scope = Scope::kolam},
               set_dot_spacing},
     Option<S>{
         {.name = "border",
@@ -390,94 +404,114 @@ const std::array own_rows = {
                  "sides, optionally with another for the corners",
          .value = "NAME|FILE[,CORNER]",
          .group = kolams,
+         .scope = Scope::extras,
+         .neutral = "none",
          .is_key = true},
-        [](S& s, Text t) { s.border = t; }},
+        [](S& s, Text t) { s.look.border = t; }},
     Option<S>{{.name = "repeat",
                .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "
                        "wallpaper group p1 to p6m with its cells such as p4m:3x4 (p4m:fill and p4m:5xfill cover the "
                        "page), or ring:8; gap in steps or percent (8%)",
                .value = "GROUP[:COUNT][,gap=GAP]",
-               .group = kolams},
+               .group = kolams,
+               .scope = Scope::copies},
               set_repeat},
     Option<S>{{.name = "title-line",
                .help = "write a line below the drawing, on the left (the pattern's title)",
                .value = "[TEXT]",
-               .group = kolams},
-              [](S& s, Text t) { s.title_line = t; }},
+               .group = kolams,
+               .scope = Scope::extras},
+              [](S& s, Text t) { s.look.title_line = t; }},
     Option<S>{{.name = "edition",
                .help = "write the number of the print below the drawing, on the right, such as 3/50",
                .value = "TEXT",
-               .group = kolams},
-              [](S& s, Text t) { s.edition = t; }},
-    Option<S>{{.name = "colour-by", .help = "draw each line in its own colour", .value = "strand", .group = kolams},
-              [](S& s, Text t) { set_word("colour-by", "strand", t, s.colours_strokes); }},
+               .group = kolams,
+               .scope = Scope::extras},
+              [](S& s, Text t) { s.look.edition = t; }},
+    Option<S>{{.name = "colour-by",
+               .help = "draw each line in its own colour",
+               .value = "strand",
+               .group = kolams,
+               .scope = Scope::kolam},
+              [](S& s, Text t) { set_word("colour-by", "strand", t, s.look.colours_strokes); }},
     Option<S>{{.name = "generations",
                .help = "derivation lengths A to B: side by side on one sheet, or one after the other in a .gif",
                .value = "A:B",
                .group = kolams,
+               .scope = Scope::time,
                .is_alone = true},
               set_generations},
     Option<S>{{.name = "frames",
                .help = "write each generation to its own file, such as growth-07.png",
                .group = kolams,
+               .scope = Scope::time,
                .kind = flag,
                .is_alone = true},
-              [](S& s, Text t) { s.frames = is_true(t); }},
+              [](S& s, Text t) { s.time.frames = is_true(t); }},
     Option<S>{
         {.name = "frame-time",
-         .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); with --divide, the pause after each division "
+         .help = "seconds per generation of a .gif, 0.01 to 600 (0.5); with 'divide', the pause after each division "
                  "(0.6)",
          .value = "SECONDS",
          .group = kolams,
+         .scope = Scope::time,
          .unit = "s",
          .kind = number,
          .least = 0.01,
          .most = 600},
-        [](S& s, Text t) { s.frame_time = to_number(t); }},
+        [](S& s, Text t) { s.time.frame_time = to_number(t); }},
     Option<S>{{.name = "hold",
-               .help = "minimum seconds for the last generation of a .gif, or with --divide, 0.01 to 600 (2)",
+               .help = "minimum seconds for the last generation of a .gif, or with 'divide', 0.01 to 600 (2)",
                .value = "SECONDS",
                .group = kolams,
+               .scope = Scope::time,
                .unit = "s",
                .kind = number,
                .least = 0.01,
                .most = 600},
-              [](S& s, Text t) { s.hold = to_number(t); }},
+              [](S& s, Text t) { s.time.hold = to_number(t); }},
     Option<S>{{.name = "fit-frames",
                .help = "fit each generation to the page separately; by default all share one scale and position, "
                        "which shows growth",
                .group = kolams,
+               .scope = Scope::time,
                .kind = flag,
                .is_alone = true},
-              [](S& s, Text t) { s.fit_frames = is_true(t); }},
+              [](S& s, Text t) { s.time.fit_frames = is_true(t); }},
     Option<S>{{.name = "animate",
                .help = "SVG that draws itself, line by line, in this many seconds (20)",
                .value = "[SECONDS]",
                .group = kolams,
+               .scope = Scope::file,
                .unit = "s"},
               set_animation},
     Option<S>{{.name = "divide",
                .help = "animation in which each tile divides into its parts, from generation to generation: .gif or "
-                       "SVG, with this many seconds per division (1.4); --generations selects a range (0 to n)",
+                       "SVG, with this many seconds per division (1.4); 'generations' selects a range (0 to n)",
                .value = "[SECONDS]",
                .group = kolams,
+               .scope = Scope::time,
                .unit = "s"},
               set_division},
     Option<S>{{.name = "name-tiles",
                .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
                        "direction and colour; PDF and DXF with a layer for each shape, hand and colour of tiles",
                .group = kolams,
+               .scope = Scope::file,
                .kind = flag},
-              [](S& s, Text t) { s.names_tiles = is_true(t); }},
+              [](S& s, Text t) { s.look.names_tiles = is_true(t); }},
     Option<S>{
         {.name = "kerf",
          .help = "width of the cut of a laser or knife, up to 10mm, for edges of tiles that are drawn once: the "
                  "border moves outwards by half of it (0mm)",
          .value = "LENGTH",
-         .group = kolams},
+         .group = kolams,
+         .scope = Scope::tiling,
+         .neutral = "0mm"},
         [](S& s, Text t) {
-            s.kerf = length("kerf", t, s.dpi);
-            if (!(s.kerf >= 0 && s.kerf <= 10)) refuse_option("kerf", t, "expected a length from 0 to 10mm");
+            s.look.kerf = length("kerf", t, s.page.dpi);
+            if (!(s.look.kerf >= 0 && s.look.kerf <= 10))
+                refuse_option("kerf", t, "expected a length from 0 to 10mm");
         }},
     Option<S>{
         {.name = "lesson",
@@ -486,46 +520,56 @@ const std::array own_rows = {
                  "cells of a picture",
          .value = "[SECONDS]",
          .group = kolams,
+         .scope = Scope::lesson,
          .unit = "s"},
         set_lesson},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
                        "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
                .value = "SIZE[,MARGIN]",
-               .group = kolams},
+               .group = kolams,
+               .scope = Scope::sheets},
               set_tile},
-    Option<S>{
-        {.name = "overlap", .help = "overlap of neighbouring sheets (10mm)", .value = "LENGTH", .group = kolams},
-        [](S& s, Text t) { s.overlap = length("overlap", t, s.dpi); }},
+    Option<S>{{.name = "overlap",
+               .help = "overlap of neighbouring sheets (10mm)",
+               .value = "LENGTH",
+               .group = kolams,
+               .scope = Scope::sheets},
+              [](S& s, Text t) { s.page.overlap = length("overlap", t, s.page.dpi); }},
     Option<S>{
         {.name = "relief",
          .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "
                  "of the palette, such as 2mm,3mm; negative ones are depths (2mm)",
          .value = "[HEIGHT[,HEIGHT]...]",
-         .group = reliefs},
+         .group = reliefs,
+         .scope = Scope::solid},
         set_relief},
     Option<S>{{.name = "ridge",
-               .help = "heights of lines by colour (as --relief)",
+               .help = "heights of lines by colour (as 'relief')",
                .value = "HEIGHT[,HEIGHT]...",
-               .group = reliefs},
-              [](S& s, Text t) { s.ridges = heights("ridge", t, s.dpi); }},
+               .group = reliefs,
+               .scope = Scope::solid},
+              [](S& s, Text t) { s.relief.ridges = heights("ridge", t, s.page.dpi); }},
     Option<S>{{.name = "base",
                .help = "thickness of the base (1.2mm; 0: no base), which is as large as the page, or reaches the "
                        "length BEYOND past the drawing",
                .value = "THICKNESS[,BEYOND]",
-               .group = reliefs},
+               .group = reliefs,
+               .scope = Scope::solid},
               set_base},
     Option<S>{{.name = "groove",
                .help = "width of the grooves between the polygons of a relief (0.4mm)",
                .value = "WIDTH",
-               .group = reliefs},
+               .group = reliefs,
+               .scope = Scope::solid},
               set_groove},
     Option<S>{
         {.name = "plotter",
          .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL, G-code and DXF always do",
          .group = plotters,
+         .scope = Scope::plot,
          .kind = flag},
-        [](S& s, Text t) { s.plotter = is_true(t); }},
+        [](S& s, Text t) { s.plot.plotter = is_true(t); }},
     // Stands before the options that override its settings.
     Option<S>{
         {.name = "profile",
@@ -533,163 +577,200 @@ const std::array own_rows = {
              "plotter: axidraw, grbl, grbl-laser, hp7475a, marlin, marlin-z, z, or a file that describes one (grbl)",
          .value = "NAME|FILE",
          .group = plotters,
+         .scope = Scope::pens,
          .moves_machine = true,
          .names_file = is_profile_file},
         set_profile},
     Option<S>{{.name = "split",
                .help = "maximum length of a stroke, for controllers that stutter",
                .value = "LENGTH",
-               .group = plotters},
+               .group = plotters,
+               .scope = Scope::plot},
               [](S& s, Text t) {
-                  s.split = length("split", t, s.dpi);
-                  if (!(s.split > 0)) refuse_option("split", t, "expected a length above 0");
+                  s.plot.split = length("split", t, s.page.dpi);
+                  if (!(s.plot.split > 0)) refuse_option("split", t, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
                .help = "width of the plotter's pen; wider strokes take several passes (each stroke's own width)",
                .value = "WIDTH",
-               .group = plotters},
+               .group = plotters,
+               .scope = Scope::plot},
               set_pen_width},
     Option<S>{{.name = "hatch",
                .help = "hatch filled shapes: spacing (one pen), angle (45) or both directions, such as 0.5mm,30 or "
                        "0.5mm,cross",
                .value = "[SPACING[,ANGLE|cross]]",
-               .group = plotters},
+               .group = plotters,
+               .scope = Scope::plot},
               set_hatch},
     Option<S>{{.name = "pens",
                .help = "number of pens the plotter holds, 1 to 256; more colours are merged into the most similar "
                        "(one per colour)",
                .value = "N",
                .group = plotters,
+               .scope = Scope::plot,
                .kind = whole,
                .least = 1,
                .most = 256},
-              [](S& s, Text t) { s.pens = to_int(t); }},
-    Option<S>{{.name = "pen",
-               .help = "settings of a pen, by number or colour: speed, lift and down (heights, or power), pause, "
-                       "refill, such as '2 speed=20mm/s pause=0.5s'; may be repeated",
-               .value = "PEN SETTINGS",
-               .group = plotters,
-               .is_list = true,
-               .moves_machine = true},
-              [](S& s, Text t) { read_as("pen", t, [&] { s.pen_rules.push_back(parse_pen_rule(t, s.dpi)); }); }},
+              [](S& s, Text t) { s.plot.pens = to_int(t); }},
+    Option<S>{
+        {.name = "pen",
+         .help = "settings of a pen, by number or colour: speed, lift and down (heights, or power), pause, "
+                 "refill, such as '2 speed=20mm/s pause=0.5s'; may be repeated",
+         .value = "PEN SETTINGS",
+         .group = plotters,
+         .scope = Scope::pens,
+         .is_list = true,
+         .moves_machine = true},
+        [](S& s, Text t) { read_as("pen", t, [&] { s.plot.pen_rules.push_back(parse_pen_rule(t, s.page.dpi)); }); }},
     Option<S>{{.name = "park",
                .help = "place of the pen while it is changed, from the bottom left corner of the page; HP-GL, G-code",
                .value = "X,Y",
                .group = plotters,
+               .scope = Scope::pens,
                .moves_machine = true},
-              [](S& s, Text t) { read_as("park", t, [&] { s.park = parse_place(t, s.dpi); }); }},
+              [](S& s, Text t) { read_as("park", t, [&] { s.plot.park = parse_place(t, s.page.dpi); }); }},
     Option<S>{{.name = "refill",
                .help = "dip the pen at a place before it draws, and again after each LENGTH, such as 5m@10,10",
                .value = "LENGTH@X,Y",
                .group = plotters,
+               .scope = Scope::pens,
                .moves_machine = true},
-              [](S& s, Text t) { read_as("refill", t, [&] { s.refill = parse_refill(t, s.dpi); }); }},
+              [](S& s, Text t) { read_as("refill", t, [&] { s.plot.refill = parse_refill(t, s.page.dpi); }); }},
     Option<S>{{.name = "resume",
                .help = "begin where an interrupted plot had drawn this length, such as 12.5m",
                .value = "LENGTH",
                .group = plotters,
+               .scope = Scope::plot,
                .moves_machine = true},
               [](S& s, Text t) {
-                  s.resume = length("resume", t, s.dpi);
-                  if (!(s.resume > 0)) refuse_option("resume", t, "expected a length above 0");
+                  s.plot.resume = length("resume", t, s.page.dpi);
+                  if (!(s.plot.resume > 0)) refuse_option("resume", t, "expected a length above 0");
               }},
     Option<S>{{.name = "arcs",
                .help = "follow curves by arcs where they fit (default); G-code",
                .group = plotters,
+               .scope = Scope::gcode,
                .kind = flag,
                .is_on = true},
-              [](S& s, Text t) { s.gcode.arcs = is_true(t); }},
+              [](S& s, Text t) { s.plot.gcode.arcs = is_true(t); }},
     Option<S>{{.name = "min-arc",
                .help = "minimum length of an arc; shorter ones become lines; G-code (0mm)",
                .value = "LENGTH",
-               .group = plotters},
+               .group = plotters,
+               .scope = Scope::gcode,
+               .neutral = "0mm"},
               [](S& s, Text t) {
-                  s.gcode.least_arc = length("min-arc", t, s.dpi);
-                  if (!(s.gcode.least_arc >= 0)) refuse_option("min-arc", t, "expected a length of 0 or more");
+                  s.plot.gcode.least_arc = length("min-arc", t, s.page.dpi);
+                  if (!(s.plot.gcode.least_arc >= 0)) refuse_option("min-arc", t, "expected a length of 0 or more");
               }},
     Option<S>{{.name = "hpgl-paper",
                .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "
                        ",centre if its origin is in the middle (the page, with the origin in its corner)",
                .value = "SIZE[,centre]",
                .group = plotters,
+               .scope = Scope::hpgl,
                .moves_machine = true},
               set_paper},
-    Option<S>{{.name = "travel", .help = "show pen-up travel in a separate layer", .group = plotters, .kind = flag},
-              [](S& s, Text t) { s.travel = is_true(t); }},
+    Option<S>{{.name = "travel",
+               .help = "show pen-up travel in a separate layer",
+               .group = plotters,
+               .scope = Scope::plot,
+               .kind = flag},
+              [](S& s, Text t) { s.plot.travel = is_true(t); }},
     Option<S>{{.name = "pen-speed",
                .help = "drawing speed in mm/s, for the time estimate and G-code (40)",
                .value = "SPEED",
                .group = plotters,
+               .scope = Scope::machine,
                .unit = "mm/s",
                .kind = number,
                .least = 1e-3,
                .most = 1e6,
                .moves_machine = true},
-              [](S& s, Text t) { s.speeds.drawing = to_number(t); }},
+              [](S& s, Text t) { s.plot.speeds.drawing = to_number(t); }},
     Option<S>{{.name = "travel-speed",
                .help = "pen-up speed in mm/s (80)",
                .value = "SPEED",
                .group = plotters,
+               .scope = Scope::machine,
                .unit = "mm/s",
                .kind = number,
                .least = 1e-3,
                .most = 1e6,
                .moves_machine = true},
-              [](S& s, Text t) { s.speeds.travelling = to_number(t); }},
+              [](S& s, Text t) { s.plot.speeds.travelling = to_number(t); }},
     Option<S>{{.name = "lift-time",
                .help = "seconds for lifting and lowering the pen (0.3)",
                .value = "SECONDS",
                .group = plotters,
+               .scope = Scope::machine,
                .unit = "s",
                .kind = number,
                .least = 0,
                .most = 3600,
                .moves_machine = true},
-              [](S& s, Text t) { s.speeds.lift = to_number(t); }},
+              [](S& s, Text t) { s.plot.speeds.lift = to_number(t); }},
     Option<S>{{.name = "gcode-start",
                .help = "G-code lines before the first stroke",
                .value = "LINES",
                .group = plotters,
+               .scope = Scope::machine,
                .moves_machine = true},
-              [](S& s, Text t) { set_lines("gcode-start", t, s.gcode.start); }},
+              [](S& s, Text t) { set_lines("gcode-start", t, s.plot.gcode.start); }},
     Option<S>{{.name = "gcode-end",
                .help = "G-code lines after the last stroke",
                .value = "LINES",
                .group = plotters,
+               .scope = Scope::machine,
                .moves_machine = true},
-              [](S& s, Text t) { set_lines("gcode-end", t, s.gcode.end); }},
+              [](S& s, Text t) { set_lines("gcode-end", t, s.plot.gcode.end); }},
     Option<S>{{.name = "bleed",
                .help = "extension of the ground beyond the page, up to 100mm (0mm)",
                .value = "LENGTH",
-               .group = presses},
-              [](S& s, Text t) { s.press.bleed = length("bleed", t, s.dpi); }},
-    Option<S>{{.name = "marks", .help = "crop marks outside the bleed; PDF", .group = presses, .kind = flag},
+               .group = presses,
+               .scope = Scope::trim,
+               .neutral = "0mm"},
+              [](S& s, Text t) { s.press.bleed = length("bleed", t, s.page.dpi); }},
+    Option<S>{{.name = "marks",
+               .help = "crop marks outside the bleed; PDF",
+               .group = presses,
+               .scope = Scope::trim,
+               .kind = flag},
               [](S& s, Text t) { s.press.marks = is_true(t); }},
     Option<S>{{.name = "spot",
                .help = "separate ink for a colour of the drawing, such as Kaavi=#b3452c; PDF; may be repeated",
                .value = "NAME=COLOUR",
                .group = presses,
+               .scope = Scope::press,
                .is_list = true},
               [](S& s, Text t) { read_as("spot", t, [&] { add_spot(s.press.spots, parse_spot(t)); }); }},
-    Option<S>{
-        {.name = "registration", .help = "registration marks outside the bleed; PDF", .group = presses, .kind = flag},
-        [](S& s, Text t) { s.press.registration = is_true(t); }},
+    Option<S>{{.name = "registration",
+               .help = "registration marks outside the bleed; PDF",
+               .group = presses,
+               .scope = Scope::trim,
+               .kind = flag},
+              [](S& s, Text t) { s.press.registration = is_true(t); }},
     Option<S>{{.name = "overprint",
                .help = "print black lines, areas in spot colours, or both, over the inks beneath them; PDF",
                .value = "black|spots|all",
-               .group = presses},
+               .group = presses,
+               .scope = Scope::press},
               set_overprint},
     Option<S>{{.name = "cmyk",
                .help = "convert colours to the inks of this ICC profile; TIFF, and PDF, which becomes PDF/X-4",
                .value = "FILE.icc",
                .group = presses,
+               .scope = Scope::press,
                .names_file = [](std::string_view file) { return !file.empty(); }},
               [](S& s, Text t) { s.press.cmyk = t; }},
     Option<S>{{.name = "bits",
                .help = "bits per channel: 8, or 1 for line art, best at 600 dpi and more; TIFF (8)",
                .value = "1|8",
                .group = presses,
-               .kind = whole},
+               .scope = Scope::press,
+               .kind = whole,
+               .neutral = "8"},
               [](S& s, Text t) {
                   s.press.bits = to_int(t);
                   if (s.press.bits != 1 && s.press.bits != 8) refuse_option("bits", t, "expected 1 or 8");
@@ -699,16 +780,19 @@ const std::array own_rows = {
          .help = "screening of 1-bit pictures: threshold (default), diffusion, or a halftone with LPI lines per "
                  "inch (a twelfth of the dpi) at 45 degrees",
          .value = "threshold|diffusion|halftone[,LPI]",
-         .group = presses},
+         .group = presses,
+         .scope = Scope::press,
+         .neutral = "threshold"},
         [](S& s, Text t) {
             read_as("screen", t, [&] {
                 s.press.screen = parse_screen(t);
-                if (s.press.screen.kind == Screen::Kind::halftone) Screener(s.press.screen, 1, s.dpi);
+                if (s.press.screen.kind == Screen::Kind::halftone) Screener(s.press.screen, 1, s.page.dpi);
             });
         }},
     Option<S>{{.name = "icc",
                .help = "embed the ICC profile of the colours in pictures (default)",
                .group = presses,
+               .scope = Scope::pixels,
                .kind = flag,
                .is_on = true},
               [](S& s, Text t) { s.press.icc = is_true(t); }},
@@ -717,29 +801,32 @@ const std::array own_rows = {
                        "longer side of a .gif)",
                .value = "DPI",
                .group = pictures,
+               .scope = Scope::pixels,
                .unit = "dpi",
                .kind = number,
                .least = 1,
                .most = 10'000},
-              [](S& s, Text t) { s.dpi = to_number(t); }},
+              [](S& s, Text t) { s.page.dpi = to_number(t); }},
     Option<S>{{.name = "compression",
                .help = "PNG compression, 1 (fast) to 9 (small) (6, or 4 for hand-drawn lines)",
                .value = "LEVEL",
                .group = pictures,
+               .scope = Scope::pixels,
                .kind = whole,
                .least = 1,
                .most = 9},
-              [](S& s, Text t) { s.compression = to_int(t); }},
+              [](S& s, Text t) { s.work.compression = to_int(t); }},
     Option<S>{{.name = "jobs",
                .help = "threads for pictures; 0: one per core (0)",
                .value = "N",
                .group = pictures,
+               .scope = Scope::pixels,
                .kind = whole,
                .most = 1024,
                .is_alone = true,
                .letter = 'j'},
-              [](S& s, Text t) { s.threads = to_int(t); }},
-    Option<S>{budget_option, [](S& s, Text t) { s.budget = read_budget(t); }},
+              [](S& s, Text t) { s.work.threads = to_int(t); }},
+    Option<S>{budget_option, [](S& s, Text t) { s.work.budget = read_budget(t); }},
 };
 
 }  // namespace
@@ -765,6 +852,7 @@ std::vector<Option<S>> make_table() {
         if (std::any_of(table.begin(), table.end(), has_name)) continue;
         // Galleries have the keys themselves.
         table.push_back({key_option(name, "Style", true), nullptr, set_key});
+        table.back().info.scope = Scope::look;
     }
     return table;
 }
@@ -780,9 +868,9 @@ namespace {
 
 /// The paper in an HP-GL plotter, as its unit makes it.
 std::optional<HpglPaper> plotter_paper(const DrawSettings& settings) {
-    const std::optional<PlotterProfile>& profile = settings.profile;
-    std::optional<HpglPaper> paper = settings.paper;
-    if (!paper && profile && profile->paper) paper = paper_for(*profile->paper, settings.page);
+    const std::optional<PlotterProfile>& profile = settings.plot.profile;
+    std::optional<HpglPaper> paper = settings.plot.paper;
+    if (!paper && profile && profile->paper) paper = paper_for(*profile->paper, settings.page.sheet);
     if (paper && profile) paper = with_unit(*paper, profile->unit);
     return paper;
 }
@@ -791,17 +879,35 @@ std::optional<HpglPaper> plotter_paper(const DrawSettings& settings) {
 void widen_margin(DrawSettings& settings) {
     const std::optional<HpglPaper> paper = plotter_paper(settings);
     if (!paper) return;
-    Page& page = settings.page;
+    Page& page = settings.page.sheet;
     const double margin = hpgl_margin(*paper, page);
     if (margin <= page.margin || 2 * margin >= std::min(page.width, page.height)) return;
     page.margin = margin;
-    settings.widens_margin = true;
+    settings.page.widens_margin = true;
+}
+
+}  // namespace
+
+namespace {
+
+/// The options that are given with another value than none, in the order of the table.
+std::vector<const OptionInfo*> effective_options(const OptionValues& values) {
+    std::vector<const OptionInfo*> given;
+    for (const Option<S>& row : draw_options()) {
+        if (std::any_of(values.begin(), values.end(), [&](const OptionValue& value) {
+                return value.name == row.info.name && !row.info.is_neutral(value.text);
+            })) {
+            given.push_back(&row.info);
+        }
+    }
+    return given;
 }
 
 }  // namespace
 
 DrawSettings read_draw_settings(const OptionValues& values, const std::filesystem::path* folder) {
     DrawSettings settings;
+    settings.given = effective_options(values);
     for (const OptionValue& value : values) {
         if (folder && value.name == "profile" && is_profile_file(value.text)) {
             read_as("profile", value.text, [&] { use_profile(settings, read_profile(*folder / value.text)); });
@@ -812,10 +918,10 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
         if (value.name == "dpi") apply_options(draw_options(), {value}, settings);
     }
     apply_options(draw_options(), values, settings);
-    settings.gcode.drawing_feed = 60 * settings.speeds.drawing;
-    settings.gcode.travel_feed = 60 * settings.speeds.travelling;
-    Page& page = settings.page;
-    if (settings.landscape && page.height > page.width) std::swap(page.width, page.height);
+    settings.plot.gcode.drawing_feed = 60 * settings.plot.speeds.drawing;
+    settings.plot.gcode.travel_feed = 60 * settings.plot.speeds.travelling;
+    Page& page = settings.page.sheet;
+    if (settings.page.landscape && page.height > page.width) std::swap(page.width, page.height);
     const bool has_margin =
         std::any_of(values.begin(), values.end(), [](const OptionValue& value) { return value.name == "margin"; });
     if (!has_margin) widen_margin(settings);
@@ -827,70 +933,74 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
 }
 
 TileOptions tile_options(const DrawSettings& settings) {
-    TileOptions options{.sheet = *settings.tile};
-    options.overlap = settings.overlap.value_or(options.overlap);
+    TileOptions options{.sheet = *settings.page.tile};
+    options.overlap = settings.page.overlap.value_or(options.overlap);
     return options;
 }
 
 DrawingOptions drawing_options(const DrawSettings& settings, const Document& document) {
     DrawingOptions options;
-    options.placement.rotate = settings.rotate;
-    options.placement.mirror = settings.mirror;
-    options.placement.step = settings.step;
-    options.window = settings.window;
-    options.only_dots = settings.only_dots;
-    options.colours_strokes = settings.colours_strokes;
-    if (settings.title_line) {
-        options.title_line = settings.title_line->empty() ? document.text("title") : *settings.title_line;
+    options.placement.rotate = settings.place.rotate;
+    options.placement.mirror = settings.place.mirror;
+    options.placement.step = settings.place.step;
+    options.window = settings.place.window;
+    options.only_dots = settings.look.only_dots;
+    options.colours_strokes = settings.look.colours_strokes;
+    if (settings.look.title_line) {
+        options.title_line = settings.look.title_line->empty() ? document.text("title") : *settings.look.title_line;
         if (options.title_line.empty()) {
             options.title_line = std::filesystem::path(document.source().name()).stem().string();
         }
     }
-    options.edition = settings.edition;
-    options.repeat = settings.repeat;
-    options.composes = settings.composes;
-    options.kerf = settings.kerf;
-    options.budget = settings.budget;
+    options.edition = settings.look.edition;
+    options.repeat = settings.place.repeat;
+    options.composes = settings.place.composes;
+    options.kerf = settings.look.kerf;
+    options.budget = settings.work.budget;
     return options;
 }
 
 bool is_relief(const DrawSettings& settings, PrintFormat format) {
-    return settings.relief || format == PrintFormat::stl;
+    return settings.relief.heights || format == PrintFormat::stl;
+}
+
+bool is_model(const DrawSettings& settings, PrintFormat format) {
+    return info(format).kind == FormatKind::model && !is_relief(settings, format);
 }
 
 ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format) {
     ReliefOptions options;
-    if (settings.relief && !settings.relief->empty()) options.heights = *settings.relief;
-    options.ridges = settings.ridges;
-    options.base = settings.base.value_or(options.base);
-    options.beyond = settings.beyond;
-    options.groove = settings.groove.value_or(options.groove);
+    if (settings.relief.heights && !settings.relief.heights->empty()) options.heights = *settings.relief.heights;
+    options.ridges = settings.relief.ridges;
+    options.base = settings.relief.base.value_or(options.base);
+    options.beyond = settings.relief.beyond;
+    options.groove = settings.relief.groove.value_or(options.groove);
     options.format = format;
     return options;
 }
 
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     PlotSetup setup;
-    if (!settings.plotter && !is_for_plotters(format)) return setup;
-    const std::optional<PlotterProfile>& profile = settings.profile;
+    if (!settings.plot.plotter && !is_for_plotters(format)) return setup;
+    const std::optional<PlotterProfile>& profile = settings.plot.profile;
     PlotOptions& plot = setup.plot.emplace();
-    plot.split = settings.split;
-    plot.hatch = settings.hatch;
-    plot.leaves_tiles = settings.names_tiles && format == PrintFormat::dxf;
-    plot.pen_width = settings.pen_width;
-    plot.pens = settings.pens == 0 && profile ? profile->pens : settings.pens;
-    plot.speeds = settings.speeds;
+    plot.split = settings.plot.split;
+    plot.hatch = settings.plot.hatch;
+    plot.leaves_tiles = settings.look.names_tiles && format == PrintFormat::dxf;
+    plot.pen_width = settings.plot.pen_width;
+    plot.pens = settings.plot.pens == 0 && profile ? profile->pens : settings.plot.pens;
+    plot.speeds = settings.plot.speeds;
     if (profile) plot.rules = profile->rules;
-    plot.rules.insert(plot.rules.end(), settings.pen_rules.begin(), settings.pen_rules.end());
-    plot.refill = settings.refill;
-    plot.resume = settings.resume;
-    plot.park = settings.park;
+    plot.rules.insert(plot.rules.end(), settings.plot.pen_rules.begin(), settings.plot.pen_rules.end());
+    plot.refill = settings.plot.refill;
+    plot.resume = settings.plot.resume;
+    plot.park = settings.plot.park;
     if (!plot.park && profile && is_for_plotters(format)) plot.park = profile->park;
-    setup.shows_travel = settings.travel;
-    setup.gcode = settings.gcode;
+    setup.shows_travel = settings.plot.travel;
+    setup.gcode = settings.plot.gcode;
     setup.gcode.rules = plot.rules;
     setup.gcode.park = plot.park;
-    setup.hpgl = {plotter_paper(settings), plot.park, plot.rules, settings.speeds.drawing};
+    setup.hpgl = {plotter_paper(settings), plot.park, plot.rules, settings.plot.speeds.drawing};
     if (!profile) return setup;
     setup.hpgl.unit = profile->unit;
     setup.layer_codes = profile->layers;
@@ -907,14 +1017,15 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
         }
     };
     // Dots of the default size and colour cannot be written as a value of the key.
-    if (settings.dots && !settings.dots->empty()) set("dots", *settings.dots);
-    if (settings.border) set("border", *settings.border);
-    if (!settings.view.empty()) set("view", settings.view);
-    if (!settings.light.empty()) set("light", settings.light);
+    if (settings.look.dots && !settings.look.dots->empty()) set("dots", *settings.look.dots);
+    if (settings.look.border) set("border", *settings.look.border);
+    if (!settings.look.view.empty()) set("view", settings.look.view);
+    if (!settings.look.light.empty()) set("light", settings.look.light);
     Diagnostics diagnostics;
-    Style style = read_style(drawn.pattern(), settings.dpi, diagnostics);
+    Style style = read_style(drawn.pattern(), settings.page.dpi, diagnostics);
     diagnostics.throw_if_errors();
-    if ((settings.dots || settings.dot_spacing || settings.lesson) && !style.dots) style.dots.emplace();
+    if ((settings.look.dots || settings.place.dot_spacing || settings.time.lesson) && !style.dots)
+        style.dots.emplace();
     return style;
 }
 

@@ -1,4 +1,4 @@
-#include "art/gallery/process.h"
+#include "cli/process.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

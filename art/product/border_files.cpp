@@ -1,4 +1,4 @@
-#include "art/border_files.h"
+#include "art/product/border_files.h"
 
 #include "engine/base/text.h"
 
@@ -38,7 +38,7 @@ std::shared_ptr<const BorderPattern> load_part(const std::string& name, const Dr
         if (witness) witness(name, text);
         const Document document = parse(file.name, std::move(text));
         Diagnostics diagnostics;
-        Style style = read_style(document.pattern(), settings.dpi, diagnostics);
+        Style style = read_style(document.pattern(), settings.page.dpi, diagnostics);
         diagnostics.throw_if_errors();
         return std::make_shared<const BorderPattern>(BorderPattern{document.shared_grammar(), std::move(style)});
     } catch (const NotFound& error) {
@@ -62,8 +62,8 @@ void load_border(const Style& style, const Document& document, const DrawSetting
     const std::string& source = document.source().name();
     const std::filesystem::path beside = source == "-" ? folder : std::filesystem::path(source).parent_path();
     const auto load = [&](const std::string& name) {
-        return settings.border ? load_part(name, settings, {folder, beside}, witness)
-                               : load_part(name, settings, {beside, folder}, witness);
+        return settings.look.border ? load_part(name, settings, {folder, beside}, witness)
+                                    : load_part(name, settings, {beside, folder}, witness);
     };
     options.border_repeat = load(style.border->pattern);
     if (!style.border->corner.empty()) options.border_corner = load(style.border->corner);

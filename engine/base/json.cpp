@@ -1,4 +1,4 @@
-#include "art/gallery/json.h"
+#include "engine/base/json.h"
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -15,7 +15,7 @@ constexpr std::size_t most_depth = 50;
 constexpr std::size_t most_values = 100'000;
 constexpr std::size_t most_object_keys = 1000;  // lookup in an ordered object is linear
 
-/// Counts brackets and values before memory is spent on them. The places of all keys, in the order of the text.
+/// Counts brackets and values before memory is spent on them. Returns the places of all keys in order.
 std::vector<std::size_t> find_keys(std::string_view text) {
     std::vector<std::size_t> keys;
     std::size_t depth = 0;
@@ -56,7 +56,7 @@ nlohmann::ordered_json read_json(const std::string& text, std::vector<std::size_
         } else if (event == Json::parse_event_t::object_end) {
             keys.pop_back();
         } else if (event == Json::parse_event_t::key) {
-            // The parser hands over a key before it sees the colon.
+            // The parser passes a key before it reads the colon.
             const std::size_t place = met < places.size() ? places[met] : 0;
             ++met;
             const auto key = value.get<std::string>();

@@ -1,4 +1,4 @@
-#include "art/unused_options.h"
+#include "art/product/unused_options.h"
 
 #include "art/style/light.h"
 
@@ -20,8 +20,8 @@ struct Unused {
 };
 
 bool depends_on_ground(const DrawSettings& settings, const Style& style) {
-    return style.border || style.fields || style.dots || settings.colours_strokes || settings.title_line ||
-           !settings.edition.empty();
+    return style.border || style.fields || style.dots || settings.look.colours_strokes || settings.look.title_line ||
+           !settings.look.edition.empty();
 }
 
 /// True if no shape of the drawing has a colour of the palette.
@@ -43,7 +43,7 @@ bool has_no_pen(const PlotReport& plot, const Style& style) {
 std::vector<Unused> by_format(const GivenOptions& given, const DrawSettings& settings, const Style& style,
                               PrintFormat format, bool is_spatial) {
     const FormatKind kind = info(format).kind;
-    const bool is_plot = settings.plotter || is_for_plotters(format);
+    const bool is_plot = settings.plot.plotter || is_for_plotters(format);
     const bool is_model = kind == FormatKind::model;
     const bool is_flat_model = is_model && is_relief(settings, format);
     const bool is_picture = kind == FormatKind::pixels || kind == FormatKind::animation;
@@ -78,7 +78,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
         const PlotReport& plot = *report.plot;
         const auto colours = static_cast<int>(plot.colours);
         list.push_back(
-            {"pens", settings.pens >= colours,
+            {"pens", settings.plot.pens >= colours,
              fmt::format("the drawing has only {}", colours == 1 ? "1 colour" : fmt::format("{} colours", colours))});
         list.push_back({"park", plot.pens.size() < 2, "the plot has one pen, which is not changed"});
         for (const char* arcs : {"arcs", "min-arc"}) {
@@ -90,7 +90,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
     if (!report.contents) return list;
     const Contents& contents = *report.contents;
     const bool has_fills = contents.has_fills();
-    const bool is_bare_plot = report.plot && !settings.hatch && !settings.names_tiles;
+    const bool is_bare_plot = report.plot && !settings.plot.hatch && !settings.look.names_tiles;
     const std::string unhatched = "plots fill shapes only by hatching: set 'hatch'";
     list.push_back({"fill", !has_fills, "the drawing has no filled shapes"});
     list.push_back({"fill", has_fills && is_bare_plot && has_no_pen(*report.plot, style), unhatched});

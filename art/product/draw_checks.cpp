@@ -1,0 +1,326 @@
+// art/product/draw_checks.cpp: which settings of a print can be combined with each other and with a format.
+#include "art/product/draw_settings.h"
+#include "art/raster/raster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace sikku {
+namespace {
+
+using S = DrawSettings;
+using Format = PrintFormat;
+
+bool is_plot(const S& s, Format format) {
+    return s.plot.plotter || is_for_plotters(format);
+}
+/// One file with several derivation lengths side by side.
+bool is_row(const S& s, Format format) {
+    return s.time.generations && format != Format::gif && !s.time.frames && !s.time.division;
+}
+
+/// A kind of print. Several may hold at once.
+using Kind = bool (*)(const S& settings, Format format);
+namespace when {
+constexpr Kind always = [](const S&, Format) { return true; };
+constexpr Kind relief = [](const S& s, Format f) { return is_relief(s, f); };
+constexpr Kind no_relief = [](const S& s, Format f) { return !is_relief(s, f); };
+constexpr Kind flat = [](const S&, Format f) { return info(f).kind != FormatKind::model; };
+constexpr Kind model = [](const S& s, Format f) { return is_model(s, f); };
+constexpr Kind fitted = [](const S& s, Format) { return s.place.fit; };
+constexpr Kind stepped = [](const S& s, Format) { return s.place.step.has_value(); };
+constexpr Kind windowed = [](const S& s, Format) { return s.place.window.has_value(); };
+constexpr Kind placed = [](const S& s, Format) {
+    return s.place.fit || s.place.window || s.place.dot_spacing || s.place.repeat || s.place.composes ||
+           s.time.generations || s.place.rotate != 0;
+};
+constexpr Kind pixels = [](const S&, Format f) { return !is_vector(f); };
+constexpr Kind plot = [](const S& s, Format f) { return is_plot(s, f); };
+constexpr Kind no_plot = [](const S& s, Format f) { return !is_plot(s, f); };
+constexpr Kind drawn_plot = [](const S& s, Format f) { return s.plot.plotter && f != Format::dxf; };
+constexpr Kind without_travel = [](const S& s, Format f) {
+    return !(is_plot(s, f) && info(f).kind == FormatKind::vectors);
+};
+constexpr Kind without_parking = [](const S&, Format f) { return !is_for_plotters(f) || f == Format::dxf; };
+constexpr Kind dxf = [](const S&, Format f) { return f == Format::dxf; };
+constexpr Kind no_gcode = [](const S&, Format f) { return f != Format::gcode; };
+constexpr Kind no_hpgl = [](const S&, Format f) { return f != Format::hpgl; };
+constexpr Kind untiled = [](const S& s, Format) { return !s.page.tile; };
+constexpr Kind untrimmed = [](const S& s, Format) { return s.plot.plotter || s.page.tile; };
+constexpr Kind still = [](const S&, Format f) { return !info(f).is_animated; };
+constexpr Kind without_names = [](const S&, Format f) {
+    return f != Format::svg && f != Format::pdf && f != Format::dxf;
+};
+constexpr Kind hatched = [](const S& s, Format) { return s.plot.hatch.has_value(); };
+constexpr Kind named_dxf = [](const S& s, Format f) { return s.look.names_tiles && f == Format::dxf; };
+constexpr Kind gif = [](const S&, Format f) { return f == Format::gif; };
+constexpr Kind eps = [](const S&, Format f) { return f == Format::eps; };
+constexpr Kind swatch = [](const S& s, Format) { return s.place.swatch != SwatchChoice::none; };
+constexpr Kind undivided = [](const S&, Format f) { return f != Format::svg && f != Format::gif; };
+constexpr Kind division = [](const S& s, Format) { return s.time.division.has_value(); };
+constexpr Kind lesson = [](const S& s, Format) { return s.time.lesson.has_value(); };
+constexpr Kind lesson_of_dots = [](const S& s, Format) { return s.time.lesson && s.look.only_dots; };
+constexpr Kind lesson_cells = [](const S& s, Format f) { return s.time.lesson && !is_vector(f) && f != Format::gif; };
+constexpr Kind row = [](const S& s, Format f) { return is_row(s, f); };
+constexpr Kind plotted_row = [](const S& s, Format f) { return is_row(s, f) && is_plot(s, f); };
+constexpr Kind flat_relief = [](const S& s, Format f) { return flat(s, f) && is_relief(s, f); };
+constexpr Kind relief_row = [](const S& s, Format f) {
+    return is_relief(s, f) && s.time.generations && !s.time.frames;
+};
+constexpr Kind one_generation = [](const S& s, Format) { return !s.time.generations; };
+constexpr Kind untimed = [](const S& s, Format f) { return f != Format::gif && !s.time.division; };
+constexpr Kind unframed = [](const S& s, Format f) { return !s.time.generations || is_row(s, f); };
+}  // namespace when
+
+/// A scope, or a single option.
+struct Options {
+    std::optional<Scope> scope{};
+    std::string_view name{};
+
+    constexpr Options() = default;
+    constexpr Options(Scope of) : scope(of) {}               // NOLINT(google-explicit-constructor)
+    constexpr Options(const char* option) : name(option) {}  // NOLINT(google-explicit-constructor)
+    bool have(const OptionInfo& option) const { return option.scope == scope || option.name == name; }
+};
+
+/// A kind of print has none of these options.
+struct Rule {
+    Kind kind;
+    std::array<Options, 16> refused;
+    const char* reason;
+};
+
+constexpr const char* no_names =
+    "applies only to SVG, which names its elements, and to PDF and DXF, which have layers";
+constexpr const char* uncut = "a model is not cut along the edges of its tiles";
+constexpr const char* drawn_formats = "a plot is SVG, PDF, EPS, HP-GL, G-code or DXF";
+
+using enum Scope;
+constexpr Rule model_rules[] = {
+    {when::model, {{"name-tiles"}}, no_names},
+    {when::model, {{"kerf"}}, uncut},
+    {when::model, {{"rotate"}}, "a model can be rotated in the program that uses it"},
+    {when::model, {{"mirror"}}, "a model can be mirrored in the program that uses it"},
+    {when::model,
+     {{place, tiling, space, kolam, extras, copies, time, file, lesson, sheets, plot, pens, gcode, hpgl, press,
+       trim}},
+     "a model has no page and no camera; this option applies only to prints"},
+    {when::model, {{scale}}, "a model has one unit for each turtle step"},
+};
+constexpr Rule relief_rules[] = {
+    {when::no_relief, {{solid}}, "applies only to reliefs; needs 'relief' or STL"},
+    {when::flat_relief, {{solid}}, "a relief is STL, OBJ or glTF"},
+    {when::relief, {{sheets}}, "a relief can be cut in the program that prints it"},
+    {when::relief, {{lesson}}, "a lesson has several pages; a relief is one solid"},
+    {when::relief_row, {{"generations"}}, "a relief is one solid; 'frames' makes one of each generation"},
+    {when::relief, {{"kerf"}}, uncut},
+    {when::relief, {{space}}, "a relief is made of drawings in the plane, which have neither camera nor light"},
+    {when::relief, {{"bleed"}}, "a relief is not trimmed"},
+};
+constexpr Rule place_rules[] = {
+    {when::fitted,
+     {{scale, "window", "dot-spacing"}},
+     "cannot be combined with 'fit', which also sets the step length"},
+    {when::fitted, {{"compose"}}, "cannot be combined with 'fit', which fills the margins"},
+    {when::placed,
+     {{"fill-page"}},
+     "sets the place and the size of the drawing, and cannot be combined with 'fit', 'window', 'dot-spacing', "
+     "'repeat', 'compose', 'generations' and 'rotate'"},
+    {when::windowed, {{"compose"}}, "a window fills the page"},
+    {when::windowed, {{copies}}, "a window shows a part of one drawing, not of its copies"},
+    {when::stepped, {{"dot-spacing"}}, "cannot be combined with 'step': both set the step length"},
+};
+constexpr Rule plot_rules[] = {
+    {when::dxf, {{pens}}, "a .dxf describes lines, not the pens that draw them"},
+    {when::pixels, {{"plotter"}}, drawn_formats},
+    {when::without_travel, {{"travel"}}, "needs 'plotter', and SVG, PDF or EPS"},
+    {when::no_plot, {{"split"}}, "needs 'plotter'"},
+    {when::no_plot, {{plot, "pen", "refill"}}, "needs 'plotter', HP-GL, G-code or DXF"},
+    {when::without_parking, {{"park"}}, "applies only to HP-GL and G-code"},
+    {when::no_gcode, {{gcode}}, "applies only to G-code"},
+    {when::no_hpgl, {{hpgl}}, "applies only to HP-GL"},
+    {when::untiled, {{"overlap"}}, "needs 'tile'"},
+    {when::plot, {{sheets}}, "tiles would cut the strokes of a plot"},
+    {when::plot, {{"fill-page"}}, "the edges of the page would cut the strokes of a plot"},
+    {when::plot, {{"window"}}, "a window would cut the strokes of a plot"},
+};
+constexpr Rule product_rules[] = {
+    {when::untrimmed, {{trim}}, "applies only to trimmed prints, not to plots and tiles"},
+    {when::windowed, {{"border"}}, "a border frames the whole drawing; a window shows only part of it"},
+    {when::still, {{"animate"}}, "only SVG can draw itself"},
+    {when::without_names, {{"name-tiles"}}, no_names},
+    {when::drawn_plot, {{"name-tiles"}}, "a plot has lines only, no tiles"},
+    {when::hatched, {{"name-tiles"}}, "cannot be combined with 'hatch', which draws tiles as lines"},
+    {when::named_dxf, {{"resume"}}, "cannot be combined with 'name-tiles', which writes every tile"},
+
+    {when::plot, {{"swatch"}}, "its edges would cut the strokes of a plot"},
+    {when::gif, {{"swatch"}}, "a swatch is one picture, not an animation"},
+    {when::swatch, {{"generations"}}, "a swatch determines its own derivation length"},
+    {when::swatch, {{place, "fill-page", copies, lesson, sheets}}, "a swatch has its own place and page"},
+    {when::swatch, {{"dot-spacing"}}, "the length of a step sets the size of a swatch"},
+    {when::swatch, {{"animate", "divide"}}, "a swatch is one picture, not an animation"},
+    {when::swatch, {{extras, trim}}, "a swatch is part of an endless tiling, with nothing around it"},
+
+    {when::undivided, {{"divide"}}, "only a .gif and an animated SVG show how tiles divide"},
+    {when::plot, {{"divide"}}, "a plot does not move"},
+    {when::division, {{"animate"}}, "cannot be combined with 'divide', which has its own times"},
+    {when::division, {{lesson, copies}}, "does not apply to tiles that divide"},
+    {when::division, {{"frames"}}, "all generations of tiles that divide are in one file"},
+    {when::division, {{"fit-frames"}}, "tiles that divide keep their place and their scale"},
+    {when::division, {{sheets}}, "an animation cannot be cut into sheets"},
+    {when::division, {{"fill-page"}}, "sets the derivation length, of which 'divide' needs several"},
+    {when::division, {{"name-tiles"}}, "tiles that divide have different names in each generation"},
+    {when::division, {{"kerf"}}, "tiles that divide are not cut"},
+    {when::division, {{"dot-spacing"}}, "does not apply to tiles that divide; 'step' sets their scale"},
+
+    {when::plot, {{lesson}}, "a lesson has colours, numbers and several steps; a plot is one drawing"},
+    {when::eps, {{lesson}}, "a lesson has several pages; an EPS has one"},
+    {when::lesson, {{"border"}}, "a lesson teaches the lines of the kolam; a border is not one of them"},
+    {when::lesson,
+     {{"generations", sheets, "window", "animate", extras}},
+     "cannot be combined with 'lesson', which has its own pages and order"},
+    {when::lesson_of_dots, {{"dots"}}, "cannot be combined with 'lesson', which has its own pages and order"},
+    {when::lesson, {{trim}}, "the pages of a lesson are not trimmed"},
+    {when::lesson_cells, {{scale, "dot-spacing"}}, "each step of a lesson is scaled to fill its cell of the picture"},
+};
+constexpr Rule map_rules[] = {
+    {when::always, {{kolam, lesson}}, "applies to the lines of a turtle, and a map has none"},
+    {when::always, {{"divide"}}, "a .gif of a map always shows how cells divide"},
+};
+constexpr Rule space_rules[] = {
+    {when::always,
+     {{solid, "window", kolam, extras, copies, lesson, "animate", "divide"}},
+     "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces"},
+    {when::pixels, {{sheets}}, "drawings in space can be cut into sheets only as SVG, PDF or EPS"},
+    {when::no_plot, {{"spot"}}, "drawings in space have more shades of light than there are inks"},
+};
+constexpr Rule growth_rules[] = {
+    {when::one_generation, {{"frames"}}, "needs 'generations'"},
+    {when::gif, {{"frames"}}, "a .gif contains all generations itself"},
+    {when::lesson, {{"frame-time"}}, "a lesson has its own seconds per stroke"},
+    {when::untimed, {{"frame-time", "hold"}}, "applies only to a .gif and to 'divide'"},
+    {when::unframed, {{"fit-frames"}}, "needs a .gif or 'frames'"},
+    {when::gif, {{"bleed", sheets}}, "does not apply to a .gif, which is shown on screens"},
+    {when::plotted_row,
+     {{"generations"}},
+     "a plot cannot contain the grounds and captions of a sheet of generations; 'frames' makes a plot of each"},
+    {when::row, {{sheets}}, "a sheet of generations cannot be cut into tiles; 'frames' cuts each generation"},
+    {when::row, {{scale, "dot-spacing"}}, "each drawing of a sheet of generations is scaled to fill its cell"},
+};
+
+void apply(std::span<const Rule> rules, const S& settings, Format format) {
+    for (const Rule& rule : rules) {
+        if (!rule.kind(settings, format)) continue;
+        for (const OptionInfo* given : settings.given) {
+            const auto has = [&](const Options& options) { return options.have(*given); };
+            if (std::any_of(rule.refused.begin(), rule.refused.end(), has))
+                refuse_option(given->name, "", rule.reason);
+        }
+    }
+}
+
+/// Depths within the base.
+void check_depths(const ReliefOptions& options) {
+    const auto check = [&](const char* option, const std::vector<double>& heights) {
+        for (const double height : heights) {
+            if (height < 0 && !(options.base + height > 0.0005)) {
+                refuse_option(option, fmt::format("{:g}mm", height),
+                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
+            }
+        }
+    };
+    check("relief", options.heights);
+    check("ridge", options.ridges);
+}
+
+void check_sizes(const S& settings, Format format) {
+    const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.page.dpi), why); };
+    const Page& page = settings.page.sheet;
+    if (!is_vector(format) && when::flat(settings, format) &&
+        std::max(page.width, page.height) * settings.page.dpi / 25.4 > 2e5) {
+        refuse("the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
+    }
+    const PixelSize size = format == Format::gif ? pixel_size(page, settings.page.dpi) : PixelSize{};
+    if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
+        refuse("a .gif has at most 65,535 pixels per side and 100 million in all; use a smaller size or dpi");
+    }
+    try {
+        if (settings.page.tile) tiling_of(page, tile_options(settings));
+    } catch (const std::runtime_error& error) {
+        refuse_option("tile", "", error.what());
+    }
+}
+
+/// Checks that the plotter reads the format.
+void check_profile(const PlotterProfile& profile, Format format) {
+    const auto refuse = [&](const std::string& why) { refuse_option("profile", profile.name, why); };
+    const PlotLanguage spoken = format == Format::hpgl    ? PlotLanguage::hpgl
+                                : format == Format::gcode ? PlotLanguage::gcode
+                                                          : PlotLanguage::svg;
+    if (is_for_plotters(format) && profile.language != spoken) {
+        refuse(fmt::format("this plotter reads {}, not {}", language_name(profile.language), language_name(spoken)));
+    }
+    if (profile.language != PlotLanguage::svg || format == Format::svg || format == Format::dxf) return;
+    refuse(is_vector(format) ? fmt::format("this plotter reads SVG, not {}", info(format).label) : drawn_formats);
+}
+
+/// Checks that the format can express the settings of single pens.
+void check_pens(const S& settings, Format format) {
+    const bool has_codes =
+        settings.plot.profile && settings.plot.profile->layers.full_speed > 0 && format == Format::svg;
+    const auto refuse_if = [](bool is_wrong, const char* why) {
+        if (is_wrong) refuse_option("pen", "", why);
+    };
+    for (const PenRule& rule : settings.plot.pen_rules) {
+        const PenSettings& pen = rule.settings;
+        const bool has_height = pen.lift || pen.down || pen.pause;
+        refuse_if(format == Format::hpgl && has_height, "HP-GL sets the speed of a pen, but not its height");
+        refuse_if(has_codes && pen.lift, "the names of AxiDraw's layers do not contain the height of a raised pen");
+        refuse_if(!is_for_plotters(format) && !has_codes && (has_height || pen.speed),
+                  "an SVG describes pens only in layer names for AxiDraw; 'profile' axidraw writes them");
+    }
+}
+
+void check_generations(const S& settings, Format format) {
+    const auto [first, last] = *settings.time.generations;
+    const std::int64_t most = is_row(settings, format) ? 100 : most_frames;
+    if (last < first || last - first >= most) {
+        refuse_option("generations", fmt::format("{}:{}", first, last),
+                      fmt::format("expected up to {} derivation lengths, the lowest first", most));
+    }
+}
+
+}  // namespace
+
+void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
+    apply(relief_rules, settings, format);
+    if (is_relief(settings, format)) check_depths(relief_options(settings, format));
+    if (when::model(settings, format)) return apply(model_rules, settings, format);
+    apply(place_rules, settings, format);
+    check_sizes(settings, format);
+    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
+    if (settings.plot.profile) check_profile(*settings.plot.profile, format);
+    apply(plot_rules, settings, format);
+    check_pens(settings, format);
+    apply(product_rules, settings, format);
+    if (format == PrintFormat::gif && !settings.time.generations && !settings.time.lesson &&
+        !settings.time.division) {
+        refuse_option("generations", "", "required for a .gif; expected A:B, or 'divide'");
+    }
+    apply(growth_rules, settings, format);
+    if (settings.time.generations) check_generations(settings, format);
+}
+
+void check_map_settings(const DrawSettings& settings) {
+    apply(map_rules, settings, PrintFormat::svg);
+}
+
+void check_space_settings(const DrawSettings& settings, PrintFormat format) {
+    apply(space_rules, settings, format);
+}
+
+}  // namespace sikku

@@ -1,0 +1,127 @@
+// art/product/lesson_print.cpp: drawing lessons, and generations side by side.
+#include "art/drawing/drawing_cost.h"
+#include "art/drawing/faint_inks.h"
+#include "art/drawing/lesson.h"
+#include "art/drawing/lesson_drawing.h"
+#include "art/image/image_file.h"
+#include "art/product/plot_remarks.h"
+#include "art/product/print_cell.h"
+#include "art/product/print_work.h"
+#include "engine/derivation/forecast.h"
+
+#include <algorithm>
+#include <string>
+
+namespace sikku {
+namespace {
+
+SheetOptions row_options(const Print& print, const DrawOptions& drawing) {
+    SheetOptions sheet;
+    sheet.format = drawing.format;
+    sheet.page = print.page;
+    sheet.dpi = print.dpi;
+    sheet.title = print.title;
+    sheet.animation = print.animation;
+    sheet.names_tiles = print.names_tiles;
+    sheet.press = print.press;
+    // Captions are short, and are read from the same distance as the drawings.
+    sheet.letters = std::clamp(std::min(print.page.width, print.page.height) * 0.016, 2.0, 12.0);
+    sheet.inset = 0.055;
+    sheet.pattern = print.pattern;
+    sheet.made = print.made;
+    sheet.compression = drawing.compression;
+    return sheet;
+}
+
+/// Draws cells side by side.
+void make_row(const std::vector<SheetCell>& cells, SheetOptions sheet, const DrawOptions& options,
+              Destination& destination, const std::filesystem::path& name, Made& made) {
+    if (!sheet.press.cmyk.empty()) check_cmyk_profile(sheet.press.cmyk);
+    sheet.threads = options.threads;
+    sheet.monitor = options.monitor;
+    sheet.watch = options.watch;
+    const SheetLayout layout = draw_sheet(cells, sheet, name, destination);
+    warn_of_letters(layout.missing_letters, made);
+    std::vector<FaintInk> faint;
+    for (const DrawReport& drawn : layout.reports) faint.insert(faint.end(), drawn.faint.begin(), drawn.faint.end());
+    warn_of_faint_inks(faint, made);
+}
+
+class GenerationRow : public PrintWork {
+public:
+    using PrintWork::PrintWork;
+
+    Cost forecast() const override { return sheet_cost(cells(), row_options(print(), drawing())); }
+
+private:
+    std::vector<SheetCell> cells() const {
+        const auto [first, last] = *settings().time.generations;
+        SheetCell cell = print_cell(document(), settings(), folder());
+        cell.may_be_empty = true;
+        return generations(cell, first, last);
+    }
+
+    void make_product(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                      Made& made) override {
+        make_row(cells(), row_options(print(), drawing()), options, destination, name, made);
+    }
+};
+
+class LessonPrint : public PrintWork {
+public:
+    using PrintWork::PrintWork;
+
+    Cost forecast() const override {
+        return lesson_cost(shorten(grammar()), print(), drawing(), format() == PrintFormat::gif);
+    }
+
+private:
+    /// A cell for each step; without dots, the first step is left out.
+    std::vector<SheetCell> cells(const DrawOptions& options) const {
+        DrawOptions steps = options;
+        steps.begin = nullptr;
+        steps.most_steps = most_lesson_cells;
+        steps.lesson_memo = std::make_shared<LessonMemo>();
+        const LessonLength length = lesson_length(grammar(), print(), steps);
+        std::vector<SheetCell> list;
+        for (std::size_t step = length.first; step < length.count; ++step) {
+            SheetCell& cell = list.emplace_back(print_cell(document(), settings(), folder()));
+            cell.lesson_step = step;
+            cell.most_steps = steps.most_steps;
+            cell.lesson_memo = steps.lesson_memo;
+            cell.style.border.reset();
+            cell.caption = {step == 0 ? "dots" : step + 1 == length.count ? "whole" : std::to_string(step)};
+        }
+        return list;
+    }
+
+    void make_product(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
+                      Made& made) override {
+        const Style& style = print().style;
+        if (style.ground && style.ground->alpha == 255 && is_faint(style.line_colour({}), *style.ground)) {
+            made.warn(faint_text({FaintInk::Kind::lines, style.line_colour({}), *style.ground}));
+        }
+        if (info(format()).kind == FormatKind::pixels) {
+            return make_row(cells(options), row_options(print(), drawing()), options, destination, name, made);
+        }
+        LessonOptions lesson;
+        lesson.seconds = *settings().time.lesson * 2 / 3;
+        lesson.pause = *settings().time.lesson / 3;
+        lesson.hold = settings().time.hold.value_or(lesson.hold);
+        const DrawReport drawn = draw_lesson(grammar(), print(), options, lesson, name, destination);
+        if (drawn.dots == 0) made.warn("the lesson has no page of dots, because the lines enclose none");
+        report_overflow(drawn, made);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<PrintWork> plan_row(PrintRequest request) {
+    return std::make_unique<GenerationRow>(std::move(request));
+}
+
+std::unique_ptr<PrintWork> plan_lesson(PrintRequest request) {
+    return std::make_unique<LessonPrint>(std::move(request));
+}
+
+}  // namespace sikku
