@@ -10,10 +10,17 @@ for argument in "$@"; do
 done
 studio/build.sh
 node --test studio/tests/*.test.mjs
-for native in "${natives[@]}"; do
-    echo "parity with $native"
-    node studio/tests/parity.mjs "$native" $quick
-done
+# Each comparison takes one core for minutes.
+compare() {
+    local state=0
+    node studio/tests/parity.mjs "$1" $quick > "$1/parity.log" 2>&1 || state=$?
+    echo "parity with $1"
+    cat "$1/parity.log"
+    return $state
+}
+export -f compare
+export quick
+printf '%s\n' "${natives[@]}" | xargs -P "$(nproc)" -I {} bash -euo pipefail -c 'compare "$1"' bash {}
 page=build/studio/sikku-studio.html
 if command -v chromium > /dev/null; then
     node studio/tests/page.mjs $page

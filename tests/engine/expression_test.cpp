@@ -1,6 +1,7 @@
 #include "engine/language/expression.h"
 
 #include <gtest/gtest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <cmath>
 #include <functional>
@@ -299,6 +300,30 @@ TEST(Expression, NestsAsDeepAsMemoryAllows) {
     std::string sum = "0";
     for (int i = 0; i < 100'000; ++i) sum += "+(1";
     EXPECT_EQ(value(sum + std::string(100'000, ')')), 100'000.0);
+}
+
+/// A correctly rounded power is the same on every machine.
+TEST(Expression, WholePowersAreCorrectlyRounded) {
+    using Real = boost::multiprecision::cpp_bin_float_100;
+    const auto compiled = compile("x^y");
+    ASSERT_TRUE(compiled.expression);
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 20'000; ++i) {
+        const double base =
+            std::ldexp(static_cast<double>(random() % 2'000'001) - 1e6, -static_cast<int>(random() % 40));
+        const int exponent = static_cast<int>(random() % 61) - 30;
+        if (base == 0) continue;
+        Real exact = 1;
+        for (int k = 0; k < std::abs(exponent); ++k) exact *= base;
+        if (exponent < 0) exact = 1 / exact;
+        if (!(abs(exact) > 1e-140 && abs(exact) < 1e140)) continue;
+        const std::vector<double> formals = {base, static_cast<double>(exponent)};
+        ASSERT_EQ(compiled.expression->evaluate(formals), exact.convert_to<double>()) << base << "^" << exponent;
+    }
+    // Those that machines without a fused multiply-add got wrong.
+    EXPECT_EQ(value("1.4^12"), 0x1.c58d21ee717c9p+5);
+    EXPECT_EQ(value("10^22"), 1e22);
+    EXPECT_EQ(value("10^-3"), 1e-3);
 }
 
 }  // namespace

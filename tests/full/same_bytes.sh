@@ -8,6 +8,13 @@ programs=()
 for program in "$@"; do programs+=("$(realpath "$program")"); done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+# The first program as on a machine without fused multiply-add, where the C library's functions have other last bits.
+cat > "$folder/without-fma" <<SCRIPT
+#!/bin/sh
+GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 exec "${programs[0]}" "\$@"
+SCRIPT
+chmod +x "$folder/without-fma"
+programs+=("$folder/without-fma")
 
 flat=(hilbert dragon saupe-koch-island dekking-spline filled-fractal snake-kolam bag-of-candies kolam-11-to-1-fygcag2y
     penrose-rhombs hat pinwheel rauzy gourd plant-a stochastic-branches)
