@@ -14,10 +14,21 @@ int window_bits(Deflate format) {
     return format == Deflate::raw ? -15 : 15;
 }
 
-void set_input(z_stream& stream, std::string_view bytes) {
+/// Passes bytes through deflate() or inflate(), and their results to `take`. Returns the last state.
+template <class Take>
+int pass(z_stream& stream, std::string_view bytes, int (*step)(z_stream*, int), int flush, Take take) {
+    std::string block(block_bytes, '\0');
     // zlib does not write to its input.
     stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
     stream.avail_in = static_cast<uInt>(bytes.size());
+    int state = Z_OK;
+    while (state == Z_OK) {
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
+        stream.avail_out = static_cast<uInt>(block.size());
+        state = step(&stream, flush);
+        take(std::string_view(block).substr(0, block.size() - stream.avail_out));
+    }
+    return state;
 }
 
 }  // namespace
@@ -30,15 +41,7 @@ std::string deflated(std::string_view bytes, Deflate format) {
         throw std::bad_alloc();
     }
     std::string packed;
-    std::string block(block_bytes, '\0');
-    set_input(stream, bytes);
-    int state = Z_OK;
-    while (state == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = deflate(&stream, Z_FINISH);
-        packed.append(block, 0, block.size() - stream.avail_out);
-    }
+    const int state = pass(stream, bytes, deflate, Z_FINISH, [&](std::string_view block) { packed += block; });
     deflateEnd(&stream);
     if (state != Z_STREAM_END) throw std::bad_alloc();
     return packed;
@@ -54,16 +57,10 @@ std::string inflated(std::string_view packed, Deflate format, std::size_t most) 
         Inflater& operator=(const Inflater&) = delete;
     } stream(window_bits(format));
     std::string bytes;
-    std::string block(block_bytes, '\0');
-    set_input(stream, packed);
-    int state = Z_OK;
-    while (state == Z_OK) {
-        stream.next_out = reinterpret_cast<Bytef*>(block.data());
-        stream.avail_out = static_cast<uInt>(block.size());
-        state = inflate(&stream, Z_NO_FLUSH);
-        bytes.append(block, 0, block.size() - stream.avail_out);
+    const int state = pass(stream, packed, inflate, Z_NO_FLUSH, [&](std::string_view block) {
+        bytes += block;
         if (bytes.size() > most) throw std::length_error("the compressed text is too long");
-    }
+    });
     if (state != Z_STREAM_END || stream.avail_in != 0) throw std::runtime_error("the compressed text is damaged");
     return bytes;
 }

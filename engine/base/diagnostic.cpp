@@ -1,5 +1,6 @@
 #include "engine/base/diagnostic.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 
 #include <fmt/format.h>
@@ -13,13 +14,6 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_errors = 50;
-
-bool is_continuation(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
-}
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t';
-}
 
 /// Replaces comments, continued line ends, carriage returns before a line end and a byte order mark by blanks, so
 /// that offsets stay those of the file.

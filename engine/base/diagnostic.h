@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace sikku {
@@ -75,11 +77,27 @@ struct Diagnostic {
     std::string text() const;
 };
 
+/// Result of Diagnostics::refuse(): false, or no value.
+struct Refused {
+    template <class Flag>
+    requires std::is_same_v<Flag, bool>
+    operator Flag() const { return false; }  // NOLINT(google-explicit-constructor)
+    template <class Value>
+    operator std::optional<Value>() const {  // NOLINT(google-explicit-constructor)
+        return std::nullopt;
+    }
+};
+
 /// Collects errors and warnings of a file, which are reported together. After 50 errors only their number is kept.
 class Diagnostics {
 public:
     void error(const Span& where, const std::string& message) { add(where, message, false); }
     void warning(const Span& where, const std::string& message) { add(where, message, true); }
+    /// Adds an error, for functions that return whether they succeeded, or a value.
+    Refused refuse(const Span& where, const std::string& message) {
+        error(where, message);
+        return {};
+    }
     /// Adds a diagnostic of another collection.
     void add(const Diagnostic& diagnostic);
     const std::vector<Diagnostic>& list() const { return list_; }

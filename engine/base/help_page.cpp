@@ -16,9 +16,7 @@ constexpr std::size_t text_column = 30;
 /// The number of columns that `text` takes, one for each code point.
 std::size_t columns(std::string_view text) {
     std::size_t count = 0;
-    for (std::size_t at = 0; at < text.size(); ++count) {
-        at += std::max<std::size_t>(1, utf8_length(text.substr(at)));
-    }
+    for (std::size_t at = 0; at < text.size(); ++count) at += std::max<std::size_t>(1, utf8_length(text.substr(at)));
     return count;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <fstream>
 #include <string>
-#include <utility>
 
 namespace sikku {
 
@@ -23,25 +22,24 @@ std::uint64_t available_memory() {
 }
 
 std::optional<double> parse_bytes(std::string_view text) {
-    static constexpr std::array<std::pair<std::string_view, double>, 13> units = {{{"", 1.0},
-                                                                                   {"k", 0x1p10},
-                                                                                   {"kib", 0x1p10},
-                                                                                   {"m", 0x1p20},
-                                                                                   {"mib", 0x1p20},
-                                                                                   {"g", 0x1p30},
-                                                                                   {"gib", 0x1p30},
-                                                                                   {"t", 0x1p40},
-                                                                                   {"tib", 0x1p40},
-                                                                                   {"kb", 1e3},
-                                                                                   {"mb", 1e6},
-                                                                                   {"gb", 1e9},
-                                                                                   {"tb", 1e12}}};
+    struct Unit {
+        std::string_view prefix;
+        double binary, decimal;
+    };
+    constexpr std::array<Unit, 4> units = {
+        {{"k", 0x1p10, 1e3}, {"m", 0x1p20, 1e6}, {"g", 0x1p30, 1e9}, {"t", 0x1p40, 1e12}}};
     const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
     const std::string unit = lower_case(text.substr(digits));
-    const auto row = std::find_if(units.begin(), units.end(), [&](const auto& each) { return each.first == unit; });
     double value = 0;
-    if (!read_number(text.substr(0, digits), value) || row == units.end() || value <= 0) return std::nullopt;
-    return value * row->second;
+    if (!read_number(text.substr(0, digits), value) || value <= 0) return std::nullopt;
+    if (unit.empty()) return value;
+    for (const auto& [prefix, binary, decimal] : units) {
+        if (!unit.starts_with(prefix)) continue;
+        const std::string_view rest = std::string_view(unit).substr(1);
+        if (rest == "b") return value * decimal;
+        if (rest.empty() || rest == "ib") return value * binary;
+    }
+    return std::nullopt;
 }
 
 }  // namespace sikku

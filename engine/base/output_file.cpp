@@ -1,5 +1,8 @@
 #include "engine/base/output_file.h"
 
+#include "engine/base/characters.h"
+#include "engine/base/child_process.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -73,44 +76,33 @@ bool is_not_for_sync(int error) {
     return error == EINVAL || error == EROFS || error == ENOTSUP || error == ENOSYS;
 }
 
-/// Calls fsync() and returns the error number, 0 on success.
-int synchronise(int descriptor) {
-    while (::fsync(descriptor) != 0) {
+/// Calls fsync() or syncfs() and returns the error number, 0 on success.
+int synchronise(int descriptor, int (*call)(int) = ::fsync) {
+    while (call(descriptor) != 0) {
         if (errno != EINTR) return is_not_for_sync(errno) ? 0 : errno;
     }
     return 0;
 }
 
-int open_folder(const std::filesystem::path& folder) {
-    return ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK);
+Descriptor open_folder(const std::filesystem::path& folder) {
+    return Descriptor(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NONBLOCK));
 }
 
 /// Synchronises the names in a folder, unless it is unreadable.
 int synchronise_folder(const std::filesystem::path& folder) {
-    const int descriptor = open_folder(folder);
-    if (descriptor < 0) return 0;
-    const int error = synchronise(descriptor);
-    ::close(descriptor);
-    return error;
+    const Descriptor descriptor = open_folder(folder);
+    return descriptor ? synchronise(descriptor.get()) : 0;
 }
 
 /// Synchronises all files of the file system that a folder is on; nullopt if the folder is unreadable.
 std::optional<int> synchronise_file_system(const std::filesystem::path& folder) {
-    const int descriptor = open_folder(folder);
-    if (descriptor < 0) return std::nullopt;
-    int error = 0;
+    const Descriptor descriptor = open_folder(folder);
+    if (!descriptor) return std::nullopt;
 #ifdef __EMSCRIPTEN__
-    error = synchronise(descriptor);
+    return synchronise(descriptor.get(), ::fsync);
 #else
-    while (::syncfs(descriptor) != 0) {
-        error = errno;
-        if (error != EINTR) break;
-        error = 0;
-    }
-    if (is_not_for_sync(error)) error = 0;
+    return synchronise(descriptor.get(), ::syncfs);
 #endif
-    ::close(descriptor);
-    return error;
 }
 
 /// The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for. Opening it by name would begin at the
@@ -160,7 +152,7 @@ std::string stem_of(const std::filesystem::path& target) {
     std::string stem = target.filename().string();
     if (stem.size() > longest_stem) {
         std::size_t end = longest_stem;
-        while (end > 0 && (static_cast<unsigned char>(stem[end]) & 0xC0) == 0x80) --end;
+        while (end > 0 && is_continuation(stem[end])) --end;
         stem.resize(end);
     }
     return stem;
@@ -242,46 +234,35 @@ void OutputFile::write(std::string_view bytes) {
     }
     flush();
     if (bytes.size() >= buffer_bytes) {
-        write_all(bytes.data(), bytes.size());
+        put(bytes);
     } else {
         buffer_.append(bytes);
     }
 }
 
 void OutputFile::flush() {
-    write_all(buffer_.data(), buffer_.size());
+    put(buffer_);
     buffer_.clear();
 }
 
-void OutputFile::write_all(const char* bytes, std::size_t count) {
-    while (count > 0) {
-        const ssize_t done = ::write(descriptor_, bytes, count);
+/// Writes bytes at an offset, or where the last ones end.
+void OutputFile::put(std::string_view bytes, std::optional<std::uint64_t> offset) {
+    while (!bytes.empty()) {
+        const ssize_t done = offset ? ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(*offset))
+                                    : ::write(descriptor_, bytes.data(), bytes.size());
         if (done < 0) {
             if (errno == EINTR) continue;
             fail(errno);
         }
-        bytes += done;
-        count -= static_cast<std::size_t>(done);
-    }
-}
-
-void OutputFile::write_at(const char* bytes, std::size_t count, std::uint64_t offset) {
-    while (count > 0) {
-        const ssize_t done = ::pwrite(descriptor_, bytes, count, static_cast<off_t>(offset));
-        if (done < 0) {
-            if (errno == EINTR) continue;
-            fail(errno);
-        }
-        bytes += done;
-        count -= static_cast<std::size_t>(done);
-        offset += static_cast<std::uint64_t>(done);
+        bytes.remove_prefix(static_cast<std::size_t>(done));
+        if (offset) *offset += static_cast<std::uint64_t>(done);
     }
 }
 
 void OutputFile::overwrite(std::uint64_t position, std::string_view bytes) {
     if (direct_ || position + bytes.size() > written_) throw std::logic_error("OutputFile::overwrite: no such place");
     flush();
-    write_at(bytes.data(), bytes.size(), position);
+    put(bytes, position);
 }
 
 void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
@@ -301,10 +282,10 @@ void OutputFile::insert(std::uint64_t position, std::string_view bytes) {
             if (done <= 0) fail(done < 0 ? errno : EIO);
             read += static_cast<std::size_t>(done);
         }
-        write_at(block.data(), block.size(), begin + bytes.size());
+        put(block, begin + bytes.size());
         end = begin;
     }
-    write_at(bytes.data(), bytes.size(), position);
+    put(bytes, position);
     written_ += bytes.size();
     if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
 }
@@ -369,10 +350,8 @@ void OutputFiles::commit() {
     }
     for (const auto& file : files_) {
         if (file->direct_ || folders[file->target_.parent_path()]) continue;
-        const int descriptor = ::open(file->temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-        const int error = descriptor < 0 ? errno : synchronise(descriptor);
-        if (descriptor >= 0) ::close(descriptor);
-        if (error != 0) file->fail(error);
+        const Descriptor descriptor(::open(file->temporary_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+        if (const int error = descriptor ? synchronise(descriptor.get()) : errno; error != 0) file->fail(error);
     }
     for (const auto& file : files_) {
         if (!file->direct_) file->publish();

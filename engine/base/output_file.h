@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,8 +51,7 @@ private:
     void publish();
     void create();
     void flush();
-    void write_all(const char* bytes, std::size_t count);
-    void write_at(const char* bytes, std::size_t count, std::uint64_t offset);
+    void put(std::string_view bytes, std::optional<std::uint64_t> offset = {});
     [[noreturn]] void fail(int error) const;
 
     std::filesystem::path name_;   ///< as the caller gave it

@@ -1,12 +1,13 @@
 #include "engine/base/text.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 namespace sikku {
 
@@ -32,9 +33,30 @@ std::size_t xml_character(std::string_view text) {
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     return text;
+}
+
+std::string_view take_line(std::string_view& text) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
+}
+
+std::string_view take_word(std::string_view& text, std::string_view separators) {
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    const std::string_view word = text.substr(0, text.find_first_of(separators));
+    text.remove_prefix(word.size());
+    return word;
+}
+
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators) {
+    std::vector<std::string_view> words;
+    while (!text.empty()) {
+        if (const std::string_view word = take_word(text, separators); !word.empty()) words.push_back(word);
+    }
+    return words;
 }
 
 bool fits_xml(std::string_view text) {
@@ -56,25 +78,11 @@ std::string xml_escaped(std::string_view text) {
             ++i;
             continue;
         }
-        switch (text[i]) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\r':
-                result += "&#13;";
-                break;  // a parser would turn it into a line feed
-            default:
-                result.append(text, i, length);
-        }
+        // A parser would turn a carriage return into a line feed.
+        constexpr std::string_view special = "&<>\"\r";
+        constexpr std::array<std::string_view, 5> escapes = {"&amp;", "&lt;", "&gt;", "&quot;", "&#13;"};
+        const std::size_t escape = special.find(text[i]);
+        result += escape < escapes.size() ? escapes[escape] : text.substr(i, length);
         i += length;
     }
     return result;

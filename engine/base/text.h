@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
@@ -13,6 +14,14 @@ std::string lower_case(std::string_view text);
 
 /// Returns `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
+
+/// Removes the first line from `text` and returns it without its line feed.
+std::string_view take_line(std::string_view& text);
+
+/// Removes the first word and the separators before it from `text` and returns the word; empty at the end.
+std::string_view take_word(std::string_view& text, std::string_view separators = " \t");
+/// All of these words. Memory: 16 bytes for each.
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = " \t");
 
 /// True if XML 1.0 can contain `text`: UTF-8 without control characters.
 bool fits_xml(std::string_view text);

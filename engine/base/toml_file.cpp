@@ -3,6 +3,7 @@
 #define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
@@ -163,8 +164,7 @@ bool has_bare_text(std::string_view text, std::size_t line) {
     if (equals == std::string_view::npos) return false;
     const std::size_t first = text.find_first_not_of(" \t[", equals + 1);
     if (first == std::string_view::npos) return false;
-    const char letter = text[first];
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter == '#';
+    return is_letter(text[first]) || text[first] == '#';
 }
 
 }  // namespace

@@ -59,9 +59,7 @@ struct Steps {
         for (Symbol symbol = 0; symbol < needed.size(); ++symbol) {
             if (needed[symbol]) symbols.push_back(symbol);
         }
-        for (const Table& table : grammar.tables()) {
-            tables.emplace_back(table, needed.size(), needed);
-        }
+        for (const Table& table : grammar.tables()) tables.emplace_back(table, needed.size(), needed);
         for (const ScheduleRun& run : grammar.schedule()) runs.emplace_back(run.table, run.steps);
         if (interpreted && grammar.interpretation()) {
             tables.emplace_back(*grammar.interpretation(), needed.size(), needed);

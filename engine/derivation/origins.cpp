@@ -20,16 +20,9 @@ std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
 /// Spans of the symbols of a word, in the text of the pattern.
 std::vector<Span> symbol_spans(const SymbolNames& names, const Span& word) {
     std::vector<Span> spans;
-    WordScanner scanner(names, word, nullptr);
-    std::vector<Span> parameters;
-    while (true) {
-        const bool is_after_blank = scanner.skip_blanks();
-        if (scanner.at_end()) return spans;
-        const std::size_t begin = scanner.at();
-        if (scanner.letter(is_after_blank).empty()) return spans;
-        if (scanner.at_parameters() && !scanner.parameters(parameters)) return spans;
-        spans.push_back(word.part(begin, scanner.at() - begin));
-    }
+    for_each_symbol(names, word,
+                    [&](std::string_view, const std::vector<Span>&, const Span& where) { spans.push_back(where); });
+    return spans;
 }
 
 /// The texts of a table's productions, in the order of Table::productions().

@@ -112,17 +112,9 @@ EdgeReader::EdgeReader(const Pattern& pattern, WordReader& reader, Diagnostics& 
     : reader_(reader), diagnostics_(diagnostics) {
     const std::string_view before = find_language_key("edge L")->before_symbol();
     for (const Key& key : pattern.keys) {
-        if (!key.name.starts_with(before)) continue;
-        const std::size_t length = key.name.size() - before.size();
-        const Span name = key.name_at.part(key.name_at.length - std::min<std::size_t>(length, key.name_at.length));
-        const auto symbol = reader.word(name, WordPlace::list);
-        if (!symbol) continue;
-        if (symbol->size() != 1) {
-            diagnostics.error(name, fmt::format("'{}' is not one symbol; names of several letters are listed under "
-                                                "'symbols:'",
-                                                name.view()));
-            continue;
-        }
+        const auto named = reader.symbol_of(key, before);
+        if (!named) continue;
+        const auto [symbol, name] = *named;
         if (key.value.empty()) {
             diagnostics.error(key.name_at, "the edge is empty: expected a word such as -f++f-");
             continue;
@@ -142,7 +134,7 @@ EdgeReader::EdgeReader(const Pattern& pattern, WordReader& reader, Diagnostics& 
                 fmt::format("the word of an edge has at most 1,000,000 symbols; this one has {}", word->size()));
             continue;
         }
-        lines_.push_back({symbol->front(), name, key.value, std::move(*word)});
+        lines_.push_back({symbol, name, key.value, std::move(*word)});
     }
 }
 
@@ -178,9 +170,8 @@ bool EdgeReader::check(const Line& line, const std::vector<SymbolInfo>& symbols)
         } else {
             continue;
         }
-        diagnostics_.error(line.value, fmt::format("'{}' {}; the word of an edge consists of moves and turns",
-                                                   symbol_text(info), problem));
-        return false;
+        return diagnostics_.refuse(line.value, fmt::format("'{}' {}; the word of an edge consists of moves and turns",
+                                                           symbol_text(info), problem));
     }
     return true;
 }
@@ -191,22 +182,19 @@ std::optional<EdgeLength> EdgeReader::measure(const Line& line, const std::vecto
         const double degrees = way.headings > 0
                                    ? 360.0 * static_cast<double>(way.heading) / static_cast<double>(way.headings)
                                    : way.degrees;
-        diagnostics_.error(line.value,
-                           fmt::format("the word ends at another heading, turned by {}; expected that of its start",
-                                       degrees_text(std::remainder(degrees, 360.0))));
-        return std::nullopt;
+        return diagnostics_.refuse(
+            line.value, fmt::format("the word ends at another heading, turned by {}; expected that of its start",
+                                    degrees_text(std::remainder(degrees, 360.0))));
     }
     const auto exact = exact_end(way);
     const double slack = rounding * way.length;
     if (exact ? exact->is_zero : std::hypot(way.end.x, way.end.y) <= slack) {
-        diagnostics_.error(line.value, "the word ends where it starts: an edge needs a length");
-        return std::nullopt;
+        return diagnostics_.refuse(line.value, "the word ends where it starts: an edge needs a length");
     }
     if (exact ? !exact->is_real : std::fabs(way.end.y) > slack) {
-        diagnostics_.error(line.value,
-                           fmt::format("the word ends {} of its start; expected a place straight ahead",
-                                       degrees_text(std::atan2(way.end.y, way.end.x) * 180 / std::numbers::pi)));
-        return std::nullopt;
+        return diagnostics_.refuse(
+            line.value, fmt::format("the word ends {} of its start; expected a place straight ahead",
+                                    degrees_text(std::atan2(way.end.y, way.end.x) * 180 / std::numbers::pi)));
     }
     EdgeLength edge{symbols[line.symbol].letter, way.end.x, {}};
     if (!exact) {

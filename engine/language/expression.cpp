@@ -1,6 +1,8 @@
 #include "engine/language/expression.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/decimal.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -11,12 +13,40 @@
 namespace sikku {
 
 bool begins_name(char byte) {
-    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_' ||
-           static_cast<unsigned char>(byte) >= 0x80;
+    return is_letter(byte) || byte == '_' || static_cast<unsigned char>(byte) >= 0x80;
 }
 bool continues_name(char byte) {
-    return begins_name(byte) || (byte >= '0' && byte <= '9');
+    return begins_name(byte) || is_digit(byte);
 }
+
+namespace {
+
+struct Function {
+    std::string_view name;
+    unsigned arguments;
+    double (*compute)(double a, double b);
+};
+constexpr std::array<Function, 19> functions = {{{"sin", 1, [](double a, double) { return std::sin(a); }},
+                                                 {"cos", 1, [](double a, double) { return std::cos(a); }},
+                                                 {"tan", 1, [](double a, double) { return std::tan(a); }},
+                                                 {"asin", 1, [](double a, double) { return std::asin(a); }},
+                                                 {"acos", 1, [](double a, double) { return std::acos(a); }},
+                                                 {"atan", 1, [](double a, double) { return std::atan(a); }},
+                                                 {"atan2", 2, [](double a, double b) { return std::atan2(a, b); }},
+                                                 {"exp", 1, [](double a, double) { return std::exp(a); }},
+                                                 {"log", 1, [](double a, double) { return std::log(a); }},
+                                                 {"log10", 1, [](double a, double) { return std::log10(a); }},
+                                                 {"sqrt", 1, [](double a, double) { return std::sqrt(a); }},
+                                                 {"abs", 1, [](double a, double) { return std::fabs(a); }},
+                                                 {"floor", 1, [](double a, double) { return std::floor(a); }},
+                                                 {"ceil", 1, [](double a, double) { return std::ceil(a); }},
+                                                 {"round", 1, [](double a, double) { return std::round(a); }},
+                                                 {"min", 2, [](double a, double b) { return std::fmin(a, b); }},
+                                                 {"max", 2, [](double a, double b) { return std::fmax(a, b); }},
+                                                 {"mod", 2, [](double a, double b) { return std::fmod(a, b); }},
+                                                 {"random", 2, nullptr}}};
+
+}  // namespace
 
 /// Dijkstra's shunting yard: operators wait on an explicit stack, so that nesting costs memory and no call stack.
 class ExpressionCompiler {
@@ -28,10 +58,10 @@ public:
         while (skip_blanks(), at_ < view_.size()) {
             if (!(expect_operand_ ? operand() : operator_after_operand())) return std::nullopt;
         }
-        if (expect_operand_) return fail(view_.size(), "expected a number, a name or '('");
+        if (expect_operand_) return wrong(view_.size(), "expected a number, a name or '('");
         while (!waiting_.empty()) {
             if (waiting_.back().operation == Operation::open) {
-                return fail(waiting_.back().at, "this '(' is not closed");
+                return wrong(waiting_.back().at, "this '(' is not closed");
             }
             emit();
         }
@@ -41,78 +71,42 @@ public:
 
 private:
     using Operation = Expression::Operation;
+    struct Operator {
+        std::string_view sign;
+        Operation operation;
+        int precedence;
+    };
+    /// Longer signs precede their beginnings.
+    static constexpr std::array<Operator, 13> operators = {{{"||", Operation::disjunction, 1},
+                                                            {"&&", Operation::conjunction, 2},
+                                                            {"==", Operation::equal, 3},
+                                                            {"!=", Operation::not_equal, 3},
+                                                            {"<=", Operation::less_equal, 4},
+                                                            {">=", Operation::greater_equal, 4},
+                                                            {"<", Operation::less, 4},
+                                                            {">", Operation::greater, 4},
+                                                            {"+", Operation::add, 5},
+                                                            {"-", Operation::subtract, 5},
+                                                            {"*", Operation::multiply, 6},
+                                                            {"/", Operation::divide, 6},
+                                                            {"^", Operation::power, 8}}};
     struct Waiting {
         Operation operation;
         std::size_t at;
-        Operation function = Operation::open;  ///< for an open parenthesis: its function
-        int arguments = 1;                     ///< seen so far within the parenthesis
+        const Function* function = nullptr;  ///< for an open parenthesis: its function
+        unsigned arguments = 1;              ///< seen so far within the parenthesis
     };
-    struct Function {
-        std::string_view name;
-        Operation operation;
-        int arguments;
-    };
-    static constexpr std::array<Function, 19> functions = {{{"sin", Operation::sine, 1},
-                                                            {"cos", Operation::cosine, 1},
-                                                            {"tan", Operation::tangent, 1},
-                                                            {"asin", Operation::arcsine, 1},
-                                                            {"acos", Operation::arccosine, 1},
-                                                            {"atan", Operation::arctangent, 1},
-                                                            {"atan2", Operation::arctangent2, 2},
-                                                            {"exp", Operation::exponential, 1},
-                                                            {"log", Operation::logarithm, 1},
-                                                            {"log10", Operation::logarithm10, 1},
-                                                            {"sqrt", Operation::square_root, 1},
-                                                            {"abs", Operation::absolute, 1},
-                                                            {"floor", Operation::floor, 1},
-                                                            {"ceil", Operation::ceiling, 1},
-                                                            {"round", Operation::round, 1},
-                                                            {"min", Operation::minimum, 2},
-                                                            {"max", Operation::maximum, 2},
-                                                            {"mod", Operation::modulo, 2},
-                                                            {"random", Operation::random, 2}}};
-
     static int precedence(Operation operation) {
-        switch (operation) {
-            case Operation::disjunction:
-                return 1;
-            case Operation::conjunction:
-                return 2;
-            case Operation::equal:
-            case Operation::not_equal:
-                return 3;
-            case Operation::less:
-            case Operation::less_equal:
-            case Operation::greater:
-            case Operation::greater_equal:
-                return 4;
-            case Operation::add:
-            case Operation::subtract:
-                return 5;
-            case Operation::multiply:
-            case Operation::divide:
-                return 6;
-            case Operation::negate:
-            case Operation::complement:
-                return 7;
-            case Operation::power:
-                return 8;
-            default:
-                return 0;  // an open parenthesis
-        }
+        if (operation == Operation::negate || operation == Operation::complement) return 7;
+        const auto row = std::find_if(operators.begin(), operators.end(),
+                                      [&](const Operator& one) { return one.operation == operation; });
+        return row == operators.end() ? 0 : row->precedence;  // 0: an open parenthesis
     }
 
-    std::optional<Expression> fail(std::size_t at, const std::string& message) {
-        diagnostics_.error(text_.part(at), message);
-        return std::nullopt;
-    }
-    bool wrong(std::size_t at, const std::string& message) {
-        fail(at, message);
-        return false;
-    }
+    Refused wrong(std::size_t at, const std::string& message) { return diagnostics_.refuse(text_.part(at), message); }
 
     void skip_blanks() {
-        while (at_ < view_.size() && (view_[at_] == ' ' || view_[at_] == '\t')) ++at_;
+        while (at_ < view_.size() && is_blank(view_[at_])) ++at_;
     }
 
     void emit() {
@@ -132,7 +126,7 @@ private:
         if (!is_constant) return steps.push_back(step);
         const double last = steps.back().value;
         if (operands == 2) steps.pop_back();
-        steps.back().value = Expression::apply(step.operation, steps.back().value, last);
+        steps.back().value = Expression::apply(step, steps.back().value, last);
     }
 
     void push_value(const Expression::Step& step) {
@@ -153,7 +147,7 @@ private:
             ++at_;
             return true;
         }
-        if ((byte >= '0' && byte <= '9') || byte == '.') return number();
+        if (is_digit(byte) || byte == '.') return number();
         if (!begins_name(byte)) return wrong(begin, "expected a number, a name or '('");
         while (at_ < view_.size() && continues_name(view_[at_])) ++at_;
         const std::string_view name = view_.substr(begin, at_ - begin);
@@ -183,21 +177,12 @@ private:
     }
 
     bool function(std::string_view name, std::size_t begin) {
-        Operation operation = Operation::open;
-        for (const Function& known : functions) {
-            if (known.name == name) operation = known.operation;
-        }
-        if (operation == Operation::open) return wrong(begin, fmt::format("unknown function '{}'", name));
-        if (operation == Operation::random && !draws_) return wrong(begin, "'random' is not allowed here");
-        waiting_.push_back({Operation::open, at_++, operation});
+        const auto row = std::find_if(functions.begin(), functions.end(),
+                                      [&](const Function& known) { return known.name == name; });
+        if (row == functions.end()) return wrong(begin, fmt::format("unknown function '{}'", name));
+        if (!row->compute && !draws_) return wrong(begin, "'random' is not allowed here");
+        waiting_.push_back({Operation::open, at_++, &*row});
         return true;
-    }
-
-    static int arity(Operation operation) {
-        for (const Function& known : functions) {
-            if (known.operation == operation) return known.arguments;
-        }
-        return 1;
     }
 
     bool close(std::size_t at) {
@@ -205,25 +190,24 @@ private:
         if (waiting_.empty()) return wrong(at, "this ')' has no '('");
         const Waiting open = waiting_.back();
         waiting_.pop_back();
-        if (open.function == Operation::open) return true;
-        if (open.arguments != arity(open.function)) {
-            return wrong(open.at, fmt::format("this function takes {} argument{}, not {}", arity(open.function),
-                                              arity(open.function) == 1 ? "" : "s", open.arguments));
+        if (!open.function) return true;
+        if (const unsigned wanted = open.function->arguments; open.arguments != wanted) {
+            return wrong(open.at,
+                         fmt::format("this function takes {}, not {}", counted(wanted, "argument"), open.arguments));
         }
-        Expression::Step step{open.function};
-        if (step.operation == Operation::random) {
-            step.slot = (*draws_)++;
+        Expression::Step step{open.arguments == 1 ? Operation::function : Operation::function2,
+                              static_cast<std::uint32_t>(open.function - functions.data())};
+        if (!open.function->compute) {
+            step = {Operation::random, (*draws_)++};
             result_.uses_chance_ = true;
         }
-        push_operation(step, static_cast<std::size_t>(open.arguments));
+        push_operation(step, open.arguments);
         return true;
     }
 
     bool comma(std::size_t at) {
         while (!waiting_.empty() && waiting_.back().operation != Operation::open) emit();
-        if (waiting_.empty() || waiting_.back().function == Operation::open) {
-            return wrong(at, "a ',' outside a function's arguments");
-        }
+        if (waiting_.empty() || !waiting_.back().function) return wrong(at, "a ',' outside a function's arguments");
         ++waiting_.back().arguments;
         expect_operand_ = true;
         return true;
@@ -231,63 +215,23 @@ private:
 
     bool operator_after_operand() {
         const std::size_t begin = at_;
-        const char byte = view_[at_++];
-        const bool doubled = at_ < view_.size() && view_[at_] == byte;
-        const bool with_equals = at_ < view_.size() && view_[at_] == '=';
-        Operation operation = Operation::open;
-        switch (byte) {
-            case ')':
-                return close(begin);
-            case ',':
-                return comma(begin);
-            case '+':
-                operation = Operation::add;
-                break;
-            case '-':
-                operation = Operation::subtract;
-                break;
-            case '*':
-                operation = Operation::multiply;
-                break;
-            case '/':
-                operation = Operation::divide;
-                break;
-            case '^':
-                operation = Operation::power;
-                break;
-            case '<':
-                operation = with_equals ? Operation::less_equal : Operation::less;
-                break;
-            case '>':
-                operation = with_equals ? Operation::greater_equal : Operation::greater;
-                break;
-            case '=':
-                if (at_ < view_.size() && (view_[at_] == '>' || view_[at_] == '<')) {
-                    return wrong(begin, view_[at_] == '>' ? "'=>' is not an operator; did you mean '>='?"
-                                                          : "'=<' is not an operator; did you mean '<='?");
-                }
-                if (!with_equals) return wrong(begin, "expected '==' (a single '=' compares nothing)");
-                operation = Operation::equal;
-                break;
-            case '!':
-                if (with_equals) operation = Operation::not_equal;
-                break;
-            case '&':
-                if (doubled) operation = Operation::conjunction;
-                break;
-            case '|':
-                if (doubled) operation = Operation::disjunction;
-                break;
-            default:
-                break;
+        const std::string_view rest = view_.substr(at_);
+        if (rest[0] == ')') return close(at_++);
+        if (rest[0] == ',') return comma(at_++);
+        const auto row = std::find_if(operators.begin(), operators.end(),
+                                      [&](const Operator& one) { return rest.starts_with(one.sign); });
+        if (rest.starts_with("=>")) return wrong(begin, "'=>' is not an operator; did you mean '>='?");
+        if (rest.starts_with("=<")) return wrong(begin, "'=<' is not an operator; did you mean '<='?");
+        if (row == operators.end()) {
+            return wrong(begin,
+                         rest[0] == '=' ? "expected '==' (a single '=' compares nothing)" : "expected an operator");
         }
-        if (operation == Operation::open) return wrong(begin, "expected an operator");
-        if (with_equals && (byte == '<' || byte == '>' || byte == '=' || byte == '!')) ++at_;
-        if (byte == '&' || byte == '|') ++at_;
+        const auto [sign, operation, level] = *row;
+        at_ += sign.size();
         const bool right_associative = operation == Operation::power;
         while (!waiting_.empty() && waiting_.back().operation != Operation::open &&
-               (precedence(waiting_.back().operation) > precedence(operation) ||
-                (precedence(waiting_.back().operation) == precedence(operation) && !right_associative))) {
+               (precedence(waiting_.back().operation) > level ||
+                (precedence(waiting_.back().operation) == level && !right_associative))) {
             emit();
         }
         waiting_.push_back({operation, begin});
@@ -388,40 +332,12 @@ double power(double a, double b) {
 
 }  // namespace
 
-double Expression::apply(Operation operation, double a, double b) {
-    switch (operation) {
+double Expression::apply(const Step& step, double a, double b) {
+    switch (step.operation) {
         case Operation::negate:
             return -a;
         case Operation::complement:
             return a == 0 ? 1.0 : 0.0;
-        case Operation::sine:
-            return std::sin(a);
-        case Operation::cosine:
-            return std::cos(a);
-        case Operation::tangent:
-            return std::tan(a);
-        case Operation::arcsine:
-            return std::asin(a);
-        case Operation::arccosine:
-            return std::acos(a);
-        case Operation::arctangent:
-            return std::atan(a);
-        case Operation::exponential:
-            return std::exp(a);
-        case Operation::logarithm:
-            return std::log(a);
-        case Operation::logarithm10:
-            return std::log10(a);
-        case Operation::square_root:
-            return std::sqrt(a);
-        case Operation::absolute:
-            return std::fabs(a);
-        case Operation::floor:
-            return std::floor(a);
-        case Operation::ceiling:
-            return std::ceil(a);
-        case Operation::round:
-            return std::round(a);
         case Operation::power:
             return power(a, b);
         case Operation::multiply:
@@ -448,16 +364,8 @@ double Expression::apply(Operation operation, double a, double b) {
             return a != 0 && b != 0 ? 1.0 : 0.0;
         case Operation::disjunction:
             return a != 0 || b != 0 ? 1.0 : 0.0;
-        case Operation::arctangent2:
-            return std::atan2(a, b);
-        case Operation::minimum:
-            return std::fmin(a, b);
-        case Operation::maximum:
-            return std::fmax(a, b);
-        case Operation::modulo:
-            return std::fmod(a, b);
         default:
-            return a;
+            return functions[step.slot].compute(a, b);
     }
 }
 
@@ -471,12 +379,12 @@ double Expression::evaluate_steps(std::span<const double> formals, const Chance&
         } else if (step.operation == Operation::formal) {
             *next++ = formals[step.slot];
         } else if (step.operation < Operation::power) {
-            next[-1] = apply(step.operation, next[-1], 0.0);
+            next[-1] = apply(step, next[-1], 0.0);
         } else {
             --next;
             next[-1] = step.operation == Operation::random
                            ? next[-1] + (next[0] - next[-1]) * chance.uniform(step.slot)
-                           : apply(step.operation, next[-1], next[0]);
+                           : apply(step, next[-1], next[0]);
         }
     }
     return next[-1];

@@ -63,20 +63,7 @@ private:
         // of one operand
         negate,
         complement,
-        sine,
-        cosine,
-        tangent,
-        arcsine,
-        arccosine,
-        arctangent,
-        exponential,
-        logarithm,
-        logarithm10,
-        square_root,
-        absolute,
-        floor,
-        ceiling,
-        round,
+        function,  ///< its slot is an index into the table of functions
         // of two
         power,
         multiply,
@@ -91,10 +78,7 @@ private:
         not_equal,
         conjunction,
         disjunction,
-        arctangent2,
-        minimum,
-        maximum,
-        modulo,
+        function2,
         random  ///< its slot is the number of the draw
     };
     struct Step {
@@ -106,7 +90,7 @@ private:
     enum class Shape : std::uint8_t { number, formal, product, sum, at_least, steps };
     friend class ExpressionCompiler;
 
-    static double apply(Operation operation, double a, double b);
+    static double apply(const Step& step, double a, double b);
     double evaluate_steps(std::span<const double> formals, const Chance& chance) const;
     void find_shape();
 

@@ -1,5 +1,6 @@
 #include "engine/language/foreign_line.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
@@ -19,65 +20,28 @@ constexpr std::size_t most_advised = 4096;  // bytes of a line; longer ones are 
 constexpr int most_levels = 8;              // of brackets and lists within lists
 constexpr std::size_t nothing = std::string_view::npos;
 
-struct OtherName {
-    std::string_view name;
+struct OtherNames {
     std::string_view key;
+    std::string_view names;  ///< separated by commas
 };
 /// Names of keys in other programs, in the literature and in everyday English.
-constexpr std::array other_names = {
-    OtherName{"angle", "angle increment"},
-    OtherName{"angles", "angle increment"},
-    OtherName{"ang", "angle increment"},
-    OtherName{"turn angle", "angle increment"},
-    OtherName{"turning angle", "angle increment"},
-    OtherName{"rotation angle", "angle increment"},
-    OtherName{"default angle", "angle increment"},
-    OtherName{"delta", "angle increment"},
-    OtherName{"theta", "angle increment"},
-    OtherName{"degrees", "angle increment"},
-    OtherName{"\xCE\xB4", "angle increment"},  // δ
-    OtherName{"\xCE\xB8", "angle increment"},  // θ
-    OtherName{"n", "derivation length"},
-    OtherName{"steps", "derivation length"},
-    OtherName{"iteration", "derivation length"},
-    OtherName{"iterations", "derivation length"},
-    OtherName{"iters", "derivation length"},
-    OtherName{"iter", "derivation length"},
-    OtherName{"order", "derivation length"},
-    OtherName{"generation", "derivation length"},
-    OtherName{"generations", "derivation length"},
-    OtherName{"recursion", "derivation length"},
-    OtherName{"recursions", "derivation length"},
-    OtherName{"recursion depth", "derivation length"},
-    OtherName{"depth", "derivation length"},
-    OtherName{"level", "derivation length"},
-    OtherName{"levels", "derivation length"},
-    OtherName{"start", "axiom"},
-    OtherName{"start word", "axiom"},
-    OtherName{"starting word", "axiom"},
-    OtherName{"start string", "axiom"},
-    OtherName{"initial", "axiom"},
-    OtherName{"initial word", "axiom"},
-    OtherName{"initial string", "axiom"},
-    OtherName{"initiator", "axiom"},
-    OtherName{"premise", "axiom"},
-    OtherName{"omega", "axiom"},
-    OtherName{"\xCF\x89", "axiom"},  // ω
-    OtherName{"\xCE\xA9", "axiom"},  // Ω
-    OtherName{"start angle", "heading"},
-    OtherName{"initial angle", "heading"},
-    OtherName{"starting angle", "heading"},
-    OtherName{"colour", "stroke"},
-    OtherName{"color", "stroke"},
-    OtherName{"line width", "stroke"},
-    OtherName{"width", "stroke"},
-    OtherName{"background", "ground"},
-    OtherName{"bpm", "tempo"},
-    OtherName{"key", "tonic"},
-    OtherName{"name", "title"},
-    OtherName{"author", "source"},
-    OtherName{"comment", "description"},
-};
+constexpr std::array<OtherNames, 11> other_names = {
+    {{"angle increment",
+      "angle,angles,ang,turn angle,turning angle,rotation angle,default angle,delta,theta,degrees,\u03B4,\u03B8"},
+     {"derivation length",
+      "n,steps,iteration,iterations,iters,iter,order,generation,generations,recursion,recursions,recursion depth,"
+      "depth,level,levels"},
+     {"axiom",
+      "start,start word,starting word,start string,initial,initial word,initial string,initiator,premise,omega,"
+      "\u03C9,\u03A9"},
+     {"heading", "start angle,initial angle,starting angle"},
+     {"stroke", "colour,color,line width,width"},
+     {"ground", "background"},
+     {"tempo", "bpm"},
+     {"tonic", "key"},
+     {"title", "name"},
+     {"source", "author"},
+     {"description", "comment"}}};
 /// Lists that patterns do not need, and headings.
 constexpr std::array<std::string_view, 18> needless_names = {
     "variables", "variable",    "vars",      "constants",   "constant", "consts",
@@ -91,39 +55,28 @@ constexpr std::array<std::string_view, 9> predecessor_names = {"a",      "from",
 constexpr std::array<std::string_view, 8> rule_names = {
     "rules", "rule", "productions", "production", "production rules", "p", "rewrite", "rewriting rules"};
 
-struct OtherSign {
-    std::string_view sign;
+struct OtherSigns {
     const char* ascii;
+    std::string_view signs;
 };
-constexpr std::array other_signs = {
-    OtherSign{"\u2212", "-"},   OtherSign{"\u2010", "-"},   OtherSign{"\u2011", "-"},   OtherSign{"\u2012", "-"},
-    OtherSign{"\u2013", "-"},   OtherSign{"\u2014", "-"},   OtherSign{"\uFE63", "-"},   OtherSign{"\uFF0D", "-"},
-    OtherSign{"\uFF0B", "+"},   OtherSign{"\uFE62", "+"},   OtherSign{"\u2227", "^"},   OtherSign{"\u02C6", "^"},
-    OtherSign{"\u2018", "'"},   OtherSign{"\u2019", "'"},   OtherSign{"\u2032", "'"},   OtherSign{"\u2223", "|"},
-    OtherSign{"\uFF5C", "|"},   OtherSign{"\u2215", "/"},   OtherSign{"\u2044", "/"},   OtherSign{"\u2216", "\\"},
-    OtherSign{"\u2192", "-->"}, OtherSign{"\u27F6", "-->"}, OtherSign{"\u21D2", "-->"}, OtherSign{"\u27F9", "-->"},
-    OtherSign{"\u21A6", "-->"}, OtherSign{"\uFF3B", "["},   OtherSign{"\uFF3D", "]"},   OtherSign{"\u00A0", " "},
-    OtherSign{"\u2002", " "},   OtherSign{"\u2003", " "},   OtherSign{"\u2004", " "},   OtherSign{"\u2005", " "},
-    OtherSign{"\u2006", " "},   OtherSign{"\u2007", " "},   OtherSign{"\u2008", " "},   OtherSign{"\u2009", " "},
-    OtherSign{"\u200A", " "},   OtherSign{"\u202F", " "},   OtherSign{"\u205F", " "},   OtherSign{"\u3000", " "},
-    OtherSign{"\u200B", ""},    OtherSign{"\u200C", ""},    OtherSign{"\u2060", ""},    OtherSign{"\uFEFF", ""},
-    OtherSign{"\u00AD", ""},    OtherSign{"\u201C", ""},    OtherSign{"\u201D", ""},    OtherSign{"\u201E", ""},
-};
+constexpr std::array<OtherSigns, 12> other_signs = {
+    {{"-", "\u2212\u2010\u2011\u2012\u2013\u2014\uFE63\uFF0D"},
+     {"+", "\uFF0B\uFE62"},
+     {"^", "\u2227\u02C6"},
+     {"'", "\u2018\u2019\u2032"},
+     {"|", "\u2223\uFF5C"},
+     {"/", "\u2215\u2044"},
+     {"\\", "\u2216"},
+     {"-->", "\u2192\u27F6\u21D2\u27F9\u21A6"},
+     {"[", "\uFF3B"},
+     {"]", "\uFF3D"},
+     {" ", "\u00A0\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200A\u202F\u205F\u3000"},
+     {"", "\u200B\u200C\u2060\uFEFF\u00AD\u201C\u201D\u201E"}}};
 
 /// Longer ones precede their prefixes.
 constexpr std::array<std::string_view, 19> arrows = {
     "--&gt;", "-&gt;",  "=&gt;",   "&rarr;",  "|->",     "\u2192", "\u27F6", "\u21D2", "\u27F9", "\u21A6",
     "\u2794", "\u279C", "\u2013>", "\u2014>", "\u2212>", "->",     "=>",     "::=",    ":="};
-
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t';
-}
-bool is_letter(char byte) {
-    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
-}
-bool is_digit(char byte) {
-    return byte >= '0' && byte <= '9';
-}
 
 bool is_word_byte(char byte) {
     return is_letter(byte) || static_cast<unsigned char>(byte) >= 0x80;
@@ -139,10 +92,9 @@ bool is_prose(std::string_view text) {
 
 std::string folded(std::string_view name) {
     std::string result;
-    for (const char byte : trimmed(name)) {
+    for (const char byte : lower_case(trimmed(name))) {
         const char plain = byte == '_' || byte == '\t' ? ' ' : byte;
-        if (plain == ' ' && result.ends_with(' ')) continue;
-        result += plain >= 'A' && plain <= 'Z' ? static_cast<char>(plain - 'A' + 'a') : plain;
+        if (plain != ' ' || !result.ends_with(' ')) result += plain;
     }
     return result;
 }
@@ -604,8 +556,8 @@ std::string_view foreign_arrow(std::string_view line) {
 }
 
 std::string_view key_of_other_name(std::string_view name) {
-    for (const OtherName& other : other_names) {
-        if (other.name == name) return other.key;
+    for (const auto& [key, names] : other_names) {
+        if (contains(split_words(names, ","), name)) return key;
     }
     return {};
 }
@@ -616,15 +568,17 @@ std::string_view nearest_key(std::string_view name) {
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);
     if (const std::string_view near = nearest(name, known); !near.empty()) return near;
     std::vector<std::string_view> others;
-    for (const OtherName& other : other_names) {
-        if (other.name.size() > 3) others.push_back(other.name);
+    for (const auto& [key, names] : other_names) {
+        for (const std::string_view other : split_words(names, ",")) {
+            if (other.size() > 3) others.push_back(other);
+        }
     }
     return key_of_other_name(nearest(name, others));
 }
 
 const char* ascii_of(std::string_view point) {
-    for (const OtherSign& other : other_signs) {
-        if (other.sign == point) return other.ascii;
+    for (const auto& [ascii, signs] : other_signs) {
+        if (point.size() > 1 && signs.find(point) != nothing) return ascii;
     }
     return nullptr;
 }

@@ -1,5 +1,6 @@
 #include "engine/language/foreign_text.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
@@ -11,19 +12,13 @@
 namespace sikku {
 namespace {
 
-bool is_letter(char byte) {
-    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
-}
-
 /// Calls `work` with each line, without blanks at both ends, until it returns true.
 template <class Work>
 bool any_line(std::string_view text, Work work) {
     while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        std::string_view line = text.substr(0, end);
+        std::string_view line = take_line(text);
         while (line.ends_with('\r')) line.remove_suffix(1);
         if (work(trimmed(line))) return true;
-        text.remove_prefix(std::min(end + 1, text.size()));
     }
     return false;
 }
@@ -31,7 +26,7 @@ bool any_line(std::string_view text, Work work) {
 /// True if the line begins with the word (in lower case) and a blank, or ends there.
 bool begins_with_word(std::string_view line, std::string_view word) {
     if (lower_case(line.substr(0, word.size())) != word) return false;
-    return line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t';
+    return line.size() == word.size() || is_blank(line[word.size()]);
 }
 
 /// Skips comments of several lines in a C-like text.
@@ -69,7 +64,7 @@ bool is_axiom_line(std::string_view line) {
 bool is_module_line(std::string_view line) {
     if (!begins_with_word(line, "module")) return false;
     std::string_view rest = trimmed(line.substr(std::min<std::size_t>(6, line.size())));
-    const auto is_name = [](char byte) { return is_letter(byte) || byte == '_' || (byte >= '0' && byte <= '9'); };
+    const auto is_name = [](char byte) { return is_letter_or_digit(byte) || byte == '_'; };
     const auto end = std::find_if_not(rest.begin(), rest.end(), is_name);
     if (end == rest.begin()) return false;
     rest = trimmed(rest.substr(static_cast<std::size_t>(end - rest.begin())));

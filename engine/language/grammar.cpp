@@ -26,9 +26,7 @@ Table::Table(std::vector<Production> productions, std::size_t symbols, bool is_p
         return;
     }
     candidate_begin_.assign(symbols + 1, 0);
-    for (const Production& production : productions_) {
-        ++candidate_begin_[production.predecessor.front() + 1];
-    }
+    for (const Production& production : productions_) ++candidate_begin_[production.predecessor.front() + 1];
     std::partial_sum(candidate_begin_.begin(), candidate_begin_.end(), candidate_begin_.begin());
     candidate_list_.resize(productions_.size());
     std::vector<std::uint32_t> next(candidate_begin_.begin(), candidate_begin_.end() - 1);

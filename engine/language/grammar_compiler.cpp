@@ -1,4 +1,5 @@
 // engine/language/grammar_compiler.cpp: compiles a pattern into a grammar.
+#include "engine/base/text.h"
 #include "engine/language/command_table.h"
 #include "engine/language/edge_reader.h"
 #include "engine/language/foreign_line.h"
@@ -80,8 +81,7 @@ private:
         const std::string_view text = value.view();
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error != std::errc() || end != text.data() + text.size() || text.empty() || number < 0) {
-            diagnostics_.error(value, "expected a whole number, 0 or more, below 2^63");
-            return std::nullopt;
+            return diagnostics_.refuse(value, "expected a whole number, 0 or more, below 2^63");
         }
         return number;
     }
@@ -121,9 +121,7 @@ private:
             settings.increment = angle(*increment, settings.increment);
         }
         grammar_.heading_ = Angle{90.0, TurnFraction{1, 4}};
-        if (const Key* key = pattern_.find("heading")) {
-            grammar_.heading_ = angle(*key, grammar_.heading_);
-        }
+        if (const Key* key = pattern_.find("heading")) grammar_.heading_ = angle(*key, grammar_.heading_);
         if (const Key* key = pattern_.find("turn")) {
             const std::string_view side = key->value.view();
             if (side == "left") {
@@ -174,13 +172,7 @@ private:
         Tropism tropism;
         int numbers = 0;
         bool good = true;
-        std::string_view rest = force->value.view();
-        constexpr std::string_view separators = " \t,";
-        for (;;) {
-            rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
-            if (rest.empty()) break;
-            const std::string_view word = rest.substr(0, rest.find_first_of(separators));
-            rest.remove_prefix(word.size());
+        for (const std::string_view word : split_words(force->value.view(), " \t,")) {
             double number = 0;
             good = good && numbers < 3 && read_number(word, number) && std::fabs(number) <= 1e100;
             if (good) tropism.force[numbers] = number;

@@ -15,22 +15,14 @@ LabelReader::LabelReader(const Pattern& pattern, WordReader& reader, Diagnostics
     read_height(pattern);
     const std::string_view before = find_language_key("label N")->before_symbol();
     for (const Key& key : pattern.keys) {
-        if (!key.name.starts_with(before)) continue;
-        const std::size_t length = key.name.size() - before.size();
-        const Span name = key.name_at.part(key.name_at.length - std::min<std::size_t>(length, key.name_at.length));
-        const auto symbol = reader.word(name, WordPlace::list);
-        if (!symbol) continue;
-        if (symbol->size() != 1) {
-            diagnostics.error(name, fmt::format("'{}' is not one symbol; names of several letters are listed under "
-                                                "'symbols:'",
-                                                name.view()));
-            continue;
-        }
-        LabelText label{reader.symbols()[symbol->front()].letter, {}};
+        const auto named = reader.symbol_of(key, before);
+        if (!named) continue;
+        const auto [symbol, name] = *named;
+        LabelText label{reader.symbols()[symbol].letter, {}};
         if (key.value.empty()) {
             diagnostics.error(key.name_at, "the label is empty: expected a text such as {1}, the first parameter");
         } else if (read_text(key.value, label)) {
-            lines_.push_back({symbol->front(), name, key.value, std::move(label)});
+            lines_.push_back({symbol, name, key.value, std::move(label)});
         }
     }
 }
@@ -50,9 +42,8 @@ void LabelReader::read_height(const Pattern& pattern) {
 bool LabelReader::read_text(const Span& value, LabelText& label) {
     const std::string_view text = value.view();
     if (text.size() > most_label_bytes) {
-        diagnostics_.error(
+        return diagnostics_.refuse(
             value, fmt::format("a label has at most {} bytes; this one has {}", most_label_bytes, text.size()));
-        return false;
     }
     LabelText::Part part;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -61,9 +52,8 @@ bool LabelReader::read_text(const Span& value, LabelText& label) {
             continue;
         }
         if (i + 2 >= text.size() || text[i + 1] < '1' || text[i + 1] > '9' || text[i + 2] != '}') {
-            diagnostics_.error(value.part(i).part(0, 1),
-                               "expected the number of a parameter in braces, from {1} to {9}");
-            return false;
+            return diagnostics_.refuse(value.part(i).part(0, 1),
+                                       "expected the number of a parameter in braces, from {1} to {9}");
         }
         part.parameter = static_cast<std::uint32_t>(text[i + 1] - '0');
         label.parts.push_back(std::exchange(part, {}));

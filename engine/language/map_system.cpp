@@ -131,17 +131,13 @@ private:
             labels_.try_emplace(std::string(where.view()), static_cast<Label>(system_.labels.size()));
         if (!is_new) return found->second;
         if (system_.labels.size() >= most_symbols) {
-            diagnostics_.error(where, "there are more than 524,288 different labels");
-            return std::nullopt;
+            return diagnostics_.refuse(where, "there are more than 524,288 different labels");
         }
         system_.labels.emplace_back(where.view());
         return found->second;
     }
 
-    bool wrong(const Span& where, const std::string& message) {
-        diagnostics_.error(where, message);
-        return false;
-    }
+    bool wrong(const Span& where, const std::string& message) { return diagnostics_.refuse(where, message); }
 
     /// Reads the label after a `~`. @param token  the token after it
     bool read_label(const Token& token, MapPart& part) {
@@ -236,8 +232,7 @@ private:
 
     std::optional<Label> read_predecessor(const ProductionText& text) {
         const auto refuse = [&](const Span& where, const char* what) {
-            diagnostics_.error(where, fmt::format("productions of a map have no {}", what));
-            return std::nullopt;
+            return diagnostics_.refuse(where, fmt::format("productions of a map have no {}", what));
         };
         if (text.left) return refuse(*text.left, "contexts");
         if (text.right) return refuse(*text.right, "contexts");
@@ -247,14 +242,12 @@ private:
         const Token token = scanner.next();
         if (token.kind == TokenKind::error) return std::nullopt;
         if (token.kind != TokenKind::label) {
-            diagnostics_.error(text.predecessor, "the predecessor is not a label: expected one label");
-            return std::nullopt;
+            return diagnostics_.refuse(text.predecessor, "the predecessor is not a label: expected one label");
         }
         const Token after = scanner.next();
         if (after.kind == TokenKind::error) return std::nullopt;
         if (after.kind != TokenKind::end) {
-            diagnostics_.error(after.where, "a production of a map replaces one label");
-            return std::nullopt;
+            return diagnostics_.refuse(after.where, "a production of a map replaces one label");
         }
         return label_of(token.where);
     }

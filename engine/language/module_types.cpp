@@ -14,21 +14,6 @@ std::string type_key(std::string_view letter, std::size_t parameters) {
     return fmt::format("{}({}", letter, parameters);
 }
 
-/// Passes each letter with parameters to `take`, up to the first error, which is reported when the word is read.
-template <class Take>
-void look_through(const SymbolNames& names, const Span& span, Take take) {
-    WordScanner scanner(names, span, nullptr);
-    std::vector<Span> parts;
-    while (scanner.skip_blanks(), !scanner.at_end()) {
-        const std::string_view letter = scanner.letter(false);
-        if (letter.empty()) return;
-        if (!scanner.at_parameters()) continue;
-        parts.clear();
-        if (!scanner.parameters(parts)) return;
-        take(letter, parts);
-    }
-}
-
 }  // namespace
 
 ModuleTypes::ModuleTypes(const Pattern& pattern, const SymbolNames& names) {
@@ -39,10 +24,11 @@ ModuleTypes::ModuleTypes(const Pattern& pattern, const SymbolNames& names) {
         return std::any_of(mentioned.begin(), mentioned.end(),
                            [&](std::string_view name) { return name == "random" || formals.contains(name); });
     };
-    const auto computed = [&](std::string_view letter, const std::vector<Span>& parts) {
+    const auto computed = [&](std::string_view letter, const std::vector<Span>& parts, const Span&) {
         if (std::any_of(parts.begin(), parts.end(), is_computed)) types_.insert(type_key(letter, parts.size()));
     };
-    const auto named = [&](std::string_view letter, const std::vector<Span>& parts) {
+    const auto named = [&](std::string_view letter, const std::vector<Span>& parts, const Span&) {
+        if (parts.empty()) return;
         types_.insert(type_key(letter, parts.size()));
         for (const Span& part : parts) formals.insert(part.view());
     };
@@ -50,9 +36,9 @@ ModuleTypes::ModuleTypes(const Pattern& pattern, const SymbolNames& names) {
         for (const ProductionText& text : productions) {
             formals.clear();
             for (const auto& span : {text.left, std::optional(text.predecessor), text.right}) {
-                if (span && mentions(*span)) look_through(names, *span, named);
+                if (span && mentions(*span)) for_each_symbol(names, *span, named);
             }
-            if (mentions(text.successor)) look_through(names, text.successor, computed);
+            if (mentions(text.successor)) for_each_symbol(names, text.successor, computed);
         }
     };
     look_at(pattern.common);
@@ -60,7 +46,7 @@ ModuleTypes::ModuleTypes(const Pattern& pattern, const SymbolNames& names) {
     look_at(pattern.interpret);
     const Key* axiom = pattern.find("axiom");
     if (axiom && axiom->value.view().find("random") != std::string_view::npos) {
-        look_through(names, axiom->value, computed);
+        for_each_symbol(names, axiom->value, computed);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "engine/language/pattern.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
 #include "engine/language/foreign_line.h"
@@ -35,14 +36,10 @@ constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants 
 
 std::string folded(std::string_view name) {
     std::string result;
-    for (const char byte : name) {
-        if (byte == ' ' || byte == '\t') {
-            if (!result.empty() && result.back() != ' ') result += ' ';
-        } else {
-            result += byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte - 'A' + 'a') : byte;
-        }
+    for (std::string_view rest = name, word = take_word(rest); !word.empty(); word = take_word(rest)) {
+        if (!result.empty()) result += ' ';
+        result += lower_case(word);
     }
-    while (result.ends_with(' ')) result.pop_back();
     return result;
 }
 
@@ -224,7 +221,7 @@ private:
 
     static bool starts_with_word(std::string_view text, std::string_view word) {
         if (text.size() <= word.size()) return text == word;
-        return folded(text.substr(0, word.size())) == word && (text[word.size()] == ' ' || text[word.size()] == '\t');
+        return folded(text.substr(0, word.size())) == word && is_blank(text[word.size()]);
     }
 
     /// True if there is room for one more entry; otherwise the rest of the file is not read.
@@ -253,12 +250,9 @@ private:
         for (std::size_t i = text.find(" // "); i != std::string_view::npos; i = text.find(" // ", i + 1)) {
             const std::size_t next = text.find_first_not_of(" \t", i + 4);
             if (next == std::string_view::npos) continue;
-            const char letter = text[next];
-            if ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z')) {
-                diagnostics_.warning(whole.part(i + 1),
-                                     "'//' is a comment only at the beginning of a line; here it means two rolls");
-                return;
-            }
+            if (!is_letter(text[next])) continue;
+            return diagnostics_.warning(whole.part(i + 1),
+                                        "'//' is a comment only at the beginning of a line; here it means two rolls");
         }
     }
 
@@ -337,7 +331,7 @@ private:
             return true;
         }
         const bool is_long = left.size() > 2 && arrow > 0 && whole.view()[arrow - 1] == '-';
-        if (is_long && (left[left.size() - 2] == ' ' || left[left.size() - 2] == '\t')) {
+        if (is_long && is_blank(left[left.size() - 2])) {
             diagnostics_.error(left_side.part(left.size() - 1),
                                "'--->' is not the arrow of a production; expected '-->'");
             return true;
@@ -367,11 +361,8 @@ private:
     void find_predecessors() {
         if (predecessors_) return;
         predecessors_.emplace();
-        const std::string_view text = pattern_.source->cleaned();
-        for (std::size_t at = 0; at < text.size();) {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            const std::string_view line = text.substr(at, end - at);
-            at = end + 1;
+        for (std::string_view text = pattern_.source->cleaned(); !text.empty();) {
+            const std::string_view line = take_line(text);
             const std::size_t arrow = line.find("-->");
             if (arrow == std::string_view::npos) continue;
             const std::string_view left = line.substr(0, arrow);
@@ -379,28 +370,21 @@ private:
             for (const char byte : left.substr(0, find_outside(left, ":"))) {
                 if (byte == '(') ++depth;
                 if (byte == ')') --depth;
-                const bool is_digit = byte >= '0' && byte <= '9';
-                const bool is_letter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
-                if (depth == 0 && (is_digit || is_letter) && predecessors_->find(byte) == std::string::npos)
-                    *predecessors_ += byte;
+                const bool is_known = predecessors_->find(byte) != std::string::npos;
+                if (depth == 0 && is_letter_or_digit(byte) && !is_known) *predecessors_ += byte;
             }
         }
     }
 
     void find_listed_symbols() {
         listed_symbols_.emplace();
-        const std::string_view text = pattern_.source->cleaned();
-        for (std::size_t at = 0; at < text.size();) {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            std::string_view line = trimmed(text.substr(at, end - at));
-            at = end + 1;
+        for (std::string_view text = pattern_.source->cleaned(); !text.empty();) {
+            const std::string_view line = trimmed(take_line(text));
             const std::size_t colon = line.find(':');
             if (colon > most_key_bytes || folded(line.substr(0, colon)) != "symbols") continue;
-            line.remove_prefix(colon + 1);
-            while (!line.empty()) {
-                const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
-                if (length > 0) listed_symbols_->emplace(line.substr(0, length));
-                line.remove_prefix(std::min(length + 1, line.size()));
+            std::string_view names = line.substr(colon + 1);
+            for (std::string_view name = take_word(names); !name.empty(); name = take_word(names)) {
+                listed_symbols_->emplace(name);
             }
             return;
         }
@@ -429,7 +413,7 @@ private:
         const Span rest = whole.part(hashed ? 7 : 6).trimmed();
         const std::string_view text = rest.view();
         std::size_t end = 0;
-        while (end < text.size() && text[end] != ' ' && text[end] != '\t' && text[end] != '=') ++end;
+        while (end < text.size() && !is_blank(text[end]) && text[end] != '=') ++end;
         const Span name = rest.part(0, end);
         Span value = rest.part(end).trimmed();
         if (!value.view().starts_with('=')) {
@@ -453,9 +437,7 @@ private:
         if (name.empty()) return diagnostics_.error(whole, "expected the table's name: 'table NAME:'");
         if (!has_room(name, pattern_.tables.size(), most_tables, "tables")) return;
         const Span rest = whole.part(colon + 1).trimmed();
-        if (!rest.empty()) {
-            diagnostics_.error(rest, "a table's productions stand on the lines after its name");
-        }
+        if (!rest.empty()) diagnostics_.error(rest, "a table's productions stand on the lines after its name");
         if (!table_names_.insert(std::string(name.view())).second) {
             diagnostics_.error(name, fmt::format("the table '{}' is defined twice", name.view()));
         }
@@ -570,9 +552,7 @@ private:
             result.weight = right_side.part(colon + 1).trimmed();
             result.successor = right_side.part(0, colon).trimmed();
         }
-        if (result.predecessor.empty()) {
-            return diagnostics_.error(whole, "expected a predecessor before '-->'");
-        }
+        if (result.predecessor.empty()) return diagnostics_.error(whole, "expected a predecessor before '-->'");
         if (!has_room(whole, productions_++, most_productions, "productions")) return;
         switch (section_) {
             case Section::common:
@@ -668,7 +648,7 @@ std::string Pattern::text(std::string_view name) const {
 SourcePointer read_source(std::string name, std::string text, Diagnostics& diagnostics) {
     if (text.size() > most_pattern_bytes) {
         text.resize(most_pattern_bytes);
-        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
+        while (!text.empty() && is_continuation(text.back())) text.pop_back();
         auto source = std::make_shared<const Source>(std::move(name), std::move(text));
         diagnostics.unreadable({source, source->text().size(), 0}, "a pattern file is at most 64 MB");
         return source;
@@ -713,9 +693,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                               known.empty() ? "this pattern has no variants"
                                             : fmt::format("unknown variant; the pattern has {}", list));
         } else {
-            for (const Key& setting : chosen->settings) {
-                overrides.set(setting.name, setting.name_at, setting.value);
-            }
+            for (const Key& setting : chosen->settings) overrides.set(setting.name, setting.name_at, setting.value);
         }
     }
     for (const Setting& setting : settings) {
@@ -772,10 +750,9 @@ void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
 
 bool states_axiom(std::string_view text) {
     while (!text.empty()) {
-        const std::string_view line = text.substr(0, text.find('\n'));
+        const std::string_view line = take_line(text);
         const std::size_t colon = line.find(':');
         if (colon < 100 && lower_case(trimmed(line.substr(0, colon))) == "axiom") return true;
-        text.remove_prefix(std::min(line.size() + 1, text.size()));
     }
     return false;
 }

@@ -71,8 +71,7 @@ private:
     std::optional<Word> context(const std::optional<Span>& text, bool right) {
         if (!text) return Word();
         if (text->empty()) {
-            diagnostics_.error(*text, "expected a context; '*' is the empty one");
-            return std::nullopt;
+            return diagnostics_.refuse(*text, "expected a context; '*' is the empty one");
         }
         auto result = reader_.word(*text, WordPlace::context);
         if (!result) return std::nullopt;
@@ -81,19 +80,13 @@ private:
             const std::string& letter = reader_.symbols()[symbol].letter;
             if (letter != "[" && letter != "]") continue;
             if (!right) {
-                diagnostics_.error(text->part(text->view().find(letter)), "a left context cannot contain brackets");
-                return std::nullopt;
+                return diagnostics_.refuse(text->part(text->view().find(letter)),
+                                           "a left context cannot contain brackets");
             }
-            if (letter == "]" && depth == 0) {
-                diagnostics_.error(*text, "this context has a ']' without '['");
-                return std::nullopt;
-            }
+            if (letter == "]" && depth == 0) return diagnostics_.refuse(*text, "this context has a ']' without '['");
             depth += letter == "[" ? 1 : -1;
         }
-        if (depth > 0) {
-            diagnostics_.error(*text, "this context has a '[' that is not closed");
-            return std::nullopt;
-        }
+        if (depth > 0) return diagnostics_.refuse(*text, "this context has a '[' that is not closed");
         return result;
     }
 
@@ -164,9 +157,7 @@ private:
             if (!belongs(text, weight, group)) continue;
             if (condition) {
                 if (const auto value = condition->constant()) {
-                    if (std::isnan(*value)) {
-                        diagnostics_.error(*text.condition, "this condition is never a number");
-                    }
+                    if (std::isnan(*value)) diagnostics_.error(*text.condition, "this condition is never a number");
                     warn_of_weight(*text.condition, *value);
                     if (*value == 0) continue;
                     condition.reset();

@@ -1,4 +1,6 @@
 #include "engine/language/schedule.h"
+
+#include "engine/base/characters.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -13,7 +15,7 @@ namespace {
 constexpr std::size_t most_items = std::size_t{1} << 20;  // of a schedule
 
 std::size_t skip_blanks(std::string_view text, std::size_t at) {
-    while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+    while (at < text.size() && is_blank(text[at])) ++at;
     return at;
 }
 
@@ -33,7 +35,7 @@ std::optional<Span> count_at(const Span& value, std::size_t& at, Diagnostics& di
             ++at;
             break;
         }
-        if (depth == 0 && (text[at] == ' ' || text[at] == '\t')) break;
+        if (depth == 0 && is_blank(text[at])) break;
         ++at;
     }
     const Span count = value.part(first, at - first);
@@ -41,9 +43,8 @@ std::optional<Span> count_at(const Span& value, std::size_t& at, Diagnostics& di
     const bool plain =
         !digits.empty() && (digits.front() == '(' || std::all_of(digits.begin(), digits.end(), continues_name));
     if (!plain) {
-        diagnostics.error(value.part(first),
-                          "expected a whole number, a name or an expression in parentheses after '*'");
-        return std::nullopt;
+        return diagnostics.refuse(value.part(first),
+                                  "expected a whole number, a name or an expression in parentheses after '*'");
     }
     return count;
 }
@@ -64,20 +65,19 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
     for (std::size_t at = skip_blanks(text, 0); at < text.size(); at = skip_blanks(text, at)) {
         const std::size_t begin = at;
         if (items.size() >= most_items) {
-            diagnostics.error(value.part(begin), "a schedule has at most 1,048,576 entries");
-            return std::nullopt;
+            return diagnostics.refuse(value.part(begin), "a schedule has at most 1,048,576 entries");
         }
-        while (at < text.size() && text[at] != ' ' && text[at] != '\t' && text[at] != '*' && text[at] != ',') ++at;
+        while (at < text.size() && !is_blank(text[at]) && text[at] != '*' && text[at] != ',') ++at;
         const std::string_view name = text.substr(begin, at - begin);
         ScheduleItem item;
         const auto known = index.find(name);
         if (known != index.end()) {
             item.table = known->second;
         } else {
-            diagnostics.error(value.part(begin), name.empty() ? std::string("expected the name of a table")
-                                                              : fmt::format("unknown table '{}'{}", name,
-                                                                            did_you_mean(nearest(name, names))));
-            return std::nullopt;
+            return diagnostics.refuse(
+                value.part(begin),
+                name.empty() ? std::string("expected the name of a table")
+                             : fmt::format("unknown table '{}'{}", name, did_you_mean(nearest(name, names))));
         }
         const auto count = count_at(value, at, diagnostics);
         if (!count) return std::nullopt;
@@ -92,10 +92,7 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
         item.count = *compiled;
         items.push_back(std::move(item));
     }
-    if (items.empty()) {
-        diagnostics.error(key.name_at, "the schedule is empty: expected the names of tables");
-        return std::nullopt;
-    }
+    if (items.empty()) return diagnostics.refuse(key.name_at, "the schedule is empty: expected the names of tables");
     return items;
 }
 

@@ -1,5 +1,6 @@
 #include "engine/language/surface.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/input_file.h"
 #include "engine/base/text.h"
 
@@ -22,26 +23,22 @@ namespace {
 
 constexpr double farthest = 1e9;  // coordinate
 
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
-}
-
 /// Divides a text into words; a ':' ends a word.
 class Words {
 public:
     explicit Words(const Span& text) : text_(text) {}
     /// The next word, empty at the end.
     Span next() {
-        const std::string_view text = text_.view();
-        while (at_ < text.size() && is_blank(text[at_])) ++at_;
-        const std::size_t begin = at_;
-        while (at_ < text.size() && !is_blank(text[at_]) && (at_ == begin || text[at_ - 1] != ':')) ++at_;
-        return text_.part(begin, at_ - begin);
+        std::string_view rest = text_.view();
+        const std::string_view word = take_word(rest, " \t\r\n");
+        const std::size_t length = std::min(word.find(':'), word.size() - 1) + 1;  // 0 for an empty word
+        const Span found = text_.part(text_.length - rest.size() - word.size(), length);
+        text_ = text_.part(text_.length - rest.size() - word.size() + length);
+        return found;
     }
 
 private:
     Span text_;
-    std::size_t at_ = 0;
 };
 
 std::optional<double> coordinate(const Span& word) {
@@ -200,10 +197,8 @@ private:
 };
 
 bool is_name(std::string_view name) {
-    const auto letter = [](char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); };
-    return !name.empty() && name.size() <= 64 && letter(name.front()) &&
-           std::all_of(name.begin(), name.end(),
-                       [&](char byte) { return letter(byte) || (byte >= '0' && byte <= '9'); });
+    return !name.empty() && name.size() <= 64 && is_letter(name.front()) &&
+           std::all_of(name.begin(), name.end(), is_letter_or_digit);
 }
 
 struct FileEntry {
@@ -232,28 +227,21 @@ std::vector<FileEntry> file_entries(const Pattern& pattern, Diagnostics* diagnos
 }
 
 std::optional<Patch> inline_patch(const PatchText& text, Diagnostics& diagnostics) {
+    constexpr std::string_view blanks = " \t\r\n,";
     std::vector<double> numbers;
     for (const Span& row : text.rows) {
-        const std::string_view line = row.view();
-        for (std::size_t at = 0; at < line.size();) {
-            std::size_t end = at;
-            while (end < line.size() && !is_blank(line[end]) && line[end] != ',') ++end;
-            if (end > at) {
-                const auto value = coordinate(row.part(at, end - at));
-                if (!value) {
-                    diagnostics.error(row.part(at, end - at), "expected a coordinate, a number up to 10^9");
-                    return std::nullopt;
-                }
-                numbers.push_back(*value);
-            }
-            at = end + 1;
+        std::string_view rest = row.view();
+        for (auto word = take_word(rest, blanks); !word.empty(); word = take_word(rest, blanks)) {
+            const Span where = row.part(row.length - rest.size() - word.size(), word.size());
+            const auto value = coordinate(where);
+            if (!value) return diagnostics.refuse(where, "expected a coordinate, a number up to 10^9");
+            numbers.push_back(*value);
         }
     }
     if (numbers.size() != 48) {
-        diagnostics.error(
+        return diagnostics.refuse(
             text.name,
             fmt::format("a patch has 16 points of three coordinates, 48 numbers; here are {}", numbers.size()));
-        return std::nullopt;
     }
     Patch patch;
     for (std::size_t i = 0; i < 16; ++i) patch.points[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};

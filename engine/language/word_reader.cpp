@@ -82,12 +82,10 @@ bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
         read.arity = 0;
         if (scanner.at_parameters() && !read_parameters(scanner, span, letter, place, read)) return false;
         if (letter == "%" && place != WordPlace::list && place != WordPlace::axiom_or_successor) {
-            diagnostics_.error(span.part(begin), "the cut symbol '%' is removed before productions apply");
-            return false;
+            return diagnostics_.refuse(span.part(begin), "the cut symbol '%' is removed before productions apply");
         }
         if (symbols_.size() >= most_symbols) {
-            diagnostics_.error(span.part(begin), "there are more than 524,288 different symbols");
-            return false;
+            return diagnostics_.refuse(span.part(begin), "there are more than 524,288 different symbols");
         }
         const Symbol symbol = intern(std::string(letter), is_name, read.constants, read.arity);
         if (letter == "%" && place == WordPlace::axiom_or_successor) cut_ = symbol;
@@ -101,15 +99,11 @@ bool WordReader::read_parameters(WordScanner& scanner, const Span& span, std::st
                                  Parameters& read) {
     const std::size_t open = scanner.at();
     if (place == WordPlace::list) {
-        diagnostics_.error(span.part(open), "a list of symbols cannot contain parameters");
-        return false;
+        return diagnostics_.refuse(span.part(open), "a list of symbols cannot contain parameters");
     }
     std::vector<Span> parts;
     if (!scanner.parameters(parts)) return false;
-    if (letter == "%") {
-        diagnostics_.error(span.part(open), "the cut symbol '%' has no parameters");
-        return false;
-    }
+    if (letter == "%") return diagnostics_.refuse(span.part(open), "the cut symbol '%' has no parameters");
     if (place != WordPlace::axiom_or_successor) {
         if (!read_formals(parts)) return false;
         read.arity = static_cast<std::uint32_t>(parts.size());
@@ -124,8 +118,7 @@ bool WordReader::read_parameters(WordScanner& scanner, const Span& span, std::st
         }
     }
     if (read.arity > most_parameters) {
-        diagnostics_.error(span.part(open), "a module has at most 64 parameters");
-        return false;
+        return diagnostics_.refuse(span.part(open), "a module has at most 64 parameters");
     }
     return true;
 }
@@ -134,12 +127,10 @@ bool WordReader::read_formals(const std::vector<Span>& parts) {
     for (const Span& part : parts) {
         const std::string_view name = part.view();
         if (!is_expression_name(name)) {
-            diagnostics_.error(part, "parameters of a predecessor and its contexts must be names");
-            return false;
+            return diagnostics_.refuse(part, "parameters of a predecessor and its contexts must be names");
         }
         if (!formals_.try_emplace(name, static_cast<std::uint32_t>(formals_.size())).second) {
-            diagnostics_.error(part, fmt::format("the parameter '{}' is named twice", name));
-            return false;
+            return diagnostics_.refuse(part, fmt::format("the parameter '{}' is named twice", name));
         }
     }
     return true;
@@ -165,10 +156,21 @@ bool WordReader::read_expressions(const std::vector<Span>& parts, std::vector<Ex
     return true;
 }
 
+std::optional<std::pair<Symbol, Span>> WordReader::symbol_of(const Key& key, std::string_view before) {
+    if (!key.name.starts_with(before)) return std::nullopt;
+    const std::size_t length = std::min<std::size_t>(key.name.size() - before.size(), key.name_at.length);
+    const Span name = key.name_at.part(key.name_at.length - length);
+    const auto symbol = word(name, WordPlace::list);
+    if (!symbol) return std::nullopt;
+    if (symbol->size() == 1) return std::pair(symbol->front(), name);
+    return diagnostics_.refuse(
+        name,
+        fmt::format("'{}' is not one symbol; names of several letters are listed under 'symbols:'", name.view()));
+}
+
 std::optional<Word> WordReader::symbol_list(const Key& key) {
     if (const std::size_t comma = key.value.view().find(','); comma != std::string_view::npos) {
-        diagnostics_.error(key.value.part(comma), "symbols are separated by blanks, not by commas");
-        return std::nullopt;
+        return diagnostics_.refuse(key.value.part(comma), "symbols are separated by blanks, not by commas");
     }
     return word(key.value, WordPlace::list);
 }

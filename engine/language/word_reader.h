@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -31,6 +32,9 @@ public:
     std::optional<Word> word(const Span& span, WordPlace place, std::vector<Expression>* arguments = nullptr);
     /// Reads a list of symbols, separated by blanks; reports commas as errors.
     std::optional<Word> symbol_list(const Key& key);
+    /// The symbol of a key such as `edge SYMBOL`, and its place. Nullopt if the key does not begin with `before`, and
+    /// after an error.
+    std::optional<std::pair<Symbol, Span>> symbol_of(const Key& key, std::string_view before);
     /// Compiles an expression with formal parameters and defines; nullopt after an error in it.
     std::optional<Expression> expression(const Span& text);
 

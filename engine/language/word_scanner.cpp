@@ -1,5 +1,7 @@
 #include "engine/language/word_scanner.h"
 
+#include "engine/base/characters.h"
+#include "engine/base/text.h"
 #include "engine/language/foreign_line.h"
 #include "engine/language/surface.h"
 
@@ -36,37 +38,23 @@ SymbolNames::SymbolNames(const Pattern& pattern, Diagnostics& diagnostics) {
 }
 
 bool SymbolNames::read(const Span& list, Diagnostics& diagnostics) {
-    const std::string_view text = list.view();
-    for (std::size_t at = 0; at < text.size();) {
-        if (text[at] == ' ' || text[at] == '\t') {
-            ++at;
-            continue;
-        }
-        const std::size_t begin = at;
-        while (at < text.size() && text[at] != ' ' && text[at] != '\t') ++at;
-        const std::string_view name = text.substr(begin, at - begin);
-        const auto letter = [](char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); };
-        const bool good = letter(name.front()) && std::all_of(name.begin(), name.end(), [&](char byte) {
-                              return letter(byte) || (byte >= '0' && byte <= '9');
-                          });
+    std::string_view text = list.view();
+    for (std::string_view name = take_word(text); !name.empty(); name = take_word(text)) {
+        const Span where = list.part(list.length - text.size() - name.size());
+        const bool good = is_letter(name.front()) && std::all_of(name.begin(), name.end(), is_letter_or_digit);
         if (!good) {
             const std::size_t comma = name.find(',');
-            diagnostics.error(list.part(begin + (comma == std::string_view::npos ? 0 : comma)),
-                              comma == std::string_view::npos
-                                  ? "expected a name of letters and digits that begins with a letter"
-                                  : "names are separated by blanks, not by commas");
-            return false;
+            return diagnostics.refuse(where.part(comma == std::string_view::npos ? 0 : comma),
+                                      comma == std::string_view::npos
+                                          ? "expected a name of letters and digits that begins with a letter"
+                                          : "names are separated by blanks, not by commas");
         }
-        if (name.size() > longest_allowed_name) {
-            diagnostics.error(list.part(begin), "a name has at most 64 characters");
-            return false;
-        }
+        if (name.size() > longest_allowed_name) return diagnostics.refuse(where, "a name has at most 64 characters");
         if (names_.size() >= most_symbols) {
-            diagnostics.error(list.part(begin), "there are more than 524,288 different symbols");
-            return false;
+            return diagnostics.refuse(where, "there are more than 524,288 different symbols");
         }
         if (!names_.insert(std::string(name)).second) {
-            diagnostics.error(list.part(begin), fmt::format("'{}' is listed twice", name));
+            diagnostics.error(where, fmt::format("'{}' is listed twice", name));
         }
     }
     return true;
@@ -74,7 +62,7 @@ bool SymbolNames::read(const Span& list, Diagnostics& diagnostics) {
 
 bool WordScanner::skip_blanks() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    while (at_ < text_.size() && (is_blank(text_[at_]))) ++at_;
     return at_ > begin;
 }
 
@@ -97,7 +85,7 @@ std::string_view WordScanner::letter(bool blank_before) {
     }
     if (byte == '@') {
         const std::size_t next = at_ + 1;
-        if (next >= text_.size() || text_[next] == ' ' || text_[next] == '\t' || text_[next] == '(') {
+        if (next >= text_.size() || is_blank(text_[next]) || text_[next] == '(') {
             return wrong("'@' is not a symbol by itself; expected a character after it");
         }
         return taken(1 + code_point_length(text_[next]));
@@ -147,12 +135,8 @@ bool WordScanner::parameters(std::vector<Span>& parts) {
         const bool last = text_[at_] == ')' && --depth == 0;
         if (!last && !(text_[at_] == ',' && depth == 1)) continue;
         const Span part = span_.part(begin, at_ - begin).trimmed();
-        if (part.empty()) {
-            return wrong(span_.part(begin), "expected a parameter");
-        }
-        if (parts.size() >= most_arguments) {
-            return wrong(part, "a module has at most 65,536 parameters");
-        }
+        if (part.empty()) return wrong(span_.part(begin), "expected a parameter");
+        if (parts.size() >= most_arguments) return wrong(part, "a module has at most 65,536 parameters");
         parts.push_back(part);
         begin = at_ + 1;
         if (last) {

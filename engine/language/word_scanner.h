@@ -70,4 +70,18 @@ private:
     bool is_name_ = false;
 };
 
+/// Passes each symbol of a word to `take(letter, parameters, where)`, up to the first error, which is not reported.
+template <class Take>
+void for_each_symbol(const SymbolNames& names, const Span& word, Take take) {
+    WordScanner scanner(names, word, nullptr);
+    std::vector<Span> parameters;
+    while (scanner.skip_blanks(), !scanner.at_end()) {
+        const std::size_t begin = scanner.at();
+        const std::string_view letter = scanner.letter(false);
+        parameters.clear();
+        if (letter.empty() || (scanner.at_parameters() && !scanner.parameters(parameters))) return;
+        take(letter, parameters, word.part(begin, scanner.at() - begin));
+    }
+}
+
 }  // namespace sikku
