@@ -20,7 +20,15 @@ struct GridDot {
     std::int32_t x = 0;
     std::int32_t y = 0;
     bool operator==(const GridDot&) const = default;
+    /// Rows from the bottom, each from the left.
+    bool operator<(GridDot other) const { return y != other.y ? y < other.y : x < other.x; }
+    GridDot operator+(GridDot other) const { return {x + other.x, y + other.y}; }
+    GridDot operator-(GridDot other) const { return {x - other.x, y - other.y}; }
 };
+/// True if `a` precedes `b` in rows from the top, each from the left.
+inline bool is_before(GridDot a, GridDot b) {
+    return a.y != b.y ? a.y > b.y : a.x < b.x;
+}
 
 /// The gap between two neighbouring dots. The sides of a dot count anticlockwise from the right: 0 right, 1 up, 2
 /// left, 3 down, or in the triangular lattice six sides 60 degrees apart.

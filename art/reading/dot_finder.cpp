@@ -234,18 +234,11 @@ private:
 
 }  // namespace
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 FoundGrid FoundGrid::with(std::vector<GridDot> places) const {
     FoundGrid other = *this;
     other.placed = place_grid(grid().lattice(), std::move(places));
     other.map = map.from(other.placed.origin);
-    other.placed.origin = {placed.origin.x + other.placed.origin.x, placed.origin.y + other.placed.origin.y};
+    other.placed.origin = placed.origin + other.placed.origin;
     return other;
 }
 

@@ -39,6 +39,4 @@ std::optional<FoundGrid> find_grid(const SpotFinder& finder, const std::vector<I
                                    std::optional<DotLattice> lattice, const Monitor& monitor,
                                    std::optional<double> spacing = std::nullopt);
 
-double median(std::vector<double> values);
-
 }  // namespace sikku

@@ -78,7 +78,7 @@ std::vector<GridDot> places_by_symmetry(const DotGrid& grid) {
     }
     std::vector<GridDot> places;
     for (const Steps& s : proposed) places.push_back(place(s));
-    std::sort(places.begin(), places.end(), [](GridDot a, GridDot b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
+    std::sort(places.begin(), places.end(), is_before);
     return places;
 }
 

@@ -1,6 +1,5 @@
 #include "art/reading/gesture_drawing.h"
 
-#include "art/reading/gesture_loops.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "engine/language/pattern.h"
@@ -22,13 +21,6 @@ namespace {
 /// Eight directions, anticlockwise from the right.
 constexpr std::array<GridDot, 8> ways = {{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-GridDot operator+(GridDot a, GridDot b) {
-    return {a.x + b.x, a.y + b.y};
-}
-GridDot operator-(GridDot a, GridDot b) {
-    return {a.x - b.x, a.y - b.y};
-}
-
 /// The direction of a heading in degrees clockwise from the top, a multiple of 45.
 unsigned way_of(int heading) {
     return static_cast<unsigned>((450 - heading) / 45) % 8;
@@ -45,29 +37,28 @@ struct Gesture {
     bool is_decorated = false;
 };
 
-struct ByRow {
-    bool operator()(GridDot a, GridDot b) const { return std::tuple(-a.y, a.x) < std::tuple(-b.y, b.x); }
-};
-/// Sides on which lines pass; 2 where one leads around the dot. On one side of a straight line there may be no dot.
-using PassedDots = std::map<GridDot, int, ByRow>;
-
 /// Follows the gestures of a loop.
 class Hand {
 public:
-    Hand(const GestureLoop& loop, std::size_t number, GestureDrawing& drawing, PassedDots& dots)
-        : loop_(loop), number_(number), drawing_(drawing), dots_(dots), at_(*loop.start), heading_(loop.heading) {}
+    Hand(const GestureLoop& loop, std::size_t number, PassedDots& dots, std::size_t& decorated)
+        : loop_(loop),
+          number_(number),
+          dots_(dots),
+          decorated_(decorated),
+          at_(*loop.start),
+          heading_(loop.heading) {}
 
-    std::vector<GridDot> draw() {
+    std::vector<HandPoint> draw() {
         const GridDot start = at_;
         const int start_heading = heading_;
         if (at_.x % 2 == 0 && at_.y % 2 == 0) refuse("starts on a dot");
         for (gesture_ = 0; gesture_ < loop_.gestures.size(); ++gesture_) {
             const Gesture gesture = parse(loop_.gestures[gesture_]);
-            drawing_.decorated += gesture.is_decorated ? 1 : 0;
+            decorated_ += gesture.is_decorated ? 1 : 0;
             if (heading_ % 90 != (is_middle(at_) ? 0 : 45)) refuse(fmt::format("has the heading {} here", heading_));
             if (gesture.kind == 'c') return ring();
             if (gesture.kind == 'd' && gesture.quarters == 1 && gesture.side == ' ' && is_middle(at_)) {
-                line_.push_back(at_);
+                line_.push_back({at_, {}});
                 const unsigned way = way_of(heading_);
                 for (const unsigned side : {1U, 7U}) ++dots_[at_ + ways[(way + side) % 8]];
                 at_ = at_ + ways[way] + ways[way];
@@ -112,12 +103,12 @@ private:
         return {at_ + ways[to_right ? 0 : 4], up != to_right};
     }
 
-    std::vector<GridDot> ring() {
+    std::vector<HandPoint> ring() {
         if (loop_.gestures.size() != 1) refuse("must be the only gesture of its loop");
         if (is_middle(at_)) refuse("starts in the middle of four dots");
         const GridDot dot = ahead_of_gap().first;
         add_dot(dot);
-        return {dot + ways[0], dot + ways[2], dot + ways[4], dot + ways[6]};
+        return {{dot, ways[0]}, {dot, ways[2]}, {dot, ways[4]}, {dot, ways[6]}};
     }
 
     void turn_around(const Gesture& gesture) {
@@ -133,14 +124,14 @@ private:
             std::tie(dot, anticlockwise) = ahead_of_gap();
         }
         add_dot(dot);
-        line_.push_back(at_);
+        line_.push_back({at_, {}});
         const GridDot from = at_ - dot;
         const auto entry = static_cast<unsigned>(std::find(ways.begin(), ways.end(), from) - ways.begin());
         const unsigned eighths = 2 * gesture.quarters + (gesture.kind == 't' ? 1 : 0);
         const unsigned turn = anticlockwise ? 1 : 7;
         for (unsigned k = 1; k < eighths; ++k) {
             const unsigned place = (entry + k * turn) % 8;
-            if (place % 2 == 0) line_.push_back(dot + ways[place]);
+            if (place % 2 == 0) line_.push_back({dot, ways[place]});
         }
         at_ = dot + ways[(entry + eighths * turn) % 8];
         const int turned = 90 * static_cast<int>(gesture.quarters - 1) + (gesture.kind == 't' ? 45 : 0);
@@ -149,12 +140,12 @@ private:
 
     const GestureLoop& loop_;
     std::size_t number_;
-    GestureDrawing& drawing_;
     PassedDots& dots_;
+    std::size_t& decorated_;
     GridDot at_;
     int heading_;
     std::size_t gesture_ = 0;
-    std::vector<GridDot> line_;
+    std::vector<HandPoint> line_;
 };
 
 /// Turns to a direction: `+` is an eighth anticlockwise.
@@ -185,12 +176,20 @@ bool meets_between_four(std::string_view text) {
     return false;
 }
 
+std::vector<HandPoint> follow_gestures(const GestureLoop& loop, std::size_t number, PassedDots& dots,
+                                       std::size_t& decorated) {
+    return Hand(loop, number, dots, decorated).draw();
+}
+
 GestureDrawing draw_gestures(std::string_view text) {
     GestureDrawing drawing;
-    PassedDots dots;
+    PassedDots dots(is_before);
     const std::vector<GestureLoop> loops = read_gesture_loops(text);
     for (std::size_t i = 0; i < loops.size(); ++i) {
-        drawing.lines.push_back(Hand(loops[i], i + 1, drawing, dots).draw());
+        std::vector<GridDot>& line = drawing.lines.emplace_back();
+        for (const auto& [at, way] : follow_gestures(loops[i], i + 1, dots, drawing.decorated)) {
+            line.push_back(at + way);
+        }
     }
     for (const auto& [dot, sides] : dots) {
         if (sides > 1) drawing.dots.push_back(dot);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "art/kolam/dot_grid.h"
+#include "art/reading/gesture_loops.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,20 @@ struct GestureDrawing {
     std::vector<GridDot> dots;                ///< ascending by row, then by column
     std::size_t decorated = 0;                ///< gestures whose decoration was left out
 };
+
+/// A point of a line: a place that the hand passes, or a dot and the way from it to the line around it.
+struct HandPoint {
+    GridDot at;
+    GridDot way;
+};
+/// Dots, and the number of their sides on which lines pass; 2 where one leads around the dot. On one side of a
+/// straight line there may be no dot.
+using PassedDots = std::map<GridDot, int, decltype(&is_before)>;
+
+/// Follows the gestures of a loop. @param decorated  increased by the number whose decoration is left out
+/// @throws std::runtime_error as draw_gestures()
+std::vector<HandPoint> follow_gestures(const GestureLoop& loop, std::size_t number, PassedDots& dots,
+                                       std::size_t& decorated);
 
 /// Follows gestures between two dots (O, C1, and H3 and OP without their decoration), through the middle of four dots
 /// (D) and from one to the other (T). From a gap, a gesture of n quarters leads around the dot ahead; from the middle

@@ -13,29 +13,11 @@
 namespace sikku {
 namespace {
 
+constexpr std::string_view separators = " \t\r\n,";
 constexpr std::size_t most_gestures = 4 * DotGrid::most_dots;
 
 [[noreturn]] void refuse(const std::string& what) {
     throw std::runtime_error("gestures: " + what);
-}
-
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n';
-}
-
-std::vector<std::string_view> words_of(std::string_view text) {
-    std::vector<std::string_view> words;
-    for (std::size_t at = 0; at < text.size();) {
-        if (is_blank(text[at]) || text[at] == ',') {
-            ++at;
-            continue;
-        }
-        std::size_t end = at;
-        while (end < text.size() && !is_blank(text[end]) && text[end] != ',') ++end;
-        words.push_back(text.substr(at, end - at));
-        at = end;
-    }
-    return words;
 }
 
 /// The loops of `[["O1" "O2"] ["C1"]]`, with or without the quotes.
@@ -49,7 +31,7 @@ std::vector<GestureLoop> parse_sequence(std::string_view text) {
             if (depth == 2) loops.emplace_back();
         } else if (text[at] == ']') {
             if (--depth == 0) return loops;
-        } else if (depth > 0 && !is_blank(text[at]) && text[at] != ',') {
+        } else if (depth > 0 && separators.find(text[at]) == std::string_view::npos) {
             // Some collections leave the quotes out.
             const bool is_quoted = text[at] == '"';
             const std::size_t begin = at + (is_quoted ? 1 : 0);
@@ -71,7 +53,8 @@ std::vector<double> parse_history(std::string_view text, std::string_view name) 
     if (at == std::string_view::npos || end == std::string_view::npos)
         refuse(fmt::format("'history' lacks {}", name));
     std::vector<double> numbers;
-    for (const std::string_view word : words_of(text.substr(at + name.size() + 2, end - at - name.size() - 2))) {
+    for (const std::string_view word :
+         split_words(text.substr(at + name.size() + 2, end - at - name.size() - 2), separators)) {
         double number = 0;
         if (!read_number(word, number)) refuse(fmt::format("{}: '{}' is not a number", name, printable(word, 40)));
         numbers.push_back(number);
@@ -124,14 +107,12 @@ std::vector<GestureLoop> parse_transcription(std::string_view text) {
 std::vector<GestureLoop> parse_rows(std::string_view text) {
     std::vector<GestureLoop> loops;
     std::size_t count = 0;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        std::string_view row = trimmed(text.substr(at, end - at));
-        at = end + 1;
+    while (!text.empty()) {
+        std::string_view row = trimmed(take_line(text));
         if (row.empty() || row == "\r") continue;
         GestureLoop loop;
         if (const std::size_t colon = row.find(':'); colon != std::string_view::npos) {
-            const auto numbers = words_of(row.substr(0, colon));
+            const auto numbers = split_words(row.substr(0, colon), separators);
             std::array<double, 3> start{};
             bool is_good = numbers.size() == 3;
             for (std::size_t i = 0; i < 3 && is_good; ++i) is_good = read_number(numbers[i], start[i]);
@@ -142,7 +123,7 @@ std::vector<GestureLoop> parse_rows(std::string_view text) {
         } else if (loops.empty()) {
             loop.start = GridDot{0, 1};
         }
-        for (const std::string_view word : words_of(row)) {
+        for (const std::string_view word : split_words(row, separators)) {
             if (++count > most_gestures) refuse("too many");
             loop.gestures.push_back(lower_case(word));
         }
@@ -161,7 +142,7 @@ bool is_gestures(std::string_view text) {
     text = text.substr(0, 4096);
     if (is_transcription(text)) return true;
     const std::string_view row = text.substr(0, text.find('\n'));
-    const auto words = words_of(row.substr(row.find(':') == std::string_view::npos ? 0 : row.find(':') + 1));
+    const auto words = split_words(row.substr(row.find(':') + 1), separators);
     return !words.empty() && std::all_of(words.begin(), words.end(), [](std::string_view word) {
         const std::string name = lower_case(word);
         return name.size() <= 3 && name.size() >= 2 &&

@@ -1,6 +1,6 @@
 #include "art/reading/gestures.h"
 
-#include "art/reading/gesture_loops.h"
+#include "art/reading/gesture_drawing.h"
 #include "art/reading/kolam_lines.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -22,14 +22,10 @@ namespace {
     throw std::runtime_error("gestures: " + what);
 }
 
-/// Quarters that a gesture leads around a dot; 0 for a ring.
-std::uint32_t quarters(const std::string& gesture, std::size_t loop, std::size_t number) {
-    if (gesture == "c1") return 0;
-    if (gesture == "op") return 4;
-    if (gesture == "h3l" || gesture == "h3r") return 3;
-    if (gesture.size() == 2 && gesture[0] == 'o' && gesture[1] >= '1' && gesture[1] <= '4') {
-        return static_cast<std::uint32_t>(gesture[1] - '0');
-    }
+/// Refuses gestures that a grid of gaps cannot represent.
+void check_gesture(const std::string& gesture, std::size_t loop, std::size_t number) {
+    const bool is_known = gesture == "c1" || gesture == "op" || gesture == "h3l" || gesture == "h3r";
+    if (is_known || (gesture.size() == 2 && gesture[0] == 'o' && gesture[1] >= '1' && gesture[1] <= '4')) return;
     const std::string place = fmt::format("loop {}, gesture {}: '{}'", loop, number, printable(gesture, 20));
     if (!gesture.empty() && (gesture[0] == 'd' || gesture[0] == 't')) {
         refuse(place + " passes through the middle of four dots, where a grid of gaps has no crossing");
@@ -40,94 +36,41 @@ std::uint32_t quarters(const std::string& gesture, std::size_t loop, std::size_t
     refuse(place + " is unknown; expected O1 to O4, C1, H3L, H3R or OP");
 }
 
+void check_loop(const GestureLoop& loop, std::size_t number) {
+    const GridDot start = *loop.start;
+    if ((start.x % 2 != 0) == (start.y % 2 != 0)) {
+        refuse(fmt::format("loop {} does not start midway between two dots", number));
+    }
+    if (loop.heading % 90 != 45) {
+        refuse(fmt::format("loop {} starts with the heading {}; expected 45, 135, 225 or 315", number, loop.heading));
+    }
+    for (std::size_t i = 0; i < loop.gestures.size(); ++i) {
+        check_gesture(loop.gestures[i], number, i + 1);
+        if (loop.gestures[i] == "c1" && loop.gestures.size() != 1) {
+            refuse(fmt::format("loop {}: C1 must be the only gesture of its loop", number));
+        }
+    }
+}
+
 constexpr std::array<GridDot, 4> sides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-
-/// Follows the gestures of a loop.
-class Hand {
-public:
-    Hand(const GestureLoop& loop, std::size_t number)
-        : loop_(loop), number_(number), at_(*loop.start), heading_(loop.heading) {
-        check_start();
-    }
-
-    ClosedLine draw(std::vector<GridDot>& dots, std::size_t& decorated) {
-        const GridDot start = at_;
-        const int start_heading = heading_;
-        ClosedLine line;
-        for (std::size_t i = 0; i < loop_.gestures.size(); ++i) {
-            const std::uint32_t count = quarters(loop_.gestures[i], number_, i + 1);
-            decorated += loop_.gestures[i][0] == 'h' || loop_.gestures[i] == "op";
-            const bool between_rows = at_.y % 2 != 0;  // above each other
-            // The dot ahead, along the gap.
-            const std::uint32_t ahead = between_rows ? (heading_ == 45 || heading_ == 315 ? 1U : 3U)
-                                                     : (heading_ == 45 || heading_ == 135 ? 0U : 2U);
-            const GridDot dot{at_.x + sides[ahead].x, at_.y + sides[ahead].y};
-            dots.push_back(dot);
-            const bool to_right = heading_ == 45 || heading_ == 135;
-            const bool up = heading_ == 45 || heading_ == 315;
-            // Anticlockwise around a dot above that is passed on its right, and so on.
-            const bool anticlockwise = between_rows ? to_right == (ahead == 1) : up != (ahead == 0);
-            const std::uint32_t entry = (ahead + 2) % 4;
-            if (count == 0) {
-                if (loop_.gestures.size() != 1)
-                    refuse(fmt::format("loop {}: C1 must be the only gesture of its loop", number_));
-                for (const GridDot side : sides) line.emplace_back(dot.x + 0.5 * side.x, dot.y + 0.5 * side.y);
-                return line;
-            }
-            line.emplace_back(at_.x, at_.y);
-            const std::uint32_t turn = anticlockwise ? 1 : 3;
-            for (std::uint32_t k = 1; k < count; ++k) {
-                const GridDot side = sides[(entry + k * turn) % 4];
-                line.emplace_back(dot.x + 0.5 * side.x, dot.y + 0.5 * side.y);
-            }
-            const GridDot exit = sides[(entry + count * turn) % 4];
-            at_ = {dot.x + exit.x, dot.y + exit.y};
-            const int turned = 90 * static_cast<int>(count - 1);
-            heading_ = (heading_ + (anticlockwise ? 360 - turned : turned)) % 360;
-        }
-        if (!(at_ == start) || heading_ != start_heading) {
-            refuse(fmt::format("loop {} does not close: it starts at {:g},{:g} and ends at {:g},{:g}", number_,
-                               0.5 * start.x, 0.5 * start.y, 0.5 * at_.x, 0.5 * at_.y));
-        }
-        return line;
-    }
-
-private:
-    void check_start() const {
-        if ((at_.x % 2 != 0) == (at_.y % 2 != 0)) {
-            refuse(fmt::format("loop {} does not start midway between two dots", number_));
-        }
-        if (heading_ % 90 != 45) {
-            refuse(
-                fmt::format("loop {} starts with the heading {}; expected 45, 135, 225 or 315", number_, heading_));
-        }
-    }
-
-    const GestureLoop& loop_;
-    std::size_t number_;
-    GridDot at_;
-    int heading_;
-};
 
 }  // namespace
 
 ReadKolam read_gestures(std::string_view text) {
     const std::vector<GestureLoop> loops = read_gesture_loops(text);
     std::vector<ClosedLine> lines;
-    std::vector<GridDot> dots;
-    std::set<std::vector<std::pair<std::int32_t, std::int32_t>>> seen;
+    PassedDots passed(is_before);
     std::size_t decorated = 0;
     for (std::size_t i = 0; i < loops.size(); ++i) {
-        lines.push_back(Hand(loops[i], i + 1).draw(dots, decorated));
+        check_loop(loops[i], i + 1);
+        ClosedLine& line = lines.emplace_back();
+        for (const auto& [at, way] : follow_gestures(loops[i], i + 1, passed, decorated)) {
+            line.emplace_back(at.x + 0.5 * way.x, at.y + 0.5 * way.y);
+        }
     }
-    const PlacedGrid placed = place_grid(DotLattice::square, std::move(dots));
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
-    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
-        from.push_back(2.0 * corner + glm::dvec2(placed.origin.x, placed.origin.y));
-        to.push_back(corner);
-    }
-    ReadKolam kolam = read_gaps(placed.grid, *Homography::fit(from, to), lines);
+    std::vector<GridDot> dots;
+    for (const auto& [dot, sides_passed] : passed) dots.push_back(dot);
+    ReadKolam kolam = read_gaps(place_grid(DotLattice::square, std::move(dots)), lines);
     if (decorated > 0) {
         kolam.notes.push_back(fmt::format("the decoration of {} was left out", counted(decorated, "gesture")));
     }
@@ -193,7 +136,7 @@ std::string gestures_file(const DotGrid& grid, const GapStates& states) {
             const std::uint32_t side = entry(grid, step);
             // Steps head up right, up left, down left, down right.
             constexpr std::array<int, 4> clockwise = {45, 315, 225, 135};
-            add({around.x + sides[side].x, around.y + sides[side].y}, clockwise[heading(grid, step)]);
+            add(around + sides[side], clockwise[heading(grid, step)]);
             std::uint32_t count = 0;
             do {
                 ++count;

@@ -29,9 +29,7 @@ public:
     std::optional<std::string_view> next() {
         if (text_.empty()) return std::nullopt;
         ++number_;
-        const std::size_t end = std::min(text_.find('\n'), text_.size());
-        std::string_view row = text_.substr(0, end);
-        text_.remove_prefix(std::min(end + 1, text_.size()));
+        std::string_view row = take_line(text_);
         if (row.ends_with('\r')) row.remove_suffix(1);
         return row;
     }
@@ -79,10 +77,7 @@ Columns find_columns(std::string_view heading, std::size_t number) {
 void check_steps(const ClosedLine& line, const std::vector<std::size_t>& rows) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(glm::distance(line[i - 1], line[i]));
-    std::vector<double> sorted = steps;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double usual = *middle;
+    const double usual = median(steps);
     constexpr double most = 50;
     const auto found = std::find_if(steps.begin(), steps.end(), [&](double step) { return step > most * usual; });
     if (found == steps.end()) return;
@@ -195,14 +190,7 @@ ReadKolam read_kolam_csv(std::string_view text, std::size_t number, const Monito
     const auto dots = dots_of(line);
     ReadKolam kolam = [&] {
         if (!dots) return kolam_of_lines({line}, {}, false, std::nullopt, monitor);
-        const PlacedGrid placed = place_grid(DotLattice::square, *dots);
-        std::vector<glm::dvec2> from;
-        std::vector<glm::dvec2> to;
-        for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
-            from.push_back(2.0 * corner + glm::dvec2(placed.origin.x, placed.origin.y));
-            to.push_back(corner);
-        }
-        return read_gaps(placed.grid, *Homography::fit(from, to), {line}, monitor);
+        return read_gaps(place_grid(DotLattice::square, *dots), {line}, monitor);
     }();
     if (!is_closed) kolam.notes.emplace_back("the line is open; its end was joined to its beginning");
     if (columns.kolams > 1) {

@@ -19,7 +19,7 @@ public:
             const glm::dvec2 from = lattice_point(grid().lattice(), dot);
             for (std::uint32_t side = 0; side < grid().sides(); ++side) {
                 const GridDot way = grid().step(side);
-                const GridDot to{dot.x + way.x, dot.y + way.y};
+                const GridDot to = dot + way;
                 const glm::dvec2 along = lattice_point(grid().lattice(), way);
                 if (grid().dot_at(to) || is_inside(ink_, found_.map(from + along))) continue;
                 constexpr double loop = 0.35;

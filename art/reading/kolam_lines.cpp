@@ -29,13 +29,15 @@ public:
 
     /// nullopt far from all dots
     std::optional<Part> at(glm::dvec2 point) const {
-        const GridDot near = nearest_place(grid_.lattice(), shifted(point, -1));
+        // Places of the grid may be odd; those of nearest_place() are not.
+        const GridDot origin = grid_.dots()[0];
+        const GridDot near = origin + nearest_place(grid_.lattice(), point - lattice_point(grid_.lattice(), origin));
         std::optional<Part> best;
         double least = 1e300;
         const std::int32_t reach = grid_.lattice() == DotLattice::square ? 2 : 1;
         for (std::int32_t dy = -2; dy <= 2; dy += 2) {
             for (std::int32_t dx = -2; dx <= 2; dx += reach) {
-                const GridDot place{near.x + origin().x + dx, near.y + origin().y + dy};
+                const GridDot place = near + GridDot{dx, dy};
                 const auto dot = grid_.dot_at(place);
                 if (!dot) continue;
                 const double distance = glm::distance(lattice_point(grid_.lattice(), place), point);
@@ -56,11 +58,6 @@ public:
     }
 
 private:
-    // Places of the grid may be odd; those of nearest_place() are not.
-    GridDot origin() const { return {grid_.dots()[0].x, grid_.dots()[0].y}; }
-    glm::dvec2 shifted(glm::dvec2 point, int sign) const {
-        return point + static_cast<double>(sign) * lattice_point(grid_.lattice(), origin());
-    }
     const DotGrid& grid_;
 };
 
@@ -292,11 +289,10 @@ public:
         std::vector<double> sizes;
         sizes.reserve(faces.size());
         for (const Face& face : faces) sizes.push_back(face.cells);
-        const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-        std::nth_element(sizes.begin(), middle, sizes.end());
+        const double usual = median(std::move(sizes));
         std::vector<glm::dvec2> places;
         for (const Face& face : faces) {
-            if (face.cells < 0.3 * *middle || face.cells > 3 * *middle) continue;
+            if (face.cells < 0.3 * usual || face.cells > 3 * usual) continue;
             places.push_back(low_ + (face.sum / face.cells + 0.5) / scale_);
         }
         return places;
@@ -352,7 +348,7 @@ std::vector<GridDot> odd_places(const OddCells& cells, const LatticeFit& fit) {
 
 PlacedGrid place_grid(DotLattice lattice, std::vector<GridDot> places) {
     if (places.empty()) throw std::runtime_error("there are no dots");
-    std::sort(places.begin(), places.end(), [](GridDot a, GridDot b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
+    std::sort(places.begin(), places.end(), is_before);
     places.erase(std::unique(places.begin(), places.end()), places.end());
     const std::int64_t rows = (std::int64_t{places.front().y} - places.back().y) / 2 + 1;
     if (rows > static_cast<std::int64_t>(DotGrid::most_dots)) throw std::runtime_error("the dots lie too far apart");
@@ -362,7 +358,7 @@ PlacedGrid place_grid(DotLattice lattice, std::vector<GridDot> places) {
     }
     DotGrid grid(lattice, columns);
     const GridDot first = grid.dots().front();
-    return {std::move(grid), {places.front().x - first.x, places.front().y - first.y}};
+    return {std::move(grid), places.front() - first};
 }
 
 ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std::vector<ClosedLine>& lines,
@@ -373,6 +369,16 @@ ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std
         if (line.size() > 1) reader.read(line);
     }
     return reader.result({});
+}
+
+ReadKolam read_gaps(const PlacedGrid& placed, const std::vector<ClosedLine>& lines, const Monitor& monitor) {
+    std::vector<glm::dvec2> from;
+    std::vector<glm::dvec2> to;
+    for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+        from.push_back(2.0 * corner + glm::dvec2(placed.origin.x, placed.origin.y));
+        to.push_back(corner);
+    }
+    return read_gaps(placed.grid, *Homography::fit(from, to), lines, monitor);
 }
 
 ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::dvec2> dots, bool y_down,
@@ -413,7 +419,7 @@ ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::
     std::vector<glm::dvec2> from;
     std::vector<glm::dvec2> to;
     for (const GridDot corner : {GridDot{0, 0}, GridDot{2, 0}, GridDot{0, 4}, GridDot{2, 4}}) {
-        const GridDot place{corner.x + placed.origin.x, corner.y + placed.origin.y};
+        const GridDot place = corner + placed.origin;
         from.push_back(fit->map(lattice_point(fit->lattice, place)));
         to.push_back(lattice_point(fit->lattice, corner));
     }

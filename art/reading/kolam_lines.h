@@ -28,6 +28,9 @@ PlacedGrid place_grid(DotLattice lattice, std::vector<GridDot> places);
 ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std::vector<ClosedLine>& lines,
                     const Monitor& monitor = {});
 
+/// The same for lines at places of a square lattice, in units of GridDot.
+ReadKolam read_gaps(const PlacedGrid& placed, const std::vector<ClosedLine>& lines, const Monitor& monitor = {});
+
 /// Fits a grid to the dots and reads the gaps from the lines. Without dots, they are placed as tradition does: one
 /// in each face that the lines run around an odd number of times.
 /// @param y_down  y points down

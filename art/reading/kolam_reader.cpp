@@ -42,7 +42,7 @@ public:
         glm::dvec2 low(1e300);
         glm::dvec2 high(-1e300);
         for (const GridDot dot : grid().dots()) {
-            dots_.insert(key(dot));
+            dots_.insert(dot);
             low = glm::min(low, found_.at(dot) - 2 * found_.spacing);
             high = glm::max(high, found_.at(dot) + 2 * found_.spacing);
         }
@@ -62,9 +62,9 @@ public:
             readings.push_back(read_part());
             return readings;
         }
-        std::vector<std::set<Key>> parts = kolams(monitor);
-        const std::set<Key> all = dots_;
-        for (std::set<Key>& part : parts) {
+        std::vector<std::set<GridDot>> parts = kolams(monitor);
+        const std::set<GridDot> all = dots_;
+        for (std::set<GridDot>& part : parts) {
             if (!readings.empty() && part.size() <= most_loose) {
                 readings.front().left_out += part.size();
                 continue;
@@ -76,8 +76,6 @@ public:
     }
 
 private:
-    using Key = std::pair<std::int32_t, std::int32_t>;  // y, x
-
     /// Finds the displacement of the lines, if all dots lie on one side of the middles of their loops.
     void find_offset(const Monitor& monitor) {
         const std::vector<GridGap>& gaps = grid().gaps();
@@ -116,24 +114,22 @@ private:
     }
 
     Reading read_part() {
-        const std::vector<Key> missing = complete();
-        Reading reading{.grid = found_.with(list(dots_))};
-        const GridDot origin{reading.grid.placed.origin.x - found_.placed.origin.x,
-                             reading.grid.placed.origin.y - found_.placed.origin.y};
-        const auto moved = [&](GridDot dot) { return GridDot{dot.x - origin.x, dot.y - origin.y}; };
-        for (const Key& place : added_) {
-            if (dots_.contains(place)) reading.added.push_back(moved(dot(place)));
+        const std::vector<GridDot> missing = complete();
+        Reading reading{.grid = found_.with({dots_.begin(), dots_.end()})};
+        const GridDot origin = reading.grid.placed.origin - found_.placed.origin;
+        for (const GridDot place : added_) {
+            if (dots_.contains(place)) reading.added.push_back(place - origin);
         }
         for (const GridGap& gap : reading.grid.grid().gaps()) {
             const GridDot from = reading.grid.grid().dots()[gap.from];
-            reading.evidence.push_back(evidence({from.x + origin.x, from.y + origin.y}, gap.side));
+            reading.evidence.push_back(evidence(from + origin, gap.side));
             reading.agreement += best_of(reading.evidence.back()) + reading.evidence.back().margin();
         }
         reading.agreement /= static_cast<double>(std::max<std::size_t>(1, reading.evidence.size()));
         if (is_hopeless_) return reading;
-        for (const Key& place : open_ends()) reading.open_ends.push_back(moved(dot(place)));
-        for (const Key& place : missing) {
-            if (!dots_.contains(place)) reading.missing.push_back(moved(dot(place)));
+        for (const GridDot place : open_ends()) reading.open_ends.push_back(place - origin);
+        for (const GridDot place : missing) {
+            if (!dots_.contains(place)) reading.missing.push_back(place - origin);
         }
         reading.explained = explained(reading);
         std::vector<char> is_joined(reading.grid.grid().dots().size());
@@ -145,18 +141,8 @@ private:
         reading.reaches_edge = sikku::reaches_edge(ink_, reading.grid, level_);
         return reading;
     }
-    static Key key(GridDot dot) { return {dot.y, dot.x}; }
-    static GridDot dot(Key place) { return {place.second, place.first}; }
-    static std::vector<GridDot> list(const std::set<Key>& places) {
-        std::vector<GridDot> dots;
-        for (const Key& place : places) dots.push_back(dot(place));
-        return dots;
-    }
     const DotGrid& grid() const { return found_.grid(); }
-    GridDot next(GridDot from, std::uint32_t side) const {
-        const GridDot way = grid().step(side);
-        return {from.x + way.x, from.y + way.y};
-    }
+    GridDot next(GridDot from, std::uint32_t side) const { return from + grid().step(side); }
 
     /// Evidence between a place and its neighbour, read once.
     const GapEvidence& evidence(GridDot from, std::uint32_t side) {
@@ -164,7 +150,7 @@ private:
         if (const std::uint32_t half = grid().sides() / 2; side >= half) {
             return evidence(next(from, side), side - half);
         }
-        const auto [found, is_new] = evidence_.try_emplace({from.y, from.x, side});
+        const auto [found, is_new] = evidence_.try_emplace({from, side});
         if (is_new) {
             // Lines may follow each dot as drawn by hand, its rows, or the intended lattice.
             for (const LatticeMap* map : {&found_.map, &exact_, &regular_}) {
@@ -242,18 +228,18 @@ private:
     /// Adds places beside the grid that have lines around them although no dot was seen there: all gaps between them
     /// and dots have both strands, and some strands lead to them. @return true if there were any
     bool add_encircled(const Monitor& monitor) {
-        std::set<Key> tried;
-        std::vector<Key> added;
-        for (const Key& place : dots_) {
+        std::set<GridDot> tried;
+        std::vector<GridDot> added;
+        for (const GridDot place : dots_) {
             monitor.check();
             for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const GridDot to = next(dot(place), side);
-                if (dots_.contains(key(to)) || !tried.insert(key(to)).second) continue;
+                const GridDot to = next(place, side);
+                if (dots_.contains(to) || !tried.insert(to).second) continue;
                 if (!is_inside(ink_, found_.at(to))) continue;
-                if (is_encircled(to)) added.push_back(key(to));
+                if (is_encircled(to)) added.push_back(to);
             }
         }
-        for (const Key& place : added) {
+        for (const GridDot place : added) {
             dots_.insert(place);
             added_.insert(place);
         }
@@ -263,7 +249,7 @@ private:
         std::size_t gaps = 0;
         std::size_t joined = 0;
         for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-            if (!dots_.contains(key(next(place, side)))) continue;
+            if (!dots_.contains(next(place, side))) continue;
             const GapEvidence& gap = evidence(place, side);
             if (best_of(gap) < good) return false;
             ++gaps;
@@ -275,41 +261,40 @@ private:
 
     /// Adds dots that the symmetry of the others suggests where the lines agree. @return places with ink where the
     /// lines do not agree, and places within the kolam that have ink
-    std::vector<Key> complete() {
+    std::vector<GridDot> complete() {
         if (is_hopeless_) return {};
-        std::set<Key> asked;
+        std::set<GridDot> asked;
         for (int round = 0; round < 3; ++round) {
-            const FoundGrid now = found_.with(list(dots_));
-            const GridDot origin{now.placed.origin.x - found_.placed.origin.x,
-                                 now.placed.origin.y - found_.placed.origin.y};
+            const FoundGrid now = found_.with({dots_.begin(), dots_.end()});
+            const GridDot origin = now.placed.origin - found_.placed.origin;
             std::size_t added = 0;
             for (const GridDot place : places_by_symmetry(now.grid())) {
-                const GridDot here{place.x + origin.x, place.y + origin.y};
+                const GridDot here = place + origin;
                 if (!is_inside(ink_, found_.at(here))) continue;
                 if (!is_likely(here)) {
-                    asked.insert(key(here));
+                    asked.insert(here);
                     continue;
                 }
-                added += dots_.insert(key(here)).second;
-                added_.insert(key(here));
+                added += dots_.insert(here).second;
+                added_.insert(here);
             }
             if (added == 0) break;
         }
-        for (const Key& place : dots_) {
+        for (const GridDot place : dots_) {
             for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const GridDot to = next(dot(place), side);
-                if (!dots_.contains(key(to)) && neighbours(to) > grid().sides() / 2) asked.insert(key(to));
+                const GridDot to = next(place, side);
+                if (!dots_.contains(to) && neighbours(to) > grid().sides() / 2) asked.insert(to);
             }
         }
-        std::vector<Key> missing;
-        for (const Key& place : asked) {
-            if (!dots_.contains(place) && has_ink(dot(place))) missing.push_back(place);
+        std::vector<GridDot> missing;
+        for (const GridDot place : asked) {
+            if (!dots_.contains(place) && has_ink(place)) missing.push_back(place);
         }
         return missing;
     }
     std::size_t neighbours(GridDot place) const {
         std::size_t count = 0;
-        for (std::uint32_t side = 0; side < grid().sides(); ++side) count += dots_.contains(key(next(place, side)));
+        for (std::uint32_t side = 0; side < grid().sides(); ++side) count += dots_.contains(next(place, side));
         return count;
     }
     /// True if lines lead to a place, or around it and a spot, less clearly than is_encircled() requires.
@@ -317,7 +302,7 @@ private:
         std::size_t gaps = 0;
         bool leads = has_blob(place);
         for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-            if (!dots_.contains(key(next(place, side)))) continue;
+            if (!dots_.contains(next(place, side))) continue;
             const GapEvidence& gap = evidence(place, side);
             if (best_of(gap) < 0.7) return false;
             ++gaps;
@@ -363,22 +348,22 @@ private:
     }
 
     /// Groups of dots that lines connect.
-    std::vector<std::vector<Key>> linked_groups(const Monitor& monitor) {
-        std::map<Key, std::size_t> group;
-        std::vector<std::vector<Key>> groups;
-        for (const Key& first : dots_) {
+    std::vector<std::vector<GridDot>> linked_groups(const Monitor& monitor) {
+        std::map<GridDot, std::size_t> group;
+        std::vector<std::vector<GridDot>> groups;
+        for (const GridDot first : dots_) {
             monitor.check();
             if (group.contains(first)) continue;
             groups.emplace_back();
-            std::vector<Key> stack{first};
+            std::vector<GridDot> stack{first};
             group[first] = groups.size() - 1;
             while (!stack.empty()) {
-                const Key at = stack.back();
+                const GridDot at = stack.back();
                 stack.pop_back();
                 groups.back().push_back(at);
                 for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                    const Key to = key(next(dot(at), side));
-                    if (!dots_.contains(to) || group.contains(to) || !is_link(dot(at), side)) continue;
+                    const GridDot to = next(at, side);
+                    if (!dots_.contains(to) || group.contains(to) || !is_link(at, side)) continue;
                     group[to] = groups.size() - 1;
                     stack.push_back(to);
                 }
@@ -389,11 +374,11 @@ private:
 
     /// The kolams on the lattice: groups of dots that lines join, with those that lie close beside or within them. A
     /// frame touches the kolam within it at few places, if at all.
-    std::vector<std::set<Key>> kolams(const Monitor& monitor) {
-        const std::vector<std::vector<Key>> groups = linked_groups(monitor);
-        std::map<Key, std::size_t> group_of;
+    std::vector<std::set<GridDot>> kolams(const Monitor& monitor) {
+        const std::vector<std::vector<GridDot>> groups = linked_groups(monitor);
+        std::map<GridDot, std::size_t> group_of;
         for (std::size_t i = 0; i < groups.size(); ++i) {
-            for (const Key& place : groups[i]) group_of[place] = i;
+            for (const GridDot place : groups[i]) group_of[place] = i;
         }
         std::vector<std::size_t> rim(groups.size());
         struct Gaps {
@@ -405,13 +390,13 @@ private:
         std::map<std::pair<std::size_t, std::size_t>, Gaps> contacts;
         for (const auto& [place, group] : group_of) {
             for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const auto other = group_of.find(key(next(dot(place), side)));
+                const auto other = group_of.find(next(place, side));
                 const bool is_inner = other != group_of.end() && other->second == group;
                 rim[group] += !is_inner;
                 if (other == group_of.end() || other->second < group) continue;
                 Gaps& gaps = is_inner ? inner[group] : contacts[{group, other->second}];
                 ++gaps.count;
-                gaps.sum += best_of(evidence(dot(place), side));
+                gaps.sum += best_of(evidence(place, side));
             }
         }
         std::vector<std::size_t> kolam(groups.size());
@@ -433,15 +418,15 @@ private:
             }
             if (touches) kolam[root(a)] = root(b);
         }
-        std::map<std::size_t, std::set<Key>> all;
+        std::map<std::size_t, std::set<GridDot>> all;
         for (const auto& [place, group] : group_of) all[root(group)].insert(place);
-        std::vector<std::set<Key>> found;
+        std::vector<std::set<GridDot>> found;
         for (auto& [number, places] : all) found.push_back(std::move(places));
         // Frames come after the kolams within them.
         std::stable_sort(found.begin(), found.end(),
                          [](const auto& a, const auto& b) { return a.size() > b.size(); });
-        std::stable_partition(found.begin(), found.end(), [&](const std::set<Key>& places) {
-            return std::none_of(found.begin(), found.end(), [&](const std::set<Key>& other) {
+        std::stable_partition(found.begin(), found.end(), [&](const std::set<GridDot>& places) {
+            return std::none_of(found.begin(), found.end(), [&](const std::set<GridDot>& other) {
                 return other.size() > most_loose && 10 * other.size() > places.size() && surrounds(places, other);
             });
         });
@@ -450,12 +435,12 @@ private:
     }
     /// True if lines run around each of a few dots, and no farther, as those of a ring do. The ornaments of a border
     /// have lines beside them that run along it, or none on some side.
-    bool has_own_lines(const std::vector<Key>& group) const {
+    bool has_own_lines(const std::vector<GridDot>& group) const {
         const double most = (static_cast<double>(group.size()) + 0.5) * found_.spacing;
         constexpr int ways = 24;
         constexpr int least_closed = 20;
-        return std::all_of(group.begin(), group.end(), [&](Key place) {
-            const glm::dvec2 middle = lattice_point(grid().lattice(), dot(place));
+        return std::all_of(group.begin(), group.end(), [&](GridDot place) {
+            const glm::dvec2 middle = lattice_point(grid().lattice(), place);
             int closed = 0;
             for (int k = 0; k < ways; ++k) {
                 const double angle = 2 * std::numbers::pi * k / ways;
@@ -471,12 +456,12 @@ private:
         });
     }
     /// True if the box of some places contains that of others, and leaves room on all sides.
-    static bool surrounds(const std::set<Key>& places, const std::set<Key>& others) {
-        const auto box = [](const std::set<Key>& list) {
+    static bool surrounds(const std::set<GridDot>& places, const std::set<GridDot>& others) {
+        const auto box = [](const std::set<GridDot>& list) {
             std::array<std::int32_t, 4> sides{INT32_MAX, INT32_MIN, INT32_MAX, INT32_MIN};
-            for (const Key& place : list) {
-                sides = {std::min(sides[0], place.first), std::max(sides[1], place.first),
-                         std::min(sides[2], place.second), std::max(sides[3], place.second)};
+            for (const GridDot place : list) {
+                sides = {std::min(sides[0], place.y), std::max(sides[1], place.y), std::min(sides[2], place.x),
+                         std::max(sides[3], place.x)};
             }
             return sides;
         };
@@ -485,14 +470,14 @@ private:
         return outer[0] < inner[0] && outer[1] > inner[1] && outer[2] < inner[2] && outer[3] > inner[3];
     }
     /// Joins the few dots within a hole of a kolam to it.
-    static void join_inner(std::vector<std::set<Key>>& found) {
+    static void join_inner(std::vector<std::set<GridDot>>& found) {
         for (std::size_t i = 1; i < found.size(); ++i) {
             for (std::size_t k = 0; k < found.size(); ++k) {
                 if (k == i || found[i].empty() || 10 * found[i].size() > found[k].size()) continue;
-                const bool is_within = std::all_of(found[i].begin(), found[i].end(), [&](Key place) {
+                const bool is_within = std::all_of(found[i].begin(), found[i].end(), [&](GridDot place) {
                     const auto row = [&](std::int32_t step) {
                         for (std::int32_t n = 1; n < 64; ++n) {
-                            if (found[k].contains({place.first, place.second + 2 * n * step})) return true;
+                            if (found[k].contains({place.x + 2 * n * step, place.y})) return true;
                         }
                         return false;
                     };
@@ -506,16 +491,15 @@ private:
         std::erase_if(found, [](const auto& places) { return places.empty(); });
     }
 
-    std::vector<Key> open_ends() {
-        std::vector<Key> places;
-        for (const Key& place : dots_) {
+    std::vector<GridDot> open_ends() {
+        std::vector<GridDot> places;
+        for (const GridDot place : dots_) {
             for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const GridDot to = next(dot(place), side);
-                if (dots_.contains(key(to)) || !is_inside(ink_, found_.at(to))) continue;
-                const GapEvidence& gap = evidence(dot(place), side);
-                const bool leads =
-                    gap.best() != GapState::turned && best_of(gap) > 0.6 && strands_lead(dot(place), side);
-                if (leads) places.push_back(key(to));
+                const GridDot to = next(place, side);
+                if (dots_.contains(to) || !is_inside(ink_, found_.at(to))) continue;
+                const GapEvidence& gap = evidence(place, side);
+                const bool leads = gap.best() != GapState::turned && best_of(gap) > 0.6 && strands_lead(place, side);
+                if (leads) places.push_back(to);
             }
         }
         std::sort(places.begin(), places.end());
@@ -571,14 +555,12 @@ private:
     /// The place of the lattice of a grid, whose dots may be at odd places, nearest to a point.
     static GridDot nearest(glm::dvec2 point, const DotGrid& dots) {
         const GridDot first = dots.dots().front();
-        const GridDot place = nearest_place(dots.lattice(), point - lattice_point(dots.lattice(), first));
-        return {place.x + first.x, place.y + first.y};
+        return first + nearest_place(dots.lattice(), point - lattice_point(dots.lattice(), first));
     }
     static bool is_near_dot(glm::dvec2 point, const DotGrid& dots) {
         const GridDot near = nearest(point, dots);
         for (std::uint32_t side = 0; side < dots.sides(); ++side) {
-            const GridDot way = dots.step(side);
-            const GridDot to{near.x + way.x, near.y + way.y};
+            const GridDot to = near + dots.step(side);
             if (dots.dot_at(to) && glm::distance(lattice_point(dots.lattice(), to), point) < 1) return true;
         }
         return false;
@@ -592,9 +574,9 @@ private:
     double level_;
     std::optional<InkPieces> pieces_;
     bool is_hopeless_ = false;  ///< hardly any gap agrees with a kolam
-    std::set<Key> dots_;
-    std::set<Key> added_;
-    std::map<std::tuple<std::int32_t, std::int32_t, std::uint32_t>, GapEvidence> evidence_;
+    std::set<GridDot> dots_;
+    std::set<GridDot> added_;
+    std::map<std::pair<GridDot, std::uint32_t>, GapEvidence> evidence_;
 };
 
 }  // namespace

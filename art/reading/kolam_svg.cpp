@@ -36,8 +36,7 @@ public:
     void visit(pugi::xml_node node, Inherited around, int level) {
         if (level > most_svg_levels) throw std::runtime_error("elements are nested too deeply");
         monitor_.check();
-        const std::string_view full = node.name();
-        const std::string_view name = full.substr(full.find(':') == std::string_view::npos ? 0 : full.find(':') + 1);
+        const std::string_view name = local_name(node.name());
         for (const char* hidden : {"defs", "clipPath", "mask", "symbol", "pattern", "marker", "metadata"}) {
             if (name == hidden) return;
         }
@@ -54,14 +53,7 @@ public:
                 add(std::move(path), around);
             }
         } else if (name == "polygon" || name == "polyline") {
-            const auto numbers = numbers_of(node.attribute("points").value());
-            FlatPath path;
-            for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
-                path.points.emplace_back(numbers[i], numbers[i + 1]);
-            path.is_closed =
-                name == "polygon" || (path.points.size() > 2 && path.points.front() == path.points.back());
-            if (path.points.size() > 2 && path.points.front() == path.points.back()) path.points.pop_back();
-            add(std::move(path), around);
+            add(path_of_points(numbers_of(node.attribute("points").value()), name == "polygon"), around);
         } else if (name == "circle" || name == "ellipse") {
             ellipse(node, around);
         } else if (name == "use") {

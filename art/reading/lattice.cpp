@@ -165,9 +165,7 @@ double typical_distance(const std::vector<glm::dvec2>& points) {
         if (!nearest.empty()) distances.push_back(glm::distance(points[i], points[nearest[0]]));
     }
     if (distances.empty()) return side;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    return std::max(*middle, 1e-9 * side);
+    return std::max(median(std::move(distances)), 1e-9 * side);
 }
 
 /// Points to try as seeds: those nearest to the middle, where all neighbours exist, and some from everywhere.
@@ -417,6 +415,13 @@ std::optional<Homography> Homography::inverse() const {
               minor(2, 3, 0, 5), minor(3, 7, 4, 6), minor(1, 6, 0, 7), minor(0, 4, 1, 3)};
     for (double& value : map.m_) value /= determinant;
     return map;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 glm::dvec2 lattice_point(DotLattice lattice, GridDot place) {

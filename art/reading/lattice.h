@@ -31,6 +31,9 @@ private:
     std::array<double, 9> m_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 };
 
+/// The middle one of values, or the upper of the two; 0 if there are none.
+double median(std::vector<double> values);
+
 /// A place of a GridDot in the plane of the lattice: neighbours are 1 apart, y points up.
 glm::dvec2 lattice_point(DotLattice lattice, GridDot place);
 /// The place of the lattice nearest to a point of its plane.

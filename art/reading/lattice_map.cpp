@@ -56,7 +56,7 @@ double LatticeMap::spacing(glm::dvec2 point) const {
 
 LatticeMap LatticeMap::from(GridDot origin) const {
     LatticeMap map = *this;
-    map.origin_ = {origin_.x + origin.x, origin_.y + origin.y};
+    map.origin_ = origin_ + origin;
     map.shift_ = lattice_point(lattice_, map.origin_);
     return map;
 }

@@ -208,9 +208,7 @@ void write_overlay(const Photograph& photograph, const std::filesystem::path& pa
 void write_overlay(const RefusedPicture& refused, const std::filesystem::path& path) {
     DecodedPicture picture = faded(refused.picture);
     Canvas canvas(picture);
-    for (const RefusedPicture::Spot& spot : refused.spots) {
-        canvas.ring(spot.at, spot.radius + 2, 1.5, other_colour);
-    }
+    for (const RefusedPicture::Spot& spot : refused.spots) canvas.ring(spot.at, spot.radius + 2, 1.5, other_colour);
     if (refused.best) draw_kolam(canvas, *refused.best);
     write_png(picture, path);
 }

@@ -180,8 +180,7 @@ void doubt_around(ReadKolam& kolam, GridDot place) {
     };
     if (const auto dot = kolam.grid.dot_at(place)) return doubt(*dot);
     for (std::uint32_t side = 0; side < kolam.grid.sides(); ++side) {
-        const GridDot way = kolam.grid.step(side);
-        if (const auto dot = kolam.grid.dot_at({place.x + way.x, place.y + way.y})) doubt(*dot);
+        if (const auto dot = kolam.grid.dot_at(place + kolam.grid.step(side))) doubt(*dot);
     }
 }
 
@@ -261,9 +260,9 @@ public:
         const GridDot near = nearest_place(grid_.lattice(), at);
         for (std::int32_t y = -4; y <= 4; y += 2) {
             for (std::int32_t x = -4; x <= 4; ++x) {
-                const GridDot place{near.x + x, near.y + y};
+                const GridDot place = near + GridDot{x, y};
                 if (glm::distance(lattice_point(grid_.lattice(), place), at) > reach) continue;
-                if (grid_.dot_at({place.x + first.x, place.y + first.y})) return true;
+                if (grid_.dot_at(place + first)) return true;
             }
         }
         return false;

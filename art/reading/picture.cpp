@@ -99,9 +99,7 @@ DecodedPicture enlarged(const DecodedPicture& picture, int times) {
     }
     large.pixels.resize(wide.size() * factor);
     const std::size_t row = 3 * width * factor;
-    for (std::size_t x = 0; x < width * factor; ++x) {
-        stretch(&wide[3 * x], height, row, &large.pixels[3 * x], factor);
-    }
+    for (std::size_t x = 0; x < width * factor; ++x) stretch(&wide[3 * x], height, row, &large.pixels[3 * x], factor);
     return large;
 }
 
@@ -134,9 +132,7 @@ Ink find_ink(const DecodedPicture& picture, const Monitor& monitor) {
     squares = blurred(std::move(squares), 1.5 * around);
     monitor.check();
     const auto floor = static_cast<float>(0.6 * deviation * deviation + 1e-6);
-    for (std::size_t i = 0; i < grey.values.size(); ++i) {
-        ink.values.values[i] /= std::sqrt(squares.values[i] + floor);
-    }
+    for (std::size_t i = 0; i < grey.values.size(); ++i) ink.values.values[i] /= std::sqrt(squares.values[i] + floor);
     return ink;
 }
 

@@ -92,8 +92,7 @@ public:
             refuse(fmt::format("the copies have more than {} elements", most_copied_elements));
         }
         pulse_();
-        const std::string_view full = node.name();
-        const std::string_view name = full.substr(full.find(':') == std::string_view::npos ? 0 : full.find(':') + 1);
+        const std::string_view name = local_name(node.name());
         for (const char* hidden :
              {"defs", "clipPath", "mask", "pattern", "marker", "metadata", "title", "desc", "style", "script"}) {
             if (name == hidden) return;
@@ -252,12 +251,7 @@ private:
             count_copied(data.size());
             const std::vector<double> numbers = numbers_of(data);
             if (numbers.size() % 2 != 0) refuse("its points have an odd number of coordinates");
-            FlatPath path;
-            for (std::size_t i = 0; i < numbers.size(); i += 2) path.points.emplace_back(numbers[i], numbers[i + 1]);
-            const bool returns = path.points.size() > 2 && path.points.front() == path.points.back();
-            path.is_closed = name == "polygon" || returns;
-            if (returns) path.points.pop_back();
-            add(path, around);
+            add(path_of_points(numbers, name == "polygon"), around);
         } else if (name == "rect") {
             rectangle(node, around);
         } else if (name == "circle" || name == "ellipse") {

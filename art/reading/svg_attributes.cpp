@@ -11,6 +11,10 @@
 
 namespace sikku {
 
+std::string_view local_name(std::string_view name) {
+    return name.substr(name.find(':') + 1);  // npos + 1 is 0
+}
+
 std::vector<double> numbers_of(std::string_view text) {
     std::vector<double> numbers;
     for (std::size_t at = 0; at < text.size();) {

@@ -21,6 +21,9 @@ struct Transform {
     }
 };
 
+/// A name without its prefix.
+std::string_view local_name(std::string_view name);
+
 /// Parses numbers separated by blanks, commas or signs. @throws std::runtime_error if one is damaged or 1e12 or
 /// larger
 std::vector<double> numbers_of(std::string_view text);

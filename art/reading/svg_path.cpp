@@ -216,6 +216,17 @@ private:
 
 }  // namespace
 
+FlatPath path_of_points(const std::vector<double>& coordinates, bool is_polygon) {
+    FlatPath path;
+    for (std::size_t i = 1; i < coordinates.size(); i += 2) {
+        path.points.emplace_back(coordinates[i - 1], coordinates[i]);
+    }
+    const bool returns = path.points.size() > 2 && path.points.front() == path.points.back();
+    path.is_closed = is_polygon || returns;
+    if (returns) path.points.pop_back();
+    return path;
+}
+
 std::size_t first_curve(std::string_view data) {
     return data.find_first_of("CcSsQqTtAa");
 }

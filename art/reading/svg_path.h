@@ -19,6 +19,9 @@ struct FlatPath {
 /// @throws std::runtime_error for damaged data, and for more points
 std::vector<FlatPath> flatten_path(std::string_view data, std::size_t most_points);
 
+/// A polygon or polyline of an SVG; a polyline that returns to its first point is closed, too.
+FlatPath path_of_points(const std::vector<double>& coordinates, bool is_polygon);
+
 /// The place of the first curve or arc, as an index into the data, or npos. Cost: linear.
 std::size_t first_curve(std::string_view data);
 

@@ -1,6 +1,7 @@
 #include "art/reading/svg_style.h"
 
 #include "art/reading/svg_attributes.h"
+#include "engine/base/characters.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -54,23 +55,7 @@ void remove_comments(std::string& text) {
 }
 
 bool is_name(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           static_cast<unsigned char>(c) >= 0x80;
-}
-
-std::string_view local_name(std::string_view name) {
-    const std::size_t colon = name.find(':');
-    return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
-
-std::vector<std::string_view> words(std::string_view text) {
-    std::vector<std::string_view> result;
-    for (std::size_t at = text.find_first_not_of(blanks); at < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
-        result.push_back(text.substr(at, end - at));
-        at = text.find_first_not_of(blanks, end);
-    }
-    return result;
+    return is_letter_or_digit(c) || c == '-' || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 }  // namespace
@@ -244,7 +229,7 @@ bool SvgStyle::applies(const Rule& rule, pugi::xml_node node, const std::vector<
 
 /// The declaration of the sheets that applies to an element; null if there is none.
 const SvgStyle::Declaration* SvgStyle::declared(pugi::xml_node node, const char* name) const {
-    std::vector<std::string_view> classes = words(node.attribute("class").value());
+    std::vector<std::string_view> classes = split_words(node.attribute("class").value(), blanks);
     std::sort(classes.begin(), classes.end());
     classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
     const Declaration* best = nullptr;

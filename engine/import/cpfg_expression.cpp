@@ -58,22 +58,14 @@ Value number(Reader& reader, std::size_t at) {
     return {fmt::format("{}", value)};
 }
 
-/// Functions of one argument and their names in patterns; empty for those that need another notation.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> functions = {{{"sin", "sin"},
-                                                                                      {"cos", "cos"},
-                                                                                      {"tan", "tan"},
-                                                                                      {"asin", "asin"},
-                                                                                      {"acos", "acos"},
-                                                                                      {"atan", "atan"},
-                                                                                      {"exp", "exp"},
-                                                                                      {"log", "log"},
-                                                                                      {"floor", "floor"},
-                                                                                      {"ceil", "ceil"},
-                                                                                      {"sqrt", "sqrt"},
-                                                                                      {"fabs", "abs"},
-                                                                                      {"trunc", ""},
-                                                                                      {"sign", ""},
-                                                                                      {"ran", ""}}};
+/// Functions of one argument.
+constexpr std::array<std::string_view, 15> functions = {"sin",  "cos",  "tan",   "asin",  "acos",
+                                                        "atan", "exp",  "log",   "floor", "ceil",
+                                                        "sqrt", "fabs", "trunc", "sign",  "ran"};
+/// Operators and their precedence; longer ones precede their beginnings.
+constexpr std::array<std::string_view, 14> signs = {"||", "&&", "==", "!=", "<=", ">=", "<",
+                                                    ">",  "+",  "-",  "*",  "/",  "%",  "^"};
+constexpr std::array<int, signs.size()> levels = {1, 2, 3, 3, 4, 4, 4, 4, 5, 5, 6, 6, 6, 7};
 
 }  // namespace
 
@@ -133,10 +125,8 @@ std::set<std::string> Expressions::used() const {
         const std::string text = number_texts_.at(pending.back());
         pending.pop_back();
         for (std::size_t at = 0; at < text.size(); ++at) {
-            const std::size_t begin = at;
-            while (at < text.size() && continues_identifier(text[at])) ++at;
-            std::string name = text.substr(begin, at - begin);
-            if (number_texts_.contains(name) && used.insert(name).second) pending.push_back(std::move(name));
+            const std::string name(take_identifier(text, at));
+            if (number_texts_.contains(name) && used.insert(name).second) pending.push_back(name);
         }
     }
     return used;
@@ -154,10 +144,8 @@ long long Expressions::whole_number(Reader& reader) {
 
 std::string Expressions::identifier(Reader& reader) {
     if (!begins_identifier(next(reader))) return {};
-    const std::string_view text = reader.ahead();
     std::size_t end = 0;
-    while (end < text.size() && continues_identifier(text[end])) ++end;
-    std::string name(text.substr(0, end));
+    std::string name(take_identifier(reader.ahead(), end));
     reader.take(end);
     return name;
 }
@@ -165,38 +153,14 @@ std::string Expressions::identifier(Reader& reader) {
 Expressions::Operator Expressions::operator_here(Reader& reader) {
     const char byte = next(reader);
     const std::string_view text = reader.ahead();
-    const auto is = [&](std::string_view sign) { return text.starts_with(sign); };
-    if (is("-->") || is("-o>")) return {};
-    if (is("||")) return {"||", 2, 1};
-    if (is("&&")) return {"&&", 2, 2};
-    if (is("==")) return {"==", 2, 3};
-    if (is("!=") || is("<>")) return {"!=", 2, 3};
-    if (is("<=")) return {"<=", 2, 4};
-    if (is(">=")) return {">=", 2, 4};
-    switch (byte) {
-        case '<':
-            return {"<", 1, 4};
-        case '>':
-            return {">", 1, 4};
-        case '+':
-            return {"+", 1, 5};
-        case '-':
-            return {"-", 1, 5};
-        case '*':
-            return {"*", 1, 6};
-        case '/':
-            return {"/", 1, 6};
-        case '%':
-            return {"%", 1, 6};
-        case '^':
-            return {"^", 1, 7};
-        case '=':
-            mistake(reader.where(), "expected '==': a single '=' compares nothing");
-        case '?':
-            lose(reader.where(), "'?:' chooses between values");
-        default:
-            return {};
+    if (text.starts_with("-->") || text.starts_with("-o>")) return {};
+    if (text.starts_with("<>")) return {"!=", 3};
+    for (std::size_t i = 0; i < signs.size(); ++i) {
+        if (text.starts_with(signs[i])) return {signs[i], levels[i]};
     }
+    if (byte == '=') mistake(reader.where(), "expected '==': a single '=' compares nothing");
+    if (byte == '?') lose(reader.where(), "'?:' chooses between values");
+    return {};
 }
 
 Value Expressions::binary(Reader& reader, int lowest) {
@@ -204,10 +168,10 @@ Value Expressions::binary(Reader& reader, int lowest) {
     while (true) {
         const std::size_t at = reader.where();
         const Operator sign = operator_here(reader);
-        if (sign.bytes == 0 || sign.level < lowest) return left;
-        reader.take(sign.bytes);
+        if (sign.text.empty() || sign.level < lowest) return left;
+        reader.take(sign.text.size());
         const Value right = binary(reader, sign.level + 1);
-        combine(left, sign.sign, sign.level, right, at);
+        combine(left, sign.text, sign.level, right, at);
         if (left.text.size() > most_expression_bytes) mistake(at, "this expression becomes longer than 1 MB");
     }
 }
@@ -272,9 +236,9 @@ Value Expressions::call(Reader& reader, const std::string& name, std::size_t at)
     } while (next(reader) == ',');
     if (next(reader) != ')') mistake(reader.where(), "expected ',' or ')'");
     reader.take();
-    const auto known = std::find_if(functions.begin(), functions.end(),
-                                    [&](const auto& function) { return function.first == name; });
-    if (known == functions.end()) lose(at, fmt::format("the pattern language has no function '{}'", name));
+    if (std::find(functions.begin(), functions.end(), name) == functions.end()) {
+        lose(at, fmt::format("the pattern language has no function '{}'", name));
+    }
     if (arguments.size() != 1) mistake(at, fmt::format("'{}' takes one argument", name));
     const Value& argument = arguments.front();
     const bool random = argument.is_random;
@@ -290,7 +254,7 @@ Value Expressions::call(Reader& reader, const std::string& name, std::size_t at)
         if (random) lose(at, "'sign' would use one random number twice");
         return {fmt::format("({0}>0)-({0}<0)", in_parentheses(argument, 5)), 5, false};
     }
-    return {fmt::format("{}({})", known->second, argument.text), 9, random};
+    return {fmt::format("{}({})", name == "fabs" ? "abs" : name, argument.text), 9, random};
 }
 
 }  // namespace sikku::cpfg

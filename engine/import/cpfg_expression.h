@@ -63,8 +63,7 @@ public:
 
 private:
     struct Operator {
-        std::string_view sign;  ///< in the pattern language
-        std::size_t bytes = 0;  ///< 0: no operator
+        std::string_view text;  ///< in the pattern language, as long as in cpfg; empty: no operator
         int level = 0;
     };
     Operator operator_here(Reader& reader);

@@ -45,10 +45,7 @@ std::size_t Reader::split(std::string_view text, std::size_t open, std::vector<s
         if (text[i] == '(') ++depth;
         const bool last = text[i] == ')' && --depth == 0;
         if (!last && !(text[i] == ',' && depth == 1)) continue;
-        std::string_view argument = text.substr(begin, i - begin);
-        while (!argument.empty() && is_blank(argument.front())) argument.remove_prefix(1);
-        while (!argument.empty() && is_blank(argument.back())) argument.remove_suffix(1);
-        arguments.push_back(argument);
+        arguments.push_back(without_blanks(text.substr(begin, i - begin)));
         begin = i + 1;
         if (last) return i + 1;
     }
@@ -59,18 +56,15 @@ std::string Reader::filled_in(const Macro& macro, const std::vector<std::string_
     std::string result;
     const std::string& body = macro.body;
     for (std::size_t i = 0; i < body.size() && result.size() <= defines_.budget;) {
-        std::size_t end = i;
-        while (end < body.size() && continues_identifier(body[end])) ++end;
-        if (end == i) {
+        const std::string_view name = take_identifier(body, i);
+        if (name.empty()) {
             result += body[i++];
             continue;
         }
-        const std::string_view name = std::string_view(body).substr(i, end - i);
         const auto found = std::find(macro.parameters.begin(), macro.parameters.end(), name);
         result += found == macro.parameters.end()
                       ? name
                       : arguments[static_cast<std::size_t>(found - macro.parameters.begin())];
-        i = end;
     }
     return result;
 }
@@ -99,10 +93,8 @@ void blank_comments(std::string& text, Report& report) {
 }
 
 std::string_view Preprocessor::word_at(std::size_t& at, std::size_t end) const {
-    while (at < end && is_blank(text_[at])) ++at;
-    const std::size_t begin = at;
-    while (at < end && continues_identifier(text_[at])) ++at;
-    return std::string_view(text_).substr(begin, at - begin);
+    at = skip_blanks(text_, at, end);
+    return take_identifier(std::string_view(text_).substr(0, end), at);
 }
 
 void Preprocessor::directive(std::size_t begin, std::size_t end) {
@@ -173,7 +165,7 @@ bool Preprocessor::condition(std::string_view what, std::size_t at, std::size_t 
         const std::string_view asked = word_at(at, end);
         if (asked.empty()) mistake(place, "expected a name after 'defined'");
         text += defines_.macros.contains(asked) ? '1' : '0';
-        while (at < end && is_blank(text_[at])) ++at;
+        at = skip_blanks(text_, at, end);
         if (at < end && text_[at] == ')') ++at;
     }
     Reader reader(defines_, text, place);
@@ -187,11 +179,9 @@ bool Preprocessor::condition(std::string_view what, std::size_t at, std::size_t 
 
 bool Preprocessor::is_directive(std::string_view line) {
     if (!line.starts_with('#')) return false;
-    line.remove_prefix(1);
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    line = without_blanks(line.substr(1));
     std::size_t end = 0;
-    while (end < line.size() && continues_identifier(line[end])) ++end;
-    const std::string_view word = line.substr(0, end);
+    const std::string_view word = take_identifier(line, end);
     constexpr std::array<std::string_view, 13> names = {"if",     "ifdef",  "ifndef", "elif", "else",
                                                         "endif",  "define", "undef",  "line", "include",
                                                         "pragma", "error",  "warning"};
@@ -199,8 +189,7 @@ bool Preprocessor::is_directive(std::string_view line) {
 }
 
 bool Preprocessor::is_empty(std::size_t at, std::size_t end) const {
-    while (at < end && is_blank(text_[at])) ++at;
-    return at >= end;
+    return skip_blanks(text_, at, end) >= end;
 }
 
 void Preprocessor::define(std::size_t at, std::size_t end) {
@@ -213,7 +202,7 @@ void Preprocessor::define(std::size_t at, std::size_t end) {
         ++at;
         while (true) {
             const std::string parameter(word_at(at, end));
-            while (at < end && is_blank(text_[at])) ++at;
+            at = skip_blanks(text_, at, end);
             if (parameter.empty() && macro.parameters.empty() && at < end && text_[at] == ')') break;
             if (parameter.empty() || at >= end || (text_[at] != ',' && text_[at] != ')')) {
                 mistake(std::min(at, text_.size() - 1), "expected names, separated by ',', and ')'");
@@ -225,9 +214,7 @@ void Preprocessor::define(std::size_t at, std::size_t end) {
         }
         ++at;
     }
-    while (at < end && is_blank(text_[at])) ++at;
-    macro.body = text_.substr(at, end - at);
-    while (!macro.body.empty() && is_blank(macro.body.back())) macro.body.pop_back();
+    macro.body = without_blanks(std::string_view(text_).substr(at, end - at));
     // A name that is defined twice is expanded where it is used.
     if (!defined_once_.insert(name).second) macro.kind = Macro::Kind::text;
     defines_.macros.insert_or_assign(name, std::move(macro));

@@ -15,8 +15,7 @@ constexpr std::size_t nothing = std::string::npos;
 
 /// The keyword that a line begins with, in lower case and without blanks, or nothing.
 std::string keyword_of(std::string_view line) {
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-    const std::string text = lower_case(line.substr(0, 24));
+    const std::string text = lower_case(line.substr(skip_blanks(line, 0)).substr(0, 24));
     constexpr std::array<std::string_view, 19> keywords = {
         "lsystem:", "seed:",   "derivation length:", "derivationlength:", "maximum depth:", "consider:", "ignore:",
         "axiom:",   "define:", "ring lsystem",       "start each:",       "starteach:",     "end each:", "endeach:",
@@ -231,10 +230,9 @@ private:
     /// productions.
     void note_globals(std::string_view text) {
         for (std::size_t at = 0; at < text.size();) {
-            const std::size_t begin = at;
-            while (at < text.size() && continues_identifier(text[at])) ++at;
-            if (at > begin) globals_.insert(std::string(text.substr(begin, at - begin)));
-            if (at == begin) ++at;
+            const std::string_view name = take_identifier(text, at);
+            if (!name.empty()) globals_.emplace(name);
+            if (name.empty()) ++at;
         }
     }
 
@@ -268,12 +266,11 @@ private:
                     continue;
                 }
                 const std::size_t begin = at;
-                while (at < text_.size() && continues_identifier(text_[at])) ++at;
-                std::size_t after = at;
-                while (after < text_.size() && is_blank(text_[after])) ++after;
+                const std::string assigned(take_identifier(text_, at));
+                const std::size_t after = skip_blanks(text_, at);
                 const bool is_set = after + 1 < text_.size() && text_[after] == '=' && text_[after + 1] != '=';
                 const bool is_lent = begin > 1 && text_[begin - 1] == '&' && text_[begin - 2] != '&';
-                if (is_set || is_lent) ++assigned_[text_.substr(begin, at - begin)];
+                if (is_set || is_lent) ++assigned_[assigned];
             }
         }
         return assigned_[name];

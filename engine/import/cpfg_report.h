@@ -1,8 +1,10 @@
 // engine/import/cpfg_report.h: collects the errors of a cpfg file, and the features lost in its pattern.
 #pragma once
 
+#include "engine/base/characters.h"
 #include "engine/import/import.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -27,14 +29,27 @@ struct Fault {
 inline bool is_blank(char byte) {
     return byte == ' ' || byte == '\t' || byte == '\r' || byte == '\n' || byte == '\f' || byte == '\v';
 }
-inline bool is_digit(char byte) {
-    return byte >= '0' && byte <= '9';
-}
 inline bool begins_identifier(char byte) {
-    return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z') || byte == '_';
+    return is_letter(byte) || byte == '_';
 }
 inline bool continues_identifier(char byte) {
-    return begins_identifier(byte) || is_digit(byte);
+    return is_letter_or_digit(byte) || byte == '_';
+}
+/// The first place from `at` to `end` without a blank.
+inline std::size_t skip_blanks(std::string_view text, std::size_t at, std::size_t end = std::string_view::npos) {
+    while (at < std::min(end, text.size()) && is_blank(text[at])) ++at;
+    return at;
+}
+/// Moves `at` past the identifier there and returns it; empty if there is none. It may begin with a digit.
+inline std::string_view take_identifier(std::string_view text, std::size_t& at) {
+    const std::size_t begin = at;
+    while (at < text.size() && continues_identifier(text[at])) ++at;
+    return text.substr(begin, at - begin);
+}
+inline std::string_view without_blanks(std::string_view text) {
+    text.remove_prefix(skip_blanks(text, 0));
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
 }
 
 /// Collects errors and losses of one file.

@@ -18,8 +18,7 @@ void read_setting(const SourcePointer& file, std::string_view line, std::size_t 
         return;
     }
     const std::string label = lower_case(line.substr(0, colon));
-    std::string_view value = line.substr(colon + 1);
-    while (!value.empty() && is_blank(value.front())) value.remove_prefix(1);
+    const std::string_view value = without_blanks(line.substr(colon + 1));
     std::size_t end = 0;
     while (end < value.size() && !is_blank(value[end])) ++end;
     double number = 0;
@@ -37,7 +36,7 @@ void read_setting(const SourcePointer& file, std::string_view line, std::size_t 
         if (!is_number) return bad("expected a number");
         view.width_increment = number;
     } else if (label == "initial line width" && is_number && number > 0 && number < 100) {
-        while (end < value.size() && is_blank(value[end])) ++end;
+        end = skip_blanks(value, end);
         const bool in_pixels = end < value.size() && value[end] == 'p';
         view.stroke = fmt::format("stroke: {} {}", number, in_pixels ? "px" : "step");
     } else if (label == "scale factor" && is_number && number > 0 && number <= 1) {
@@ -67,10 +66,8 @@ View read_view(const SourcePointer& file, Report& report) {
             }
         }
         if (const std::size_t rest = line.find("//"); rest != std::string::npos) line.resize(rest);
-        while (!line.empty() && is_blank(line.back())) line.pop_back();
-        std::size_t first = 0;
-        while (first < line.size() && is_blank(line[first])) ++first;
-        if (first < line.size()) read_setting(file, std::string_view(line).substr(first), at + first, view, report);
+        const std::size_t first = skip_blanks(line, 0);
+        if (first < line.size()) read_setting(file, without_blanks(line), at + first, view, report);
         at = end + 1;
     }
     return view;

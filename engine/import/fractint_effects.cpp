@@ -91,9 +91,7 @@ Flags Effects::followed(const Flags& sensitive) const {
 /// Composes effects for an increasing number of remaining steps, until they no longer change.
 void Effects::compose() {
     std::map<char, Effect> none;
-    for (const auto& [letter, rule] : entry_.rules) {
-        none[letter].halves.assign(entry_.factors.values.size(), 0);
-    }
+    for (const auto& [letter, rule] : entry_.rules) none[letter].halves.assign(entry_.factors.values.size(), 0);
     levels_.push_back(std::move(none));
     while (true) {
         std::map<char, Effect> next;

@@ -1,5 +1,6 @@
 #include "engine/import/fractint_entry.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
@@ -35,14 +36,16 @@ public:
             begin = next + 1;
         }
         if (!has_axiom || entry_.axiom.empty())
-            fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no axiom", entry_.name));
-        if (entry_.angle == 0)
-            fail(file_, diagnostics_, entry_.at, fmt::format("the entry '{}' has no angle", entry_.name));
+            fail(entry_.at, fmt::format("the entry '{}' has no axiom", entry_.name));
+        if (entry_.angle == 0) fail(entry_.at, fmt::format("the entry '{}' has no angle", entry_.name));
         entry_.factors = find_factors(number_texts_);
         return std::move(entry_);
     }
 
 private:
+    [[noreturn]] void fail(std::size_t at, const std::string& message) const {
+        fractint::fail(file_, diagnostics_, at, message);
+    }
     void note_comment(std::string_view comment) {
         while (!comment.empty() && (comment.front() == ';' || comment.front() == ' ')) comment.remove_prefix(1);
         if (entry_.comments.size() > 300 || comment.empty()) return;
@@ -69,8 +72,7 @@ private:
         at = skip(at);
         if (at < end && text[at] == '=') at = skip(at + 1);
         const std::size_t stop = word_end(at);
-        if (skip(stop) < end)
-            fail(file_, diagnostics_, skip(stop), "text after the word: a word cannot contain blanks");
+        if (skip(stop) < end) fail(skip(stop), "text after the word: a word cannot contain blanks");
         if (key == "axiom") {
             entry_.axiom = tokens(at, stop);
             return true;
@@ -78,18 +80,17 @@ private:
         if (key == "angle") {
             const auto [last, error] = std::from_chars(text.data() + at, text.data() + stop, entry_.angle);
             if (error != std::errc() || last != text.data() + stop || entry_.angle < 3 || entry_.angle > 50) {
-                fail(file_, diagnostics_, std::min(at, end - 1),
-                     "expected a whole number from 3 to 50: the turn is 360/n degrees");
+                fail(std::min(at, end - 1), "expected a whole number from 3 to 50: the turn is 360/n degrees");
             }
             return false;
         }
-        if (key.size() != 1) fail(file_, diagnostics_, begin, "expected 'Angle n', 'Axiom word' or a rule 'c=word'");
+        if (key.size() != 1) fail(begin, "expected 'Angle n', 'Axiom word' or a rule 'c=word'");
         // Older versions of Fractint use such rules for colours.
         if (std::string_view("+-/\\@|!][").find(key) != std::string_view::npos) {
-            fail(file_, diagnostics_, begin, fmt::format("a rule for the command '{}' is not allowed", key));
+            fail(begin, fmt::format("a rule for the command '{}' is not allowed", key));
         }
         if (index_of(key[0]) >= 0x80 || index_of(key[0]) < 0x20) {
-            fail(file_, diagnostics_, begin, "a rule must be for one ASCII character");
+            fail(begin, "a rule must be for one ASCII character");
         }
         Tokens body = tokens(at, stop);
         // Rules for the same character are concatenated.
@@ -101,8 +102,7 @@ private:
     Tokens tokens(std::size_t begin, std::size_t end) {
         const std::string& text = file_->text();
         word_bytes_ += end - begin;
-        if (word_bytes_ > most_word_bytes)
-            fail(file_, diagnostics_, begin, "the words of an entry are longer than 1 MB");
+        if (word_bytes_ > most_word_bytes) fail(begin, "the words of an entry are longer than 1 MB");
         Tokens result;
         std::vector<std::size_t> open;
         for (std::size_t at = begin; at < end;) {
@@ -110,7 +110,7 @@ private:
             token.at = static_cast<std::uint32_t>(at);
             token.letter = lower_case(std::string_view(text).substr(at, 1))[0];
             if (index_of(token.letter) >= 0x80 || index_of(token.letter) < 0x20) {
-                fail(file_, diagnostics_, at, "words must consist of ASCII characters");
+                fail(at, "words must consist of ASCII characters");
             }
             ++at;
             if (takes_number(token.letter)) read_number_of(token, at, end);
@@ -124,7 +124,7 @@ private:
             }
             result.push_back(token);
         }
-        if (!open.empty()) fail(file_, diagnostics_, open.back(), "this '[' is not closed on its line");
+        if (!open.empty()) fail(open.back(), "this '[' is not closed on its line");
         return result;
     }
 
@@ -140,31 +140,27 @@ private:
             ++at;
         }
         const std::size_t begin = at;
-        while (at < end && ((text[at] >= '0' && text[at] <= '9') || text[at] == '.')) ++at;
+        while (at < end && (is_digit(text[at]) || text[at] == '.')) ++at;
         double number = 0;
         if (at > begin) {
             const auto [last, error] = parse_number(std::string_view(text).substr(begin, at - begin), number);
-            if (error != std::errc() || last != text.data() + at)
-                fail(file_, diagnostics_, begin, "this is not a decimal number");
+            if (error != std::errc() || last != text.data() + at) fail(begin, "this is not a decimal number");
         }
         if (token.letter == '@') {
-            if (!(number > 0))
-                fail(file_, diagnostics_, token.at,
-                     "expected a number above 0 after '@': the step would have no length");
+            if (!(number > 0)) fail(token.at, "expected a number above 0 after '@': the step would have no length");
             const auto known = std::find(numbers_.begin(), numbers_.end(), number);
             token.base = static_cast<std::uint16_t>(known - numbers_.begin());
             if (known == numbers_.end()) {
                 numbers_.push_back(number);
                 number_texts_.push_back(text.substr(begin, at - begin));
             }
-            if (numbers_.size() > most_numbers)
-                fail(file_, diagnostics_, token.at, "more than 32 different numbers after '@'");
+            if (numbers_.size() > most_numbers) fail(token.at, "more than 32 different numbers after '@'");
             token.root = static_cast<std::int8_t>(number == 1 ? 0 : (root ? 1 : 2) * (inverse ? -1 : 1));
             return;
         }
         if (number > 0 && root) number = std::sqrt(number);
         if (number > 0 && inverse) number = 1 / number;
-        if (!(number < 1e9)) fail(file_, diagnostics_, token.at, "expected a number below 1000000000 here");
+        if (!(number < 1e9)) fail(token.at, "expected a number below 1000000000 here");
         const bool is_angle = token.letter == '\\' || token.letter == '/';
         token.number = is_angle ? number : std::floor(number);
     }

@@ -1,6 +1,7 @@
 // engine/import/fractint_entry.h: reads an entry of a Fractint collection.
 #pragma once
 
+#include "engine/base/characters.h"
 #include "engine/import/fractint_factors.h"
 #include "engine/import/import.h"
 
@@ -30,7 +31,7 @@ inline bool is_letter(char letter) {
     return letter >= 'a' && letter <= 'z';
 }
 inline bool is_plain(char letter) {
-    return is_letter(letter) || (letter >= '0' && letter <= '9') || letter == '_';
+    return is_letter(letter) || is_digit(letter) || letter == '_';
 }
 inline bool takes_number(char letter) {
     return letter == '@' || letter == '\\' || letter == '/' || letter == 'c' || letter == '<' || letter == '>';

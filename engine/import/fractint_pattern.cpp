@@ -105,6 +105,9 @@ public:
     }
 
 private:
+    [[noreturn]] void fail(const std::string& message) const {
+        fractint::fail(file_, diagnostics_, entry_.at, message);
+    }
     Key key_of(const Token& token, bool flipped) const {
         const bool numbered = takes_number(token.letter);
         return {token.letter, numbered ? token.number : 0.0,
@@ -173,9 +176,7 @@ private:
             text += more;
         }
         const std::size_t bytes = more.size() + 1;
-        if (bytes > room_)
-            fail(file_, diagnostics_, entry_.at,
-                 "the patterns of this collection exceed 16 MB plus twice the size of the file");
+        if (bytes > room_) fail("the patterns of this collection exceed 16 MB plus twice the size of the file");
         room_ -= bytes;
         written_ += bytes;
         check_size(written_);
@@ -243,7 +244,7 @@ private:
     }
 
     void check_size(std::size_t bytes) {
-        if (bytes > most_pattern) fail(file_, diagnostics_, entry_.at, "the pattern of this system exceeds 4 MB");
+        if (bytes > most_pattern) fail("the pattern of this system exceeds 4 MB");
     }
 
     /// Writes the axiom, then a line for each symbol that is reached and has a rule.
@@ -293,7 +294,7 @@ private:
         for (const char letter : std::string_view("sabeijklnopqrtuvwxyzh0123456789_")) {
             if (!used.test(index_of(letter))) return symbol({letter, 0.0, false});
         }
-        fail(file_, diagnostics_, entry_.at, "all letters are in use, but the axiom needs one more");
+        fail("all letters are in use, but the axiom needs one more");
     }
 
     std::string head(bool begins_late, bool is_cut_off) {

@@ -1,5 +1,6 @@
 #include "engine/import/import.h"
 
+#include "engine/base/characters.h"
 #include "engine/base/text.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/foreign_text.h"
@@ -66,8 +67,7 @@ std::optional<ImportFormat> import_format(std::string_view text) {
 std::string import_file_name(std::string_view name) {
     std::string result;
     for (const char byte : lower_case(name.substr(0, 200))) {
-        const bool kept = (byte >= 'a' && byte <= 'z') || (byte >= '0' && byte <= '9');
-        if (kept) {
+        if (is_letter_or_digit(byte)) {
             result += byte;
         } else if (!result.empty() && result.back() != '-') {
             result += '-';
@@ -113,6 +113,15 @@ std::vector<std::string> ImportLosses::take() {
     if (more_ > 0) list_.push_back(fmt::format("and {} more", more_));
     more_ = 0;
     return std::exchange(list_, {});
+}
+
+bool is_importable(const SourcePointer& file, std::string_view kind, Diagnostics& diagnostics) {
+    if (file->text().size() > most_import_bytes) {
+        diagnostics.unreadable({file, 0, 0}, "a file to import is at most 64 MB");
+    } else if (const std::size_t nul = file->text().find('\0'); nul != std::string::npos) {
+        diagnostics.unreadable({file, nul, 1}, fmt::format("a NUL byte: this is not {}", kind));
+    }
+    return !diagnostics.is_unreadable();
 }
 
 std::string import_base_name(std::string_view path) {

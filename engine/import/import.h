@@ -77,6 +77,10 @@ private:
     int last_line_ = 1;
 };
 
+/// True for a file that can be imported; otherwise reports its size, or a NUL byte. @param kind  such as `a cpfg
+/// file`
+bool is_importable(const SourcePointer& file, std::string_view kind, Diagnostics& diagnostics);
+
 /// A file's name without its folders, for the `source:` of a pattern.
 std::string import_base_name(std::string_view path);
 

@@ -44,15 +44,7 @@ ImportedSystem import_system(const SourcePointer& file, const SourcePointer& vie
 std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourcePointer& view,
                                         Diagnostics& diagnostics) {
     for (const SourcePointer& source : {file, view}) {
-        if (!source) continue;
-        if (source->text().size() > most_import_bytes) {
-            diagnostics.unreadable({source, 0, 0}, "a file to import is at most 64 MB");
-            return {};
-        }
-        if (const std::size_t nul = source->text().find('\0'); nul != std::string::npos) {
-            diagnostics.unreadable({source, nul, 1}, "a NUL byte: this is not a cpfg file");
-            return {};
-        }
+        if (source && !is_importable(source, "a cpfg file", diagnostics)) return {};
     }
     return {import_system(file, view, diagnostics)};
 }

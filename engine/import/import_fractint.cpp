@@ -24,14 +24,7 @@ constexpr std::size_t most_written = std::size_t{32} << 20;  // for all entries,
 std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnostics& diagnostics) {
     std::vector<ImportedSystem> systems;
     const std::string& text = file->text();
-    if (text.size() > most_import_bytes) {
-        diagnostics.unreadable({file, 0, 0}, "a file to import is at most 64 MB");
-        return systems;
-    }
-    if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
-        diagnostics.unreadable({file, nul, 1}, "a NUL byte: this is not a collection of L-systems");
-        return systems;
-    }
+    if (!is_importable(file, "a collection of L-systems", diagnostics)) return systems;
     ImportLosses losses(file, diagnostics);
     std::size_t room = most_written + 4 * text.size();
     for (std::size_t at = 0; at < text.size();) {
