@@ -253,7 +253,7 @@ private:
         warn_of_letters(layout.missing_letters, made);
         for (const auto& [text, titles] : warnings) made.warn(fmt::format("{}: {}", titles, text));
         if (layout.plot && shared_.print.plot.hatch && layout.plot->fills == 0 && !has_fields) {
-            made.warn("'hatch' has no effect: these drawings have no fills");
+            made.warn_of_unused("hatch", "these drawings have no fills");
         }
         warn_of_no_tiles(layout.polygons, shared_.print, made);
     }

@@ -142,7 +142,7 @@ Document load(const PatternOptions& options, const SharedWork* link, bool quiet)
         if (equals == std::string::npos || equals == 0) {
             throw UsageError(fmt::format("--set {}: expected KEY=VALUE", text));
         }
-        settings.push_back({"--set", text.substr(0, equals), text.substr(equals + 1)});
+        settings.push_back(Setting::assignment("--set", text.substr(0, equals), text.substr(equals + 1)));
     }
     if (!options.steps.empty()) {
         std::int64_t steps = 0;
@@ -178,8 +178,13 @@ void make(Work& work, const std::string& output, bool quiet) {
         made = work.make(file_system(), output, progress.monitor());
     }
     if (quiet) return;
-    for (const Remark& remark : made.remarks)
+    report(made);
+}
+
+void report(const Made& made) {
+    for (const Remark& remark : made.remarks) {
         tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", printable_lines(with_dashes(remark.text), 2000));
+    }
 }
 
 Progress::Progress(bool quiet)

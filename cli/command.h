@@ -97,6 +97,8 @@ Document load(const PatternOptions& options, const SharedWork* link, bool quiet)
 
 /// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
 void make(Work& work, const std::string& output, bool quiet);
+/// Prints the remarks about a finished work.
+void report(const Made& made);
 
 /// Seconds of a monotonic clock.
 double seconds_now();

@@ -59,11 +59,10 @@ std::vector<Setting> settings_of(const SharedWork& link, const PatternOptions& o
     std::vector<Setting> settings;
     for (const OptionValue& value : link.settings) {
         if (replaced.contains(value.name)) continue;
-        // Messages quote the origin; recipes recognise a seed by it.
-        const char* origin = value.name == "derivation length" ? "-n"
-                             : value.name == "seed"            ? "--seed"
-                                                               : "link --set";
-        settings.push_back({origin, value.name, value.text});
+        const bool is_length = value.name == "derivation length";
+        settings.push_back(is_length || value.name == "seed"
+                               ? Setting(is_length ? "-n" : "--seed", value.name, value.text)
+                               : Setting::assignment("link --set", value.name, value.text));
     }
     return settings;
 }

@@ -92,9 +92,7 @@ void report(const PieceOptions& options, const std::vector<DrawReport>& reports,
     for (const DrawReport& each : reports) {
         if (each.plot) report_plot(*each.plot, settings.plot.speeds, settings.plot.pen_rules, made);
     }
-    for (const Remark& remark : made.remarks) {
-        tell("{}{}\n", remark.is_warning ? "sikku: warning: " : "", printable_lines(with_dashes(remark.text), 2000));
-    }
+    report(made);
 }
 
 void write_sheets(const PieceOptions& options, const PieceSource& source, const TilingResult& result, double step,

@@ -37,9 +37,7 @@ std::string recipe(const Document& document, const Grammar& grammar, const std::
     std::string text = "sikku " SIKKU_VERSION ", -n " + std::to_string(grammar.steps()) + before;
     const Overrides& overrides = document.overrides();
     if (!overrides.variant.empty()) text += " --variant " + overrides.variant;
-    const auto is_seed = [](const Setting& setting) {
-        return setting.origin == "--seed" || setting.origin == "seed";
-    };
+    const auto is_seed = [](const Setting& setting) { return setting.key == "seed" && !setting.is_assignment; };
     for (const Setting& setting : overrides.settings) {
         if (is_seed(setting)) text += " --seed " + setting.value;
     }

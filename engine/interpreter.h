@@ -24,7 +24,8 @@ namespace sikku {
 /// A message about a finished work: a fact, such as the length drawn, or a warning.
 struct Remark {
     bool is_warning = false;
-    std::string text;  ///< one or several lines, without a final line feed
+    std::string text;      ///< one or several lines, without a final line feed
+    std::string option{};  ///< name of the option that had no effect, if the warning is about one
 };
 
 /// Result of Work::make().
@@ -32,6 +33,10 @@ struct Made {
     std::vector<Remark> remarks;
     void fact(std::string text) { remarks.push_back({false, std::move(text)}); }
     void warn(std::string text) { remarks.push_back({true, std::move(text)}); }
+    /// Warns of an option that had no effect.
+    void warn_of_unused(const std::string& option, const std::string& reason) {
+        remarks.push_back({true, "'" + option + "' has no effect: " + reason, option});
+    }
 };
 
 /// One file that can be made from a document. Planned once, made once.

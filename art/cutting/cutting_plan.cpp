@@ -4,10 +4,8 @@
 #include "art/print/outline.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -15,7 +13,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_kinds = 1'000;
-constexpr std::size_t most_corners = 2'000;
+constexpr std::size_t most_piece_corners = 2'000;
 constexpr std::size_t most_sheets = 400;
 constexpr std::size_t most_pieces = 200'000;  ///< on one sheet
 
@@ -51,7 +49,8 @@ private:
     void lay(std::size_t kind) {
         const CutKind& piece = plan_.kinds[kind];
         if (plan_.sheets.empty() || plan_.sheets.back().colour != piece.colour) free_.clear();
-        const std::vector<glm::dvec2> cut = outline_of(piece);
+        const std::vector<glm::dvec2> cut =
+            cut_outline(piece, options_.seam + options_.kerf / 2, "a piece on a cutting sheet");
         const PieceRows rows(with_gap(cut), options_.grain, whole_, monitor_);
         std::uint64_t left = piece.pieces;
         const auto fill = [&](const Box& area) {
@@ -84,17 +83,6 @@ private:
         }
     }
 
-    std::vector<glm::dvec2> outline_of(const CutKind& piece) const {
-        if (piece.corners.size() > most_corners) {
-            throw std::runtime_error(fmt::format("piece {} has {} corners; a piece on a cutting sheet has at most {}",
-                                                 piece.name, piece.corners.size(), most_corners));
-        }
-        try {
-            return offset_outline(piece.corners, options_.seam + options_.kerf / 2);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("piece {}: {}", piece.name, error.what()));
-        }
-    }
     /// Adds half a gap to an outline, or to its convex hull if notches are too narrow for that.
     std::vector<glm::dvec2> with_gap(const std::vector<glm::dvec2>& cut) const {
         try {
@@ -151,6 +139,18 @@ private:
 };
 
 }  // namespace
+
+std::vector<glm::dvec2> cut_outline(const CutKind& piece, double growth, std::string_view what) {
+    if (piece.corners.size() > most_piece_corners) {
+        throw std::runtime_error(fmt::format("piece {} has {} corners; {} has at most {}", piece.name,
+                                             piece.corners.size(), what, most_piece_corners));
+    }
+    try {
+        return offset_outline(piece.corners, growth);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("piece {}: {}", piece.name, error.what()));
+    }
+}
 
 CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& options, const Monitor& monitor) {
     if (kinds.empty()) throw std::runtime_error("there are no pieces to cut");

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,10 @@ struct CuttingPlan {
 /// @throws std::runtime_error for a piece that is larger than a sheet, for more than 1,000 kinds, 2,000 corners of a
 /// piece, 400 different sheets, and 200,000 pieces on one sheet, and as offset_outline(); Stopped
 CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& options, const Monitor& monitor);
+
+/// The outline of a piece that is `growth` larger on all sides. @param what  what it becomes, for messages
+/// @throws std::runtime_error for more than 2,000 corners, and as offset_outline()
+std::vector<glm::dvec2> cut_outline(const CutKind& piece, double growth, std::string_view what);
 
 /// The kinds of pieces on a sheet and how many of each: `A × 28, B × 4`.
 std::string piece_counts(const CuttingPlan& plan, const CuttingSheet& sheet);

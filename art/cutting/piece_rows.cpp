@@ -82,6 +82,12 @@ bool fits(const Box& box, const Box& area) {
     return size.x <= room.x + 2 * slack && size.y <= room.y + 2 * slack;
 }
 
+/// Copies of one piece of a row's unit that fit into the row.
+struct Range {
+    double first = 0;  ///< index of the period
+    double count = 0;
+};
+
 }  // namespace
 
 /// Searches the arrangements of one direction.
@@ -112,9 +118,7 @@ public:
         arrange({{{}}, alone});
         for (const Row& row : rows_beside(alone)) arrange(row);
         for (const Row& row : rows_above(alone)) arrange(row);
-        std::stable_sort(found_.begin(), found_.end(), [](const Arrangement& a, const Arrangement& b) {
-            return a.density > b.density * (1 + near);
-        });
+        std::stable_sort(found_.begin(), found_.end(), is_denser);
         found_.resize(std::min(found_.size(), most_kept));
         return std::move(found_);
     }
@@ -236,9 +240,7 @@ private:
             found.push_back({direction_, row.unit, row.period, {0, height}, in_use / (row.period * height)});
         }
         // Straight columns come first if they are as good.
-        std::stable_sort(found.begin(), found.end(), [](const Arrangement& a, const Arrangement& b) {
-            return a.density > b.density * (1 + near);
-        });
+        std::stable_sort(found.begin(), found.end(), is_denser);
         constexpr std::size_t most_displacements = 4;
         found.resize(std::min(found.size(), most_displacements));
         for (Arrangement& each : found) found_.push_back(std::move(each));
@@ -270,24 +272,17 @@ PieceRows::PieceRows(std::span<const glm::dvec2> outline, bool keeps_direction, 
         if (size.y > size.x) std::swap(size.x, size.y);
         if (directions_.size() == 1 || size.x < least_size_.x) least_size_ = size;
     }
-    std::stable_sort(arrangements_.begin(), arrangements_.end(),
-                     [](const Arrangement& a, const Arrangement& b) { return a.density > b.density * (1 + near); });
+    std::stable_sort(arrangements_.begin(), arrangements_.end(), is_denser);
+}
+
+bool PieceRows::is_denser(const Arrangement& a, const Arrangement& b) {
+    return a.density > b.density * (1 + near);
 }
 
 Box PieceRows::box_of(const Arrangement& arrangement, const Copy& copy) const {
     const Box& box = directions_[arrangement.direction].box;
     return copy.is_turned ? Box{copy.at - box.high, copy.at - box.low} : Box{copy.at + box.low, copy.at + box.high};
 }
-
-namespace {
-
-/// Copies of one piece of a row's unit that fit into the row.
-struct Range {
-    double first = 0;  ///< index of the period
-    double count = 0;
-};
-
-}  // namespace
 
 /// Calls `visit(origin, ranges)` for the rows of an area from top to bottom, until it returns false. @param phase the
 /// copy that touches the left side in the first row

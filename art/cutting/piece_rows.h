@@ -60,6 +60,7 @@ private:
         glm::dvec2 row{0.0};
         double density = 0;  ///< share of the plane that pieces cover
     };
+    static bool is_denser(const Arrangement& a, const Arrangement& b);
     /// The piece turned so that a side lies along the rows.
     struct Direction {
         double turn = 0;

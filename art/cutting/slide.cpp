@@ -1,7 +1,7 @@
 #include "art/cutting/slide.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace sikku {
 

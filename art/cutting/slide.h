@@ -3,8 +3,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 

@@ -1,16 +1,16 @@
 #include "art/cutting/tile_templates.h"
 
+#include "art/cutting/cutting_plan.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace sikku {
 namespace {
 
 constexpr std::size_t most_templates = 1'000;
-constexpr std::size_t most_corners = 2'000;
 constexpr double least_width = 190;  // width of a row, in millimetres
 constexpr double longest_side = 10'000;
 constexpr double gap = 6;  // between templates
@@ -39,20 +39,12 @@ std::vector<Template> make_templates(const std::vector<CutKind>& kinds, const Te
             throw std::runtime_error(
                 fmt::format("the tiling has more than {} shapes, the limit for templates", most_templates));
         }
-        if (kind.corners.size() > most_corners) {
-            throw std::runtime_error(fmt::format("piece {} has {} corners; a template has at most {}", kind.name,
-                                                 kind.corners.size(), most_corners));
-        }
         Template& made = templates.emplace_back();
         made.shape = kind.shape;
         made.is_reflected = kind.is_reflected;
         made.label = label;
         made.seam = kind.corners;
-        try {
-            made.cut = offset_outline(kind.corners, options.seam + options.kerf / 2);
-        } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("piece {}: {}", kind.name, error.what()));
-        }
+        made.cut = cut_outline(kind, options.seam + options.kerf / 2, "a template");
         made.box = box_of(made.cut);
     }
     return templates;

@@ -6,7 +6,6 @@
 #include "engine/tiling/cut_list.h"
 
 #include <filesystem>
-#include <string>
 
 namespace sikku {
 

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <fstream>
@@ -55,45 +54,20 @@ constexpr std::uint32_t architecture = 0;
 
 /// System calls for memory, threads, clocks, and for reading and writing open files. None names a file, a process
 /// or a network address.
-constexpr std::uint32_t permitted_calls[] = {SYS_read,
-                                             SYS_write,
-                                             SYS_readv,
-                                             SYS_writev,
-                                             SYS_pread64,
-                                             SYS_lseek,
-                                             SYS_fstat,
-                                             SYS_close,
-                                             SYS_mmap,
-                                             SYS_munmap,
-                                             SYS_mremap,
-                                             SYS_mprotect,
-                                             SYS_madvise,
-                                             SYS_brk,
-                                             SYS_futex,
-                                             SYS_set_robust_list,
-                                             SYS_rseq,
-                                             SYS_exit,
-                                             SYS_exit_group,
-                                             SYS_sched_yield,
-                                             SYS_sched_getaffinity,
-                                             SYS_getcpu,
-                                             SYS_clock_gettime,
-                                             SYS_clock_getres,
-                                             SYS_clock_nanosleep,
-                                             SYS_nanosleep,
-                                             SYS_gettimeofday,
-                                             SYS_rt_sigaction,
-                                             SYS_rt_sigprocmask,
-                                             SYS_rt_sigreturn,
-                                             SYS_sigaltstack,
-                                             SYS_restart_syscall,
-                                             SYS_getpid,
-                                             SYS_gettid,
-                                             SYS_getrandom,
-                                             SYS_sysinfo,
-                                             SYS_uname,
-                                             SYS_getrusage,
-                                             SYS_membarrier};
+constexpr std::uint32_t permitted_calls[] = {
+    // open files
+    SYS_read, SYS_write, SYS_readv, SYS_writev, SYS_pread64, SYS_lseek, SYS_fstat, SYS_close,
+    // memory
+    SYS_mmap, SYS_munmap, SYS_mremap, SYS_mprotect, SYS_madvise, SYS_brk,
+    // threads
+    SYS_futex, SYS_set_robust_list, SYS_rseq, SYS_exit, SYS_exit_group, SYS_sched_yield, SYS_sched_getaffinity,
+    SYS_getcpu,
+    // clocks
+    SYS_clock_gettime, SYS_clock_getres, SYS_clock_nanosleep, SYS_nanosleep, SYS_gettimeofday,
+    // signals of this process
+    SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_sigaltstack, SYS_restart_syscall,
+    // facts about this process and the system
+    SYS_getpid, SYS_gettid, SYS_getrandom, SYS_sysinfo, SYS_uname, SYS_getrusage, SYS_membarrier};
 
 /// Refuses all other system calls with EPERM. Threads can be started, processes cannot. Source: seccomp(2), bpf(4).
 /// @returns false if the kernel does not support filters

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
-#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <string>

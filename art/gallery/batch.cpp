@@ -176,11 +176,8 @@ namespace {
 
 /// True for a warning that an option of pictures has no effect on this file, if pictures of the pattern are made,
 /// too.
-bool is_meant_for_another(const std::string& warning, const GalleryJob& job, std::span<const GalleryJob> jobs) {
-    if (!warning.starts_with("'dpi' has no effect") && !warning.starts_with("'compression' has no effect") &&
-        !warning.starts_with("'icc' has no effect")) {
-        return false;
-    }
+bool is_meant_for_another(const Remark& remark, const GalleryJob& job, std::span<const GalleryJob> jobs) {
+    if (remark.option != "dpi" && remark.option != "compression" && remark.option != "icc") return false;
     return std::any_of(jobs.begin(), jobs.end(), [&](const GalleryJob& other) {
         const auto format = print_format(other.file());
         return other.name == job.name && format && info(*format).kind == FormatKind::pixels;
@@ -214,7 +211,7 @@ FinishedJob Batch::make_job(const Turn& turn) {
         const auto work = job.work();
         job.works->forget(job.file());
         for (Remark& remark : work->make(file_system(), path, monitor, turn.threads).remarks) {
-            if (remark.is_warning && is_meant_for_another(remark.text, job, jobs_)) continue;
+            if (is_meant_for_another(remark, job, jobs_)) continue;
             (remark.is_warning ? file.warnings : file.told).push_back(std::move(remark.text));
         }
     };

@@ -619,7 +619,7 @@ Document GalleryJob::document() const {
     if (!pattern->text) throw std::runtime_error(pattern->problem);
     if (pattern->piece) return pattern->piece->documents.front();
     Overrides settings;
-    for (const auto& [key, value] : overrides) settings.settings.push_back({"set", key, value});
+    for (const auto& [key, value] : overrides) settings.settings.push_back(Setting::assignment("set", key, value));
     if (keys.contains("n")) settings.settings.push_back({"n", "derivation length", keys.at("n")});
     if (keys.contains("seed")) settings.settings.push_back({"seed", "seed", keys.at("seed")});
     if (keys.contains("variant")) settings.variant = keys.at("variant");

@@ -19,7 +19,7 @@ namespace sikku {
 namespace {
 
 void report_sheets(const DrawReport& report, Made& made) {
-    if (report.sheets == 1) return made.warn("'tile' has no effect: the print fits on one sheet");
+    if (report.sheets == 1) return made.warn_of_unused("tile", "the print fits on one sheet");
     made.fact(fmt::format("{} sheets, {} x {}", report.sheets, report.sheet_rows, report.sheets / report.sheet_rows));
     constexpr double least = 0.05;
     const auto left_out = [&](double length, const char* sides) {
@@ -176,7 +176,7 @@ private:
     void report_pens(const DrawOptions& options, Made& made) const {
         if (report.plot) report_plot(*report.plot, settings().plot.speeds, settings().plot.pen_rules, made);
         if (report.plot && settings().plot.hatch && report.plot->fills == 0 && report.fields == 0) {
-            made.warn("'hatch' has no effect: this drawing has no fills");
+            made.warn_of_unused("hatch", "this drawing has no fills");
         }
         if (!report.is_empty) warn_of_no_tiles(report.polygons, settings(), made);
         if (report.plot && format() == PrintFormat::hpgl) report_hpgl(*report.plot, settings(), options.hpgl, made);

@@ -82,7 +82,7 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
 
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made) {
     if (!settings.look.names_tiles || tiles > 0) return;
-    made.warn("'name-tiles' has no effect: this drawing has no filled polygons with straight edges");
+    made.warn_of_unused("name-tiles", "this drawing has no filled polygons with straight edges");
 }
 
 void report_hpgl(const PlotReport& plot, const DrawSettings& settings, const HpglOptions& options, Made& made) {

@@ -165,16 +165,14 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     const auto& tables = document_.grammar().tables();
     if (settings_.time.generations && !document_.map() &&
         std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); })) {
-        made.warn("'generations' has no effect: the pattern has no productions");
+        made.warn_of_unused("generations", "the pattern has no productions");
     }
     options.begin = [&](int passes) { monitor.expect(passes * expected_symbols(document_.grammar(), true)); };
     make_product(destination, name, options, made);
     const bool is_spatial = document_.grammar().is_spatial();
     for (const std::string& text : space_warnings(settings_, is_spatial, format_)) made.warn(text);
     if (is_spatial && needs_contents(given_)) report.contents = contents_in_space(document_.grammar());
-    for (const std::string& text : unused_options(given_, settings_, print_.style, format_, is_spatial, report)) {
-        made.warn(text);
-    }
+    warn_of_unused(given_, settings_, print_.style, format_, is_spatial, report, made);
     return made;
 } catch (const NothingDrawn& error) {
     throw std::runtime_error(error.what() + undrawn_hint(document_.grammar()));

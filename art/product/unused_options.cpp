@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <string_view>
 
 namespace sikku {
@@ -152,16 +151,13 @@ Contents contents_in_space(const Grammar& grammar) {
     return contents;
 }
 
-std::vector<std::string> unused_options(const GivenOptions& given, const DrawSettings& settings, const Style& style,
-                                        PrintFormat format, bool is_spatial, const DrawReport& report) {
-    std::vector<std::string> warnings;
+void warn_of_unused(const GivenOptions& given, const DrawSettings& settings, const Style& style, PrintFormat format,
+                    bool is_spatial, const DrawReport& report, Made& made) {
     std::vector<Unused> all = by_format(given, settings, style, format, is_spatial);
     for (Unused& one : by_drawing(settings, style, format, report)) all.push_back(std::move(one));
     for (const Unused& one : all) {
-        if (!one.is_unused || !given.has(one.option)) continue;
-        warnings.push_back(fmt::format("'{}' has no effect: {}", one.option, one.reason));
+        if (one.is_unused && given.has(one.option)) made.warn_of_unused(std::string(one.option), one.reason);
     }
-    return warnings;
 }
 
 }  // namespace sikku

@@ -4,11 +4,11 @@
 #include "art/drawing/draw_options.h"
 #include "art/product/draw_settings.h"
 #include "engine/base/option.h"
+#include "engine/interpreter.h"
 #include "engine/language/grammar.h"
 
 #include <set>
 #include <string>
-#include <vector>
 
 namespace sikku {
 
@@ -22,16 +22,16 @@ struct GivenOptions {
 /// @param pattern  the text of the pattern
 GivenOptions given_options(const OptionValues& values, const std::string& pattern);
 
-/// True if unused_options() needs the contents of the drawing.
+/// True if warn_of_unused() needs the contents of the drawing.
 bool needs_contents(const GivenOptions& given);
 
 /// The contents of a drawing in space, whose facets have shades of all colours: by the symbols that may occur.
 Contents contents_in_space(const Grammar& grammar);
 
-/// A warning for each option that has no effect on this print: `'arcs' has no effect: the drawing has no curves`.
-/// Effects that other warnings report are left out.
+/// Warns of each option that has no effect on this print: `'arcs' has no effect: the drawing has no curves`. Effects
+/// that other warnings report are left out.
 /// @param report  of the drawing, if one was made; a default one otherwise
-std::vector<std::string> unused_options(const GivenOptions& given, const DrawSettings& settings, const Style& style,
-                                        PrintFormat format, bool is_spatial, const DrawReport& report);
+void warn_of_unused(const GivenOptions& given, const DrawSettings& settings, const Style& style, PrintFormat format,
+                    bool is_spatial, const DrawReport& report, Made& made);
 
 }  // namespace sikku

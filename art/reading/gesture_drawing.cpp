@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdlib>
-#include <map>
 #include <stdexcept>
 #include <tuple>
 #include <utility>

@@ -9,9 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -89,12 +86,8 @@ std::string gestures_file(const DotGrid& grid, const GapStates& states) {
                                              place.row, place.number,
                                              std::count(states.begin(), states.end(), GapState::joined)));
     }
-    std::int32_t left = INT32_MAX;
-    std::int32_t bottom = INT32_MAX;
-    for (const GridDot dot : grid.dots()) {
-        left = std::min(left, dot.x);
-        bottom = std::min(bottom, dot.y);
-    }
+    PlaceBox box;
+    for (const GridDot dot : grid.dots()) box.add(dot);
     std::string sequence;
     std::string x = "0";
     std::string y = "1";
@@ -103,10 +96,10 @@ std::string gestures_file(const DotGrid& grid, const GapStates& states) {
     bool has_loops = false;
     bool has_rings = false;
     const auto add = [&](GridDot at, int heading) {
-        x += fmt::format(" {}", at.x - left + 2);
-        y += fmt::format(" {}", at.y - bottom + 2);
+        x += fmt::format(" {}", at.x - box.low.x + 2);
+        y += fmt::format(" {}", at.y - box.low.y + 2);
         headings += fmt::format(" {}", heading);
-        positions += (at.y - bottom) % 2 != 0 ? " Ov" : " Oh";
+        positions += (at.y - box.low.y) % 2 != 0 ? " Ov" : " Oh";
     };
     const std::vector<ArcStep> starts = line_starts(grid, states);
     for (const ArcStep& start : starts) {

@@ -11,7 +11,6 @@
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include "engine/language/document.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>

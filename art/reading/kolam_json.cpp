@@ -56,22 +56,6 @@ std::vector<std::string> texts(const Json& design, const char* key, std::size_t 
     return rows;
 }
 
-std::optional<GapState> state_of(char letter) {
-    switch (letter) {
-        case 'x':
-            return GapState::crossed;
-        case 'p':
-            return GapState::turned;
-        case 'j':
-            return GapState::joined;
-        default:
-            return std::nullopt;
-    }
-}
-char letter_of(GapState state) {
-    return state == GapState::crossed ? 'x' : state == GapState::turned ? 'p' : 'j';
-}
-
 }  // namespace
 
 ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
@@ -120,7 +104,7 @@ ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
         const auto r = static_cast<std::size_t>(-(dot.y + placed.origin.y) / 2);
         const auto c = static_cast<std::size_t>((dot.x + placed.origin.x) / 2);
         const bool is_within = gap.side == 0;
-        const auto state = state_of(is_within ? within[r][c] : below[r][c]);
+        const auto state = state_of_letter(is_within ? within[r][c] : below[r][c]);
         if (!state) {
             refuse(fmt::format("'{}', row {}, letter {}: '.' between two dots", is_within ? "h" : "v", r + 1, c + 1));
         }
@@ -145,27 +129,23 @@ std::string kolam_json_file(const DotGrid& grid, const GapStates& states) {
     if (grid.lattice() != DotLattice::square) {
         throw std::runtime_error(".kolam.json can contain only straight grids; this one is interlaced");
     }
-    std::int32_t left = INT32_MAX;
-    std::int32_t right = INT32_MIN;
-    for (const GridDot dot : grid.dots()) {
-        left = std::min(left, dot.x);
-        right = std::max(right, dot.x);
-    }
-    const std::int32_t top = grid.dots().front().y;
-    const auto rows = static_cast<std::size_t>((top - grid.dots().back().y) / 2 + 1);
-    const auto columns = static_cast<std::size_t>((right - left) / 2 + 1);
+    PlaceBox box;
+    for (const GridDot dot : grid.dots()) box.add(dot);
+    const auto rows = static_cast<std::size_t>((box.high.y - box.low.y) / 2 + 1);
+    const auto columns = static_cast<std::size_t>((box.high.x - box.low.x) / 2 + 1);
     if (rows * columns > 4 * DotGrid::most_dots)
         throw std::runtime_error("the dots lie too far apart for .kolam.json");
     std::vector<std::string> mask(rows, std::string(columns, '0'));
     std::vector<std::string> within(rows, std::string(columns - 1, '.'));
     std::vector<std::string> below(rows - 1, std::string(columns, '.'));
-    const auto row = [&](GridDot dot) { return static_cast<std::size_t>((top - dot.y) / 2); };
-    const auto column = [&](GridDot dot) { return static_cast<std::size_t>((dot.x - left) / 2); };
+    const auto row = [&](GridDot dot) { return static_cast<std::size_t>((box.high.y - dot.y) / 2); };
+    const auto column = [&](GridDot dot) { return static_cast<std::size_t>((dot.x - box.low.x) / 2); };
     for (const GridDot dot : grid.dots()) mask[row(dot)][column(dot)] = '1';
     for (std::size_t i = 0; i < states.size(); ++i) {
         const GridGap& gap = grid.gaps()[i];
         const GridDot dot = grid.dots()[gap.from];
-        (gap.side == 0 ? within : below)[row(dot)][column(dot)] = letter_of(states[i]);
+        (gap.side == 0 ? within : below)[row(dot)][column(dot)] =
+            gap_state_names[static_cast<std::size_t>(states[i])].letter;
     }
     const auto list = [](const char* key, const std::vector<std::string>& texts) {
         std::string text = fmt::format("    \"{}\": [", key);

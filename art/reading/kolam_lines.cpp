@@ -320,21 +320,14 @@ private:
 
 /// All places of the lattice, near those fitted, that lines run around an odd number of times.
 std::vector<GridDot> odd_places(const OddCells& cells, const LatticeFit& fit) {
-    std::int32_t left = INT32_MAX;
-    std::int32_t right = INT32_MIN;
-    std::int32_t bottom = INT32_MAX;
-    std::int32_t top = INT32_MIN;
+    PlaceBox box;
     for (const auto& place : fit.places) {
-        if (!place) continue;
-        left = std::min(left, place->x);
-        right = std::max(right, place->x);
-        bottom = std::min(bottom, place->y);
-        top = std::max(top, place->y);
+        if (place) box.add(*place);
     }
     constexpr std::int32_t beyond = 12;
     std::vector<GridDot> places;
-    for (std::int32_t y = bottom - beyond; y <= top + beyond; y += 2) {
-        for (std::int32_t x = left - beyond; x <= right + beyond; ++x) {
+    for (std::int32_t y = box.low.y - beyond; y <= box.high.y + beyond; y += 2) {
+        for (std::int32_t x = box.low.x - beyond; x <= box.high.x + beyond; ++x) {
             const GridDot place{x, y};
             const glm::dvec2 at = lattice_point(fit.lattice, place);
             if (!(nearest_place(fit.lattice, at) == place)) continue;

@@ -4,6 +4,8 @@
 #include "art/reading/lattice.h"
 #include "art/reading/read_kolam.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
@@ -17,6 +19,14 @@ using ClosedLine = std::vector<glm::dvec2>;
 struct PlacedGrid {
     DotGrid grid;
     GridDot origin;  ///< the place (0, 0) of the grid
+};
+/// The least and the greatest x and y of some places.
+struct PlaceBox {
+    GridDot low{INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN};
+    void add(GridDot place) {
+        low = {std::min(low.x, place.x), std::min(low.y, place.y)};
+        high = {std::max(high.x, place.x), std::max(high.y, place.y)};
+    }
 };
 /// @throws std::runtime_error for no places, and over DotGrid::most_dots
 PlacedGrid place_grid(DotLattice lattice, std::vector<GridDot> places);

@@ -15,7 +15,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -458,16 +457,13 @@ private:
     /// True if the box of some places contains that of others, and leaves room on all sides.
     static bool surrounds(const std::set<GridDot>& places, const std::set<GridDot>& others) {
         const auto box = [](const std::set<GridDot>& list) {
-            std::array<std::int32_t, 4> sides{INT32_MAX, INT32_MIN, INT32_MAX, INT32_MIN};
-            for (const GridDot place : list) {
-                sides = {std::min(sides[0], place.y), std::max(sides[1], place.y), std::min(sides[2], place.x),
-                         std::max(sides[3], place.x)};
-            }
-            return sides;
+            PlaceBox around;
+            for (const GridDot place : list) around.add(place);
+            return around;
         };
-        const auto outer = box(places);
-        const auto inner = box(others);
-        return outer[0] < inner[0] && outer[1] > inner[1] && outer[2] < inner[2] && outer[3] > inner[3];
+        const PlaceBox outer = box(places), inner = box(others);
+        return outer.low.x < inner.low.x && outer.high.x > inner.high.x && outer.low.y < inner.low.y &&
+               outer.high.y > inner.high.y;
     }
     /// Joins the few dots within a hole of a kolam to it.
     static void join_inner(std::vector<std::set<GridDot>>& found) {

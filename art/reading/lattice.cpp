@@ -376,15 +376,9 @@ std::optional<Homography> Homography::fit(std::span<const glm::dvec2> from, std:
     } else {
         return std::nullopt;
     }
-    const std::array<double, 9> before = {1 / scale_from.size,
-                                          0,
-                                          -scale_from.centre.x / scale_from.size,
-                                          0,
-                                          1 / scale_from.size,
-                                          -scale_from.centre.y / scale_from.size,
-                                          0,
-                                          0,
-                                          1};
+    const double scale = 1 / scale_from.size;
+    const double x = -scale_from.centre.x / scale_from.size, y = -scale_from.centre.y / scale_from.size;
+    const std::array<double, 9> before = {scale, 0, x, 0, scale, y, 0, 0, 1};
     const std::array<double, 9> after = {
         scale_to.size, 0, scale_to.centre.x, 0, scale_to.size, scale_to.centre.y, 0, 0, 1};
     Homography map;

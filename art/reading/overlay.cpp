@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <string_view>
 
 namespace sikku {
@@ -146,18 +145,18 @@ DecodedPicture faded(const DecodedPicture& picture) {
 void draw_kolam(Canvas& canvas, const Photograph& photograph) {
     const ReadKolam& kolam = photograph.kolam;
     const DotLattice lattice = kolam.grid.lattice();
-    const auto spacing_at = [&](GridDot place) { return photograph.map.spacing(lattice_point(lattice, place)); };
-    for (const GridDot dot : kolam.grid.dots()) {
-        const double spacing = spacing_at(dot);
-        canvas.ring(photograph.map.dot(dot), 0.1 * spacing, std::max(1.0, 0.03 * spacing), dot_colour);
-    }
+    const LatticeMap& map = photograph.map;
+    const auto spacing_at = [&](GridDot place) { return map.spacing(lattice_point(lattice, place)); };
+    const auto bold = [&](GridDot place) { return std::max(2.0, 0.06 * spacing_at(place)); };
+    const auto ring_dot = [&](glm::dvec2 at, double spacing, glm::dvec3 colour) {
+        canvas.ring(at, 0.1 * spacing, std::max(1.0, 0.03 * spacing), colour);
+    };
+    for (const GridDot dot : kolam.grid.dots()) ring_dot(map.dot(dot), spacing_at(dot), dot_colour);
     for (const GridDot place : photograph.open_ends) {
-        const double spacing = spacing_at(place);
-        canvas.ring(photograph.map.dot(place), 0.34 * spacing, std::max(2.0, 0.06 * spacing), open_colour);
+        canvas.ring(map.dot(place), 0.34 * spacing_at(place), bold(place), open_colour);
     }
     for (const GridDot place : photograph.missing) {
-        const double spacing = spacing_at(place);
-        canvas.broken_ring(photograph.map.dot(place), 0.26 * spacing, std::max(2.0, 0.06 * spacing), open_colour);
+        canvas.broken_ring(map.dot(place), 0.26 * spacing_at(place), bold(place), open_colour);
     }
     const std::vector<GapPlace> places = gap_places(kolam.grid);
     for (std::uint32_t i = 0; i < kolam.states.size(); ++i) {
@@ -165,24 +164,23 @@ void draw_kolam(Canvas& canvas, const Photograph& photograph) {
         const glm::dvec2 from = lattice_point(lattice, kolam.grid.dots()[gap.from]);
         const glm::dvec2 to = lattice_point(lattice, kolam.grid.dots()[gap.to]);
         const glm::dvec2 middle = 0.5 * (from + to);
-        const double spacing = photograph.map.spacing(middle);
+        const double spacing = map.spacing(middle);
         const double width = std::max(1.5, 0.05 * spacing);
         for (const auto& strand : strands(kolam.states[i], lattice, middle, to - from)) {
-            canvas.line(photograph.map(strand[0]), photograph.map(strand[1]), width,
+            canvas.line(map(strand[0]), map(strand[1]), width,
                         state_colours[static_cast<std::size_t>(kolam.states[i])]);
         }
         const bool is_repaired = std::binary_search(kolam.repaired.begin(), kolam.repaired.end(), i);
         if (!kolam.is_doubtful(i) && !is_repaired) continue;
         const glm::dvec3 colour = is_repaired ? repair_colour : doubt_colour;
-        const glm::dvec2 at = photograph.map(middle);
+        const glm::dvec2 at = map(middle);
         canvas.ring(at, 0.3 * spacing, std::max(2.0, 0.05 * spacing), colour);
         const double cell = std::clamp(std::round(spacing / 28), 1.0, 6.0);
         canvas.number(fmt::format("{},{}", places[i].row, places[i].number),
                       at + glm::dvec2(0.24 * spacing, 0.18 * spacing), cell, colour);
     }
     const double spacing = spacing_at(kolam.grid.dots().front());
-    for (const glm::dvec2 dot : photograph.others)
-        canvas.ring(dot, 0.1 * spacing, std::max(1.0, 0.03 * spacing), other_colour);
+    for (const glm::dvec2 dot : photograph.others) ring_dot(dot, spacing, other_colour);
 }
 
 void write_png(const DecodedPicture& picture, const std::filesystem::path& path) {

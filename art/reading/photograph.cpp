@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <utility>
 
 namespace sikku {

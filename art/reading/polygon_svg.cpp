@@ -223,12 +223,9 @@ private:
         } else if (ratio != "none") {
             refuse(fmt::format("preserveAspectRatio is '{}'; expected xMidYMid or none", printable(ratio, 40)));
         }
-        return {across,
-                0,
-                0,
-                down,
-                (width - across * box[2]) / 2 - across * box[0],
-                (height - down * box[3]) / 2 - down * box[1]};
+        const double x = (width - across * box[2]) / 2 - across * box[0];
+        const double y = (height - down * box[3]) / 2 - down * box[1];
+        return {across, 0, 0, down, x, y};
     }
 
     void element(std::string_view name, pugi::xml_node node, const Around& around, int level) {

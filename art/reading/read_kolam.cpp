@@ -27,14 +27,8 @@ constexpr std::size_t least_pairs = 6;
 }
 
 std::optional<GapState> parse_state(std::string_view word) {
-    for (const char* name : {"cross", "crossed", "x"}) {
-        if (word == name) return GapState::crossed;
-    }
-    for (const char* name : {"turn", "turned", "p"}) {
-        if (word == name) return GapState::turned;
-    }
-    for (const char* name : {"join", "joined", "j"}) {
-        if (word == name) return GapState::joined;
+    for (const auto& [verb, name, letter] : gap_state_names) {
+        if (word == verb || word == name || word == std::string_view(&letter, 1)) return state_of_letter(letter);
     }
     return std::nullopt;
 }
@@ -158,7 +152,14 @@ std::size_t repair_by_symmetry(ReadKolam& kolam) {
 }
 
 std::string_view gap_state_name(GapState state) {
-    return state == GapState::crossed ? "crossed" : state == GapState::turned ? "turned" : "joined";
+    return gap_state_names[static_cast<std::size_t>(state)].name;
+}
+
+std::optional<GapState> state_of_letter(char letter) {
+    for (std::size_t i = 0; i < gap_state_names.size(); ++i) {
+        if (gap_state_names[i].letter == letter) return static_cast<GapState>(i);
+    }
+    return std::nullopt;
 }
 
 }  // namespace sikku

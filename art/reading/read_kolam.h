@@ -3,7 +3,9 @@
 
 #include "art/kolam/dot_grid_lines.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +49,16 @@ void fix_gaps(ReadKolam& kolam, std::string_view text);
 /// @return the number of gaps that changed
 std::size_t repair_by_symmetry(ReadKolam& kolam);
 
+struct GapStateNames {
+    std::string_view verb, name;
+    char letter;
+};
+/// In the order of GapState.
+constexpr std::array<GapStateNames, 3> gap_state_names = {
+    {{"turn", "turned", 'p'}, {"cross", "crossed", 'x'}, {"join", "joined", 'j'}}};
+
 /// Returns `crossed`, `turned` or `joined`.
 std::string_view gap_state_name(GapState state);
+std::optional<GapState> state_of_letter(char letter);
 
 }  // namespace sikku

@@ -1,7 +1,5 @@
 #include "art/reading/spots.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,20 @@ constexpr double scale_step = 1.35;
 constexpr std::size_t ring_points = 20;
 /// Number of points around a spot that may be noise.
 constexpr std::size_t noise_points = 2;
+
+std::array<double, ring_points> ink_around(const GreyPicture& picture, glm::dvec2 middle, double radius) {
+    static const auto directions = [] {
+        std::array<glm::dvec2, ring_points> list{};
+        for (std::size_t i = 0; i < ring_points; ++i) {
+            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_points;
+            list[i] = {std::cos(angle), std::sin(angle)};
+        }
+        return list;
+    }();
+    std::array<double, ring_points> around{};
+    for (std::size_t i = 0; i < ring_points; ++i) around[i] = picture.at(middle + radius * directions[i]);
+    return around;
+}
 
 }  // namespace
 
@@ -35,14 +47,6 @@ void SpotFinder::negate() {
 }
 
 double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
-    static const auto directions = [] {
-        std::array<glm::dvec2, ring_points> list{};
-        for (std::size_t i = 0; i < ring_points; ++i) {
-            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_points;
-            list[i] = {std::cos(angle), std::sin(angle)};
-        }
-        return list;
-    }();
     const GreyPicture& picture = blurred_[scale];
     const double ring = 1.95 * radii_[scale];
     if (at.x < ring || at.y < ring || at.x + ring >= static_cast<double>(picture.width) ||
@@ -50,8 +54,7 @@ double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
         return 0;
     }
     const double middle = picture.at(at);
-    std::array<double, ring_points> around{};
-    for (std::size_t i = 0; i < ring_points; ++i) around[i] = picture.at(at + ring * directions[i]);
+    std::array<double, ring_points> around = ink_around(picture, at, ring);
     std::nth_element(around.begin(), around.begin() + noise_points, around.end(), std::greater<>());
     // Where lines cross there is much ink in the middle, but ink around it, too.
     return middle - around[noise_points] - 1.5 * std::max(0.0, around[noise_points]);
@@ -126,11 +129,7 @@ void SpotFinder::find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor
             // Solid, not a ring or a bow.
             if (std::numbers::pi * longest * shortest > 1.5 * count + 3) continue;
             const double radius = std::max(std::sqrt(count / std::numbers::pi), least_radius);
-            std::array<double, ring_points> around{};
-            for (std::size_t i = 0; i < ring_points; ++i) {
-                const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_points;
-                around[i] = picture.at(middle + 1.8 * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-            }
+            std::array<double, ring_points> around = ink_around(picture, middle, 1.8 * radius);
             std::nth_element(around.begin(), around.begin() + ring_points / 2, around.end());
             const double found = ink / count - around[ring_points / 2];
             if (found > 0.2) spots.push_back({middle, radius, found});

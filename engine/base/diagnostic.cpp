@@ -120,6 +120,37 @@ std::string text_of(const std::vector<Diagnostic>& list, std::size_t errors) {
     return text;
 }
 
+/// Replaces control characters of terminals, and line breaks by `line_end`.
+std::string plain_text(std::string_view text, std::size_t most, char line_end) {
+    std::string result;
+    const auto append = [&](std::size_t begin, std::size_t end) {
+        while (begin < end) {
+            const std::size_t length = utf8_length(text.substr(begin));
+            const std::string_view point = text.substr(begin, length);
+            if (point == "\n") {
+                result += line_end;
+            } else if (point == "\r" || point == "\u2028" || point == "\u2029") {
+                result += ' ';
+            } else if (length == 0 || is_command(point)) {
+                result += '?';
+            } else {
+                result += point;
+            }
+            begin += std::max<std::size_t>(length, 1);
+        }
+    };
+    if (text.size() <= most) {
+        append(0, text.size());
+    } else {
+        std::size_t tail = text.size() - most / 2;
+        while (tail < text.size() && is_continuation(text[tail])) ++tail;
+        append(0, most / 2);
+        result += " … ";
+        append(tail, text.size());
+    }
+    return result;
+}
+
 }  // namespace
 
 Source::Source(std::string given_name, std::string given_text, bool is_value)
@@ -244,41 +275,6 @@ std::size_t utf8_length(std::string_view text) {
     const bool beyond = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
     return overlong || beyond ? 0 : length;
 }
-
-namespace {
-
-/// Replaces control characters of terminals, and line breaks by `line_end`.
-std::string plain_text(std::string_view text, std::size_t most, char line_end) {
-    std::string result;
-    const auto append = [&](std::size_t begin, std::size_t end) {
-        while (begin < end) {
-            const std::size_t length = utf8_length(text.substr(begin));
-            const std::string_view point = text.substr(begin, length);
-            if (point == "\n") {
-                result += line_end;
-            } else if (point == "\r" || point == "\u2028" || point == "\u2029") {
-                result += ' ';
-            } else if (length == 0 || is_command(point)) {
-                result += '?';
-            } else {
-                result += point;
-            }
-            begin += std::max<std::size_t>(length, 1);
-        }
-    };
-    if (text.size() <= most) {
-        append(0, text.size());
-    } else {
-        std::size_t tail = text.size() - most / 2;
-        while (tail < text.size() && is_continuation(text[tail])) ++tail;
-        append(0, most / 2);
-        result += " … ";
-        append(tail, text.size());
-    }
-    return result;
-}
-
-}  // namespace
 
 std::string printable(std::string_view text, std::size_t most) {
     return plain_text(text, most, ' ');

@@ -16,6 +16,10 @@ namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 
+[[noreturn]] void fail_reading(const std::string& name, int error) {
+    throw std::runtime_error(name + ": " + std::generic_category().message(error));
+}
+
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& path) {
@@ -24,20 +28,10 @@ InputFile::InputFile(const std::filesystem::path& path) {
     // Opening a pipe and closing it again would break the connection of its writer.
     if (::stat(path.c_str(), &state) != 0) fail(errno);
     if (!S_ISREG(state.st_mode)) fail(EINVAL);
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (descriptor_ < 0) fail(errno);
-    if (const int error = ::fstat(descriptor_, &state) != 0 ? errno
-                          : S_ISREG(state.st_mode)          ? 0
-                                                            : EINVAL;
-        error != 0) {
-        ::close(descriptor_);
-        fail(error);
-    }
+    descriptor_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (!descriptor_ || ::fstat(descriptor(), &state) != 0) fail(errno);
+    if (!S_ISREG(state.st_mode)) fail(EINVAL);
     size_ = static_cast<std::uint64_t>(state.st_size);
-}
-
-InputFile::~InputFile() {
-    ::close(descriptor_);
 }
 
 std::string InputFile::read(std::uint64_t at, std::uint64_t count) const {
@@ -49,7 +43,7 @@ std::string InputFile::read(std::uint64_t at, std::uint64_t count) const {
 std::size_t InputFile::read(std::uint64_t at, char* bytes, std::size_t count) const {
     std::size_t done = 0;
     while (done < count && at + done < size_) {
-        const ::ssize_t got = ::pread(descriptor_, bytes + done, count - done, static_cast<::off_t>(at + done));
+        const ::ssize_t got = ::pread(descriptor(), bytes + done, count - done, static_cast<::off_t>(at + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) throw std::system_error(errno, std::generic_category());
         if (got == 0) break;
@@ -94,14 +88,6 @@ bool InputStream::skip_text(std::string_view text) {
     skip(text.size());
     return true;
 }
-
-namespace {
-
-[[noreturn]] void fail_reading(const std::string& name, int error) {
-    throw std::runtime_error(name + ": " + std::generic_category().message(error));
-}
-
-}  // namespace
 
 std::string read_stream(std::FILE* stream, const std::string& name, std::size_t most, const Monitor& monitor) {
     std::string text;

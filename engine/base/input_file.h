@@ -1,6 +1,7 @@
 // engine/base/input_file.h: reads untrusted files piece by piece.
 #pragma once
 
+#include "engine/base/child_process.h"
 #include "engine/base/monitor.h"
 
 #include <algorithm>
@@ -20,9 +21,6 @@ public:
     /// Does not open pipes and devices, which might block.
     /// @throws std::system_error if the file cannot be opened or is not a regular file
     explicit InputFile(const std::filesystem::path& path);
-    ~InputFile();
-    InputFile(const InputFile&) = delete;
-    InputFile& operator=(const InputFile&) = delete;
 
     /// Size in bytes when it was opened.
     std::uint64_t size() const { return size_; }
@@ -33,10 +31,10 @@ public:
     std::size_t read(std::uint64_t at, char* bytes, std::size_t count) const;
 
     /// A descriptor for another process; open as long as this object.
-    int descriptor() const { return descriptor_; }
+    int descriptor() const { return descriptor_.get(); }
 
 private:
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     std::uint64_t size_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace sikku {
 namespace {
@@ -43,6 +44,10 @@ struct Sparse {
             }
             begin.push_back(static_cast<std::uint32_t>(terms.size()));
         }
+    }
+    /// The successor of a symbol.
+    std::span<const Term> of(Symbol symbol) const {
+        return std::span(terms).subspan(begin[symbol], begin[symbol + 1] - begin[symbol]);
     }
 };
 
@@ -95,9 +100,10 @@ public:
                 std::vector<char> row = rows_.back();
                 for (const Symbol symbol : steps.symbols) {
                     if (!table.has[symbol]) continue;
-                    row[symbol] = std::all_of(
-                        table.terms.begin() + table.begin[symbol], table.terms.begin() + table.begin[symbol + 1],
-                        [&](const Sparse::Term& term) { return rows_.back()[term.symbol] != 0; });
+                    const auto terms = table.of(symbol);
+                    row[symbol] = std::all_of(terms.begin(), terms.end(), [&](const Sparse::Term& term) {
+                        return rows_.back()[term.symbol] != 0;
+                    });
                 }
                 rows_.push_back(std::move(row));
             }
@@ -145,6 +151,12 @@ struct Scaled {
     }
 };
 
+std::vector<std::uint64_t> axiom_counts(const Grammar& grammar) {
+    std::vector<std::uint64_t> counts(grammar.symbols().size(), 0);
+    for (const Symbol symbol : grammar.axiom()) ++counts[symbol];
+    return counts;
+}
+
 template <class Number, class Add>
 void advance(const Sparse& table, const std::vector<Symbol>& symbols, std::vector<Number>& counts,
              std::vector<Number>& next, Add add) {
@@ -154,9 +166,7 @@ void advance(const Sparse& table, const std::vector<Symbol>& symbols, std::vecto
             add(next[symbol], counts[symbol], 1);
             continue;
         }
-        for (std::uint32_t i = table.begin[symbol]; i < table.begin[symbol + 1]; ++i) {
-            add(next[table.terms[i].symbol], counts[symbol], table.terms[i].times);
-        }
+        for (const auto& [child, times] : table.of(symbol)) add(next[child], counts[symbol], times);
     }
     counts.swap(next);
 }
@@ -173,8 +183,7 @@ Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     const Emptiness emptiness(steps, symbols);
     std::vector<Scaled> counts(symbols);
     std::vector<Scaled> next(symbols);
-    std::vector<std::uint64_t> occurrences(symbols, 0);
-    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
+    const std::vector<std::uint64_t> occurrences = axiom_counts(grammar);
     for (std::size_t i = 0; i < symbols; ++i) counts[i].add({1.0, 0}, static_cast<double>(occurrences[i]));
     Scaled nodes;
     std::int64_t left = steps.count;
@@ -203,64 +212,27 @@ Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     return result;
 }
 
-}  // namespace
-
-std::string Forecast::length() const {
-    if (!counts) return fmt::format("about 10^{:.0f}", std::floor(log10_length));
-    Integer sum = 0;
-    for (const Integer& count : *counts) sum += count;
-    return sum.str();
-}
-
-namespace {
-
 std::shared_ptr<const ExactCounts> exact_counts(const Grammar& grammar, const Steps& steps) {
     ExactCounts counts(grammar.symbols().size());
     ExactCounts next(grammar.symbols().size());
-    std::vector<std::uint64_t> occurrences(counts.size(), 0);
-    for (const Symbol symbol : grammar.axiom()) ++occurrences[symbol];
-    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = occurrences[i];
+    const std::vector<std::uint64_t> occurrences = axiom_counts(grammar);
+    std::copy(occurrences.begin(), occurrences.end(), counts.begin());
     for (const auto& [index, count] : steps.runs) {
         for (std::int64_t step = 0; step < count; ++step) {
             advance(steps.tables[index], steps.symbols, counts, next,
                     [](Integer& sum, const Integer& term, std::uint32_t times) {
-                        if (times == 1) {
-                            sum += term;
-                        } else {
-                            sum += term * times;
-                        }
+                        times == 1 ? sum += term : sum += term * times;
                     });
         }
     }
     return std::make_shared<const ExactCounts>(std::move(counts));
 }
 
-}  // namespace
-
-namespace {
-
 /// True if the productions alone determine the numbers of symbols. A map has no symbols; its edges depend on where
 /// its walls meet.
 bool is_countable(const Grammar& grammar) {
     return grammar.is_plain() && !grammar.map() && grammar.whole_word_steps() == 0;
 }
-
-}  // namespace
-
-std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
-    if (!is_countable(grammar)) return std::nullopt;
-    return rough_forecast(grammar, Steps(grammar, interpreted));
-}
-
-std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
-    if (!is_countable(grammar)) return std::nullopt;
-    const Steps steps(grammar, interpreted);
-    Forecast result = rough_forecast(grammar, steps);
-    if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
-    return result;
-}
-
-namespace {
 
 /// With one table in every step, one pass from the last step upwards finds the cost of every derivation length.
 std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interpreted, double budget) {
@@ -275,9 +247,7 @@ std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interp
                 continue;
             }
             double sum = 0;
-            for (std::uint32_t i = table.begin[symbol]; i < table.begin[symbol + 1]; ++i) {
-                sum += table.terms[i].times * nodes[table.terms[i].symbol];
-            }
+            for (const auto& [child, times] : table.of(symbol)) sum += times * nodes[child];
             next[symbol] = sum > 0 && table.length[symbol] != 1 ? sum + 1 : sum;
         }
         nodes.swap(next);
@@ -297,7 +267,40 @@ std::int64_t largest_affordable_of_one_table(const Grammar& grammar, bool interp
     return largest;
 }
 
+[[noreturn]] void refuse_steps(const Grammar& grammar) {
+    std::string size;
+    if (const auto shorter = grammar.with_steps(most_steps)) {
+        if (const auto known = estimate(*shorter, false); known && known->log10_length > 15) {
+            size = fmt::format("; at {} the word has {} symbols already", most_steps, known->length());
+        }
+    }
+    throw BudgetError(
+        fmt::format("a derivation length of {} is too much: above {} only systems are derived whose words "
+                    "do not grow{}",
+                    grammar.steps(), most_steps, size));
+}
+
 }  // namespace
+
+std::string Forecast::length() const {
+    if (!counts) return fmt::format("about 10^{:.0f}", std::floor(log10_length));
+    Integer sum = 0;
+    for (const Integer& count : *counts) sum += count;
+    return sum.str();
+}
+
+std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted) {
+    if (!is_countable(grammar)) return std::nullopt;
+    return rough_forecast(grammar, Steps(grammar, interpreted));
+}
+
+std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted) {
+    if (!is_countable(grammar)) return std::nullopt;
+    const Steps steps(grammar, interpreted);
+    Forecast result = rough_forecast(grammar, steps);
+    if (result.log10_length < most_digits) result.counts = exact_counts(grammar, steps);
+    return result;
+}
 
 std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double budget) {
     if (grammar.tables().size() == 1) return largest_affordable_of_one_table(grammar, interpreted, budget);
@@ -339,23 +342,6 @@ void require_affordable(const Grammar& grammar, bool interpreted, double budget)
     throw BudgetError(fmt::format("a word of {} symbols (n = {}) is above the budget of {:.0f} nodes{}",
                                   readable(found.length()), grammar.steps(), budget, advice));
 }
-
-namespace {
-
-[[noreturn]] void refuse_steps(const Grammar& grammar) {
-    std::string size;
-    if (const auto shorter = grammar.with_steps(most_steps)) {
-        if (const auto known = estimate(*shorter, false); known && known->log10_length > 15) {
-            size = fmt::format("; at {} the word has {} symbols already", most_steps, known->length());
-        }
-    }
-    throw BudgetError(
-        fmt::format("a derivation length of {} is too much: above {} only systems are derived whose words "
-                    "do not grow{}",
-                    grammar.steps(), most_steps, size));
-}
-
-}  // namespace
 
 Grammar shorten(const Grammar& grammar) {
     // A map has no word, and its derivation limits its steps.

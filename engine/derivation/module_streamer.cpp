@@ -48,9 +48,7 @@ public:
             emit(word.symbols.data() + begin, i - begin, first);
             if (i == size || !active_[word.symbols[i]]) continue;
             const Symbol symbol = word.symbols[i];
-            const std::uint64_t place = !has_places_          ? 0
-                                        : word.places.empty() ? axiom_place(grammar_.seed(), i)
-                                                              : word.places[i];
+            const std::uint64_t place = has_places_ ? grammar_.place_of(word, i) : 0;
             double* const own = room(arity_[symbol]);
             std::copy(next, next + arity_[symbol], own);
             top_ += arity_[symbol];

@@ -2,7 +2,6 @@
 
 #include "engine/derivation/choice.h"
 
-#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <utility>

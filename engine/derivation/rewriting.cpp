@@ -42,7 +42,7 @@ ModuleWord without_cuts(const Grammar& grammar, const ModuleWord& word, Parents&
         kept.push_back(static_cast<std::uint32_t>(at));
         result.arguments.insert(result.arguments.end(), next, next + arity);
         if (grammar.is_stochastic()) {
-            result.places.push_back(word.places.empty() ? axiom_place(grammar.seed(), at) : word.places[at]);
+            result.places.push_back(grammar.place_of(word, at));
         }
         pass();
     }
@@ -94,9 +94,7 @@ public:
         while (at_ < word_.symbols.size()) {
             work_.add(1);
             const Symbol symbol = word_.symbols[at_];
-            const std::uint64_t place = !has_places            ? 0
-                                        : word_.places.empty() ? axiom_place(grammar_.seed(), at_)
-                                                               : word_.places[at_];
+            const std::uint64_t place = has_places ? grammar_.place_of(word_, at_) : 0;
             const Chance chance{place, step_};
             const auto candidates = table_.candidates(symbol);
             const Production* production = nullptr;

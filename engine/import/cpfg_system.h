@@ -31,7 +31,11 @@ struct Rule {
 };
 
 /// A text that identifies the types of modules: their letters and numbers of parameters.
-std::string type_of(const std::vector<Formal>& modules);
+inline std::string type_of(const std::vector<Formal>& modules) {
+    std::string key;
+    for (const Formal& module : modules) key += fmt::format("{}({} ", module.letter, module.names.size());
+    return key;
+}
 
 /// The letters of a system, as words and productions use them.
 struct Letters {

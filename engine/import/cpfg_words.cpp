@@ -79,7 +79,9 @@ std::string Words::word(Reader& reader, bool is_drawn) {
         const std::string letter = symbol(reader);
         note(letter[0], at);
         std::vector<std::string> arguments;
-        if (reader.peek() == '(') arguments = parameters(reader);
+        if (reader.peek() == '(') {
+            arguments = parameters(reader, reader.where(), [&] { return expressions_.read(reader).text; });
+        }
         if (letter == "%" && !arguments.empty()) {
             report_.once("%(", at, "%() with parameters");
             continue;
@@ -130,12 +132,12 @@ void Words::note_width(const std::string& letter, const std::vector<std::string>
     if ((letter == "!" || letter == "#") && !arguments.empty()) letters.sets_width = true;
 }
 
-std::vector<std::string> Words::parameters(Reader& reader) {
-    const std::size_t at = reader.where();
+/// Reads the parameters of a module from their parenthesis on. @param at  place of the error if there are too many
+std::vector<std::string> Words::parameters(Reader& reader, std::size_t at, const std::function<std::string()>& read) {
     std::vector<std::string> list;
     do {
         reader.take();
-        list.push_back(expressions_.read(reader).text);
+        list.push_back(read());
         if (list.size() > most_parameters) mistake(at, "a module has at most 64 parameters");
     } while (expressions_.next(reader) == ',');
     if (expressions_.next(reader) != ')') mistake(reader.where(), "expected ',' or ')' after a parameter");
@@ -158,8 +160,7 @@ std::vector<Formal> Words::formal_modules(Reader& reader) {
         if (module.letter[0] != '@') letters.named.insert(module.letter[0]);
         if (module.letter == "%") lose(at, "the cut symbol is removed before productions apply");
         if (reader.peek() == '(') {
-            do {
-                reader.take();
+            module.names = parameters(reader, at, [&] {
                 const std::string name = expressions_.identifier(reader);
                 if (name.empty()) mistake(reader.where(), "expected the name of a parameter");
                 if (defines_.macros.contains(name)) {
@@ -168,11 +169,8 @@ std::vector<Formal> Words::formal_modules(Reader& reader) {
                 if (!expressions_.add_formal(name)) {
                     mistake(reader.where(), fmt::format("the parameter '{}' is named twice", printable(name, 80)));
                 }
-                module.names.push_back(name);
-                if (module.names.size() > most_parameters) mistake(at, "a module has at most 64 parameters");
-            } while (expressions_.next(reader) == ',');
-            if (expressions_.next(reader) != ')') mistake(reader.where(), "expected ',' or ')' after a parameter");
-            reader.take();
+                return name;
+            });
         }
         modules.push_back(std::move(module));
     }

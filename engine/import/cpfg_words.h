@@ -4,8 +4,8 @@
 #include "engine/import/cpfg_system.h"
 #include "engine/import/cpfg_view.h"
 
+#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sikku::cpfg {
@@ -30,8 +30,7 @@ private:
     void note(char letter, std::size_t at);
     void finish(std::string& result, const std::string& letter, std::vector<std::string> arguments, std::size_t at);
     void note_width(const std::string& letter, const std::vector<std::string>& arguments);
-    std::vector<std::string> parameters(Reader& reader);
-    Formal formal_module(Reader& reader);
+    std::vector<std::string> parameters(Reader& reader, std::size_t at, const std::function<std::string()>& read);
 
     const View& view_;
     Defines& defines_;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -119,21 +118,13 @@ ForeignKind foreign_kind(std::string_view text) {
 }
 
 std::string_view foreign_kind_name(ForeignKind kind) {
-    switch (kind) {
-        case ForeignKind::fractint:
-            return "a Fractint collection of L-systems";
-        case ForeignKind::cpfg:
-            return "an L-system of cpfg";
-        case ForeignKind::lpfg:
-            return "an L+C file of lpfg, which is C++";
-        case ForeignKind::lpy:
-            return "an L-Py file, which is Python";
-        case ForeignKind::html:
-            return "HTML or XML";
-        case ForeignKind::none:
-            break;
-    }
-    return "a pattern";
+    constexpr std::array<std::string_view, 6> names = {"a pattern",
+                                                       "a Fractint collection of L-systems",
+                                                       "an L-system of cpfg",
+                                                       "an L+C file of lpfg, which is C++",
+                                                       "an L-Py file, which is Python",
+                                                       "HTML or XML"};
+    return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace sikku

@@ -176,6 +176,10 @@ public:
     bool is_plain() const { return !is_parametric_ && !is_stochastic_; }
     /// The seed of random choices.
     std::uint64_t seed() const { return seed_; }
+    /// The place in the derivation tree of a symbol of a word in a stochastic system.
+    std::uint64_t place_of(const ModuleWord& word, std::size_t at) const {
+        return word.places.empty() ? axiom_place(seed_, at) : word.places[at];
+    }
     /// The symbol `%`, if words contain it: a step first removes it and the symbols after it in its branch.
     std::optional<Symbol> cut() const { return cut_; }
 

@@ -122,23 +122,17 @@ private:
         }
         grammar_.heading_ = Angle{90.0, TurnFraction{1, 4}};
         if (const Key* key = pattern_.find("heading")) grammar_.heading_ = angle(*key, grammar_.heading_);
-        if (const Key* key = pattern_.find("turn")) {
-            const std::string_view side = key->value.view();
-            if (side == "left") {
-                settings.plus_turns_left = true;
-            } else if (side != "right") {
-                diagnostics_.error(key->value, "expected 'left' or 'right'");
-            }
-        }
-        if (const Key* key = pattern_.find("polygons")) {
-            const std::string_view way = key->value.view();
-            if (way == "framework") {
-                settings.frames_polygons = true;
-            } else if (way != "outline") {
-                diagnostics_.error(key->value, "expected 'outline' or 'framework'");
-            }
-        }
+        settings.plus_turns_left = has_choice("turn", "left", "right", "expected 'left' or 'right'");
+        settings.frames_polygons =
+            has_choice("polygons", "framework", "outline", "expected 'outline' or 'framework'");
         return settings;
+    }
+
+    /// True if a key has the value `chosen`; values other than this and `usual` are reported.
+    bool has_choice(std::string_view name, std::string_view chosen, std::string_view usual, const char* problem) {
+        const Key* key = pattern_.find(name);
+        if (!key || key->value.view() == usual) return false;
+        return key->value.view() == chosen || diagnostics_.refuse(key->value, problem);
     }
 
     void read_scale() {

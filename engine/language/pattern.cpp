@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -631,6 +630,16 @@ private:
     std::unordered_map<std::string_view, std::size_t> defines_;
 };
 
+void check_scope(const Key& key, const KeyInfo& known, bool is_map, Diagnostics& diagnostics) {
+    if (is_map && known.scope == KeyScope::words) {
+        diagnostics.error(key.name_at, fmt::format("'{}:' does not apply to a map, which has no turtle", key.name));
+    } else if (!is_map && known.scope == KeyScope::maps) {
+        diagnostics.error(
+            key.name_at,
+            fmt::format("'{}:' applies only to maps: expected the key 'map: clockwise' beside it", key.name));
+    }
+}
+
 }  // namespace
 
 const Key* Pattern::find(std::string_view name) const {
@@ -697,7 +706,7 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         }
     }
     for (const Setting& setting : settings) {
-        const bool is_value = !setting.origin.ends_with("set");
+        const bool is_value = !setting.is_assignment;
         const bool is_shown = is_value && !setting.value.empty();
         const auto source =
             std::make_shared<const Source>(is_shown ? setting.origin + " " + setting.value : setting.origin,
@@ -721,20 +730,6 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         overrides.set(name.view(), name, whole.part(setting.key.size() + 1).trimmed());
     }
 }
-
-namespace {
-
-void check_scope(const Key& key, const KeyInfo& known, bool is_map, Diagnostics& diagnostics) {
-    if (is_map && known.scope == KeyScope::words) {
-        diagnostics.error(key.name_at, fmt::format("'{}:' does not apply to a map, which has no turtle", key.name));
-    } else if (!is_map && known.scope == KeyScope::maps) {
-        diagnostics.error(
-            key.name_at,
-            fmt::format("'{}:' applies only to maps: expected the key 'map: clockwise' beside it", key.name));
-    }
-}
-
-}  // namespace
 
 void check_keys(const Pattern& pattern, Diagnostics& diagnostics) {
     const bool is_map = pattern.find("map") != nullptr;

@@ -60,9 +60,17 @@ struct Setting {
     Setting(std::string from, std::string name, std::string text)
         : origin(std::move(from)), key(std::move(name)), value(std::move(text)) {}
 
-    std::string origin;  ///< source, for messages: `--set` and `set` show key and value, `-n` the value
+    /// KEY=VALUE of a list of settings; messages show both.
+    static Setting assignment(std::string from, std::string name, std::string text) {
+        Setting setting(std::move(from), std::move(name), std::move(text));
+        setting.is_assignment = true;
+        return setting;
+    }
+
+    std::string origin;  ///< source, for messages: `--set`, `-n`
     std::string key;
     std::string value;
+    bool is_assignment = false;  ///< otherwise messages show the value after the source
 };
 
 /// The contents of a pattern file; its Spans live as long as it does. Keys hold the final values, overrides applied,

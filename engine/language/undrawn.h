@@ -4,7 +4,6 @@
 #include "engine/language/grammar.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sikku {

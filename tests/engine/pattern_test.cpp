@@ -409,14 +409,15 @@ TEST(Overrides, OfTwoKeysThatExcludeEachOtherTheLaterWins) {
 }
 
 TEST(Overrides, MistakesPointIntoTheSetting) {
-    const auto found = diagnostics_of("axiom: F\n", {{"--set", "derivation length", "-1"}});
+    const auto found = diagnostics_of("axiom: F\n", {Setting::assignment("--set", "derivation length", "-1")});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].file, "--set");
     EXPECT_EQ(found[0].where, (Place{1, 19}));
     EXPECT_EQ(found[0].excerpt, "derivation length=-1\n                  ^");
-    expect_mistakes("axiom: F\n", {{{1, 1}, "did you mean 'axiom'?"}}, {{"--set", "axim", "G"}});
-    expect_mistakes("axiom: F\n", {{{1, 1}, "one line of valid UTF-8"}}, {{"--set", "axiom", "G\nH"}});
-    expect_mistakes("axiom: F\n", {{{1, 1}, "expected key=value"}}, {{"--set", " ", "G"}});
+    expect_mistakes("axiom: F\n", {{{1, 1}, "did you mean 'axiom'?"}}, {Setting::assignment("--set", "axim", "G")});
+    expect_mistakes("axiom: F\n", {{{1, 1}, "one line of valid UTF-8"}},
+                    {Setting::assignment("--set", "axiom", "G\nH")});
+    expect_mistakes("axiom: F\n", {{{1, 1}, "expected key=value"}}, {Setting::assignment("--set", " ", "G")});
     expect_mistakes("axiom: F\n", {{{0, 0}, "no variants"}}, {}, "v");
     expect_mistakes("axiom: F\nvariant a: axiom = G\nvariant b: axiom = H\n", {{{0, 0}, "the pattern has a, b"}}, {},
                     "v");
@@ -424,13 +425,18 @@ TEST(Overrides, MistakesPointIntoTheSetting) {
 
 TEST(Overrides, CommentsInSettingsEnd) {
     const std::string text = "axiom: F\ndefine r = 1\n";
-    expect_mistakes(text, {{{1, 8}, "this comment has no end: expected '*/'"}}, {{"--set", "axiom", "F/* and more"}});
-    expect_mistakes(text, {{{1, 3}, "this comment has no end"}}, {{"--set", "r", "/*"}});
-    expect_mistakes(text, {{{1, 2}, "this comment has no end"}}, {{"--set", "r/*", "2"}});
-    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", "F/* not this */G"}})), "FG");
+    expect_mistakes(text, {{{1, 8}, "this comment has no end: expected '*/'"}},
+                    {Setting::assignment("--set", "axiom", "F/* and more")});
+    expect_mistakes(text, {{{1, 3}, "this comment has no end"}}, {Setting::assignment("--set", "r", "/*")});
+    expect_mistakes(text, {{{1, 2}, "this comment has no end"}}, {Setting::assignment("--set", "r/*", "2")});
+    EXPECT_EQ(reference::derived_text(
+                  reference::grammar_of(text, {Setting::assignment("--set", "axiom", "F/* not this */G")})),
+              "FG");
     // What looks like the comment of a line is a value here.
-    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", "//F"}})), "//F");
-    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {{"--set", "axiom", " // F"}})), "//F");
+    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {Setting::assignment("--set", "axiom", "//F")})),
+              "//F");
+    EXPECT_EQ(reference::derived_text(reference::grammar_of(text, {Setting::assignment("--set", "axiom", " // F")})),
+              "//F");
 }
 
 TEST(Nearest, IsTheOneMeantOrNone) {
