@@ -414,7 +414,7 @@ public:
 private:
     /// Warns of options that this format cannot express.
     void warn_of_unused(Made& made) const {
-        const auto warn = [&](const char* option, const char* reason) { made.warn_of_unused(option, reason); };
+        const auto warn = [&](const std::string& option, const char* reason) { made.warn_of_unused(option, reason); };
         if (settings_.format != 1 && format_ != ScoreFormat::midi)
             warn("midi-format", "it applies only to MIDI files");
         if (settings_.tuning != Tuning::bend && !is_midi()) warn("tuning", "it applies only to MIDI and sound");

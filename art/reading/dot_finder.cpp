@@ -124,8 +124,7 @@ private:
         std::vector<double> strengths;
         std::vector<double> radii;
         std::vector<double> spacings;
-        std::vector<glm::dvec2> from;
-        std::vector<glm::dvec2> to;
+        std::vector<glm::dvec2> from, to;
         for (const auto& [place, spot] : dots_) {
             from.push_back(point(place));
             to.push_back(spot.at);

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <utility>
 
 namespace sikku {
 
@@ -29,13 +30,7 @@ public:
 private:
     friend class GapReader;
     struct Set;
-    struct Key {
-        DotLattice lattice;
-        int radius;  ///< omitted around the dots, in hundredths of a spacing
-        bool operator<(const Key& other) const {
-            return lattice != other.lattice ? lattice < other.lattice : radius < other.radius;
-        }
-    };
+    using Key = std::pair<DotLattice, int>;  // and the radius omitted around the dots, in hundredths of a spacing
     std::map<Key, std::unique_ptr<Set>> sets_;
 };
 

@@ -5,60 +5,6 @@
 #include <vector>
 
 namespace sikku {
-namespace {
-
-class EdgeCheck {
-public:
-    EdgeCheck(const GreyPicture& ink, const FoundGrid& found, double level)
-        : ink_(ink), found_(found), least_(0.5 * level) {}
-    /// True if the kolam seems to continue outside of the picture.
-    bool reaches_edge() const {
-        std::size_t ways = 0;
-        std::size_t lines = 0;
-        for (const GridDot dot : grid().dots()) {
-            const glm::dvec2 from = lattice_point(grid().lattice(), dot);
-            for (std::uint32_t side = 0; side < grid().sides(); ++side) {
-                const GridDot way = grid().step(side);
-                const GridDot to = dot + way;
-                const glm::dvec2 along = lattice_point(grid().lattice(), way);
-                if (grid().dot_at(to) || is_inside(ink_, found_.map(from + along))) continue;
-                constexpr double loop = 0.35;
-                const double leaves = leaves_at(from, along);
-                if (leaves < loop) return true;
-                ++ways;
-                lines += has_line(from, along, leaves);
-            }
-        }
-        return lines > 0 && 6 * lines >= ways;
-    }
-
-private:
-    const DotGrid& grid() const { return found_.grid(); }
-    /// The part of the way that lies in the picture.
-    double leaves_at(glm::dvec2 from, glm::dvec2 along) const {
-        double part = 0;
-        while (part < 1 && is_inside(ink_, found_.map(from + part * along))) part += 0.02;
-        return part;
-    }
-    bool has_line(glm::dvec2 from, glm::dvec2 along, double leaves) const {
-        constexpr double beyond_loops = 0.56;
-        const glm::dvec2 aside(-along.y, along.x);
-        std::size_t inked = 0;
-        for (double part = std::max(beyond_loops, leaves - 0.12); part < leaves - 0.02; part += 0.02) {
-            for (double off = -0.4; off <= 0.4; off += 0.02) {
-                const glm::dvec2 at = found_.map(from + part * along + off * aside);
-                inked += is_inside(ink_, at) && ink_.at(at) > least_;
-            }
-        }
-        return inked > 3;
-    }
-    const GreyPicture& ink_;
-    const FoundGrid& found_;
-    double least_;
-};
-
-}  // namespace
-
 bool is_inside(const GreyPicture& picture, glm::dvec2 at) {
     return at.x >= 0 && at.y >= 0 && at.x < static_cast<double>(picture.width) &&
            at.y < static_cast<double>(picture.height);
@@ -88,7 +34,40 @@ double line_level(const GreyPicture& ink, const FoundGrid& found) {
 }
 
 bool reaches_edge(const GreyPicture& ink, const FoundGrid& found, double level) {
-    return EdgeCheck(ink, found, level).reaches_edge();
+    const DotGrid& grid = found.grid();
+    // The part of the way that lies in the picture.
+    const auto leaves_at = [&](glm::dvec2 from, glm::dvec2 along) {
+        double part = 0;
+        while (part < 1 && is_inside(ink, found.map(from + part * along))) part += 0.02;
+        return part;
+    };
+    const auto has_line = [&](glm::dvec2 from, glm::dvec2 along, double leaves) {
+        constexpr double beyond_loops = 0.56;
+        const glm::dvec2 aside(-along.y, along.x);
+        std::size_t inked = 0;
+        for (double part = std::max(beyond_loops, leaves - 0.12); part < leaves - 0.02; part += 0.02) {
+            for (double off = -0.4; off <= 0.4; off += 0.02) {
+                const glm::dvec2 at = found.map(from + part * along + off * aside);
+                inked += is_inside(ink, at) && ink.at(at) > 0.5 * level;
+            }
+        }
+        return inked > 3;
+    };
+    std::size_t ways = 0;
+    std::size_t lines = 0;
+    for (const GridDot dot : grid.dots()) {
+        const glm::dvec2 from = lattice_point(grid.lattice(), dot);
+        for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+            const glm::dvec2 along = lattice_point(grid.lattice(), grid.step(side));
+            if (grid.dot_at(dot + grid.step(side)) || is_inside(ink, found.map(from + along))) continue;
+            constexpr double loop = 0.35;
+            const double leaves = leaves_at(from, along);
+            if (leaves < loop) return true;
+            ++ways;
+            lines += has_line(from, along, leaves);
+        }
+    }
+    return lines > 0 && 6 * lines >= ways;
 }
 
 }  // namespace sikku

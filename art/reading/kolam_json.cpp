@@ -147,17 +147,8 @@ std::string kolam_json_file(const DotGrid& grid, const GapStates& states) {
         (gap.side == 0 ? within : below)[row(dot)][column(dot)] =
             gap_state_names[static_cast<std::size_t>(states[i])].letter;
     }
-    const auto list = [](const char* key, const std::vector<std::string>& texts) {
-        std::string text = fmt::format("    \"{}\": [", key);
-        for (std::size_t i = 0; i < texts.size(); ++i) {
-            text += fmt::format("{}\n      \"{}\"", i > 0 ? "," : "", texts[i]);
-        }
-        return text + (texts.empty() ? "]" : "\n    ]");
-    };
-    return fmt::format(
-        "{{\n  \"format\": \"kolam\",\n  \"version\": 1,\n  \"design\": {{\n    \"rows\": {},\n    "
-        "\"cols\": {},\n{},\n{},\n{}\n  }}\n}}\n",
-        rows, columns, list("mask", mask), list("h", within), list("v", below));
+    const Json design = {{"rows", rows}, {"cols", columns}, {"mask", mask}, {"h", within}, {"v", below}};
+    return Json{{"format", "kolam"}, {"version", 1}, {"design", design}}.dump(2) + "\n";
 }
 
 }  // namespace sikku

@@ -23,43 +23,35 @@ struct Part {
     std::uint64_t rhombus = 0;  ///< the number of the gap, or another number at the border
 };
 
-class Parts {
-public:
-    explicit Parts(const DotGrid& grid) : grid_(grid) {}
-
-    /// nullopt far from all dots
-    std::optional<Part> at(glm::dvec2 point) const {
-        // Places of the grid may be odd; those of nearest_place() are not.
-        const GridDot origin = grid_.dots()[0];
-        const GridDot near = origin + nearest_place(grid_.lattice(), point - lattice_point(grid_.lattice(), origin));
-        std::optional<Part> best;
-        double least = 1e300;
-        const std::int32_t reach = grid_.lattice() == DotLattice::square ? 2 : 1;
-        for (std::int32_t dy = -2; dy <= 2; dy += 2) {
-            for (std::int32_t dx = -2; dx <= 2; dx += reach) {
-                const GridDot place = near + GridDot{dx, dy};
-                const auto dot = grid_.dot_at(place);
-                if (!dot) continue;
-                const double distance = glm::distance(lattice_point(grid_.lattice(), place), point);
-                if (distance >= least) continue;
-                least = distance;
-                best = Part{*dot, 0, 0};
-            }
+/// The part of a point; nullopt far from all dots.
+std::optional<Part> part_of(const DotGrid& grid, glm::dvec2 point) {
+    // Places of the grid may be odd; those of nearest_place() are not.
+    const GridDot origin = grid.dots()[0];
+    const GridDot near = origin + nearest_place(grid.lattice(), point - lattice_point(grid.lattice(), origin));
+    std::optional<Part> best;
+    double least = 1e300;
+    const std::int32_t reach = grid.lattice() == DotLattice::square ? 2 : 1;
+    for (std::int32_t dy = -2; dy <= 2; dy += 2) {
+        for (std::int32_t dx = -2; dx <= 2; dx += reach) {
+            const GridDot place = near + GridDot{dx, dy};
+            const auto dot = grid.dot_at(place);
+            if (!dot) continue;
+            const double distance = glm::distance(lattice_point(grid.lattice(), place), point);
+            if (distance >= least) continue;
+            least = distance;
+            best = Part{*dot, 0, 0};
         }
-        if (!best) return best;
-        const glm::dvec2 way = point - lattice_point(grid_.lattice(), grid_.dots()[best->dot]);
-        const double turns = std::atan2(way.y, way.x) / (2 * std::numbers::pi);
-        const auto sides = static_cast<double>(grid_.sides());
-        best->side = static_cast<std::uint32_t>(std::lround((turns + 1) * sides)) % grid_.sides();
-        const std::int32_t gap = grid_.gap(best->dot, best->side);
-        best->rhombus = gap >= 0 ? static_cast<std::uint64_t>(gap)
-                                 : grid_.gaps().size() + std::uint64_t{grid_.sides()} * best->dot + best->side;
-        return best;
     }
-
-private:
-    const DotGrid& grid_;
-};
+    if (!best) return best;
+    const glm::dvec2 way = point - lattice_point(grid.lattice(), grid.dots()[best->dot]);
+    const double turns = std::atan2(way.y, way.x) / (2 * std::numbers::pi);
+    const auto sides = static_cast<double>(grid.sides());
+    best->side = static_cast<std::uint32_t>(std::lround((turns + 1) * sides)) % grid.sides();
+    const std::int32_t gap = grid.gap(best->dot, best->side);
+    best->rhombus = gap >= 0 ? static_cast<std::uint64_t>(gap)
+                             : grid.gaps().size() + std::uint64_t{grid.sides()} * best->dot + best->side;
+    return best;
+}
 
 /// An arc as a line passes it.
 struct Passed {
@@ -73,7 +65,6 @@ public:
     LineReader(const DotGrid& grid, const Homography& to_lattice)
         : grid_(grid),
           to_lattice_(to_lattice),
-          parts_(grid),
           votes_(grid.gaps().size()),
           arc_times_(std::size_t{grid.sides()} * grid.dots().size()) {}
 
@@ -101,13 +92,8 @@ public:
         }
     }
 
-    ReadKolam result(std::vector<std::string> notes) const {
-        ReadKolam kolam{grid_,
-                        GapStates(grid_.gaps().size()),
-                        std::vector<float>(grid_.gaps().size(), 1.0F),
-                        {},
-                        std::move(notes),
-                        {}};
+    ReadKolam result() const {
+        ReadKolam kolam{grid_, GapStates(votes_.size()), std::vector<float>(votes_.size(), 1.0F)};
         for (std::size_t gap = 0; gap < votes_.size(); ++gap) {
             const auto& votes = votes_[gap];
             const auto best = std::max_element(votes.begin(), votes.end());
@@ -139,7 +125,7 @@ public:
 
 private:
     void go(glm::dvec2 to) {
-        const auto part = parts_.at(to);
+        const auto part = part_of(grid_, to);
         if (!part) {
             lost_ = true;
             return;
@@ -162,7 +148,7 @@ private:
             return;
         }
         const glm::dvec2 middle = 0.5 * (from + to);
-        const auto between = parts_.at(middle);
+        const auto between = part_of(grid_, middle);
         if (!between) return;
         cross(a, from, *between, middle, depth + 1);
         cross(*between, middle, b, to, depth + 1);
@@ -194,7 +180,6 @@ private:
 
     const DotGrid& grid_;
     const Homography& to_lattice_;
-    Parts parts_;
     std::vector<std::array<std::uint32_t, 3>> votes_;
     std::vector<std::uint32_t> arc_times_;
     std::vector<Passed> passed_;
@@ -211,14 +196,13 @@ private:
 /// Cells of a picture of the plane: inside the lines an odd number of times or not.
 class OddCells {
 public:
-    OddCells(const std::vector<ClosedLine>& lines, const Monitor& monitor) : low_(lines[0][0]) {
-        glm::dvec2 high = low_;
+    OddCells(const std::vector<ClosedLine>& lines, const Monitor& monitor) {
+        PointBox box;
         for (const ClosedLine& line : lines) {
-            for (const glm::dvec2 point : line) {
-                low_ = glm::min(low_, point);
-                high = glm::max(high, point);
-            }
+            for (const glm::dvec2 point : line) box.add(point);
         }
+        low_ = box.low;
+        const glm::dvec2 high = box.high;
         const double longest = std::max({high.x - low_.x, high.y - low_.y, 1e-12});
         // A dot of a kolam takes about four points, and has to be some tens of cells wide.
         std::size_t points = 0;
@@ -311,7 +295,7 @@ private:
         }
     }
 
-    glm::dvec2 low_;
+    glm::dvec2 low_{0.0};
     double scale_ = 1;
     std::size_t width_ = 0;
     std::size_t height_ = 0;
@@ -361,12 +345,11 @@ ReadKolam read_gaps(const DotGrid& grid, const Homography& to_lattice, const std
         monitor.check();
         if (line.size() > 1) reader.read(line);
     }
-    return reader.result({});
+    return reader.result();
 }
 
 ReadKolam read_gaps(const PlacedGrid& placed, const std::vector<ClosedLine>& lines, const Monitor& monitor) {
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
+    std::vector<glm::dvec2> from, to;
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
         from.push_back(2.0 * corner + glm::dvec2(placed.origin.x, placed.origin.y));
         to.push_back(corner);
@@ -409,8 +392,7 @@ ReadKolam kolam_of_lines(const std::vector<ClosedLine>& lines, std::vector<glm::
     }
     const PlacedGrid placed = place_grid(fit->lattice, std::move(places));
     // Maps the plane of the lines to that of the grid, which has another origin.
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
+    std::vector<glm::dvec2> from, to;
     for (const GridDot corner : {GridDot{0, 0}, GridDot{2, 0}, GridDot{0, 4}, GridDot{2, 4}}) {
         const GridDot place = corner + placed.origin;
         from.push_back(fit->map(lattice_point(fit->lattice, place)));

@@ -38,14 +38,12 @@ class LineWork {
 public:
     LineWork(const GreyPicture& smooth, FoundGrid found, const GapReader& reader)
         : ink_(smooth), found_(std::move(found)), reader_(reader), level_(line_level(smooth, found_)) {
-        glm::dvec2 low(1e300);
-        glm::dvec2 high(-1e300);
+        PointBox box;
         for (const GridDot dot : grid().dots()) {
             dots_.insert(dot);
-            low = glm::min(low, found_.at(dot) - 2 * found_.spacing);
-            high = glm::max(high, found_.at(dot) + 2 * found_.spacing);
+            box.add(found_.at(dot), 2 * found_.spacing);
         }
-        pieces_.emplace(smooth, 0.4 * level_, low, high);
+        pieces_.emplace(smooth, 0.4 * level_, box.low, box.high);
         regular_ = found_.map;
         regular_.forget();
         exact_ = found_.map;
@@ -510,13 +508,9 @@ private:
         const DotLattice lattice = dots.lattice();
         const auto back = reading.grid.map.perspective().inverse();
         if (!back) return 0;
-        glm::dvec2 low(1e300);
-        glm::dvec2 high(-1e300);
+        PointBox box;
         for (const GridDot dot : dots.dots()) {
-            const glm::dvec2 at = reading.grid.at(dot);
-            const double reach = reading.grid.map.spacing(lattice_point(lattice, dot));
-            low = glm::min(low, at - reach);
-            high = glm::max(high, at + reach);
+            box.add(reading.grid.at(dot), reading.grid.map.spacing(lattice_point(lattice, dot)));
         }
         const double step = std::max(1.0, reading.grid.spacing / 24);
         double all = 0;
@@ -524,8 +518,8 @@ private:
         const auto limit = [](double value, std::size_t size) {
             return std::clamp(value, 0.0, static_cast<double>(size));
         };
-        for (double y = limit(low.y, ink_.height); y < limit(high.y, ink_.height); y += step) {
-            for (double x = limit(low.x, ink_.width); x < limit(high.x, ink_.width); x += step) {
+        for (double y = limit(box.low.y, ink_.height); y < limit(box.high.y, ink_.height); y += step) {
+            for (double x = limit(box.low.x, ink_.width); x < limit(box.high.x, ink_.width); x += step) {
                 if (ink_.at({x, y}) < 0.5 * level_) continue;
                 const glm::dvec2 place = (*back)({x, y}) - reading.grid.map.shift();
                 // The nearest place, and whether it is a dot.
@@ -577,20 +571,12 @@ private:
 
 }  // namespace
 
-struct InkReader::Store {
-    std::optional<std::pair<double, GreyPicture>> smooth;  ///< blurred by a distance
-    GapTemplates templates;
-};
-
-InkReader::InkReader(const GreyPicture& ink) : ink_(ink), store_(std::make_unique<Store>()) {}
-InkReader::~InkReader() = default;
-
 std::vector<Reading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
     // Pages have kolams of similar sizes.
     const double blur = std::exp2(std::round(4 * std::log2(0.018 * grid.spacing)) / 4);
-    if (!store_->smooth || store_->smooth->first != blur) store_->smooth.emplace(blur, blurred(ink_, blur));
-    const GreyPicture& smooth = store_->smooth->second;
-    const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, store_->templates, monitor);
+    if (!smooth_ || smooth_->first != blur) smooth_.emplace(blur, blurred(ink_, blur));
+    const GreyPicture& smooth = smooth_->second;
+    const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, templates_, monitor);
     std::vector<Reading> readings = LineWork(smooth, grid, reader).read(monitor);
     if (readings.size() == 1 && readings[0].left_out == 0) return readings;
     // Spots that do not belong to a kolam may have bent its lattice.

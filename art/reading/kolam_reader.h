@@ -6,7 +6,8 @@
 #include "art/reading/picture.h"
 
 #include <cstddef>
-#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -29,10 +30,7 @@ struct Reading {
 class InkReader {
 public:
     /// @param ink  is kept by reference
-    explicit InkReader(const GreyPicture& ink);
-    ~InkReader();
-    InkReader(const InkReader&) = delete;
-    InkReader& operator=(const InkReader&) = delete;
+    explicit InkReader(const GreyPicture& ink) : ink_(ink) {}
 
     /// Reads the gaps of a grid, adds dots that have lines around them, and finds strands that leave the kolam. Dots
     /// without lines to it that are not close beside it are another kolam: the one within a frame comes first, then
@@ -42,9 +40,9 @@ public:
     std::vector<Reading> read(const FoundGrid& grid, const Monitor& monitor);
 
 private:
-    struct Store;
     const GreyPicture& ink_;
-    std::unique_ptr<Store> store_;
+    std::optional<std::pair<double, GreyPicture>> smooth_;  ///< blurred by a distance
+    GapTemplates templates_;
 };
 
 }  // namespace sikku

@@ -151,13 +151,9 @@ double angle_between(glm::dvec2 a, glm::dvec2 b) {
 
 /// The typical distance of neighbours.
 double typical_distance(const std::vector<glm::dvec2>& points) {
-    glm::dvec2 low = points[0];
-    glm::dvec2 high = points[0];
-    for (const glm::dvec2 point : points) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    const double side = std::max({high.x - low.x, high.y - low.y, 1e-9});
+    PointBox box;
+    for (const glm::dvec2 point : points) box.add(point);
+    const double side = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-9});
     const PointGrid index(points, side / std::max(1.0, std::sqrt(static_cast<double>(points.size()))));
     std::vector<double> distances;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -251,16 +247,15 @@ PatchSteps steps_of(const std::map<Place, std::uint32_t>& patch, const std::vect
     double firsts = 0;
     double seconds = 0;
     for (const auto& [place, point] : patch) {
-        const auto right = patch.find({place.first + 1, place.second});
-        const auto up = patch.find({place.first, place.second + 1});
-        if (right != patch.end()) {
-            steps.first += points[right->second] - points[point];
-            ++firsts;
-        }
-        if (up != patch.end()) {
-            steps.second += points[up->second] - points[point];
-            ++seconds;
-        }
+        const glm::dvec2 from = points[point];
+        const auto add = [&](const Place& next, glm::dvec2& sum, double& count) {
+            const auto found = patch.find(next);
+            if (found == patch.end()) return;
+            sum += points[found->second] - from;
+            ++count;
+        };
+        add({place.first + 1, place.second}, steps.first, firsts);
+        add({place.first, place.second + 1}, steps.second, seconds);
     }
     if (firsts > 0) steps.first /= firsts;
     if (seconds > 0) steps.second /= seconds;
@@ -456,8 +451,7 @@ std::optional<LatticeFit> fit_lattice(const std::vector<glm::dvec2>& points, boo
     const auto upright = [y_down](glm::dvec2 v) { return y_down ? glm::dvec2(v.x, -v.y) : v; };
     const Axes axes(upright(steps.first), upright(steps.second), lattice);
 
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
+    std::vector<glm::dvec2> from, to;
     for (const auto& [place, point] : patch) {
         from.push_back(lattice_point(axes.lattice, axes.place(place)));
         to.push_back(points[point]);

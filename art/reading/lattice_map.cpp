@@ -62,8 +62,7 @@ LatticeMap LatticeMap::from(GridDot origin) const {
 }
 
 LatticeMap LatticeMap::fitted_to(std::span<const GridDot> places) const {
-    std::vector<glm::dvec2> from;
-    std::vector<glm::dvec2> to;
+    std::vector<glm::dvec2> from, to;
     std::vector<GridDot> seen;
     for (const GridDot place : places) {
         const auto found = deviations_.find({place.y + origin_.y, place.x + origin_.x});

@@ -239,10 +239,7 @@ class Area {
 public:
     explicit Area(const Reading& reading)
         : grid_(reading.grid.grid()), map_(reading.grid.map), back_(map_.perspective().inverse()) {
-        for (const GridDot dot : grid_.dots()) {
-            low_ = glm::min(low_, map_.dot(dot));
-            high_ = glm::max(high_, map_.dot(dot));
-        }
+        for (const GridDot dot : grid_.dots()) box_.add(map_.dot(dot));
     }
     /// A place of the lattice, of any offset, from one of its dots.
     glm::dvec2 from_first(glm::dvec2 pixel) const {
@@ -266,23 +263,24 @@ public:
         }
         return false;
     }
-    /// Pixels of the box around the dots.
-    double box() const { return std::max(0.0, high_.x - low_.x) * std::max(0.0, high_.y - low_.y); }
-    glm::dvec2 low() const { return low_; }  ///< corner of that box
-    glm::dvec2 high() const { return high_; }
-    bool surrounds(const Area& other) const { return surrounds_box(low_, high_, other); }
-    /// True if a box contains the dots of an area.
-    static bool surrounds_box(glm::dvec2 low, glm::dvec2 high, const Area& other) {
-        return low.x < other.low_.x && low.y < other.low_.y && high.x > other.high_.x && high.y > other.high_.y;
+    /// The box around the dots.
+    const PointBox& box() const { return box_; }
+    /// The pixels of that box.
+    double pixels() const {
+        const glm::dvec2 size = box_.high - box_.low;
+        return std::max(0.0, size.x) * std::max(0.0, size.y);
     }
 
 private:
     DotGrid grid_;
     LatticeMap map_;
     std::optional<Homography> back_;
-    glm::dvec2 low_{1e300};
-    glm::dvec2 high_{-1e300};
+    PointBox box_;
 };
+
+bool is_in(const std::vector<Area>& areas, glm::dvec2 pixel) {
+    return std::any_of(areas.begin(), areas.end(), [&](const Area& area) { return area.contains(pixel); });
+}
 
 /// Dots between the places of a lattice: spots like its dots, within it.
 std::size_t dots_beside(const Part& part, const std::vector<InkSpot>& spots) {
@@ -446,7 +444,7 @@ struct Findings {
     /// Share of the picture around which no kolam was found.
     double free() const {
         double covered = 0;
-        for (const Part& part : parts) covered += part.is_counted() ? Area(part.reading).box() : 0;
+        for (const Part& part : parts) covered += part.is_counted() ? Area(part.reading).pixels() : 0;
         return 1 - covered / (static_cast<double>(picture.width) * static_cast<double>(picture.height));
     }
 };
@@ -471,7 +469,7 @@ void sort_parts(std::vector<Part>& parts) {
     std::vector<char> is_frame(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
-            if (k == i || !parts[k].is_kolam() || !areas[i].surrounds(areas[k])) continue;
+            if (k == i || !parts[k].is_kolam() || !areas[i].box().surrounds(areas[k].box())) continue;
             if (10 * parts[k].dots() <= parts[i].dots()) continue;
             is_frame[i] = parts[i].is_kolam() || (parts[i].has_lines() && lies_outside(parts[i], areas[k]));
         }
@@ -509,13 +507,11 @@ bool has_ink_within(const Part& frame, const std::vector<Part>& parts, const Gre
     const double step = std::max(1.0, found.spacing / 12);
     const double most = 4 * found.spacing * found.spacing / (step * step);
     double inked = 0;
-    for (double y = area.low().y; y <= area.high().y; y += step) {
+    for (double y = area.box().low.y; y <= area.box().high.y; y += step) {
         monitor.check();
-        for (double x = area.low().x; x <= area.high().x; x += step) {
+        for (double x = area.box().low.x; x <= area.box().high.x; x += step) {
             const glm::dvec2 pixel(x, y);
-            if (std::fabs(ink.at(pixel)) <= 0.5 * level) continue;
-            if (std::any_of(known.begin(), known.end(), [&](const Area& each) { return each.contains(pixel); }))
-                continue;
+            if (std::fabs(ink.at(pixel)) <= 0.5 * level || is_in(known, pixel)) continue;
             if (++inked > most) return true;
         }
     }
@@ -572,16 +568,12 @@ struct StrayDots {
 
 /// True if points lie along the four sides of a box that contains some areas.
 bool lie_around(const std::vector<glm::dvec2>& points, const std::vector<Area>& areas) {
-    glm::dvec2 low(1e300);
-    glm::dvec2 high(-1e300);
-    for (const glm::dvec2 point : points) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    if (!std::all_of(areas.begin(), areas.end(),
-                     [&](const Area& area) { return Area::surrounds_box(low, high, area); })) {
+    PointBox box;
+    for (const glm::dvec2 point : points) box.add(point);
+    if (!std::all_of(areas.begin(), areas.end(), [&](const Area& area) { return box.surrounds(area.box()); })) {
         return false;
     }
+    const auto [low, high] = box;
     const double reach = 0.12 * std::min(high.x - low.x, high.y - low.y);
     std::array<std::size_t, 4> sides{};
     for (const glm::dvec2 point : points) {
@@ -603,9 +595,7 @@ StrayDots stray_dots(const Findings& found, const Part& part) {
     std::vector<glm::dvec2> strays;
     std::vector<glm::dvec2> all;
     for (const InkSpot& spot : found.spots) {
-        if (spot.strength < 0.5 * grid.strength) continue;
-        if (std::any_of(areas.begin(), areas.end(), [&](const Area& area) { return area.contains(spot.at); }))
-            continue;
+        if (spot.strength < 0.5 * grid.strength || is_in(areas, spot.at)) continue;
         all.push_back(spot.at);
         if (spot.strength < 0.7 * grid.strength || spot.radius < 0.7 * radius || spot.radius > 1.4 * radius) continue;
         strays.push_back(spot.at);

@@ -1,6 +1,5 @@
 #include "art/reading/polygon_files.h"
 
-#include "art/reading/polygon_limits.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -17,7 +16,7 @@
 
 namespace sikku {
 
-std::string polygon_files::line_and_column(std::string_view text, std::size_t at) {
+std::string line_and_column(std::string_view text, std::size_t at) {
     const std::string_view before = text.substr(0, std::min(at, text.size()));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t start = before.rfind('\n');
@@ -94,9 +93,8 @@ public:
         nested_.pop_back();
         if (ended == In::corner) {
             if (numbers_ != 2) refuse_corner(counted(numbers_, "number"));
-            if (polygons_.corners.size() >= polygon_files::most_points) {
-                throw std::runtime_error(
-                    fmt::format("the polygons have more than {} corners", polygon_files::most_points));
+            if (polygons_.corners.size() >= most_polygon_corners) {
+                throw std::runtime_error(fmt::format("the polygons have more than {} corners", most_polygon_corners));
             }
             polygons_.corners.emplace_back(at_[0], at_[1]);
         } else if (ended == In::polygon) {
@@ -107,8 +105,8 @@ public:
     }
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception&) override {
         // The parser counts the bytes that it read.
-        throw std::runtime_error(fmt::format("{}: this is not valid JSON",
-                                             polygon_files::line_and_column(text_, position > 0 ? position - 1 : 0)));
+        throw std::runtime_error(
+            fmt::format("{}: this is not valid JSON", line_and_column(text_, position > 0 ? position - 1 : 0)));
     }
 
     PolygonList finish() {
@@ -156,8 +154,8 @@ private:
     }
     bool take(double number) {
         if (in() == In::corner) {
-            if (!(std::fabs(number) <= polygon_files::most_coordinate)) {
-                refuse_corner(fmt::format("{:g}, which is larger than {:g}", number, polygon_files::most_coordinate));
+            if (!(std::fabs(number) <= most_polygon_coordinate)) {
+                refuse_corner(fmt::format("{:g}, which is larger than {:g}", number, most_polygon_coordinate));
             }
             if (numbers_ < 2) at_[numbers_] = number;
             ++numbers_;

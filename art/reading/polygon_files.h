@@ -5,12 +5,18 @@
 #include "engine/tiling/polygon_list.h"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace sikku {
 
 /// Maximum size of a file: 512 MB.
 constexpr std::size_t most_polygon_bytes = std::size_t{512} << 20U;
+constexpr std::size_t most_polygon_corners = 50'000'000;
+constexpr double most_polygon_coordinate = 1e9;
+
+/// Returns `line 3, column 7` for a byte of a text. Cost: linear.
+std::string line_and_column(std::string_view text, std::size_t at);
 
 /// Reads JSON: a list of polygons, or an object with such a list as `list`, as `sikku tiling --json` writes it. A
 /// polygon is a list of corners `[x, y]`, or an object with that list as `corners`, and optionally a `colour`. Other

@@ -1,6 +1,5 @@
 #include "art/reading/polygon_files.h"
 
-#include "art/reading/polygon_limits.h"
 #include "art/reading/svg_attributes.h"
 #include "art/reading/svg_path.h"
 #include "art/reading/svg_style.h"
@@ -25,10 +24,6 @@
 
 namespace sikku {
 namespace {
-
-using polygon_files::line_and_column;
-using polygon_files::most_coordinate;
-using polygon_files::most_points;
 
 constexpr std::size_t most_copied_levels = 50;
 constexpr std::size_t most_copied_elements = 1'000'000;
@@ -242,7 +237,7 @@ private:
                                                at + 1, data[at])});
                 return;
             }
-            for (const FlatPath& path : flatten_path(data, most_points - points_)) add(path, around);
+            for (const FlatPath& path : flatten_path(data, most_polygon_corners - points_)) add(path, around);
         } else if (name == "polygon" || name == "polyline") {
             const std::string_view data = node.attribute("points").value();
             count_copied(data.size());
@@ -341,13 +336,14 @@ private:
             return;
         }
         points_ += path.points.size();
-        if (points_ > most_points) refuse(fmt::format("the polygons have more than {} corners", most_points));
+        if (points_ > most_polygon_corners)
+            refuse(fmt::format("the polygons have more than {} corners", most_polygon_corners));
         Polygons& polygons = around.is_filled() ? filled_ : outlined_;
         PolygonList& list = polygons.list;
         for (const glm::dvec2 point : path.points) {
             const glm::dvec2 at = around.transform(point);
-            if (!(std::fabs(at.x) <= most_coordinate && std::fabs(at.y) <= most_coordinate)) {
-                refuse(fmt::format("a coordinate is larger than {:g}", most_coordinate));
+            if (!(std::fabs(at.x) <= most_polygon_coordinate && std::fabs(at.y) <= most_polygon_coordinate)) {
+                refuse(fmt::format("a coordinate is larger than {:g}", most_polygon_coordinate));
             }
             list.corners.emplace_back(at.x, -at.y);
         }

@@ -33,26 +33,23 @@ std::optional<GapState> parse_state(std::string_view word) {
     return std::nullopt;
 }
 
-/// Takes a whole number from the beginning of `text`.
-std::uint32_t take_number(std::string_view& text, std::string_view whole) {
-    text = trimmed(text);
+/// Takes a whole number up to a mark, and the mark, from the beginning of `text`.
+std::uint32_t take_number(std::string_view& text, char mark, std::string_view whole) {
+    const std::size_t at = text.find(mark);
+    const std::string_view digits = trimmed(text.substr(0, at));
     std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc()) refuse_fix(whole);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    text = trimmed(text);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (at == std::string_view::npos || error != std::errc() || end != digits.data() + digits.size())
+        refuse_fix(whole);
+    text.remove_prefix(at + 1);
     return number;
 }
 
 void fix_one(ReadKolam& kolam, std::string_view given, const std::vector<GapPlace>& places) {
     std::string_view text = given;
     GapPlace place;
-    place.row = take_number(text, given);
-    if (!text.starts_with(',')) refuse_fix(given);
-    text.remove_prefix(1);
-    place.number = take_number(text, given);
-    if (!text.starts_with(':')) refuse_fix(given);
-    text.remove_prefix(1);
+    place.row = take_number(text, ',', given);
+    place.number = take_number(text, ':', given);
     const auto state = parse_state(lower_case(trimmed(text)));
     if (!state) refuse_fix(given);
     const auto found = std::find(places.begin(), places.end(), place);

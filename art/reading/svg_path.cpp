@@ -124,32 +124,26 @@ private:
                 add({here_.x, relative ? here_.y + y : y});
                 break;
             }
-            case 'c': {
-                const glm::dvec2 first = point(relative);
-                const glm::dvec2 second = point(relative);
-                cubic(first, second, point(relative));
-                break;
-            }
+            case 'c':
             case 's': {
-                const glm::dvec2 first = last_ == 'c' ? 2.0 * here_ - control_ : here_;
+                const glm::dvec2 first = kind == 'c'    ? point(relative)
+                                         : last_ == 'c' ? 2.0 * here_ - control_
+                                                        : here_;
                 const glm::dvec2 second = point(relative);
                 cubic(first, second, point(relative));
-                break;
+                return;
             }
-            case 'q': {
-                const glm::dvec2 middle = point(relative);
-                quadratic(middle, point(relative));
-                break;
-            }
+            case 'q':
             case 't': {
-                const glm::dvec2 middle = last_ == 'q' ? 2.0 * here_ - control_ : here_;
-                quadratic(middle, point(relative));
-                break;
+                const glm::dvec2 middle = kind == 'q'    ? point(relative)
+                                          : last_ == 'q' ? 2.0 * here_ - control_
+                                                         : here_;
+                return quadratic(middle, point(relative));
             }
             default:
                 arc(relative);
         }
-        if (kind != 'c' && kind != 's' && kind != 'q' && kind != 't') last_ = kind;
+        last_ = kind;
     }
     void cubic(glm::dvec2 first, glm::dvec2 second, glm::dvec2 to) {
         const glm::dvec2 from = here_;

@@ -78,15 +78,18 @@ std::vector<SvgStyle::Declaration> SvgStyle::declarations_of(std::string_view te
     return result;
 }
 
-std::string svg_property(pugi::xml_node node, const char* name) {
-    std::string found = node.attribute(name).value();
-    bool is_important = false;
-    for (SvgStyle::Declaration& each : SvgStyle::declarations_of(node.attribute("style").value())) {
-        if (each.name != name || (is_important && !each.is_important)) continue;
-        found = std::move(each.value);
-        is_important = each.is_important;
+/// The declaration of the element's style that applies.
+std::optional<SvgStyle::Declaration> SvgStyle::own_declaration(pugi::xml_node node, const char* name) {
+    std::optional<Declaration> best;
+    for (Declaration& each : declarations_of(node.attribute("style").value())) {
+        if (each.name == name && (!best || each.is_important >= best->is_important)) best = std::move(each);
     }
-    return found;
+    return best;
+}
+
+std::string svg_property(pugi::xml_node node, const char* name) {
+    const auto own = SvgStyle::own_declaration(node, name);
+    return own ? own->value : node.attribute(name).value();
 }
 
 SvgStyle::SvgStyle(pugi::xml_node root, const Monitor& monitor) : pulse_(monitor) {
@@ -264,12 +267,8 @@ const SvgStyle::Declaration* SvgStyle::declared(pugi::xml_node node, const char*
 std::string SvgStyle::property(pugi::xml_node node, const char* name) const {
     const Declaration* sheet = rules_.empty() ? nullptr : declared(node, name);
     if (!sheet) return svg_property(node, name);
-    const std::vector<Declaration> own = declarations_of(node.attribute("style").value());
-    const Declaration* best = nullptr;
-    for (const Declaration& each : own) {
-        if (each.name == name && (!best || each.is_important >= best->is_important)) best = &each;
-    }
-    return best && best->is_important >= sheet->is_important ? best->value : sheet->value;
+    const auto own = own_declaration(node, name);
+    return own && own->is_important >= sheet->is_important ? own->value : sheet->value;
 }
 
 }  // namespace sikku

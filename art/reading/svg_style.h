@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,7 @@ private:
     friend std::string svg_property(pugi::xml_node node, const char* name);
 
     static std::vector<Declaration> declarations_of(std::string_view text);
+    static std::optional<Declaration> own_declaration(pugi::xml_node node, const char* name);
     void find_sheets(pugi::xml_node node, int level);
     void read_sheet(std::string text);
     void add_rule(std::string_view selectors, std::string_view body);

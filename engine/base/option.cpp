@@ -15,16 +15,6 @@
 namespace sikku {
 namespace {
 
-/// The error in a whole number; null if it is valid.
-const char* whole_problem(std::string_view text) {
-    std::uint64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::invalid_argument || stop != text.data() + text.size()) {
-        return "expected a whole number, 0 or more";
-    }
-    return error == std::errc() ? nullptr : "too large";
-}
-
 std::string whole_message(const std::string& option, const std::string& value, const std::string& message) {
     if (option.empty()) return message;
     return fmt::format("{}{}{}: {}", option, value.empty() ? "" : " ", printable(value, 80), message);
@@ -103,7 +93,12 @@ void check_option(const OptionInfo& option, const std::string& given) {
         return;
     }
     if (option.kind == OptionKind::whole) {
-        if (const char* problem = whole_problem(text)) refuse(problem);
+        std::uint64_t value = 0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc::invalid_argument || stop != text.data() + text.size()) {
+            refuse("expected a whole number, 0 or more");
+        }
+        if (error != std::errc()) refuse("too large");
     }
     double number = 0;
     if (!read_number(text, number)) refuse("expected a number");

@@ -29,16 +29,10 @@ public:
 
     /// Buffered (1 MB).
     void write(std::string_view bytes) override;
-    /// Number of bytes written so far.
     std::uint64_t size() const override { return written_; }
-    /// True if insert() may be used: not for devices and pipes.
     bool can_insert() const override { return !direct_; }
-    /// Inserts `bytes` before the byte at `position` (at most size()). Cost: linear in the bytes after it.
     void insert(std::uint64_t position, std::string_view bytes) override;
-    /// Replaces bytes already written, if insert() may be used.
     void overwrite(std::uint64_t position, std::string_view bytes) override;
-    /// The temporary file with all bytes written so far, for libraries and programs that open files themselves. Do
-    /// not call write() afterwards.
     const std::filesystem::path& temporary() override;
     /// Synchronises the file, renames it and synchronises the folder: after a crash of the machine the file has the
     /// old or the new content and is never empty. Devices and pipes are not synchronised. Call once, last. Cost on a

@@ -204,10 +204,9 @@ private:
                     if (is_dead) break;
                     const Rule& other = kept[i];
                     const std::size_t common = std::min(other.predecessor.size(), rule.predecessor.size());
-                    const std::vector<Formal> ours(rule.predecessor.begin(),
-                                                   rule.predecessor.begin() + static_cast<std::ptrdiff_t>(common));
-                    const std::vector<Formal> theirs(other.predecessor.begin(),
-                                                     other.predecessor.begin() + static_cast<std::ptrdiff_t>(common));
+                    std::vector<Formal> ours = rule.predecessor, theirs = other.predecessor;
+                    ours.resize(common);
+                    theirs.resize(common);
                     if (type_of(ours) != type_of(theirs)) continue;
                     if (other.predecessor.size() > common) {
                         report_.loss(rule.at, "the order of this production and an earlier one of several symbols");

@@ -182,6 +182,7 @@ private:
         check_size(written_);
     }
 
+    bool has_colours() const { return effects_.has('c') || effects_.has('<') || effects_.has('>'); }
     bool inert(char letter) const {
         return !entry_.rule_of(letter) && !is_step(letter) && !effects_.turns_count(letter) && letter != '[' &&
                letter != ']' && letter != '@' && letter != '!' && letter != 'c' && letter != '<' && letter != '>' &&
@@ -252,10 +253,9 @@ private:
         const std::size_t levels = effects_.levels();
         std::vector<Line> lines;
         Line first;
-        const bool has_colours = effects_.has('c') || effects_.has('<') || effects_.has('>');
         for (std::size_t level = 0; level < levels; ++level) {
             std::string axiom = word(entry_.axiom, "1", false, level);
-            if (has_colours) axiom = fmt::format(";({}) {}", first_colour, axiom == "*" ? "" : axiom);
+            if (has_colours()) axiom = fmt::format(";({}) {}", first_colour, axiom == "*" ? "" : axiom);
             first.right.push_back(std::move(axiom));
         }
         lines.push_back(std::move(first));
@@ -348,8 +348,7 @@ private:
             for (const std::string& name : names_) text += ' ' + name;
             text += '\n';
         }
-        if (effects_.has('c') || effects_.has('<') || effects_.has('>'))
-            text += fmt::format("palette: {}\nground: black\n", palette);
+        if (has_colours()) text += fmt::format("palette: {}\nground: black\n", palette);
         return text;
     }
 

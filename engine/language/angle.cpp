@@ -47,13 +47,11 @@ std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::strin
             return std::nullopt;
         }
         if (numerator == 0) exponent = 0;
-        for (; exponent > 0; --exponent) {
-            numerator *= 10;
-            if (numerator > largest_term) return std::nullopt;
-        }
-        for (; exponent < 0; ++exponent) {
-            denominator *= 10;
-            if (denominator > largest_term) return std::nullopt;
+        while (exponent != 0) {
+            std::int64_t& term = exponent > 0 ? numerator : denominator;
+            term *= 10;
+            if (term > largest_term) return std::nullopt;
+            exponent -= exponent > 0 ? 1 : -1;
         }
     }
     return std::pair{negative ? -numerator : numerator, denominator};

@@ -26,25 +26,25 @@ struct Function {
     unsigned arguments;
     double (*compute)(double a, double b);
 };
-constexpr std::array<Function, 19> functions = {{{"sin", 1, [](double a, double) { return std::sin(a); }},
-                                                 {"cos", 1, [](double a, double) { return std::cos(a); }},
-                                                 {"tan", 1, [](double a, double) { return std::tan(a); }},
-                                                 {"asin", 1, [](double a, double) { return std::asin(a); }},
-                                                 {"acos", 1, [](double a, double) { return std::acos(a); }},
-                                                 {"atan", 1, [](double a, double) { return std::atan(a); }},
-                                                 {"atan2", 2, [](double a, double b) { return std::atan2(a, b); }},
-                                                 {"exp", 1, [](double a, double) { return std::exp(a); }},
-                                                 {"log", 1, [](double a, double) { return std::log(a); }},
-                                                 {"log10", 1, [](double a, double) { return std::log10(a); }},
-                                                 {"sqrt", 1, [](double a, double) { return std::sqrt(a); }},
-                                                 {"abs", 1, [](double a, double) { return std::fabs(a); }},
-                                                 {"floor", 1, [](double a, double) { return std::floor(a); }},
-                                                 {"ceil", 1, [](double a, double) { return std::ceil(a); }},
-                                                 {"round", 1, [](double a, double) { return std::round(a); }},
-                                                 {"min", 2, [](double a, double b) { return std::fmin(a, b); }},
-                                                 {"max", 2, [](double a, double b) { return std::fmax(a, b); }},
-                                                 {"mod", 2, [](double a, double b) { return std::fmod(a, b); }},
-                                                 {"random", 2, nullptr}}};
+constexpr Function functions[] = {{"sin", 1, [](double a, double) { return std::sin(a); }},
+                                  {"cos", 1, [](double a, double) { return std::cos(a); }},
+                                  {"tan", 1, [](double a, double) { return std::tan(a); }},
+                                  {"asin", 1, [](double a, double) { return std::asin(a); }},
+                                  {"acos", 1, [](double a, double) { return std::acos(a); }},
+                                  {"atan", 1, [](double a, double) { return std::atan(a); }},
+                                  {"atan2", 2, [](double a, double b) { return std::atan2(a, b); }},
+                                  {"exp", 1, [](double a, double) { return std::exp(a); }},
+                                  {"log", 1, [](double a, double) { return std::log(a); }},
+                                  {"log10", 1, [](double a, double) { return std::log10(a); }},
+                                  {"sqrt", 1, [](double a, double) { return std::sqrt(a); }},
+                                  {"abs", 1, [](double a, double) { return std::fabs(a); }},
+                                  {"floor", 1, [](double a, double) { return std::floor(a); }},
+                                  {"ceil", 1, [](double a, double) { return std::ceil(a); }},
+                                  {"round", 1, [](double a, double) { return std::round(a); }},
+                                  {"min", 2, [](double a, double b) { return std::fmin(a, b); }},
+                                  {"max", 2, [](double a, double b) { return std::fmax(a, b); }},
+                                  {"mod", 2, [](double a, double b) { return std::fmod(a, b); }},
+                                  {"random", 2, nullptr}};
 
 /// The exact sum of two numbers, the larger one first.
 struct TwoDoubles {
@@ -123,19 +123,12 @@ private:
         int precedence;
     };
     /// Longer signs precede their beginnings.
-    static constexpr std::array<Operator, 13> operators = {{{"||", Operation::disjunction, 1},
-                                                            {"&&", Operation::conjunction, 2},
-                                                            {"==", Operation::equal, 3},
-                                                            {"!=", Operation::not_equal, 3},
-                                                            {"<=", Operation::less_equal, 4},
-                                                            {">=", Operation::greater_equal, 4},
-                                                            {"<", Operation::less, 4},
-                                                            {">", Operation::greater, 4},
-                                                            {"+", Operation::add, 5},
-                                                            {"-", Operation::subtract, 5},
-                                                            {"*", Operation::multiply, 6},
-                                                            {"/", Operation::divide, 6},
-                                                            {"^", Operation::power, 8}}};
+    static constexpr Operator operators[] = {
+        {"||", Operation::disjunction, 1}, {"&&", Operation::conjunction, 2}, {"==", Operation::equal, 3},
+        {"!=", Operation::not_equal, 3},   {"<=", Operation::less_equal, 4},  {">=", Operation::greater_equal, 4},
+        {"<", Operation::less, 4},         {">", Operation::greater, 4},      {"+", Operation::add, 5},
+        {"-", Operation::subtract, 5},     {"*", Operation::multiply, 6},     {"/", Operation::divide, 6},
+        {"^", Operation::power, 8}};
     struct Waiting {
         Operation operation;
         std::size_t at;
@@ -144,9 +137,9 @@ private:
     };
     static int precedence(Operation operation) {
         if (operation == Operation::negate || operation == Operation::complement) return 7;
-        const auto row = std::find_if(operators.begin(), operators.end(),
-                                      [&](const Operator& one) { return one.operation == operation; });
-        return row == operators.end() ? 0 : row->precedence;  // 0: an open parenthesis
+        const auto* const row = std::find_if(std::begin(operators), std::end(operators),
+                                             [&](const Operator& one) { return one.operation == operation; });
+        return row == std::end(operators) ? 0 : row->precedence;  // 0: an open parenthesis
     }
 
     Refused wrong(std::size_t at, const std::string& message) { return diagnostics_.refuse(text_.part(at), message); }
@@ -223,11 +216,11 @@ private:
     }
 
     bool function(std::string_view name, std::size_t begin) {
-        const auto row = std::find_if(functions.begin(), functions.end(),
-                                      [&](const Function& known) { return known.name == name; });
-        if (row == functions.end()) return wrong(begin, fmt::format("unknown function '{}'", name));
+        const auto* const row = std::find_if(std::begin(functions), std::end(functions),
+                                             [&](const Function& known) { return known.name == name; });
+        if (row == std::end(functions)) return wrong(begin, fmt::format("unknown function '{}'", name));
         if (!row->compute && !draws_) return wrong(begin, "'random' is not allowed here");
-        waiting_.push_back({Operation::open, at_++, &*row});
+        waiting_.push_back({Operation::open, at_++, row});
         return true;
     }
 
@@ -242,7 +235,7 @@ private:
                          fmt::format("this function takes {}, not {}", counted(wanted, "argument"), open.arguments));
         }
         Expression::Step step{open.arguments == 1 ? Operation::function : Operation::function2,
-                              static_cast<std::uint32_t>(open.function - functions.data())};
+                              static_cast<std::uint32_t>(open.function - functions)};
         if (!open.function->compute) {
             step = {Operation::random, (*draws_)++};
             result_.uses_chance_ = true;
@@ -264,11 +257,11 @@ private:
         const std::string_view rest = view_.substr(at_);
         if (rest[0] == ')') return close(at_++);
         if (rest[0] == ',') return comma(at_++);
-        const auto row = std::find_if(operators.begin(), operators.end(),
-                                      [&](const Operator& one) { return rest.starts_with(one.sign); });
+        const auto* const row = std::find_if(std::begin(operators), std::end(operators),
+                                             [&](const Operator& one) { return rest.starts_with(one.sign); });
         if (rest.starts_with("=>")) return wrong(begin, "'=>' is not an operator; did you mean '>='?");
         if (rest.starts_with("=<")) return wrong(begin, "'=<' is not an operator; did you mean '<='?");
-        if (row == operators.end()) {
+        if (row == std::end(operators)) {
             return wrong(begin,
                          rest[0] == '=' ? "expected '==' (a single '=' compares nothing)" : "expected an operator");
         }

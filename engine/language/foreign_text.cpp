@@ -6,7 +6,6 @@
 #include "engine/base/text.h"
 
 #include <algorithm>
-#include <array>
 
 namespace sikku {
 namespace {
@@ -118,12 +117,12 @@ ForeignKind foreign_kind(std::string_view text) {
 }
 
 std::string_view foreign_kind_name(ForeignKind kind) {
-    constexpr std::array<std::string_view, 6> names = {"a pattern",
-                                                       "a Fractint collection of L-systems",
-                                                       "an L-system of cpfg",
-                                                       "an L+C file of lpfg, which is C++",
-                                                       "an L-Py file, which is Python",
-                                                       "HTML or XML"};
+    constexpr std::string_view names[] = {"a pattern",
+                                          "a Fractint collection of L-systems",
+                                          "an L-system of cpfg",
+                                          "an L+C file of lpfg, which is C++",
+                                          "an L-Py file, which is Python",
+                                          "HTML or XML"};
     return names[static_cast<std::size_t>(kind)];
 }
 

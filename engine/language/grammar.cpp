@@ -248,12 +248,7 @@ Grammar Grammar::with_parts(PlainParts parts) const {
 }
 
 bool Grammar::has_labels() const {
-    if (labels_->empty()) return false;
-    const std::vector<char> reached = reachable();
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-        if (reached[i] && symbols_[i].command.action == Action::label) return true;
-    }
-    return false;
+    return !labels_->empty() && leads_to([](Action action) { return action == Action::label; });
 }
 
 std::int64_t Grammar::whole_word_steps() const {

@@ -211,6 +211,16 @@ public:
     /// For each symbol, 1 if the axiom can lead to it, `interpret:` included, else 0.
     std::vector<char> reachable() const;
 
+    /// True if the axiom can lead to a symbol whose action has a property, `interpret:` included.
+    template <class Holds>
+    bool leads_to(Holds holds) const {
+        const std::vector<char> reached = reachable();
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            if (reached[i] && holds(symbols_[i].command.action)) return true;
+        }
+        return false;
+    }
+
     /// The same system with another derivation length; nullopt if its schedule is too short for it.
     std::optional<Grammar> with_steps(std::int64_t steps) const;
 

@@ -90,11 +90,9 @@ private:
         if (const auto angle = read_angle(key.value.view())) return *angle;
         // 25°, 25 degrees
         const LineAdvice advice = advice_for_line(fmt::format("{} = {}", key.name, key.value.view()), true);
-        if (!advice.lines.empty()) {
-            diagnostics_.error(key.value, fmt::format("degrees are a plain number; {}", advice.text()));
-            return otherwise;
-        }
-        diagnostics_.error(key.value, "expected degrees: a number such as 25.7 or a fraction such as 360/7");
+        diagnostics_.error(key.value, advice.lines.empty()
+                                          ? "expected degrees: a number such as 25.7 or a fraction such as 360/7"
+                                          : "degrees are a plain number; " + advice.text());
         return otherwise;
     }
 
@@ -182,14 +180,10 @@ private:
     }
 
     bool reaches_into_space() const {
-        const std::vector<char> reached = grammar_.reachable();
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            const Action action = grammar_.symbols_[i].command.action;
-            if (reached[i] && (action == Action::pitch || action == Action::roll || action == Action::level ||
-                               action == Action::surface))
-                return true;
-        }
-        return false;
+        return grammar_.leads_to([](Action action) {
+            return action == Action::pitch || action == Action::roll || action == Action::level ||
+                   action == Action::surface;
+        });
     }
 
     void read_axiom() {
@@ -216,6 +210,13 @@ private:
         }
     }
 
+    /// Adds the letters of a list of symbols; false after an error in it.
+    bool add_letters(const Key& key, std::set<std::string>& letters) {
+        const auto symbols = reader_.symbol_list(key);
+        for (const Symbol symbol : symbols.value_or(Word())) letters.insert(reader_.symbols()[symbol].letter);
+        return symbols.has_value();
+    }
+
     ContextList read_contexts() {
         ContextList list;
         const Key* ignore = pattern_.find("ignore");
@@ -226,11 +227,8 @@ private:
         }
         const Key* key = ignore ? ignore : consider;
         if (key) {
-            if (const auto symbols = reader_.symbol_list(*key)) {
-                for (const Symbol symbol : *symbols) list.letters.insert(reader_.symbols()[symbol].letter);
-                list.is_considered = consider != nullptr;
-                list.is_stated = true;
-            }
+            list.is_considered = consider != nullptr;
+            list.is_stated = add_letters(*key, list.letters);
         }
         return list;
     }
@@ -242,9 +240,7 @@ private:
             const Key* listed = pattern_.find(name);
             if (!listed) return;
             letters.clear();
-            if (const auto list = reader_.symbol_list(*listed)) {
-                for (const Symbol symbol : *list) letters.insert(reader_.symbols()[symbol].letter);
-            }
+            add_letters(*listed, letters);
         };
         replace("forward", forward);
         replace("move", move);

@@ -172,19 +172,17 @@ private:
         ++advised_;
         if (!advice.axiom.empty() && axiom_.empty()) axiom_ = advice.axiom;
         const std::string_view arrow = foreign_arrow(text);
+        Span where = whole;
+        std::string what = "expected 'key: value' or a production with '-->'";
         if (!arrow.empty()) {
-            diagnostics_.error(whole.part(static_cast<std::size_t>(arrow.data() - text.data()), arrow.size()),
-                               fmt::format("'{}' is not the arrow of a production; {}", arrow, advice.text()));
-        } else if (advice.is_needless && colon != std::string_view::npos) {
-            diagnostics_.error(whole, fmt::format("unknown key '{}': patterns do without it; {}",
-                                                  whole.part(0, colon).trimmed().view(), advice.text()));
-        } else if (colon != std::string_view::npos && text.find("-->") == std::string_view::npos) {
-            diagnostics_.error(
-                whole, fmt::format("unknown key '{}'; {}", whole.part(0, colon).trimmed().view(), advice.text()));
-        } else {
-            diagnostics_.error(whole,
-                               fmt::format("expected 'key: value' or a production with '-->'; {}", advice.text()));
+            where = whole.part(static_cast<std::size_t>(arrow.data() - text.data()), arrow.size());
+            what = fmt::format("'{}' is not the arrow of a production", arrow);
+        } else if (colon != std::string_view::npos &&
+                   (advice.is_needless || text.find("-->") == std::string_view::npos)) {
+            what = fmt::format("unknown key '{}'{}", whole.part(0, colon).trimmed().view(),
+                               advice.is_needless ? ": patterns do without it" : "");
         }
+        diagnostics_.error(where, fmt::format("{}; {}", what, advice.text()));
         return true;
     }
 
@@ -279,6 +277,10 @@ private:
 
     /// Reports `p1 : F --> FF` and `A ---> B`, which would be productions of other predecessors.
     bool is_misread(const Span& whole, const Span& left_side, std::size_t arrow) {
+        const auto report = [&](const Span& where, const std::string& message) {
+            diagnostics_.error(where, message);
+            return true;
+        };
         const std::string_view left = left_side.view();
         const std::size_t colon = left.find(':');
         if (colon != std::string_view::npos) {
@@ -286,34 +288,29 @@ private:
             const std::string_view rest = trimmed(left.substr(colon + 1));
             if (is_label(name, rest) && !define_names_.contains(rest) && !is_listed_symbol(name)) {
                 const LineAdvice advice = advice_for_line(whole.view(), true);
-                diagnostics_.error(
+                return report(
                     left_side.part(0, name.size()),
                     fmt::format("'{}:' is not a predecessor: productions have no names; {}", name, advice.text()));
-                return true;
             }
         }
         if (const std::size_t number = item_number_length(left); number > 0 && number < left.size()) {
             const LineAdvice advice = advice_for_line(whole.view(), true);
-            diagnostics_.error(left_side.part(0, number).trimmed(),
-                               fmt::format("'{}' is not a predecessor: productions have no numbers; {}",
-                                           trimmed(left.substr(0, number)), advice.text()));
-            return true;
+            return report(left_side.part(0, number).trimmed(),
+                          fmt::format("'{}' is not a predecessor: productions have no numbers; {}",
+                                      trimmed(left.substr(0, number)), advice.text()));
         }
         if (without_star(left).size() < trimmed(left).size()) {
-            diagnostics_.error(left_side.part(left.rfind('*'), 1),
-                               fmt::format("'*' is not a condition: without one, a production always applies; {}",
-                                           advice_for_line(whole.view(), true).text()));
-            return true;
+            return report(left_side.part(left.rfind('*'), 1),
+                          fmt::format("'*' is not a condition: without one, a production always applies; {}",
+                                      advice_for_line(whole.view(), true).text()));
         }
         // A weight beside the word: `F --> 0.33 FF`.
         const Span right_side = whole.part(arrow + 3).trimmed();
         if (const auto weight = misplaced_weight(right_side.view())) {
             const Span number = right_side.part(weight->at, weight->length);
             if (!has_predecessor_in(number.view())) {
-                diagnostics_.error(number,
-                                   fmt::format("a weight follows the successor; write '{}'",
-                                               printable(fmt::format("{} --> {}", left, weight->right), 120)));
-                return true;
+                return report(number, fmt::format("a weight follows the successor; write '{}'",
+                                                  printable(fmt::format("{} --> {}", left, weight->right), 120)));
             }
         }
         // A weight in front of the arrow: `F 0.33 --> FF`.
@@ -322,18 +319,15 @@ private:
         if (blank != std::string_view::npos && colon == std::string_view::npos &&
             left.find('.', blank) != std::string_view::npos && read_number(left.substr(blank + 1), weight)) {
             const std::string_view rest = whole.view().substr(arrow);
-            diagnostics_.error(left_side.part(blank + 1),
-                               fmt::format("a weight follows the successor; write '{}'",
-                                           printable(fmt::format("{} {} : {}", trimmed(left.substr(0, blank)), rest,
-                                                                 left.substr(blank + 1)),
-                                                     120)));
-            return true;
+            return report(left_side.part(blank + 1),
+                          fmt::format("a weight follows the successor; write '{}'",
+                                      printable(fmt::format("{} {} : {}", trimmed(left.substr(0, blank)), rest,
+                                                            left.substr(blank + 1)),
+                                                120)));
         }
         const bool is_long = left.size() > 2 && arrow > 0 && whole.view()[arrow - 1] == '-';
         if (is_long && is_blank(left[left.size() - 2])) {
-            diagnostics_.error(left_side.part(left.size() - 1),
-                               "'--->' is not the arrow of a production; expected '-->'");
-            return true;
+            return report(left_side.part(left.size() - 1), "'--->' is not the arrow of a production; expected '-->'");
         }
         return false;
     }

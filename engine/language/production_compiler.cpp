@@ -90,6 +90,14 @@ private:
         return result;
     }
 
+    /// Reads an expression that may be absent; false after an error.
+    bool read_expression(const std::optional<Span>& text, const char* if_empty, std::optional<Expression>& read) {
+        if (!text) return true;
+        if (text->empty()) return diagnostics_.refuse(*text, if_empty);
+        read = reader_.expression(*text);
+        return read.has_value();
+    }
+
     /// @param first  index of the first of these texts among those of the table
     void add_productions(std::vector<Production>& productions, const std::vector<ProductionText>& texts,
                          std::size_t first, Groups& groups, bool homomorphism) {
@@ -106,27 +114,12 @@ private:
             auto predecessor = reader_.word(text.predecessor, WordPlace::predecessor);
             auto right = context(text.right, true);
             if (!left || !predecessor || !right) continue;
-            std::optional<Expression> condition;
-            if (text.condition) {
-                if (text.condition->empty()) {
-                    diagnostics_.error(*text.condition, "expected a condition after ':'");
-                    continue;
-                }
-                condition = reader_.expression(*text.condition);
-                if (!condition) continue;
-            }
+            std::optional<Expression> condition, weight;
+            if (!read_expression(text.condition, "expected a condition after ':'", condition)) continue;
             std::vector<Expression> arguments;
             auto successor = reader_.word(text.successor, WordPlace::axiom_or_successor, &arguments);
             if (!successor) continue;
-            std::optional<Expression> weight;
-            if (text.weight) {
-                if (text.weight->empty()) {
-                    diagnostics_.error(*text.weight, "expected a weight after ':'");
-                    continue;
-                }
-                weight = reader_.expression(*text.weight);
-                if (!weight) continue;
-            }
+            if (!read_expression(text.weight, "expected a weight after ':'", weight)) continue;
             if (homomorphism && (!left->empty() || !right->empty() || predecessor->size() != 1)) {
                 diagnostics_.error(text.predecessor,
                                    "a production of 'interpret:' replaces one symbol, without contexts");

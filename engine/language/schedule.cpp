@@ -69,16 +69,15 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
         }
         while (at < text.size() && !is_blank(text[at]) && text[at] != '*' && text[at] != ',') ++at;
         const std::string_view name = text.substr(begin, at - begin);
-        ScheduleItem item;
         const auto known = index.find(name);
-        if (known != index.end()) {
-            item.table = known->second;
-        } else {
+        if (known == index.end()) {
             return diagnostics.refuse(
                 value.part(begin),
                 name.empty() ? std::string("expected the name of a table")
                              : fmt::format("unknown table '{}'{}", name, did_you_mean(nearest(name, names))));
         }
+        ScheduleItem item;
+        item.table = known->second;
         const auto count = count_at(value, at, diagnostics);
         if (!count) return std::nullopt;
         const auto compiled = Expression::compile(

@@ -56,11 +56,14 @@ public:
 
     bool draws() const { return draws_; }
     bool turns() const { return turns_; }
-    const std::vector<LetterFacts>& facts() const { return facts_; }
 
-    std::vector<std::string> names(const std::vector<std::uint32_t>& letters) const {
+    /// The letters of which a predicate holds, sorted.
+    template <class Holds>
+    std::vector<std::string> find(Holds holds) const {
         std::vector<std::string> list;
-        for (const std::uint32_t letter : letters) list.push_back(grammar_.letters()[letter]);
+        for (std::size_t i = 0; i < facts_.size(); ++i) {
+            if (holds(facts_[i])) list.push_back(grammar_.letters()[i]);
+        }
         std::sort(list.begin(), list.end());
         return list;
     }
@@ -114,11 +117,7 @@ bool states_meaning(const Pattern& pattern) {
 /// The letters that move in a system none of whose words draw anything.
 std::vector<std::string> moves_without_ink(const Letters& letters, const Grammar& grammar) {
     if (can_draw(grammar)) return {};
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
-        if (letters.facts()[i].moves) found.push_back(i);
-    }
-    return letters.names(found);
+    return letters.find([](const LetterFacts& letter) { return letter.moves; });
 }
 
 /// True if moves only add points to the line of this pattern.
@@ -172,18 +171,13 @@ bool is_ink(Action action) {
 std::vector<std::string> meant_as_steps(const Pattern& pattern, const Grammar& grammar) {
     if (grammar.map() || states_meaning(pattern)) return {};
     const Letters letters(grammar);
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
-        const LetterFacts& letter = letters.facts()[i];
-        if (!is_candidate(letter)) continue;
+    std::vector<std::string> found = letters.find([&](const LetterFacts& letter) {
         const bool is_like_a_step = letter.is_in_step && letter.contains_self;
         const bool only_multiplies = letter.multiplies && !letter.contains_other;
-        const bool is_meant =
-            letters.draws() ? !letter.is_context && (is_like_a_step || only_multiplies) : letters.turns();
-        if (is_meant) found.push_back(i);
-    }
-    if (found.empty() && !moves_draw(pattern)) return moves_without_ink(letters, grammar);
-    return letters.names(found);
+        return is_candidate(letter) &&
+               (letters.draws() ? !letter.is_context && (is_like_a_step || only_multiplies) : letters.turns());
+    });
+    return found.empty() && !moves_draw(pattern) ? moves_without_ink(letters, grammar) : found;
 }
 
 void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
@@ -219,11 +213,7 @@ void warn_of_undrawn(const Pattern& pattern, const Grammar& grammar, Diagnostics
 }
 
 bool can_draw(const Grammar& grammar) {
-    const std::vector<char> reached = grammar.reachable();
-    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
-        if (reached[symbol] && is_ink(grammar.symbols()[symbol].command.action)) return true;
-    }
-    return false;
+    return grammar.leads_to(is_ink);
 }
 
 bool may_draw(const Grammar& grammar) {
@@ -273,12 +263,8 @@ std::string undrawn_hint(const Grammar& grammar) {
     if (const std::vector<std::string> moves = moves_without_ink(letters, grammar); !moves.empty()) {
         return "; " + moves_message(grammar, moves);
     }
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t i = 0; i < letters.facts().size(); ++i) {
-        if (is_candidate(letters.facts()[i])) found.push_back(i);
-    }
-    if (found.empty()) return {};
-    const std::vector<std::string> names = letters.names(found);
+    const std::vector<std::string> names = letters.find(is_candidate);
+    if (names.empty()) return {};
     return fmt::format("; '{}' makes {} {}", key_with("forward", Action::draw, grammar, names), enumerated(names, ""),
                        names.size() == 1 ? "a step" : "steps");
 }

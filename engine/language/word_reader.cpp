@@ -72,9 +72,9 @@ bool WordReader::read_word(const Span& span, WordPlace place, Take take) {
         read.own.clear();
         if (plain) {
             // Most symbols are single letters that were met before.
-            const Symbol known = plain_symbols_[static_cast<unsigned char>(letter.front())];
-            if (known != no_symbol && letter != "%") {
-                take(known, read.own);
+            const std::optional<Symbol> known = plain_symbols_[static_cast<unsigned char>(letter.front())];
+            if (known && letter != "%") {
+                take(*known, read.own);
                 continue;
             }
         }

@@ -7,7 +7,6 @@
 #include "engine/language/word_scanner.h"
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -71,12 +70,7 @@ private:
     bool uses_chance_ = false;
     std::unordered_map<std::string_view, std::uint32_t> formals_;  // slots, of the production being read
     std::uint32_t draws_ = 1;                                      // draw 0 chooses among weights
-    static constexpr Symbol no_symbol = std::numeric_limits<Symbol>::max();
-    std::array<Symbol, 256> plain_symbols_ = [] {
-        std::array<Symbol, 256> symbols{};
-        symbols.fill(no_symbol);
-        return symbols;
-    }();  // of single letters without parameters
+    std::array<std::optional<Symbol>, 256> plain_symbols_{};       // of single letters without parameters
     std::unordered_map<std::string, Symbol> symbol_index_;
     std::unordered_map<std::string, std::uint32_t> letter_index_;
 };
