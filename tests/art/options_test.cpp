@@ -214,6 +214,7 @@ Result make(const Drawing& drawing, const Output& output, const OptionValues& mo
         result.files[name] = format == "png" ? without_texts(bytes) : without_recipe(format, bytes);
     }
     for (const Remark& remark : made.remarks) {
+        if (!remark.option.empty()) EXPECT_EQ(remark.text.find("'" + remark.option + "' has no effect: "), 0U);
         if (remark.is_warning) {
             result.warnings.push_back(remark.text);
         } else {

@@ -418,6 +418,11 @@ TEST(Overrides, MistakesPointIntoTheSetting) {
     expect_mistakes("axiom: F\n", {{{1, 1}, "one line of valid UTF-8"}},
                     {Setting::assignment("--set", "axiom", "G\nH")});
     expect_mistakes("axiom: F\n", {{{1, 1}, "expected key=value"}}, {Setting::assignment("--set", " ", "G")});
+    // A key is its own origin, also one whose name ends in `set`.
+    const auto own = diagnostics_of("axiom: F\n", {Setting("offset", "3")});
+    ASSERT_EQ(own.size(), 1u);
+    EXPECT_EQ(own[0].file, "offset 3");
+    EXPECT_EQ(own[0].where.line, 0);
     expect_mistakes("axiom: F\n", {{{0, 0}, "no variants"}}, {}, "v");
     expect_mistakes("axiom: F\nvariant a: axiom = G\nvariant b: axiom = H\n", {{{0, 0}, "the pattern has a, b"}}, {},
                     "v");

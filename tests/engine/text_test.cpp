@@ -1,4 +1,5 @@
 // tests/engine/text_test.cpp: untrusted texts in messages, tables and patterns.
+#include "engine/base/text.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 #include "engine/language/pattern.h"
@@ -36,6 +37,23 @@ TEST(Text, PrintableIsOneLine) {
         EXPECT_EQ(line.find_first_of("\n\r\x1b"), std::string::npos) << line;
         EXPECT_EQ(line.find("\u2028"), std::string::npos) << line;
     }
+}
+
+TEST(Text, LinesAndWordsAreTakenFromTheFront) {
+    std::string_view text = "a b\r\n\n c";
+    EXPECT_EQ(take_line(text), "a b\r");
+    EXPECT_EQ(take_line(text), "");
+    EXPECT_EQ(take_line(text), " c");
+    EXPECT_EQ(take_line(text), "");
+    EXPECT_TRUE(text.empty());
+    std::string_view words = "\t ab  c ";
+    EXPECT_EQ(take_word(words), "ab");
+    EXPECT_EQ(words, "  c ");
+    EXPECT_EQ(take_word(words), "c");
+    EXPECT_EQ(take_word(words), "");
+    EXPECT_TRUE(words.empty());
+    EXPECT_EQ(split_words(",a,b c,,", ","), (std::vector<std::string_view>{"a", "b c"}));
+    EXPECT_TRUE(split_words("").empty());
 }
 
 TEST(Text, FurtherLinesOfMessagesAreIndented) {
