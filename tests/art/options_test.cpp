@@ -214,7 +214,7 @@ Result make(const Drawing& drawing, const Output& output, const OptionValues& mo
         result.files[name] = format == "png" ? without_texts(bytes) : without_recipe(format, bytes);
     }
     for (const Remark& remark : made.remarks) {
-        if (!remark.option.empty()) EXPECT_EQ(remark.text.find("'" + remark.option + "' has no effect: "), 0U);
+        EXPECT_TRUE(remark.option.empty() || remark.text.starts_with("'" + remark.option + "' has no effect: "));
         if (remark.is_warning) {
             result.warnings.push_back(remark.text);
         } else {

@@ -1,5 +1,6 @@
 // Polygons of other programs: what is read, and where faults are.
 #include "art/reading/polygon_files.h"
+#include "engine/derivation/derivation.h"
 #include "engine/tiling/tiling.h"
 #include "engine/tiling/tiling_text.h"
 #include "tests/fuzz/svg_targets.h"
