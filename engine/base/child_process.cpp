@@ -22,11 +22,6 @@ constexpr int first_lifted = 10;
 
 }  // namespace
 
-void Descriptor::reset() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-}
-
 Descriptor lifted_copy(int descriptor) {
     Descriptor high(::fcntl(descriptor, F_DUPFD_CLOEXEC, first_lifted));
     if (!high) throw std::system_error(errno, std::generic_category(), "fcntl");

@@ -1,6 +1,8 @@
 // engine/base/child_process.h: file descriptors with an owner, and other programs.
 #pragma once
 
+#include <unistd.h>
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -25,7 +27,10 @@ public:
     ~Descriptor() { reset(); }
     int get() const { return number_; }
     explicit operator bool() const { return number_ >= 0; }
-    void reset();
+    void reset() {
+        if (number_ >= 0) ::close(number_);
+        number_ = -1;
+    }
 
 private:
     int number_ = -1;
