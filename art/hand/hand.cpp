@@ -1,7 +1,7 @@
 #include "art/hand/hand.h"
 
-#include "art/hand/hand_grid.h"
 #include "art/hand/hand_noise.h"
+#include "engine/geometry/point_grid.h"
 
 #include <glm/geometric.hpp>
 
@@ -146,13 +146,13 @@ private:
         const bool all_closed =
             std::all_of(lines.begin(), lines.end(), [](const HandLine& line) { return line.closed; });
         if (all_closed) return;
-        const HandGrid grid(places.at, std::max(2 * widest_half(lines), 1e-9));
+        const PointGrid grid(places.at, std::max(2 * widest_half(lines), 1e-9));
         for (std::size_t of = 0; of < lines.size(); ++of) {
             const HandLine& line = lines[of];
             if (line.closed || line.size() < 2) continue;
             for (const std::size_t end : {std::size_t{0}, line.size() - 1}) {
                 const std::size_t i = begins[of] + end;
-                grid.visit(places.at[i], [&](std::size_t j) {
+                grid.visit(places.at[i], 1, [&](std::size_t j) {
                     const HandNode& far = lines[places.of[j].line].nodes[places.of[j].node];
                     const double reach = line.nodes[end].half + far.half;
                     if (glm::length(places.at[j] - places.at[i]) > reach) return;
@@ -173,7 +173,7 @@ private:
 double find_room(std::vector<HandLine>& lines, const Places& places, const std::vector<glm::dvec2>& drifts,
                  double loop, const HandOptions& options) {
     const double reach = 2 * widest_half(lines) + 0.6 * loop;
-    const HandGrid grid(places.at, reach);
+    const PointGrid grid(places.at, reach);
     const Meetings meetings(lines, places);
     const auto is_end = [](const HandLine& of, std::size_t k) {
         return !of.closed && (k == 0 || k + 1 == of.size());
@@ -183,7 +183,7 @@ double find_room(std::vector<HandLine>& lines, const Places& places, const std::
         if (i % 1024 == 0) options.monitor.check();
         HandLine& line = lines[places.of[i].line];
         HandNode& node = line.nodes[places.of[i].node];
-        grid.visit(places.at[i], [&](std::size_t j) {
+        grid.visit(places.at[i], 1, [&](std::size_t j) {
             const glm::dvec2 way = places.at[j] - places.at[i];
             const double distance = glm::length(way);
             if (distance > reach || i == j) return;
@@ -349,11 +349,11 @@ std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines) {
     }
     std::vector<HandCrossing> found;
     if (!(longest > 0)) return found;
-    const HandGrid grid(middles, longest);
+    const PointGrid grid(middles, longest);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const HandLine& line = lines[segments[i].line];
         const std::size_t a = segments[i].node, a_end = line.next(a);
-        grid.visit(middles[i], [&](std::size_t j) {
+        grid.visit(middles[i], 1, [&](std::size_t j) {
             if (j <= i) return;
             const HandLine& other = lines[segments[j].line];
             const std::size_t b = segments[j].node, b_end = other.next(b);

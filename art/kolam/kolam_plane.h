@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/base/chance.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/cyclotomic.h"
 #include "engine/geometry/lattice.h"
 
@@ -30,12 +31,6 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr double steps_are_one = 1e-6;
 constexpr long double pi = 3.141592653589793238462643383279502884L;  // libc++ 13 has only double precision
 
-inline double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-inline double dot(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
 inline int sign_of(double value) {
     return (value > 0) - (value < 0);
 }
@@ -286,11 +281,11 @@ public:
         return angle < 0 ? angle + turn() : angle;
     }
     int side(const Segment& line, std::uint32_t node) const {
-        const double distance = cross(unit(line), at(node) - at(line.from));
+        const double distance = determinant(unit(line), at(node) - at(line.from));
         return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
     }
     int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
-        const double distance = dot(unit(line), at(b) - at(a));
+        const double distance = scalar_product(unit(line), at(b) - at(a));
         return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
     }
     int compare(std::span<const Segment>, const Cut& a, const Cut& b) const { return sign_of(a.along - b.along); }
@@ -336,8 +331,8 @@ public:
         std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
             const glm::dvec2 from = plane_.at(alike_.front()) - centre;
             const glm::dvec2 to = plane_.at(alike_[which]) - centre;
-            const glm::dvec2 factor = glm::dvec2(to.x * from.x - to.y * from.y, to.x * from.y + to.y * from.x) /
-                                      (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
+            const glm::dvec2 factor =
+                complex_product(to, from) / (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
             const glm::dvec2 place = plane_.at(node) - centre;
             return image({place.x, -place.y}, factor);
         }
@@ -349,9 +344,7 @@ public:
         glm::dvec2 centre{0.0};
 
     private:
-        std::uint32_t image(glm::dvec2 a, glm::dvec2 b) const {
-            return plane_.find(centre + glm::dvec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x));
-        }
+        std::uint32_t image(glm::dvec2 a, glm::dvec2 b) const { return plane_.find(centre + complex_product(a, b)); }
         const RoughPlane& plane_;
         std::vector<std::uint32_t> alike_;
     };

@@ -5,6 +5,7 @@
 #include "art/reading/picture.h"
 #include "art/reading/spots.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -574,12 +575,8 @@ struct StrayDots {
 
 /// True if points lie along the four sides of a box that contains some areas.
 bool lie_around(const std::vector<glm::dvec2>& points, const std::vector<Area>& areas) {
-    glm::dvec2 low(1e300);
-    glm::dvec2 high(-1e300);
-    for (const glm::dvec2 point : points) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
+    const Box box = box_of(points);
+    const glm::dvec2 low = box.low, high = box.high;
     if (!std::all_of(areas.begin(), areas.end(),
                      [&](const Area& area) { return Area::surrounds_box(low, high, area); })) {
         return false;

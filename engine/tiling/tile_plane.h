@@ -2,6 +2,7 @@
 // tolerance; and the directions of its edges.
 #pragma once
 
+#include "engine/geometry/box.h"
 #include "engine/geometry/cyclotomic.h"
 
 #include <glm/vec2.hpp>
@@ -142,12 +143,5 @@ private:
     std::vector<std::uint32_t> direction_;  // of vectors
     std::uint32_t directions_ = 0;
 };
-
-inline double determinant(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-inline double scalar_product(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
 
 }  // namespace sikku
