@@ -58,26 +58,25 @@ CurveIntersections::Part CurveIntersections::half(const Part& part, bool is_seco
             is_second ? part.to : part.middle()};
 }
 
-void CurveIntersections::of_two(const Bezier& a, const Bezier& b, const Note& note) {
+void CurveIntersections::begin(const Bezier& a, const Bezier& b, const Note& note) {
     first_ = &a;
     second_ = &b;
     note_ = &note;
     contacts_ = 0;
+}
+
+void CurveIntersections::of_two(const Bezier& a, const Bezier& b, const Note& note) {
+    begin(a, b, note);
     meet({a}, {b}, 0);
 }
 
 void CurveIntersections::of_neighbours(const Bezier& a, const Bezier& b, const Note& note) {
-    first_ = &a;
-    second_ = &b;
-    note_ = &note;
-    contacts_ = 0;
+    begin(a, b, note);
     meet_neighbours({a}, {b}, 0);
 }
 
 void CurveIntersections::of_one(const Bezier& curve, const Note& note) {
-    first_ = second_ = &curve;
-    note_ = &note;
-    contacts_ = 0;
+    begin(curve, curve, note);
     meet_self({curve}, 0);
 }
 

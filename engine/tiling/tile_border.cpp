@@ -112,7 +112,7 @@ private:
             components.join(pieces_.from[side], pieces_.to(side));
             is_used[pieces_.from[side]] = 1;
         }
-        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) result_.regions += regions.find(tile) == tile;
+        result_.regions = regions.count();
         for (std::uint32_t point = 0; point < plane_.points(); ++point) {
             result_.components += is_used[point] && components.find(point) == point;
         }
