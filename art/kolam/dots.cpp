@@ -51,6 +51,13 @@ void flip_within(std::span<const glm::dvec2> loop, const SegmentGrid& near, std:
     });
 }
 
+/// A control point of a stroke: closed ones go round, open ones end.
+glm::dvec2 control_of(const PlanarGraph& graph, std::span<const std::uint32_t> nodes, bool closed, std::ptrdiff_t j) {
+    const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
+    j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
+    return graph.node_places[nodes[static_cast<std::size_t>(j)]];
+}
+
 /// The dots of a spline have to lie within the curve, not only within its control polygon. Between the two, at
 /// each span, lies a small loop; a dot in it changes sides.
 void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines& lines, const KolamOptions& options,
@@ -70,10 +77,7 @@ void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines
         const auto nodes = strokes.stroke(i);
         const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
         const bool closed = strokes.closed[i];
-        const auto control = [&](std::ptrdiff_t j) {
-            j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
-            return graph.node_places[nodes[static_cast<std::size_t>(j)]];
-        };
+        const auto control = [&](std::ptrdiff_t j) { return control_of(graph, nodes, closed, j); };
         for (std::ptrdiff_t j = closed ? 0 : -1; j < (closed ? count : count + 1); ++j) {
             pulse();
             const std::array<glm::dvec2, 4> p = {control(j - 1), control(j), control(j + 1), control(j + 2)};
@@ -104,10 +108,7 @@ template <class Visit>
 void visit_curves(const PlanarGraph& graph, std::span<const std::uint32_t> nodes, bool closed, bool spline,
                   Visit&& visit) {
     const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
-    const auto control = [&](std::ptrdiff_t j) {
-        j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
-        return graph.node_places[nodes[static_cast<std::size_t>(j)]];
-    };
+    const auto control = [&](std::ptrdiff_t j) { return control_of(graph, nodes, closed, j); };
     const std::ptrdiff_t more = spline && !closed ? 1 : 0;  // an open spline begins and ends in its end points
     for (std::ptrdiff_t j = -more; j < count + more; ++j) {
         const glm::dvec2 b = control(j), c = control(j + 1);

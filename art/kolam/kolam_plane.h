@@ -86,11 +86,11 @@ public:
 
     /// 1 if the node lies left of the segment's line, 0 on it, -1 right of it.
     int side(const Segment& line, std::uint32_t node) const {
-        return sign_imaginary(rotated(between(line.from, node), -index(line)));
+        return numbers_.sign_imaginary(numbers_.rotated(between(line.from, node), -index(line)));
     }
     /// 1 if `b` lies farther along the line than `a`, 0 if neither does.
     int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
-        return sign_real(rotated(between(a, b), -index(line)));
+        return numbers_.sign_real(numbers_.rotated(between(a, b), -index(line)));
     }
     /// Order of two cuts along their segment: negative, 0 (they are one point), positive.
     int compare(std::span<const Segment> segments, const Cut& a, const Cut& b) const {
@@ -107,17 +107,17 @@ public:
         // other line: the crossing lies Im y / Im w along; 2 Im y Im w = Re(y conj(w)) - Re(y w).
         const Segment& first = segments[a.other];
         const Segment& second = segments[b.other];
-        const Vector way_1 = rotated(between(line.from, first.from), -index(first));
-        const Vector way_2 = rotated(between(line.from, second.from), -index(second));
+        const Vector way_1 = numbers_.rotated(between(line.from, first.from), -index(first));
+        const Vector way_2 = numbers_.rotated(between(line.from, second.from), -index(second));
         const int turn_1 = index(line) - index(first);
         const int turn_2 = index(line) - index(second);
-        const Vector a_1 = rotated(way_1, -turn_2);
-        const Vector a_2 = rotated(way_1, turn_2);
-        const Vector b_1 = rotated(way_2, -turn_1);
-        const Vector b_2 = rotated(way_2, turn_1);
+        const Vector a_1 = numbers_.rotated(way_1, -turn_2);
+        const Vector a_2 = numbers_.rotated(way_1, turn_2);
+        const Vector b_1 = numbers_.rotated(way_2, -turn_1);
+        const Vector b_2 = numbers_.rotated(way_2, turn_1);
         Vector difference{};
         for (std::size_t i = 0; i < rank_; ++i) difference[i] = (a_1[i] - a_2[i]) - (b_1[i] - b_2[i]);
-        return sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
+        return numbers_.sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
     }
 
     /// Images of nodes under the symmetries about the centroid of `nodes`.
@@ -164,8 +164,8 @@ public:
             Vector from_centre{};
             const auto coordinates = plane_.coordinates_of(node);
             for (std::size_t i = 0; i < plane_.rank_; ++i) from_centre[i] = Wide(count_) * coordinates[i] - sum_[i];
-            if (mirrored) from_centre = plane_.conjugate(from_centre);
-            const Vector turned = plane_.rotated(from_centre, index);
+            if (mirrored) from_centre = plane_.numbers_.conjugate(from_centre);
+            const Vector turned = plane_.numbers_.rotated(from_centre, index);
             std::array<std::int64_t, 8> found{};
             for (std::size_t i = 0; i < plane_.rank_; ++i) {
                 const Wide scaled = turned[i] + sum_[i];
@@ -192,20 +192,10 @@ private:
         for (std::size_t i = 0; i < rank_; ++i) step[i] = coordinates_of(to)[i] - coordinates_of(from)[i];
         return step;
     }
-    template <class Coordinates>
-    Coordinates rotated(const Coordinates& vector, int count) const {
-        return numbers_.rotated(vector, count);
-    }
-    template <class Coordinates>
-    Coordinates conjugate(const Coordinates& vector) const {
-        return numbers_.conjugate(vector);
-    }
     int sign_of_sine(int count) const {
         count = (count % turn_ + turn_) % turn_;
         return 2 * count % turn_ == 0 ? 0 : (2 * count < turn_ ? 1 : -1);
     }
-    int sign_real(const Vector& vector) const { return numbers_.sign_real(vector); }
-    int sign_imaginary(const Vector& vector) const { return numbers_.sign_imaginary(vector); }
 
     const Lattice& lattice_;
     Cyclotomic numbers_;
