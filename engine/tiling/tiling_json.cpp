@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <span>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -78,9 +78,9 @@ JsonText growth_json(const TileGrowth& growth) {
 JsonText lattice_json(const TilePlane& plane) {
     if (!plane.is_exact()) return nullptr;
     const Lattice& lattice = plane.lattice();
-    const auto vector = [&](int i) { return json(lattice.unit * lattice.basis(i)); };
-    return JsonText::object("k", lattice.headings, "rank", lattice.rank, "basis",
-                            JsonText::list(std::views::iota(0, lattice.rank), vector));
+    std::vector<JsonText> basis;
+    for (int i = 0; i < lattice.rank; ++i) basis.push_back(json(lattice.unit * lattice.basis(i)));
+    return JsonText::object("k", lattice.headings, "rank", lattice.rank, "basis", basis);
 }
 
 JsonText violation_json(const TileViolation& violation) {
