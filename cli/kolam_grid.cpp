@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/kolam_read.h"
 #include "cli/mistakes.h"
+#include "engine/base/json_text.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -190,16 +191,14 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     write(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
 
     if (options.as_json) {
+        const auto count = [&](GapState state) { return std::count(made.states.begin(), made.states.end(), state); };
         fmt::print(
-            "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, "
-            "\"laplacian_nullity\": {}, \"symmetry\": {}, \"code\": {}, \"changed\": {}, \"attempt\": {}, "
-            "\"crossings\": {}}}\n",
-            json_string(grid.text()), grid.dots().size(), grid.gaps().size(),
-            std::count(made.states.begin(), made.states.end(), GapState::crossed),
-            std::count(made.states.begin(), made.states.end(), GapState::joined), lines,
-            nullity ? fmt::format("{}", *nullity) : "null", json_string(grid_symmetry_name(made.symmetry)),
-            json_string(kolam_code(grid, made.states)), made.changed, made.attempt,
-            json_string(gap_states_text(grid, made.states)));
+            "{}", JsonText::object("grid", grid.text(), "dots", grid.dots().size(), "gaps", grid.gaps().size(),
+                                   "crossed", count(GapState::crossed), "joined", count(GapState::joined), "lines",
+                                   lines, "laplacian_nullity", nullity, "symmetry", grid_symmetry_name(made.symmetry),
+                                   "code", kolam_code(grid, made.states), "changed", made.changed, "attempt",
+                                   made.attempt, "crossings", gap_states_text(grid, made.states))
+                      .line());
     } else {
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
@@ -346,8 +345,9 @@ void kolam_radial(const KolamGridOptions& options, bool quiet) {
     pattern.monitor = stop_monitor();
     write(options.output, radial_pattern(kolam, pattern).text);
     if (options.as_json) {
-        fmt::print("{{\"arms\": {}, \"dots\": {}, \"lines\": {}, \"order\": [{}]}}\n", kolam.arms, kolam.dots(),
-                   kolam.lines(), fmt::join(kolam.order, ", "));
+        fmt::print("{}", JsonText::object("arms", kolam.arms, "dots", kolam.dots(), "lines", kolam.lines(), "order",
+                                          kolam.order)
+                             .line());
     } else {
         tell_unless(quiet, "sikku: {}: {}\n", pattern.title, pattern.description);
     }

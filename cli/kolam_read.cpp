@@ -8,6 +8,7 @@
 #include "art/reading/photograph.h"
 #include "cli/mistakes.h"
 #include "engine/base/input_file.h"
+#include "engine/base/json_text.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 
@@ -92,43 +93,36 @@ std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, c
     return text;
 }
 
-/// Findings in a photograph besides the kolam that was read, as members of a JSON object.
-std::string photograph_json(const Photograph& photograph) {
-    const auto places = [&](const std::vector<GridDot>& list) {
-        std::string text = "[";
-        for (const GridDot place : list) {
-            const glm::dvec2 at = photograph.in_file(place);
-            text += fmt::format("{}{{\"x\": {:.1f}, \"y\": {:.1f}}}", text.size() > 1 ? ", " : "", at.x, at.y);
-        }
-        return text + "]";
+/// Findings in a photograph besides the kolam that was read.
+JsonText photograph_json(const Photograph& photograph) {
+    const auto pixels = [&](GridDot place) {
+        const glm::dvec2 at = photograph.in_file(place);
+        return JsonText::object("x", JsonText::raw(fmt::format("{:.1f}", at.x)), "y",
+                                JsonText::raw(fmt::format("{:.1f}", at.y)));
     };
-    return fmt::format("\"kolams\": {}, \"open_ends\": {}, \"missing\": {}, ", photograph.kolams,
-                       places(photograph.open_ends), places(photograph.missing));
+    return JsonText::object("kolams", photograph.kolams, "open_ends", JsonText::list(photograph.open_ends, pixels),
+                            "missing", JsonText::list(photograph.missing, pixels));
 }
 
 std::string json_of(const ReadKolam& kolam, const Certificate& certificate, const Photograph* photograph) {
     const std::vector<GapPlace> places = gap_places(kolam.grid);
-    const auto gaps = [&](const std::vector<std::uint32_t>& list) {
-        std::string text = "[";
-        for (const std::uint32_t gap : list) {
-            text +=
-                fmt::format("{}{{\"row\": {}, \"gap\": {}, \"state\": \"{}\", \"certainty\": {:.2f}}}",
-                            text.size() > 1 ? ", " : "", places[gap].row, places[gap].number,
-                            gap_state_name(kolam.states[gap]), kolam.certainty.empty() ? 1.0F : kolam.certainty[gap]);
-        }
-        return text + "]";
+    const auto gap = [&](std::uint32_t number) {
+        const float certainty = kolam.certainty.empty() ? 1.0F : kolam.certainty[number];
+        return JsonText::object("row", places[number].row, "gap", places[number].number, "state",
+                                gap_state_name(kolam.states[number]), "certainty",
+                                JsonText::raw(fmt::format("{:.2f}", certainty)));
     };
-    std::string notes = "[";
-    for (const std::string& note : kolam.notes) notes += (notes.size() > 1 ? ", " : "") + json_string(note);
-    return fmt::format(
-        "{{\"grid\": {}, \"dots\": {}, \"gaps\": {}, \"crossed\": {}, \"joined\": {}, \"lines\": {}, \"symmetry\": "
-        "{}, \"doubtful\": {}, \"repaired\": {}, {}\"notes\": {}], \"crossings\": {}}}\n",
-        json_string(kolam.grid.text()), kolam.grid.dots().size(), kolam.states.size(),
-        std::count(kolam.states.begin(), kolam.states.end(), GapState::crossed),
-        std::count(kolam.states.begin(), kolam.states.end(), GapState::joined), certificate.lines,
-        json_string(grid_symmetry_name(certificate.symmetry)), gaps(kolam.doubtful()), gaps(kolam.repaired),
-        photograph != nullptr ? photograph_json(*photograph) : "", notes,
-        json_string(gap_states_text(kolam.grid, kolam.states)));
+    const auto count = [&](GapState state) { return std::count(kolam.states.begin(), kolam.states.end(), state); };
+    JsonText found =
+        JsonText::object("grid", kolam.grid.text(), "dots", kolam.grid.dots().size(), "gaps", kolam.states.size(),
+                         "crossed", count(GapState::crossed), "joined", count(GapState::joined), "lines",
+                         certificate.lines, "symmetry", grid_symmetry_name(certificate.symmetry), "doubtful",
+                         JsonText::list(kolam.doubtful(), gap), "repaired", JsonText::list(kolam.repaired, gap));
+    if (photograph != nullptr) found = found.and_members_of(photograph_json(*photograph));
+    return found
+        .and_members_of(
+            JsonText::object("notes", kolam.notes, "crossings", gap_states_text(kolam.grid, kolam.states)))
+        .line();
 }
 
 void report(const ReadKolam& kolam, const Certificate& certificate, const std::string& source, bool quiet) {
@@ -201,10 +195,9 @@ bool write_gesture_drawing(const KolamReadOptions& options, const std::string& s
         notes.push_back(fmt::format("the decoration of {} was left out", counted(drawing->decorated, "gesture")));
     }
     if (options.as_json) {
-        std::string list;
-        for (const std::string& note : notes) list += (list.empty() ? "" : ", ") + json_string(note);
-        fmt::print("{{\"grid\": null, \"dots\": {}, \"lines\": {}, \"notes\": [{}]}}\n", drawing->dots.size(),
-                   drawing->lines.size(), list);
+        fmt::print("{}", JsonText::object("grid", nullptr, "dots", drawing->dots.size(), "lines",
+                                          drawing->lines.size(), "notes", notes)
+                             .line());
         return true;
     }
     tell_unless(quiet, "sikku: {}: {}\n", printable(source), summary);

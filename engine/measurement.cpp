@@ -1,14 +1,12 @@
 #include "engine/measurement.h"
 
+#include "engine/base/json_text.h"
 #include "engine/base/memory.h"
-#include "engine/base/text.h"
 #include "engine/language/undrawn.h"
 #include "engine/map/map_measurement.h"
 #include "engine/map/map_step.h"
 #include "engine/measure/extent.h"
 #include "engine/measure/measurement_text.h"
-
-#include <fmt/format.h>
 
 namespace sikku {
 namespace {
@@ -29,11 +27,8 @@ std::string measure_as_json(const Document& document, double budget, const Monit
     const std::string title = document.text("title");
     if (document.map()) return measurement_json(title, measured_map(document, budget, monitor));
     std::string json = measurement_json(title, measured_word(document, budget, monitor));
-    std::string undrawn;
-    for (const std::string& letter : meant_as_steps(document.pattern(), document.grammar())) {
-        undrawn += (undrawn.empty() ? "" : ", ") + json_string(letter);
-    }
-    if (!undrawn.empty()) json.insert(json.rfind('}'), fmt::format(", \"undrawn\": [{}]", undrawn));
+    const auto undrawn = meant_as_steps(document.pattern(), document.grammar());
+    if (!undrawn.empty()) json.insert(json.rfind('}'), ", \"undrawn\": " + JsonText(undrawn).text);
     return json;
 }
 

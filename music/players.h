@@ -1,6 +1,7 @@
 // music/players.h: the parts of a score: documents with their melodies, and how they are played together.
 #pragma once
 
+#include "engine/base/input_file.h"
 #include "engine/base/monitor.h"
 #include "engine/language/document.h"
 #include "music/melody/mapping.h"
@@ -33,9 +34,6 @@ struct Player {
     std::string name;                   ///< name of its part; empty: that of the instrument
     std::vector<std::string> warnings;  ///< warnings about values of options
 };
-
-/// Receives the name and the text of a file that was read.
-using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
 
 /// Reads the melody of a document with the keys of `settings`. @param folder  folder of files that options name
 /// @throws SettingError, PatternError; std::runtime_error if a file cannot be read

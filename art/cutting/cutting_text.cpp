@@ -1,5 +1,6 @@
 #include "art/cutting/cutting_plan.h"
 #include "engine/base/diagnostic.h"
+#include "engine/base/json_text.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -50,24 +51,20 @@ std::string cutting_text(const std::string& title, const CuttingOptions& options
 
 std::string cutting_json(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
                          const std::vector<std::string>& materials, const std::vector<std::string>& files) {
-    std::string sheets;
+    std::vector<JsonText> sheets;
     for (std::size_t i = 0; i < plan.sheets.size(); ++i) {
         const CuttingSheet& sheet = plan.sheets[i];
-        std::string pieces;
-        for (const auto& [kind, count] : sheet.counts) {
-            pieces += fmt::format("{}\"{}\": {}", pieces.empty() ? "" : ", ", plan.kinds[kind].name, count);
-        }
-        sheets += fmt::format(
-            "{}{{\"file\": {}, \"sheets\": {}, \"colour\": {}, \"material\": {}, \"in_use\": {}, "
-            "\"length\": {}, \"pieces\": {{{}}}}}",
-            sheets.empty() ? "" : ", ", json_string(files[i]), sheet.copies, sheet.colour, json_string(materials[i]),
-            sheet.in_use, sheet.length, pieces);
+        std::vector<std::pair<std::string, std::uint64_t>> pieces;
+        for (const auto& [kind, count] : sheet.counts) pieces.emplace_back(plan.kinds[kind].name, count);
+        sheets.push_back(JsonText::object("file", files[i], "sheets", sheet.copies, "colour", sheet.colour,
+                                          "material", materials[i], "in_use", sheet.in_use, "length", sheet.length,
+                                          "pieces", JsonText::object_of(pieces)));
     }
-    return fmt::format(
-        "{{\"title\": {}, \"width\": {}, \"height\": {}, \"margin\": {}, \"seam\": {}, \"kerf\": {}, "
-        "\"gap\": {}, \"sheets\": {}, \"in_use\": {}, \"finished\": {}, \"list\": [{}]}}\n",
-        json_string(title), options.sheet.width, options.sheet.height, options.sheet.margin, options.seam,
-        options.kerf, options.gap, plan.sheet_count, plan.in_use, finished(plan, options), sheets);
+    return JsonText::object("title", title, "width", options.sheet.width, "height", options.sheet.height, "margin",
+                            options.sheet.margin, "seam", options.seam, "kerf", options.kerf, "gap", options.gap,
+                            "sheets", plan.sheet_count, "in_use", plan.in_use, "finished", finished(plan, options),
+                            "list", sheets)
+        .line();
 }
 
 }  // namespace sikku

@@ -30,16 +30,15 @@ public:
     /// @param more  added to the radius of each obstacle
     ObstacleGrid(const std::vector<Obstacle>& ink, double more, const Monitor& monitor) : ink_(ink), more_(more) {
         if (ink.empty()) return;
-        glm::dvec2 low = ink.front().from, high = low;
+        Box box;
         double widest = 0;
         for (const Obstacle& one : ink) {
-            low = glm::min(low, glm::min(one.from, one.to));
-            high = glm::max(high, glm::max(one.from, one.to));
+            box.add(one.from);
+            box.add(one.to);
             widest = std::max(widest, one.radius);
         }
-        const glm::dvec2 size = high - low;
-        const double cell = std::max(size.x, size.y) / (1 + std::sqrt(static_cast<double>(ink.size())));
-        grid_.emplace(low, high, cell, widest + more);
+        const double cell = box.longest() / (1 + std::sqrt(static_cast<double>(ink.size())));
+        grid_.emplace(box, cell, widest + more);
         for (std::uint32_t i = 0; i < ink.size(); ++i) grid_->add(i, ink[i].from, ink[i].to);
         grid_->sort(monitor);
     }

@@ -1,7 +1,8 @@
 #include "art/hand/hand.h"
 
-#include "art/hand/hand_grid.h"
 #include "art/hand/hand_noise.h"
+#include "engine/geometry/box.h"
+#include "engine/geometry/point_grid.h"
 
 #include <glm/geometric.hpp>
 
@@ -41,11 +42,6 @@ double smooth(double t) {
     return t * t * (3 - 2 * t);
 }
 
-glm::dvec2 unit(glm::dvec2 way) {
-    const double length = glm::length(way);
-    return length > 0 ? way / length : glm::dvec2(1.0, 0.0);
-}
-
 std::uint64_t seed_of(const HandOptions& options, std::uint64_t line, std::uint64_t channel) {
     return scrambled(scrambled(options.seed + 0x68616e64) + 16 * line + channel);
 }
@@ -82,7 +78,7 @@ struct Places {
         for (std::size_t line = 0; line < lines.size(); ++line) {
             for (std::size_t i = 0; i < lines[line].size(); ++i) {
                 at.push_back(lines[line].nodes[i].at);
-                way.push_back(unit(hand_direction(lines[line], i)));
+                way.push_back(hand_unit_direction(lines[line], i));
                 of.push_back({static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(i)});
             }
         }
@@ -146,13 +142,13 @@ private:
         const bool all_closed =
             std::all_of(lines.begin(), lines.end(), [](const HandLine& line) { return line.closed; });
         if (all_closed) return;
-        const HandGrid grid(places.at, std::max(2 * widest_half(lines), 1e-9));
+        const PointGrid grid(places.at, std::max(2 * widest_half(lines), 1e-9));
         for (std::size_t of = 0; of < lines.size(); ++of) {
             const HandLine& line = lines[of];
             if (line.closed || line.size() < 2) continue;
             for (const std::size_t end : {std::size_t{0}, line.size() - 1}) {
                 const std::size_t i = begins[of] + end;
-                grid.visit(places.at[i], [&](std::size_t j) {
+                grid.visit(places.at[i], 1, [&](std::size_t j) {
                     const HandNode& far = lines[places.of[j].line].nodes[places.of[j].node];
                     const double reach = line.nodes[end].half + far.half;
                     if (glm::length(places.at[j] - places.at[i]) > reach) return;
@@ -173,7 +169,7 @@ private:
 double find_room(std::vector<HandLine>& lines, const Places& places, const std::vector<glm::dvec2>& drifts,
                  double loop, const HandOptions& options) {
     const double reach = 2 * widest_half(lines) + 0.6 * loop;
-    const HandGrid grid(places.at, reach);
+    const PointGrid grid(places.at, reach);
     const Meetings meetings(lines, places);
     const auto is_end = [](const HandLine& of, std::size_t k) {
         return !of.closed && (k == 0 || k + 1 == of.size());
@@ -183,7 +179,7 @@ double find_room(std::vector<HandLine>& lines, const Places& places, const std::
         if (i % 1024 == 0) options.monitor.check();
         HandLine& line = lines[places.of[i].line];
         HandNode& node = line.nodes[places.of[i].node];
-        grid.visit(places.at[i], [&](std::size_t j) {
+        grid.visit(places.at[i], 1, [&](std::size_t j) {
             const glm::dvec2 way = places.at[j] - places.at[i];
             const double distance = glm::length(way);
             if (distance > reach || i == j) return;
@@ -254,11 +250,7 @@ std::vector<double> windowed(const HandLine& line, const std::vector<double>& va
 std::vector<double> bends_of(const HandLine& line) {
     const std::size_t count = line.size();
     std::vector<double> turns(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 at = line.nodes[i].at;
-        const glm::dvec2 in = at - line.nodes[line.previous(i)].at, out = line.nodes[line.next(i)].at - at;
-        turns[i] = std::fabs(std::atan2(in.x * out.y - in.y * out.x, glm::dot(in, out)));
-    }
+    for (std::size_t i = 0; i < count; ++i) turns[i] = std::fabs(hand_turn(line, i));
     const double window = std::min(bend_window * line.loop, line.length / 4);
     std::vector<double> bends = windowed(line, turns, window);
     for (std::size_t i = 0; i < count; ++i) bends[i] *= (line.step(i) + line.step(line.previous(i))) / 2;
@@ -290,16 +282,6 @@ void move_nodes(HandLine& line, const glm::dvec2* drifts, const glm::dvec2* ways
         const double limited = most > 0 ? aside / (1 + std::fabs(aside) / most) : 0;
         node.at += drifts[i] + limited * glm::dvec2(-ways[i].y, ways[i].x);
     }
-}
-
-void measure_again(HandLine& line) {
-    double along = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        line.nodes[i].along = along;
-        const std::size_t next = line.next(i);
-        if (next != i) along += glm::length(line.nodes[next].at - line.nodes[i].at);
-    }
-    line.length = along;
 }
 
 }  // namespace
@@ -349,21 +331,21 @@ std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines) {
     }
     std::vector<HandCrossing> found;
     if (!(longest > 0)) return found;
-    const HandGrid grid(middles, longest);
+    const PointGrid grid(middles, longest);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const HandLine& line = lines[segments[i].line];
         const std::size_t a = segments[i].node, a_end = line.next(a);
-        grid.visit(middles[i], [&](std::size_t j) {
+        grid.visit(middles[i], 1, [&](std::size_t j) {
             if (j <= i) return;
             const HandLine& other = lines[segments[j].line];
             const std::size_t b = segments[j].node, b_end = other.next(b);
             if (&line == &other && (a_end == b || b_end == a)) return;
             const glm::dvec2 p = line.nodes[a].at, u = line.nodes[a_end].at - p;
             const glm::dvec2 q = other.nodes[b].at, v = other.nodes[b_end].at - q;
-            const double cross = u.x * v.y - u.y * v.x;
+            const double cross = determinant(u, v);
             if (cross == 0) return;
             const glm::dvec2 way = q - p;
-            const double s = (way.x * v.y - way.y * v.x) / cross, t = (way.x * u.y - way.y * u.x) / cross;
+            const double s = determinant(way, v) / cross, t = determinant(way, u) / cross;
             if (s < 0 || s >= 1 || t < 0 || t >= 1) return;
             found.push_back({p + s * u, std::min(line.nodes[a].half, other.nodes[b].half), segments[i].line, a,
                              segments[j].line, b});
@@ -390,7 +372,7 @@ HandLine drawn_stroke(const HandLine& line, const HandOptions& options) {
             const double part = (node.along - (line.length - over)) / (2 * over);
             if (part <= 0) continue;
             const std::size_t of = i % line.size();
-            const glm::dvec2 way = unit(hand_direction(line, of));
+            const glm::dvec2 way = hand_unit_direction(line, of);
             const double limit = miss_share * line.nodes[of].room;
             node.at += std::clamp(miss * smooth(part), -limit, limit) * glm::dvec2(-way.y, way.x);
             if (part > 0.5) node.half *= 1 - 0.45 * smooth(2 * part - 1);

@@ -1,6 +1,7 @@
 #include "art/hand/hand_line.h"
 
 #include "engine/derivation/derivation.h"
+#include "engine/geometry/box.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -20,16 +21,11 @@ constexpr double least_loop_widths = 3;  // smallest loop, in widths of the line
 constexpr double most_loop_widths = 40;
 constexpr double least_seen_width = 0.02;  // millimetres; the wavering of thinner lines is invisible
 
-glm::dvec2 point_at(const Bezier& b, double t) {
-    const double u = 1 - t;
-    return u * u * u * b[0] + 3 * u * u * t * b[1] + 3 * u * t * t * b[2] + t * t * t * b[3];
-}
-
 double length_of(const Bezier& b) {
     double length = 0;
     glm::dvec2 from = b[0];
     for (int k = 1; k <= 8; ++k) {
-        const glm::dvec2 to = point_at(b, k / 8.0);
+        const glm::dvec2 to = point_of(b, k / 8.0);
         length += glm::length(to - from);
         from = to;
     }
@@ -52,7 +48,7 @@ glm::dvec2 end_of(const Bezier& b) {
 }
 
 double turn_between(glm::dvec2 a, glm::dvec2 b) {
-    return std::fabs(std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b)));
+    return std::fabs(std::atan2(determinant(a, b), glm::dot(a, b)));
 }
 
 }  // namespace
@@ -65,6 +61,28 @@ glm::dvec2 hand_direction(const HandLine& line, std::size_t i) {
     const glm::dvec2 in = h0 > 0 ? (at - line.nodes[before].at) / h0 : glm::dvec2(0.0);
     const glm::dvec2 out = h1 > 0 ? (line.nodes[after].at - at) / h1 : glm::dvec2(0.0);
     return (h0 > 0 && h1 > 0) ? (h1 * in + h0 * out) / (h0 + h1) : in + out;
+}
+
+glm::dvec2 hand_unit_direction(const HandLine& line, std::size_t i) {
+    const glm::dvec2 way = hand_direction(line, i);
+    const double length = glm::length(way);
+    return length > 0 ? way / length : glm::dvec2(1.0, 0.0);
+}
+
+double hand_turn(const HandLine& line, std::size_t i) {
+    const glm::dvec2 at = line.nodes[i].at;
+    const glm::dvec2 in = at - line.nodes[line.previous(i)].at, out = line.nodes[line.next(i)].at - at;
+    return std::atan2(determinant(in, out), glm::dot(in, out));
+}
+
+void measure_again(HandLine& line) {
+    double along = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        line.nodes[i].along = along;
+        const std::size_t next = line.next(i);
+        if (next != i) along += glm::length(line.nodes[next].at - line.nodes[i].at);
+    }
+    line.length = along;
 }
 
 void HandGatherer::begin_stroke(glm::dvec2 start, const Pen& pen) {
@@ -135,7 +153,7 @@ double HandGatherer::loop_of(const std::vector<Piece>& pieces, bool closed) {
     };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Piece& piece = pieces[i];
-        const glm::dvec2 middle = unit(point_at(piece.curve, 0.6) - point_at(piece.curve, 0.4));
+        const glm::dvec2 middle = unit(point_of(piece.curve, 0.6) - point_of(piece.curve, 0.4));
         add_turn(turn_between(start_of(piece.curve), middle) + turn_between(middle, end_of(piece.curve)),
                  piece.length);
         if (i + 1 == pieces.size() && !closed) break;
@@ -212,7 +230,7 @@ void HandGatherer::finish(bool closed) {
         glm::dvec2 from = piece.curve[0];
         for (int k = 0; k < parts; ++k) {
             line.nodes.push_back({from, along, piece.half});
-            const glm::dvec2 to = point_at(piece.curve, (k + 1.0) / parts);
+            const glm::dvec2 to = point_of(piece.curve, (k + 1.0) / parts);
             along += glm::length(to - from);
             from = to;
         }

@@ -51,6 +51,12 @@ struct HandDot {
 
 /// Direction of the line at a node, of length about 1.
 glm::dvec2 hand_direction(const HandLine& line, std::size_t i);
+/// The same, of length 1.
+glm::dvec2 hand_unit_direction(const HandLine& line, std::size_t i);
+/// The angle in radians by which the line turns to the left at a node.
+double hand_turn(const HandLine& line, std::size_t i);
+/// Computes the lengths along the line from the places of its nodes.
+void measure_again(HandLine& line);
 
 /// Gathers the visible lines and dots of a drawing. Polygons and areas are passed on to another sink, as they lie
 /// under all lines. Corners become short bends; a line ends where its colour changes.

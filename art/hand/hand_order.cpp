@@ -26,19 +26,9 @@ double area_of(const HandLine& line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         const glm::dvec2 a = line.nodes[i].at - line.nodes[0].at;
         const glm::dvec2 b = line.nodes[line.next(i)].at - line.nodes[0].at;
-        area += a.x * b.y - a.y * b.x;
+        area += determinant(a, b);
     }
     return area;
-}
-
-void measure_again(HandLine& line) {
-    double along = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        line.nodes[i].along = along;
-        const std::size_t next = i + 1 < line.size() ? i + 1 : 0;
-        if (i + 1 < line.size() || line.closed) along += glm::length(line.nodes[next].at - line.nodes[i].at);
-    }
-    line.length = along;
 }
 
 /// Rounded, so that images of each other compare equal.
@@ -48,13 +38,13 @@ std::int64_t rounded(double value, double unit) {
 
 /// The node at the upper left where the line bends least, in 8ths of its bend.
 std::size_t start_of(const HandLine& line, const Box& box) {
-    const double size = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-12});
+    const double size = std::max(box.longest(), 1e-12);
     std::int64_t least = INT64_MAX;
     std::size_t start = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
         const glm::dvec2 at = line.nodes[i].at;
         const glm::dvec2 in = at - line.nodes[line.previous(i)].at, out = line.nodes[line.next(i)].at - at;
-        const double turn = std::fabs(std::atan2(in.x * out.y - in.y * out.x, glm::dot(in, out)));
+        const double turn = std::fabs(hand_turn(line, i));
         const double step = (glm::length(in) + glm::length(out)) / 2;
         // A circle as large as the line's loops has a bend of 2.
         const double bend = step > 0 ? std::min(turn / step * line.loop, 8.0) : 0;
@@ -91,7 +81,7 @@ void order_by_hand(std::vector<HandLine>& lines) {
         measure_again(line);
     }
     const glm::dvec2 centre = (whole.low + whole.high) / 2.0;
-    const double unit = std::max({whole.high.x - whole.low.x, whole.high.y - whole.low.y, 1e-12}) * 1e-3;
+    const double unit = std::max(whole.longest(), 1e-12) * 1e-3;
     using Rank = std::tuple<std::int64_t, std::int64_t, std::int64_t, std::uint64_t>;
     std::vector<std::pair<Rank, std::size_t>> keys;
     for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -19,11 +19,6 @@ constexpr double tolerance_share = 0.015;
 /// Greatest distance of an edge towards the centre of a bend, as a share of its radius.
 constexpr double inner_share = 0.9;
 
-glm::dvec2 unit(glm::dvec2 way) {
-    const double length = glm::length(way);
-    return length > 0 ? way / length : glm::dvec2(1.0, 0.0);
-}
-
 /// A smooth curve through points, given by their places along it.
 class Edge {
 public:
@@ -123,14 +118,14 @@ std::vector<glm::dvec2> hand_outline(const HandLine& stroke, std::size_t from, s
     double widest = 0;
     for (std::size_t i = from; i <= to; ++i) {
         const HandNode& node = stroke.nodes[i];
-        const glm::dvec2 way = unit(hand_direction(stroke, i));
+        const glm::dvec2 way = hand_unit_direction(stroke, i);
         const glm::dvec2 normal(-way.y, way.x);
         double inner = node.half;
         double bend = 0;  // to the left, divided by length
         if (i > from && i < to) {
             const glm::dvec2 in = node.at - stroke.nodes[i - 1].at, out = stroke.nodes[i + 1].at - node.at;
             const double length = (glm::length(in) + glm::length(out)) / 2;
-            if (length > 0) bend = std::atan2(in.x * out.y - in.y * out.x, glm::dot(in, out)) / length;
+            if (length > 0) bend = hand_turn(stroke, i) / length;
             if (bend != 0) inner = std::min(inner, inner_share / std::fabs(bend));
         }
         widest = std::max(widest, node.half);
@@ -143,7 +138,7 @@ std::vector<glm::dvec2> hand_outline(const HandLine& stroke, std::size_t from, s
     std::vector<glm::dvec2> outline = {left.front()};
     append(left, tolerance_share * widest, false, outline);
     const HandNode &first = stroke.nodes[from], &last = stroke.nodes[to];
-    const glm::dvec2 end = unit(hand_direction(stroke, to)), start = unit(hand_direction(stroke, from));
+    const glm::dvec2 end = hand_unit_direction(stroke, to), start = hand_unit_direction(stroke, from);
     const glm::dvec2 end_side = (left.back() - right.back()) / 2.0, start_side = (right.front() - left.front()) / 2.0;
     append_cap((left.back() + right.back()) / 2.0, end_side, last.half * end, outline);
     append(right, tolerance_share * widest, true, outline);

@@ -1,6 +1,7 @@
 #include "art/kolam/curve_intersections.h"
 
 #include "art/kolam/curved_lines.h"
+#include "engine/geometry/box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +18,15 @@ constexpr double beyond = 1e-9;      // a parameter so far outside of [0, 1] is 
 constexpr int deepest = 26;          // halvings
 constexpr int most_contacts = 100;
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-double dot(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
 double length(glm::dvec2 a) {
     return std::hypot(a.x, a.y);
 }
 
 bool boxes_overlap(const Bezier& a, const Bezier& b) {
+    const Box first = box_of(a), second = box_of(b);
     for (int axis = 0; axis < 2; ++axis) {
-        const auto [a0, a1] = std::minmax({a[0][axis], a[1][axis], a[2][axis], a[3][axis]});
-        const auto [b0, b1] = std::minmax({b[0][axis], b[1][axis], b[2][axis], b[3][axis]});
-        if (a0 > b1 + touching || b0 > a1 + touching) return false;
+        if (first.low[axis] > second.high[axis] + touching) return false;
+        if (second.low[axis] > first.high[axis] + touching) return false;
     }
     return true;
 }
@@ -48,9 +43,10 @@ bool advance(const Bezier& a, const Bezier& b) {
     for (const glm::dvec2 along : {b[3] - a[0], a[3] - a[0], b[3] - b[0]}) {
         bool is_ahead = true;
         for (std::size_t i = 0; i < 3; ++i) {
-            is_ahead = is_ahead && dot(a[i + 1] - a[i], along) >= 0 && dot(b[i + 1] - b[i], along) >= 0;
+            is_ahead = is_ahead && scalar_product(a[i + 1] - a[i], along) >= 0 &&
+                       scalar_product(b[i + 1] - b[i], along) >= 0;
         }
-        if (is_ahead && dot(a[3] - a[0], along) > 0 && dot(b[3] - b[0], along) > 0) return true;
+        if (is_ahead && scalar_product(a[3] - a[0], along) > 0 && scalar_product(b[3] - b[0], along) > 0) return true;
     }
     return false;
 }
@@ -62,26 +58,25 @@ CurveIntersections::Part CurveIntersections::half(const Part& part, bool is_seco
             is_second ? part.to : part.middle()};
 }
 
-void CurveIntersections::of_two(const Bezier& a, const Bezier& b, const Note& note) {
+void CurveIntersections::begin(const Bezier& a, const Bezier& b, const Note& note) {
     first_ = &a;
     second_ = &b;
     note_ = &note;
     contacts_ = 0;
+}
+
+void CurveIntersections::of_two(const Bezier& a, const Bezier& b, const Note& note) {
+    begin(a, b, note);
     meet({a}, {b}, 0);
 }
 
 void CurveIntersections::of_neighbours(const Bezier& a, const Bezier& b, const Note& note) {
-    first_ = &a;
-    second_ = &b;
-    note_ = &note;
-    contacts_ = 0;
+    begin(a, b, note);
     meet_neighbours({a}, {b}, 0);
 }
 
 void CurveIntersections::of_one(const Bezier& curve, const Note& note) {
-    first_ = second_ = &curve;
-    note_ = &note;
-    contacts_ = 0;
+    begin(curve, curve, note);
     meet_self({curve}, 0);
 }
 
@@ -113,12 +108,12 @@ void CurveIntersections::meet(const Part& a, const Part& b, int depth) {
     const glm::dvec2 along_a = a.curve[3] - a.curve[0];
     const glm::dvec2 along_b = b.curve[3] - b.curve[0];
     if (a_is_flat && b_is_flat) {
-        const double area = cross(along_a, along_b);
+        const double area = determinant(along_a, along_b);
         const glm::dvec2 between = b.curve[0] - a.curve[0];
         if (std::fabs(area) > 1e-2 * length(along_a) * length(along_b)) {
             constexpr double margin = 0.1;
-            const double t = cross(between, along_b) / area;
-            const double s = cross(between, along_a) / area;
+            const double t = determinant(between, along_b) / area;
+            const double s = determinant(between, along_a) / area;
             const auto lies_on = [](double at) { return at > -margin && at < 1 + margin; };
             if (!lies_on(t) || !lies_on(s)) return;
             return settle(a, b, a.from + t * (a.to - a.from), b.from + s * (b.to - b.from));
@@ -151,10 +146,10 @@ void CurveIntersections::settle(const Part& a, const Part& b, double t, double s
         gap = point_of(*second_, s) - point_of(*first_, t);
         const glm::dvec2 along_a = derivative_of(*first_, t);
         const glm::dvec2 along_b = derivative_of(*second_, s);
-        const double area = cross(along_a, along_b);
+        const double area = determinant(along_a, along_b);
         if (area == 0) break;
-        const double dt = cross(gap, along_b) / area;
-        const double ds = cross(gap, along_a) / area;
+        const double dt = determinant(gap, along_b) / area;
+        const double ds = determinant(gap, along_a) / area;
         t += dt;
         s += ds;
         if (std::fabs(dt) < 1e-15 && std::fabs(ds) < 1e-15) break;
@@ -172,14 +167,14 @@ void CurveIntersections::of_segments(const Bezier& a, const Bezier& b, const Not
     if (!boxes_overlap(a, b)) return;
     const glm::dvec2 along_a = a[3] - a[0];
     const glm::dvec2 along_b = b[3] - b[0];
-    const double area = cross(along_a, along_b);
+    const double area = determinant(along_a, along_b);
     const glm::dvec2 between = b[0] - a[0];
     const double length_a = length(along_a);
     const double length_b = length(along_b);
     // Parameter of the end point's foot on the other segment.
     const auto foot = [](glm::dvec2 point, const Bezier& on, double t, bool is_first, const Note& to) {
         const glm::dvec2 along = on[3] - on[0];
-        const double s = std::clamp(dot(point - on[0], along) / dot(along, along), 0.0, 1.0);
+        const double s = std::clamp(scalar_product(point - on[0], along) / scalar_product(along, along), 0.0, 1.0);
         const glm::dvec2 gap = point - (on[0] + s * along);
         if (length(gap) > on_segment) return false;
         is_first ? to(t, s) : to(s, t);
@@ -190,8 +185,8 @@ void CurveIntersections::of_segments(const Bezier& a, const Bezier& b, const Not
     is_end |= foot(b[0], a, 0.0, false, note);
     is_end |= foot(b[3], a, 1.0, false, note);
     if (is_end || std::fabs(area) <= 1e-12 * length_a * length_b) return;
-    const double t = cross(between, along_b) / area;
-    const double s = cross(between, along_a) / area;
+    const double t = determinant(between, along_b) / area;
+    const double s = determinant(between, along_a) / area;
     if (t >= 0 && t <= 1 && s >= 0 && s <= 1) note(t, s);
 }
 

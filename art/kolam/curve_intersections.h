@@ -28,6 +28,7 @@ private:
         double from = 0.0, to = 1.0;
         double middle() const { return (from + to) / 2; }
     };
+    void begin(const Bezier& a, const Bezier& b, const Note& note);
     static Part half(const Part& part, bool is_second);
     void meet(const Part& a, const Part& b, int depth);
     void meet_neighbours(const Part& a, const Part& b, int depth);

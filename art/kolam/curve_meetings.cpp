@@ -19,35 +19,23 @@ namespace {
 constexpr double one_place = 1e-6;  // points as near as this are one
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-struct PieceBox {
-    glm::dvec2 low, high;
-};
-
-PieceBox box_of(const Bezier& curve) {
-    PieceBox box{curve[0], curve[0]};
-    for (const glm::dvec2 point : curve) {
-        box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
-        box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
-    }
-    box.low -= glm::dvec2(one_place);
-    box.high += glm::dvec2(one_place);
-    return box;
-}
-
 /// Pairs of pieces whose boxes overlap, found through the cells of a grid.
 class PiecePairs {
 public:
     PiecePairs(const std::vector<CurvePiece>& pieces, const Monitor& monitor) : pulse_(monitor) {
         if (pieces.empty()) return;
         double sides = 0;
-        low_ = glm::dvec2(std::numeric_limits<double>::max());
+        Box whole;
         for (const CurvePiece& piece : pieces) {
             pulse_();
-            boxes_.push_back(box_of(piece.curve));
-            const PieceBox& box = boxes_.back();
-            sides += std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-            low_ = {std::min(low_.x, box.low.x), std::min(low_.y, box.low.y)};
+            Box box = box_of(piece.curve);
+            box.low -= glm::dvec2(one_place);
+            box.high += glm::dvec2(one_place);
+            boxes_.push_back(box);
+            sides += box.longest();
+            whole.add(box.low);
         }
+        low_ = whole.low;
         cell_ = sides / static_cast<double>(pieces.size());
         while (cells() > 16 * static_cast<double>(pieces.size())) cell_ *= 2;
         for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
@@ -76,7 +64,7 @@ public:
     }
 
 private:
-    std::array<std::uint64_t, 4> reach(const PieceBox& box) const {
+    std::array<std::uint64_t, 4> reach(const Box& box) const {
         const auto place = [&](double value, double low) {
             return static_cast<std::uint64_t>(std::clamp((value - low) / cell_, 0.0, 4e9));
         };
@@ -85,7 +73,7 @@ private:
     }
     double cells() {
         double sum = 0;
-        for (const PieceBox& box : boxes_) {
+        for (const Box& box : boxes_) {
             pulse_();
             const auto [x0, y0, x1, y1] = reach(box);
             sum += static_cast<double>(x1 - x0 + 1) * static_cast<double>(y1 - y0 + 1);
@@ -93,7 +81,7 @@ private:
         return sum;
     }
     /// A pair is visited in the cell of the lower left corner of the intersection of its boxes.
-    bool is_first_cell(std::uint64_t key, const PieceBox& a, const PieceBox& b) const {
+    bool is_first_cell(std::uint64_t key, const Box& a, const Box& b) const {
         const glm::dvec2 low(std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y));
         if (low.x > std::min(a.high.x, b.high.x) || low.y > std::min(a.high.y, b.high.y)) return false;
         const auto [x, y, x1, y1] = reach({low, low});
@@ -101,7 +89,7 @@ private:
     }
 
     Pulse pulse_;
-    std::vector<PieceBox> boxes_;
+    std::vector<Box> boxes_;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> entries_;
     glm::dvec2 low_{0.0};
     double cell_ = 1;
@@ -170,8 +158,8 @@ private:
     static bool is_reversal(const CurvePiece& first, const CurvePiece& second) {
         const glm::dvec2 a = first.curve[3] - first.curve[0];
         const glm::dvec2 b = second.curve[3] - second.curve[0];
-        return kolam_plane::dot(a, b) < 0 &&
-               std::fabs(kolam_plane::cross(a, b)) <= 1e-9 * std::hypot(a.x, a.y) * std::hypot(b.x, b.y);
+        return scalar_product(a, b) < 0 &&
+               std::fabs(determinant(a, b)) <= 1e-9 * std::hypot(a.x, a.y) * std::hypot(b.x, b.y);
     }
 
     /// Merges visits of one line to one vertex at one place of the line into one mark.

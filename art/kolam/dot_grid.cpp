@@ -163,13 +163,8 @@ std::optional<std::uint32_t> DotGrid::dot_at(GridDot place) const {
 
 std::size_t DotGrid::groups() const {
     UnionFind sets(dots_.size());
-    std::size_t count = dots_.size();
-    for (const GridGap& gap : gaps_) {
-        if (sets.find(gap.from) == sets.find(gap.to)) continue;
-        sets.join(gap.from, gap.to);
-        --count;
-    }
-    return count;
+    for (const GridGap& gap : gaps_) sets.join(gap.from, gap.to);
+    return sets.count();
 }
 
 bool DotGrid::is_solid() const {

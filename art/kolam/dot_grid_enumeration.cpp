@@ -1,7 +1,7 @@
 #include "art/kolam/dot_grid_enumeration.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/text.h"
+#include "engine/base/json_text.h"
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
@@ -220,15 +220,12 @@ Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions
 }
 
 std::string enumeration_json(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {
-    std::string kolams;
-    for (const GapStates& kolam : found.kolams) {
-        kolams += (kolams.empty() ? "" : ", ") + json_string(gap_states_text(grid, kolam));
-    }
-    return fmt::format(
-        "{{\"grid\": {}, \"symmetry\": {}, \"dots\": {}, \"gaps\": {}, \"choices\": {}, \"states\": {}, "
-        "\"single_line\": {}, \"distinct\": {}, \"kolams\": [{}]}}\n",
-        json_string(grid.text()), json_string(grid_symmetry_name(symmetry)), grid.dots().size(), grid.gaps().size(),
-        found.choices, found.states, found.single_line, found.distinct, kolams);
+    const auto states = [&](const GapStates& kolam) { return gap_states_text(grid, kolam); };
+    return JsonText::object("grid", grid.text(), "symmetry", grid_symmetry_name(symmetry), "dots", grid.dots().size(),
+                            "gaps", grid.gaps().size(), "choices", found.choices, "states", found.states,
+                            "single_line", found.single_line, "distinct", found.distinct, "kolams",
+                            JsonText::list(found.kolams, states))
+        .line();
 }
 
 std::string enumeration_text(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {

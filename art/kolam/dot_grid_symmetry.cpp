@@ -290,13 +290,7 @@ std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry
         const std::vector<std::uint32_t> images = map.gaps(isometry);
         for (std::uint32_t i = 0; i < images.size(); ++i) sets.join(i, images[i]);
     }
-    std::vector<std::uint32_t> orbits(grid.gaps().size());
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < orbits.size(); ++i) {
-        const std::uint32_t first = sets.find(i);
-        orbits[i] = first == i ? count++ : orbits[first];
-    }
-    return orbits;
+    return sets.set_numbers();
 }
 
 std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry) {
@@ -350,13 +344,7 @@ std::vector<std::uint32_t> line_orbits(const DotGrid& grid, const GapStates& sta
             classes.join(line, labels.line[map.arc(start.dot, start.arc, isometry)]);
         }
     }
-    std::vector<std::uint32_t> orbits(labels.starts.size());
-    std::uint32_t count = 0;
-    for (std::uint32_t line = 0; line < orbits.size(); ++line) {
-        const std::uint32_t first = classes.find(line);
-        orbits[line] = first == line ? count++ : orbits[first];
-    }
-    return orbits;
+    return classes.set_numbers();
 }
 
 std::string kolam_code(const DotGrid& grid, const GapStates& states) {

@@ -2,6 +2,7 @@
 
 #include "engine/geometry/bezier.h"
 #include "engine/geometry/point_tree.h"
+#include "engine/geometry/simple_polygon.h"
 
 #include <array>
 #include <numeric>
@@ -9,15 +10,15 @@
 namespace sikku::kolam_plane {
 namespace {
 
-static glm::dvec2 centroid(std::span<const glm::dvec2> outline) {
+glm::dvec2 centroid(std::span<const glm::dvec2> outline) {
     const glm::dvec2 origin = outline.front();
     glm::dvec2 sum(0.0);
     double area = 0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const glm::dvec2 a = outline[i] - origin;
         const glm::dvec2 b = outline[(i + 1) % outline.size()] - origin;
-        area += cross(a, b);
-        sum += cross(a, b) * (a + b);
+        area += determinant(a, b);
+        sum += determinant(a, b) * (a + b);
     }
     return area == 0 ? origin : origin + sum / (3 * area);
 }
@@ -25,19 +26,18 @@ bool sees_all(glm::dvec2 point, std::span<const glm::dvec2> outline, double roun
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const glm::dvec2 a = outline[i];
         const glm::dvec2 along = outline[(i + 1) % outline.size()] - a;
-        if (cross(along, point - a) <= rounding * (std::fabs(along.x) + std::fabs(along.y))) return false;
+        if (determinant(along, point - a) <= rounding * (std::fabs(along.x) + std::fabs(along.y))) return false;
     }
     return true;
 }
 /// A point of the face in one of its corners.
-
 bool find_place(const Faces& faces, std::uint32_t cycle, std::span<const glm::dvec2> outline, double inward,
                 glm::dvec2& place) {
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const glm::dvec2 corner = outline[i];
         const glm::dvec2 before = outline[(i + outline.size() - 1) % outline.size()];
         const glm::dvec2 after = outline[(i + 1) % outline.size()];
-        if (cross(corner - before, after - corner) <= 0) continue;
+        if (determinant(corner - before, after - corner) <= 0) continue;
         place = corner + inward / 3 * ((before - corner) + (after - corner));
         if (faces.at(place) == cycle) return true;
     }
@@ -47,16 +47,15 @@ bool find_place(const Faces& faces, std::uint32_t cycle, std::span<const glm::dv
 void flip_within(std::span<const glm::dvec2> loop, const SegmentGrid& near, std::span<const KolamDot> dots,
                  std::vector<char>& flips) {
     near.visit(loop, [&](std::uint32_t number) {
-        const glm::dvec2 at = dots[number].at;
-        bool inside = false;
-        for (std::size_t j = 0; j < loop.size(); ++j) {
-            const glm::dvec2 a = loop[j];
-            const glm::dvec2 b = loop[(j + 1) % loop.size()];
-            if ((a.y > at.y) == (b.y > at.y)) continue;
-            if (at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-        }
-        if (inside) flips[number] ^= 1;
+        if (contains(loop, dots[number].at)) flips[number] ^= 1;
     });
+}
+
+/// A control point of a stroke: closed ones go round, open ones end.
+glm::dvec2 control_of(const PlanarGraph& graph, std::span<const std::uint32_t> nodes, bool closed, std::ptrdiff_t j) {
+    const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
+    j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
+    return graph.node_places[nodes[static_cast<std::size_t>(j)]];
 }
 
 /// The dots of a spline have to lie within the curve, not only within its control polygon. Between the two, at
@@ -66,13 +65,9 @@ void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines
     Pulse pulse(options.monitor);
     constexpr int chords = 16;
     if (dots.empty()) return;
-    glm::dvec2 low = dots.front().at;
-    glm::dvec2 high = low;
-    for (const KolamDot& mark : dots) {
-        low = {std::min(low.x, mark.at.x), std::min(low.y, mark.at.y)};
-        high = {std::max(high.x, mark.at.x), std::max(high.y, mark.at.y)};
-    }
-    SegmentGrid near(low, high, graph.grid->cell(), 0.0);
+    Box whole;
+    for (const KolamDot& mark : dots) whole.add(mark.at);
+    SegmentGrid near(whole, graph.grid->cell(), 0.0);
     for (std::uint32_t i = 0; i < dots.size(); ++i) near.add(i, dots[i].at, dots[i].at);
     near.sort(options.monitor);
     std::vector<char> flips(dots.size(), 0);
@@ -82,22 +77,15 @@ void ask_the_curve(const PlanarGraph& graph, const Strokes& strokes, const Lines
         const auto nodes = strokes.stroke(i);
         const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
         const bool closed = strokes.closed[i];
-        const auto control = [&](std::ptrdiff_t j) {
-            j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
-            return graph.node_places[nodes[static_cast<std::size_t>(j)]];
-        };
+        const auto control = [&](std::ptrdiff_t j) { return control_of(graph, nodes, closed, j); };
         for (std::ptrdiff_t j = closed ? 0 : -1; j < (closed ? count : count + 1); ++j) {
             pulse();
             const std::array<glm::dvec2, 4> p = {control(j - 1), control(j), control(j + 1), control(j + 2)};
             const std::array<glm::dvec2, 4> reach = {p[1], p[2], (p[0] + 4.0 * p[1] + p[2]) / 6.0,
                                                      (p[1] + 4.0 * p[2] + p[3]) / 6.0};
             bool reaches_dots = false;
-            const auto [left, right] = std::minmax({reach[0].x, reach[1].x, reach[2].x, reach[3].x});
-            const auto [bottom, top] = std::minmax({reach[0].y, reach[1].y, reach[2].y, reach[3].y});
-            near.visit(reach, [&, left = left, right = right, bottom = bottom, top = top](std::uint32_t number) {
-                const glm::dvec2 at = dots[number].at;
-                reaches_dots |= left <= at.x && at.x <= right && bottom <= at.y && at.y <= top;
-            });
+            const Box box = box_of(reach);
+            near.visit(reach, [&](std::uint32_t number) { reaches_dots |= box.contains(dots[number].at); });
             if (!reaches_dots) continue;
             loop = {p[2], p[1]};
             for (int k = 0; k <= chords; ++k) {
@@ -120,10 +108,7 @@ template <class Visit>
 void visit_curves(const PlanarGraph& graph, std::span<const std::uint32_t> nodes, bool closed, bool spline,
                   Visit&& visit) {
     const auto count = static_cast<std::ptrdiff_t>(nodes.size()) - 1;
-    const auto control = [&](std::ptrdiff_t j) {
-        j = closed ? (j % count + count) % count : std::clamp<std::ptrdiff_t>(j, 0, count);
-        return graph.node_places[nodes[static_cast<std::size_t>(j)]];
-    };
+    const auto control = [&](std::ptrdiff_t j) { return control_of(graph, nodes, closed, j); };
     const std::ptrdiff_t more = spline && !closed ? 1 : 0;  // an open spline begins and ends in its end points
     for (std::ptrdiff_t j = -more; j < count + more; ++j) {
         const glm::dvec2 b = control(j), c = control(j + 1);
@@ -144,15 +129,14 @@ public:
 
     /// Parts of a line may have different directions, so that only the parity of crossings counts.
     void add(const Bezier& curve, bool is_closed_stroke) {
-        const auto [left, right] = std::minmax({curve[0].x, curve[1].x, curve[2].x, curve[3].x});
-        const auto [bottom, top] = std::minmax({curve[0].y, curve[1].y, curve[2].y, curve[3].y});
-        const auto first = std::lower_bound(dots_.begin(), dots_.end(), bottom - 2 * steps_are_one,
+        const Box box = box_of(curve);
+        const auto first = std::lower_bound(dots_.begin(), dots_.end(), box.low.y - 2 * steps_are_one,
                                             [](const KolamDot& dot, double y) { return dot.at.y < y; });
-        for (auto dot = first; dot != dots_.end() && dot->at.y <= top + 2 * steps_are_one; ++dot) {
+        for (auto dot = first; dot != dots_.end() && dot->at.y <= box.high.y + 2 * steps_are_one; ++dot) {
             pulse_();
-            if (dot->at.x > right + 2 * steps_are_one) continue;
+            if (dot->at.x > box.high.x + 2 * steps_are_one) continue;
             const auto number = static_cast<std::size_t>(dot - dots_.begin());
-            if (dot->at.x < left - 2 * steps_are_one) {
+            if (dot->at.x < box.low.x - 2 * steps_are_one) {
                 pass(number, curve[0], curve[3], is_closed_stroke);
             } else {
                 pass_near(number, curve, is_closed_stroke);

@@ -64,7 +64,8 @@ std::vector<double> Faces::find_cycles(Pulse& pulse) {
         do {
             pulse();
             cycle_[half] = number;
-            twice += cross(graph_.places[graph_.tail(half)] - origin, graph_.places[graph_.head(half)] - origin);
+            twice +=
+                determinant(graph_.places[graph_.tail(half)] - origin, graph_.places[graph_.head(half)] - origin);
             half = graph_.next(half);
         } while (half != first);
         areas.push_back(twice / 2);

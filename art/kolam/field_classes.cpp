@@ -1,5 +1,7 @@
 // art/kolam/field_classes.cpp: divides the fields of a drawing into classes of one colour.
 #include "art/kolam/fields.h"
+#include "engine/geometry/box.h"
+#include "engine/geometry/point_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +66,7 @@ std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<F
                 const glm::dvec2 a = point_of(curve, static_cast<double>(part) / parts) - centre;
                 const glm::dvec2 b = point_of(curve, static_cast<double>(part + 1) / parts) - centre;
                 least = std::min({least, std::hypot(a.x, a.y), std::hypot(b.x, b.y)});
-                turn += std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+                turn += std::atan2(determinant(a, b), scalar_product(a, b));
             }
         }
         away.push_back(std::fabs(turn) > std::numbers::pi ? 0 : least);
@@ -93,47 +95,28 @@ std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<F
     return distance;
 }
 
-/// Fields by their centroids, to find the images of fields.
-class FieldsByPlace {
-public:
-    explicit FieldsByPlace(const std::vector<Field>& fields) : fields_(fields) {
-        for (std::uint32_t i = 0; i < fields.size(); ++i) cells_.emplace(cell(fields[i].centroid), i);
-    }
-    std::uint32_t find(glm::dvec2 place, const Field& like) const {
-        const auto [x, y] = cell(place);
-        for (std::int64_t i = x - 1; i <= x + 1; ++i) {
-            for (std::int64_t j = y - 1; j <= y + 1; ++j) {
-                const auto [begin, end] = cells_.equal_range({i, j});
-                for (auto entry = begin; entry != end; ++entry) {
-                    const Field& other = fields_[entry->second];
-                    const glm::dvec2 gap = other.centroid - place;
-                    if (std::hypot(gap.x, gap.y) <= alike && other.is_odd == like.is_odd &&
-                        std::fabs(other.area - like.area) <= alike * (1 + like.area)) {
-                        return entry->second;
-                    }
-                }
-            }
-        }
-        return none;
-    }
-
-private:
-    static std::pair<std::int64_t, std::int64_t> cell(glm::dvec2 place) {
-        return {std::llround(std::floor(place.x / (2 * alike))), std::llround(std::floor(place.y / (2 * alike)))};
-    }
-    const std::vector<Field>& fields_;
-    std::multimap<std::pair<std::int64_t, std::int64_t>, std::uint32_t> cells_;
-};
+/// The field of the kind of another one with its centroid at a place, or `none`.
+std::uint32_t field_at(glm::dvec2 place, const Field& like, const std::vector<Field>& fields, const PointGrid& grid) {
+    std::uint32_t found = none;
+    grid.visit(place, 1, [&](std::uint32_t i) {
+        const glm::dvec2 gap = fields[i].centroid - place;
+        const bool is_alike =
+            fields[i].is_odd == like.is_odd && std::fabs(fields[i].area - like.area) <= alike * (1 + like.area);
+        if (found == none && is_alike && std::hypot(gap.x, gap.y) <= alike) found = i;
+    });
+    return found;
+}
 
 /// For each field the first of its images under the symmetries.
 std::vector<std::uint32_t> orbits(const std::vector<Field>& fields, const KolamSymmetry& symmetry, glm::dvec2 centre,
                                   Pulse& pulse) {
-    const FieldsByPlace places(fields);
+    std::vector<glm::dvec2> centroids;
+    for (const Field& field : fields) centroids.push_back(field.centroid);
+    const PointGrid grid(centroids, 2 * alike);
     std::vector<std::uint32_t> first(fields.size());
     const auto turned = [&](glm::dvec2 place, double angle, bool is_mirrored) {
-        const double y = is_mirrored ? -place.y : place.y;
-        const glm::dvec2 way(std::cos(angle), std::sin(angle));
-        return glm::dvec2(place.x * way.x - y * way.y, place.x * way.y + y * way.x);
+        if (is_mirrored) place.y = -place.y;
+        return complex_product(place, {std::cos(angle), std::sin(angle)});
     };
     for (std::uint32_t i = 0; i < fields.size(); ++i) {
         first[i] = i;
@@ -143,8 +126,8 @@ std::vector<std::uint32_t> orbits(const std::vector<Field>& fields, const KolamS
                 if (is_mirrored && symmetry.mirrors == 0) continue;
                 pulse();
                 const double turn = angle + (is_mirrored ? 2 * symmetry.axis : 0);
-                const std::uint32_t image =
-                    places.find(centre + turned(fields[i].centroid - centre, turn, is_mirrored), fields[i]);
+                const glm::dvec2 place = centre + turned(centroids[i] - centre, turn, is_mirrored);
+                const std::uint32_t image = field_at(place, fields[i], fields, grid);
                 if (image < first[i]) first[i] = image;
             }
         }

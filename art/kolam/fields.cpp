@@ -16,9 +16,6 @@
 namespace sikku {
 namespace {
 
-using kolam_plane::cross;
-using kolam_plane::dot;
-
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t no_mark = std::numeric_limits<std::size_t>::max();
 constexpr double least_area = 1e-9;  // in square steps: smaller fields are rounding
@@ -49,7 +46,7 @@ struct Moments {
             const double t = (1 + node) / 2;
             const glm::dvec2 at = point_of(curve, t) - origin;
             const glm::dvec2 along = derivative_of(curve, t);
-            const double swept = cross(at, along) * weight / 4;
+            const double swept = determinant(at, along) * weight / 4;
             area += swept;
             first += swept * at * (2.0 / 3.0);
             length += std::hypot(along.x, along.y) * weight / 2;
@@ -475,7 +472,9 @@ void FieldFinder::measure(std::uint32_t cycle, Field& field) {
         constexpr double bend = 0.05;  // sine of the turn of a corner
         if (first == glm::dvec2(0.0)) first = tangent;
         const bool is_first = before == glm::dvec2(0.0);
-        field.corners += !is_first && (std::fabs(cross(before, tangent)) > bend || dot(before, tangent) < 0) ? 1 : 0;
+        field.corners +=
+            !is_first && (std::fabs(determinant(before, tangent)) > bend || scalar_product(before, tangent) < 0) ? 1
+                                                                                                                 : 0;
     };
     std::uint32_t half = begins_[cycle];
     do {

@@ -2,9 +2,9 @@
 // tolerance.
 #pragma once
 
-#include "engine/base/chance.h"
 #include "engine/geometry/cyclotomic.h"
 #include "engine/geometry/lattice.h"
+#include "engine/geometry/place_table.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,16 +25,10 @@ namespace sikku::kolam_plane {
 
 __extension__ using Wide = __int128;
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = no_number;
 constexpr double steps_are_one = 1e-6;
 constexpr long double pi = 3.141592653589793238462643383279502884L;  // libc++ 13 has only double precision
 
-inline double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-inline double dot(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
 inline int sign_of(double value) {
     return (value > 0) - (value < 0);
 }
@@ -60,7 +53,7 @@ struct Cut {
 class ExactPlane {
 public:
     explicit ExactPlane(const Lattice& lattice)
-        : lattice_(lattice), numbers_(lattice), turn_(numbers_.roots()), rank_(numbers_.rank()), table_(64, none) {}
+        : lattice_(lattice), numbers_(lattice), turn_(numbers_.roots()), rank_(numbers_.rank()), nodes_(rank_, 0) {}
 
     /// Thrown by node() if sums of coordinates might not fit into 64 bits.
     struct OutOfRange {};
@@ -70,27 +63,19 @@ public:
     bool same_direction(double a, double b) const { return a == b; }
     /// Maximum error of coordinates in doubles.
     double rounding() const { return 1e-15 * static_cast<double>(rank_) * largest_ * lattice_.unit + 1e-300; }
-    std::size_t size() const { return places_.size(); }
-    glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
-    std::span<const glm::dvec2> places() const { return places_; }
+    std::size_t size() const { return nodes_.size(); }
+    glm::dvec2 at(std::uint32_t node) const { return nodes_.at(node); }
+    std::span<const glm::dvec2> places() const { return nodes_.places(); }
 
     std::uint32_t node(std::span<const std::int64_t> coordinates, glm::dvec2 place) {
-        if (2 * places_.size() >= table_.size()) grow();
-        std::size_t slot = slot_of(coordinates);
-        while (table_[slot] != none) {
-            if (std::equal(coordinates.begin(), coordinates.end(), coordinates_of(table_[slot]).begin())) {
-                return table_[slot];
-            }
-            slot = (slot + 1) & (table_.size() - 1);
-        }
-        table_[slot] = static_cast<std::uint32_t>(places_.size());
-        coordinates_.insert(coordinates_.end(), coordinates.begin(), coordinates.end());
-        places_.push_back(place);
+        const std::size_t known = nodes_.size();
+        const std::uint32_t node = nodes_.add(coordinates.data(), place);
+        if (nodes_.size() == known) return node;
         for (const std::int64_t coordinate : coordinates) {
             largest_ = std::max(largest_, std::fabs(static_cast<double>(coordinate)));
         }
         if (largest_ > 0x1p52) throw OutOfRange();
-        return table_[slot];
+        return node;
     }
 
     /// Direction of a step, which is a power of zeta.
@@ -101,11 +86,11 @@ public:
 
     /// 1 if the node lies left of the segment's line, 0 on it, -1 right of it.
     int side(const Segment& line, std::uint32_t node) const {
-        return sign_imaginary(rotated(between(line.from, node), -index(line)));
+        return numbers_.sign_imaginary(numbers_.rotated(between(line.from, node), -index(line)));
     }
     /// 1 if `b` lies farther along the line than `a`, 0 if neither does.
     int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
-        return sign_real(rotated(between(a, b), -index(line)));
+        return numbers_.sign_real(numbers_.rotated(between(a, b), -index(line)));
     }
     /// Order of two cuts along their segment: negative, 0 (they are one point), positive.
     int compare(std::span<const Segment> segments, const Cut& a, const Cut& b) const {
@@ -122,17 +107,17 @@ public:
         // other line: the crossing lies Im y / Im w along; 2 Im y Im w = Re(y conj(w)) - Re(y w).
         const Segment& first = segments[a.other];
         const Segment& second = segments[b.other];
-        const Vector way_1 = rotated(between(line.from, first.from), -index(first));
-        const Vector way_2 = rotated(between(line.from, second.from), -index(second));
+        const Vector way_1 = numbers_.rotated(between(line.from, first.from), -index(first));
+        const Vector way_2 = numbers_.rotated(between(line.from, second.from), -index(second));
         const int turn_1 = index(line) - index(first);
         const int turn_2 = index(line) - index(second);
-        const Vector a_1 = rotated(way_1, -turn_2);
-        const Vector a_2 = rotated(way_1, turn_2);
-        const Vector b_1 = rotated(way_2, -turn_1);
-        const Vector b_2 = rotated(way_2, turn_1);
+        const Vector a_1 = numbers_.rotated(way_1, -turn_2);
+        const Vector a_2 = numbers_.rotated(way_1, turn_2);
+        const Vector b_1 = numbers_.rotated(way_2, -turn_1);
+        const Vector b_2 = numbers_.rotated(way_2, turn_1);
         Vector difference{};
         for (std::size_t i = 0; i < rank_; ++i) difference[i] = (a_1[i] - a_2[i]) - (b_1[i] - b_2[i]);
-        return sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
+        return numbers_.sign_real(difference) * sign_of_sine(turn_1) * sign_of_sine(turn_2);
     }
 
     /// Images of nodes under the symmetries about the centroid of `nodes`.
@@ -179,15 +164,15 @@ public:
             Vector from_centre{};
             const auto coordinates = plane_.coordinates_of(node);
             for (std::size_t i = 0; i < plane_.rank_; ++i) from_centre[i] = Wide(count_) * coordinates[i] - sum_[i];
-            if (mirrored) from_centre = plane_.conjugate(from_centre);
-            const Vector turned = plane_.rotated(from_centre, index);
+            if (mirrored) from_centre = plane_.numbers_.conjugate(from_centre);
+            const Vector turned = plane_.numbers_.rotated(from_centre, index);
             std::array<std::int64_t, 8> found{};
             for (std::size_t i = 0; i < plane_.rank_; ++i) {
                 const Wide scaled = turned[i] + sum_[i];
                 if (scaled % count_ != 0) return none;
                 found[i] = static_cast<std::int64_t>(scaled / count_);
             }
-            return plane_.find({found.data(), plane_.rank_});
+            return plane_.nodes_.find(found.data(), {});
         }
         const ExactPlane& plane_;
         std::int64_t count_;
@@ -199,30 +184,7 @@ private:
 
     static int index(const Segment& segment) { return static_cast<int>(segment.direction); }
     std::span<const std::int64_t> coordinates_of(std::uint32_t node) const {
-        return {coordinates_.data() + node * rank_, rank_};
-    }
-    std::size_t slot_of(std::span<const std::int64_t> coordinates) const {
-        std::uint64_t hash = 0;
-        for (const std::int64_t coordinate : coordinates) {
-            hash = scrambled(hash + 0x9e3779b97f4a7c15 + static_cast<std::uint64_t>(coordinate));
-        }
-        return hash & (table_.size() - 1);
-    }
-    void grow() {
-        table_.assign(2 * table_.size(), none);
-        for (std::uint32_t node = 0; node < places_.size(); ++node) {
-            std::size_t slot = slot_of(coordinates_of(node));
-            while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
-            table_[slot] = node;
-        }
-    }
-    std::uint32_t find(std::span<const std::int64_t> coordinates) const {
-        for (std::size_t slot = slot_of(coordinates);; slot = (slot + 1) & (table_.size() - 1)) {
-            if (table_[slot] == none) return none;
-            if (std::equal(coordinates.begin(), coordinates.end(), coordinates_of(table_[slot]).begin())) {
-                return table_[slot];
-            }
-        }
+        return {nodes_.coordinates(node), rank_};
     }
 
     Vector between(std::uint32_t from, std::uint32_t to) const {
@@ -230,28 +192,16 @@ private:
         for (std::size_t i = 0; i < rank_; ++i) step[i] = coordinates_of(to)[i] - coordinates_of(from)[i];
         return step;
     }
-    template <class Coordinates>
-    Coordinates rotated(const Coordinates& vector, int count) const {
-        return numbers_.rotated(vector, count);
-    }
-    template <class Coordinates>
-    Coordinates conjugate(const Coordinates& vector) const {
-        return numbers_.conjugate(vector);
-    }
     int sign_of_sine(int count) const {
         count = (count % turn_ + turn_) % turn_;
         return 2 * count % turn_ == 0 ? 0 : (2 * count < turn_ ? 1 : -1);
     }
-    int sign_real(const Vector& vector) const { return numbers_.sign_real(vector); }
-    int sign_imaginary(const Vector& vector) const { return numbers_.sign_imaginary(vector); }
 
     const Lattice& lattice_;
     Cyclotomic numbers_;
     int turn_;
     std::size_t rank_;
-    std::vector<std::int64_t> coordinates_;
-    std::vector<glm::dvec2> places_;
-    std::vector<std::uint32_t> table_;  // nodes by hash, open addressing
+    PlaceTable<std::int64_t> nodes_;
     double largest_ = 0.0;
 };
 
@@ -264,9 +214,9 @@ public:
         return std::fabs(std::remainder(a - b, 2 * std::numbers::pi)) <= steps_are_one;
     }
     double rounding() const { return 2 * steps_are_one; }
-    std::size_t size() const { return places_.size(); }
-    glm::dvec2 at(std::uint32_t node) const { return places_[node]; }
-    std::span<const glm::dvec2> places() const { return places_; }
+    std::size_t size() const { return nodes_.size(); }
+    glm::dvec2 at(std::uint32_t node) const { return nodes_.at(node); }
+    std::span<const glm::dvec2> places() const { return nodes_.places(); }
 
     std::uint32_t node(std::span<const std::int64_t>, glm::dvec2 place) {
         if (!(std::fabs(place.x) < 1e9 && std::fabs(place.y) < 1e9)) {
@@ -274,11 +224,7 @@ public:
                 "the drawing extends more than 1e9 steps from its beginning, where a tolerance "
                 "of 1e-6 steps is meaningless");
         }
-        if (const std::uint32_t found = find(place); found != none) return found;
-        const auto node = static_cast<std::uint32_t>(places_.size());
-        next_.push_back(std::exchange(cells_.try_emplace(cell(place, 0, 0), none).first->second, node));
-        places_.push_back(place);
-        return node;
+        return nodes_.add(nullptr, place);
     }
     double direction(std::uint32_t from, std::uint32_t to) const {
         const glm::dvec2 step = at(to) - at(from);
@@ -286,11 +232,11 @@ public:
         return angle < 0 ? angle + turn() : angle;
     }
     int side(const Segment& line, std::uint32_t node) const {
-        const double distance = cross(unit(line), at(node) - at(line.from));
+        const double distance = determinant(unit(line), at(node) - at(line.from));
         return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
     }
     int order(const Segment& line, std::uint32_t a, std::uint32_t b) const {
-        const double distance = dot(unit(line), at(b) - at(a));
+        const double distance = scalar_product(unit(line), at(b) - at(a));
         return std::fabs(distance) <= steps_are_one ? 0 : sign_of(distance);
     }
     int compare(std::span<const Segment>, const Cut& a, const Cut& b) const { return sign_of(a.along - b.along); }
@@ -336,8 +282,8 @@ public:
         std::uint32_t mirror(std::uint32_t node, std::uint32_t which) const {
             const glm::dvec2 from = plane_.at(alike_.front()) - centre;
             const glm::dvec2 to = plane_.at(alike_[which]) - centre;
-            const glm::dvec2 factor = glm::dvec2(to.x * from.x - to.y * from.y, to.x * from.y + to.y * from.x) /
-                                      (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
+            const glm::dvec2 factor =
+                complex_product(to, from) / (std::hypot(from.x, from.y) * std::hypot(to.x, to.y));
             const glm::dvec2 place = plane_.at(node) - centre;
             return image({place.x, -place.y}, factor);
         }
@@ -350,7 +296,7 @@ public:
 
     private:
         std::uint32_t image(glm::dvec2 a, glm::dvec2 b) const {
-            return plane_.find(centre + glm::dvec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x));
+            return plane_.nodes_.find(nullptr, centre + complex_product(a, b));
         }
         const RoughPlane& plane_;
         std::vector<std::uint32_t> alike_;
@@ -358,28 +304,8 @@ public:
 
 private:
     glm::dvec2 unit(const Segment& line) const { return {std::cos(line.direction), std::sin(line.direction)}; }
-    static std::uint64_t cell(glm::dvec2 place, int right, int up) {
-        const auto x = static_cast<std::int64_t>(std::floor(place.x / (2 * steps_are_one))) + right;
-        const auto y = static_cast<std::int64_t>(std::floor(place.y / (2 * steps_are_one))) + up;
-        return scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
-    }
-    std::uint32_t find(glm::dvec2 place) const {
-        for (int right = -1; right <= 1; ++right) {
-            for (int up = -1; up <= 1; ++up) {
-                const auto found = cells_.find(cell(place, right, up));
-                if (found == cells_.end()) continue;
-                for (std::uint32_t node = found->second; node != none; node = next_[node]) {
-                    const glm::dvec2 gap = at(node) - place;
-                    if (std::hypot(gap.x, gap.y) <= steps_are_one) return node;
-                }
-            }
-        }
-        return none;
-    }
 
-    std::vector<glm::dvec2> places_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // last node in each
-    std::vector<std::uint32_t> next_;                         // the node before each in its cell
+    PlaceTable<std::int64_t> nodes_{0, steps_are_one};
 };
 
 }  // namespace sikku::kolam_plane

@@ -1,10 +1,12 @@
 #include "art/kolam/kolam_text.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json_text.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -12,31 +14,21 @@
 namespace sikku {
 namespace {
 
-/// Formats turtle steps, to a millionth of one.
-std::string number(double value) {
-    const double rounded = std::round(value * 1e6) / 1e6;
-    return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
+/// Turtle steps to a millionth of one, never -0.
+double rounded(double value) {
+    const double result = std::round(value * 1e6) / 1e6;
+    return result == 0 ? 0.0 : result;
 }
-std::string json(glm::dvec2 point) {
-    return fmt::format("[{}, {}]", number(point.x), number(point.y));
-}
-std::string json(bool value) {
-    return value ? "true" : "false";
-}
-std::string json(const std::vector<std::string>& texts) {
-    std::string list = "[";
-    for (const std::string& text : texts) list += (list.size() > 1 ? ", " : "") + json_string(text);
-    return list + "]";
+JsonText json(glm::dvec2 point) {
+    return std::array{rounded(point.x), rounded(point.y)};
 }
 
-std::string diagram_json(const KolamExamination& k) {
-    if (!k.diagram) return "null";
+JsonText diagram_json(const KolamExamination& k) {
+    if (!k.diagram) return nullptr;
     const DiagramFacts& d = *k.diagram;
-    return fmt::format(
-        "{{\"alternating\": true, \"crossings\": {}, \"components\": {}, \"parts\": {}, \"nugatory\": {}, "
-        "\"reduced\": {}, \"crossing_number\": {}, \"writhe\": {}, \"linked_pairs\": {}}}",
-        d.crossings, d.components, d.parts, d.nugatory, json(d.is_reduced()), d.crossing_number(), d.writhe,
-        d.linked_pairs);
+    return JsonText::object("alternating", true, "crossings", d.crossings, "components", d.components, "parts",
+                            d.parts, "nugatory", d.nugatory, "reduced", d.is_reduced(), "crossing_number",
+                            d.crossing_number(), "writhe", d.writhe, "linked_pairs", d.linked_pairs);
 }
 
 /// The kind of knot or link that the lines make if they pass over and under alternately.
@@ -72,25 +64,18 @@ std::string where_dots_are(const KolamExamination& k) {
 }  // namespace
 
 std::string kolam_json(const std::string& title, std::int64_t n, const KolamExamination& k) {
-    std::string dots;
-    for (const KolamDot& dot : k.dots) dots += (dots.empty() ? "" : ", ") + json(dot.at);
-    std::string text = fmt::format("{{\"title\": {}, \"n\": {}, \"kolam\": {}, \"faults\": {}, \"remarks\": {}, ",
-                                   json_string(title), n, json(k.is_kolam()), json(k.faults()), json(k.remarks()));
-    text += fmt::format("\"exact\": {}, \"tolerance\": {}, \"spline\": {}, \"segments\": {}, \"strokes\": {}, ",
-                        json(k.is_exact), k.tolerance, json(k.is_spline), k.segments, k.strokes);
-    text += fmt::format("\"lines\": {}, \"open_lines\": {}, \"straight_lines\": {}, ", k.lines, k.open_lines,
-                        k.straight_lines);
-    text += fmt::format("\"vertices\": {}, \"edges\": {}, \"components\": {}, \"faces\": {}, \"reused_edges\": {}, ",
-                        k.vertices, k.edges, k.components, k.faces, k.reused_edges);
-    text += fmt::format(
-        "\"meetings\": {}, \"crossings\": {}, \"skew\": {}, \"sixty_degrees\": {}, \"mid_crossings\": {}, ",
-        k.meetings, k.crossings, k.skew, k.sixty, k.mid_crossings);
-    text += fmt::format("\"touchings\": {}, \"multiple\": {}, ", k.touchings, k.multiple);
-    text += "\"diagram\": " + diagram_json(k) + ", ";
-    text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
-                        k.symmetry.name(), k.symmetry.rotations, k.symmetry.mirrors, json(k.centre));
-    return text + fmt::format("\"loose_dots\": {}, \"dots_on_lines\": {}, \"dots\": [{}]}}\n", k.loose_dots(),
-                              k.dots_on_lines(), dots);
+    const auto place = [](const KolamDot& dot) { return json(dot.at); };
+    return JsonText::object(
+               "title", title, "n", n, "kolam", k.is_kolam(), "faults", k.faults(), "remarks", k.remarks(), "exact",
+               k.is_exact, "tolerance", k.tolerance, "spline", k.is_spline, "segments", k.segments, "strokes",
+               k.strokes, "lines", k.lines, "open_lines", k.open_lines, "straight_lines", k.straight_lines,
+               "vertices", k.vertices, "edges", k.edges, "components", k.components, "faces", k.faces, "reused_edges",
+               k.reused_edges, "meetings", k.meetings, "crossings", k.crossings, "skew", k.skew, "sixty_degrees",
+               k.sixty, "mid_crossings", k.mid_crossings, "touchings", k.touchings, "multiple", k.multiple, "diagram",
+               diagram_json(k), "symmetry", k.symmetry.name(), "rotations", k.symmetry.rotations, "mirrors",
+               k.symmetry.mirrors, "centre", json(k.centre), "loose_dots", k.loose_dots(), "dots_on_lines",
+               k.dots_on_lines(), "dots", JsonText::list(k.dots, place))
+        .line();
 }
 
 std::string kolam_text(const std::string& title, std::int64_t n, const KolamExamination& k) {
@@ -141,7 +126,7 @@ std::string kolam_text(const std::string& title, std::int64_t n, const KolamExam
          fmt::format("{}: {}, {}, about {} {}", k.symmetry.name(),
                      k.symmetry.rotations == 1 ? "no rotation" : fmt::format("{} rotations", k.symmetry.rotations),
                      k.symmetry.mirrors == 0 ? "no mirror" : plural(k.symmetry.mirrors, "mirror", "mirrors"),
-                     number(k.centre.x), number(k.centre.y)));
+                     rounded(k.centre.x), rounded(k.centre.y)));
     line("exact",
          k.is_exact
              ? "yes"

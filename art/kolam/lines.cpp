@@ -290,7 +290,6 @@ std::optional<LinkDiagram> make_diagram(const PlanarGraph& graph, const Lines& l
 }
 
 std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions& options) {
-    std::uint64_t count = 0;
     Pulse pulse(options.monitor);
     UnionFind joined(graph.edges.size());
     for (std::uint32_t vertex = 0; vertex < graph.places.size(); ++vertex) {
@@ -302,10 +301,7 @@ std::uint64_t count_straight_lines(const PlanarGraph& graph, const KolamOptions&
             if (ahead != none) joined.join(list[i] / 2, ahead / 2);
         }
     }
-    for (std::uint32_t edge = 0; edge < graph.edge_count(); ++edge) {
-        count += joined.find(edge) == edge ? 1 : 0;
-    }
-    return count;
+    return joined.count();
 }
 
 }  // namespace sikku::kolam_plane

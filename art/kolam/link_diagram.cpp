@@ -161,8 +161,7 @@ DiagramFacts diagram_facts(const LinkDiagram& diagram, const Monitor& monitor) {
         if (a == b) facts.writhe += is_positive ? 1 : -1;
         if (a != b) twice_linking[{std::min(a, b), std::max(a, b)}] += is_positive ? 1 : -1;
     }
-    for (std::uint32_t line = 0; line < diagram.lines.size(); ++line)
-        facts.parts += joined.find(line) == line ? 1 : 0;
+    facts.parts = joined.count();
     for (const auto& [pair, twice] : twice_linking) facts.linked_pairs += twice != 0 ? 1 : 0;
     return facts;
 }

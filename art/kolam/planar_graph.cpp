@@ -64,19 +64,18 @@ private:
 
     /// With cells as wide as segments are long, there are not many more entries than segments.
     void fill_grid() {
-        glm::dvec2 low = plane_.at(graph_.segments.front().from);
-        glm::dvec2 high = low;
+        Box box;
         double length = 0;
         for (const Segment& segment : graph_.segments) {
             pulse_();
             const glm::dvec2 a = plane_.at(segment.from);
             const glm::dvec2 b = plane_.at(segment.to);
             length += std::hypot(b.x - a.x, b.y - a.y);
-            low = {std::min({low.x, a.x, b.x}), std::min({low.y, a.y, b.y})};
-            high = {std::max({high.x, a.x, b.x}), std::max({high.y, a.y, b.y})};
+            box.add(a);
+            box.add(b);
         }
         graph_.rounding = 4 * plane_.rounding();
-        graph_.grid.emplace(low, high, length / static_cast<double>(graph_.segments.size()), graph_.rounding);
+        graph_.grid.emplace(box, length / static_cast<double>(graph_.segments.size()), graph_.rounding);
         for (std::uint32_t i = 0; i < graph_.segments.size(); ++i) {
             pulse_();
             graph_.grid->add(i, plane_.at(graph_.segments[i].from), plane_.at(graph_.segments[i].to));
@@ -128,7 +127,7 @@ private:
     int side(const Segment& line, std::uint32_t node) const {
         const glm::dvec2 along = plane_.at(line.to) - plane_.at(line.from);
         const glm::dvec2 way = plane_.at(node) - plane_.at(line.from);
-        const double product = cross(along, way);
+        const double product = determinant(along, way);
         const double doubt = (graph_.rounding + 1e-15 * (std::fabs(way.x) + std::fabs(way.y))) * 4 *
                              (std::fabs(along.x) + std::fabs(along.y) + std::fabs(way.x) + std::fabs(way.y));
         return std::fabs(product) > doubt ? sign_of(product) : plane_.side(line, node);
@@ -171,8 +170,8 @@ private:
         } else if (ends_on_second) {
             cut(second, other_from_side == 0 ? s.from : s.to);
         } else {
-            const double whole = cross(b - a, d - c);
-            const double part = std::clamp(cross(c - a, d - c) / whole, 0.0, 1.0);
+            const double whole = determinant(b - a, d - c);
+            const double part = std::clamp(determinant(c - a, d - c) / whole, 0.0, 1.0);
             const glm::dvec2 place = a + part * (b - a);
             const auto vertex = static_cast<std::uint32_t>(plane_.size() + crossings_.size());
             crossings_.push_back(place);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/monitor.h"
+#include "engine/geometry/box.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,9 +23,8 @@ public:
         bool operator<(const Entry& other) const { return key != other.key ? key < other.key : item < other.item; }
     };
 
-    SegmentGrid(glm::dvec2 low, glm::dvec2 high, double cell, double pad)
-        : low_(low - glm::dvec2(2 * pad)), pad_(pad) {
-        const double widest = std::max(high.x - low.x, high.y - low.y) + 4 * pad;
+    SegmentGrid(const Box& box, double cell, double pad) : low_(box.low - glm::dvec2(2 * pad)), pad_(pad) {
+        const double widest = box.longest() + 4 * pad;
         cell_ = std::max({cell, 4 * pad, widest / 1e9});
     }
     void add(std::uint32_t item, glm::dvec2 a, glm::dvec2 b) {
@@ -63,12 +63,7 @@ public:
     /// Visits the entries of the cells that the box of `points` meets.
     template <class Visitor>
     void visit(std::span<const glm::dvec2> points, const Visitor& visitor) const {
-        glm::dvec2 low = points.front();
-        glm::dvec2 high = low;
-        for (const glm::dvec2 point : points) {
-            low = {std::min(low.x, point.x), std::min(low.y, point.y)};
-            high = {std::max(high.x, point.x), std::max(high.y, point.y)};
-        }
+        const auto [low, high] = box_of(points);
         const auto below = [](const Entry& entry, std::uint64_t key) { return entry.key < key; };
         for (std::uint64_t x = column(low.x); x <= column(high.x); ++x) {
             const std::size_t end = end_of(x, row(high.y));

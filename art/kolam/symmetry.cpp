@@ -48,15 +48,7 @@ public:
     }
 
     /// For each line the number of its set, in the order of their first lines.
-    std::vector<std::uint32_t> orbits() {
-        std::vector<std::uint32_t> numbers(lengths_.size());
-        std::uint32_t sets = 0;
-        for (std::uint32_t line = 0; line < numbers.size(); ++line) {
-            const std::uint32_t first = joined_.find(line);
-            numbers[line] = first == line ? sets++ : numbers[first];
-        }
-        return numbers;
-    }
+    std::vector<std::uint32_t> orbits() { return joined_.set_numbers(); }
 
 private:
     using Piece = std::array<std::uint32_t, 3>;  // two nodes, the smaller one first, and the line

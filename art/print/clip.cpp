@@ -1,15 +1,6 @@
 #include "art/print/clip.h"
 
 namespace sikku {
-namespace {
-
-Box box_of(std::span<const glm::dvec2> points) {
-    Box box;
-    for (const glm::dvec2 point : points) box.add(point);
-    return box;
-}
-
-}  // namespace
 
 bool ClipSink::overlaps(const Box& box) const {
     return box.low.x <= box_.high.x && box.high.x >= box_.low.x && box.low.y <= box_.high.y &&

@@ -17,14 +17,10 @@ namespace {
 
 constexpr double dash = 3, dash_gap = 2;
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// True if two sides have a common point.
 bool meet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
-    const double first = cross(b - a, c - a), second = cross(b - a, d - a);
-    const double third = cross(d - c, a - c), fourth = cross(d - c, b - c);
+    const double first = determinant(b - a, c - a), second = determinant(b - a, d - a);
+    const double third = determinant(d - c, a - c), fourth = determinant(d - c, b - c);
     return ((first > 0) != (second > 0)) && ((third > 0) != (fourth > 0));
 }
 
@@ -59,7 +55,8 @@ bool contains(std::span<const glm::dvec2> outline, glm::dvec2 point) {
 /// A point far from all sides, on a grid, and its distance from them.
 std::pair<glm::dvec2, double> roomiest(std::span<const glm::dvec2> outline) {
     constexpr int cells = 32;
-    const auto [low, high] = box_of(outline);
+    const Box box = box_of(outline);
+    const glm::dvec2 low = box.low, high = box.high;
     std::pair<glm::dvec2, double> best{(low + high) / 2.0, 0.0};
     for (int y = 1; y < cells; ++y) {
         for (int x = 1; x < cells; ++x) {
@@ -77,18 +74,10 @@ std::pair<glm::dvec2, double> roomiest(std::span<const glm::dvec2> outline) {
 
 }  // namespace
 
-Box box_of(std::span<const glm::dvec2> points) {
-    Box box;
-    for (const glm::dvec2 point : points) box.add(point);
-    return box;
-}
-
 std::vector<glm::dvec2> turned(std::span<const glm::dvec2> corners, double angle) {
     const glm::dvec2 way(std::cos(angle), std::sin(angle));
     std::vector<glm::dvec2> result;
-    for (const glm::dvec2 corner : corners) {
-        result.emplace_back(corner.x * way.x - corner.y * way.y, corner.x * way.y + corner.y * way.x);
-    }
+    for (const glm::dvec2 corner : corners) result.push_back(complex_product(corner, way));
     return result;
 }
 
@@ -106,7 +95,7 @@ std::optional<std::vector<glm::dvec2>> offset_sides(std::span<const glm::dvec2> 
         of_corner.emplace_back(outline.size(), 0);
         // The mitre is longer than twice the distance at angles below 60 degrees. The slack avoids sides of length 0
         // at 60.
-        if (cross(before, after) > 0 && cosine < -0.5 - 1e-9) {
+        if (determinant(before, after) > 0 && cosine < -0.5 - 1e-9) {
             const glm::dvec2 tip = glm::normalize(before - after);
             const double beyond = distance * (2 - glm::dot(first, tip)) / glm::dot(before, tip);
             outline.push_back(at + first * distance + before * beyond);

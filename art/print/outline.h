@@ -15,7 +15,6 @@ namespace sikku {
 
 /// Lengths are millimetres, y up.
 
-Box box_of(std::span<const glm::dvec2> points);
 /// Turns points about the origin. @param angle  radians anticlockwise
 std::vector<glm::dvec2> turned(std::span<const glm::dvec2> points, double angle);
 

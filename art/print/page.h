@@ -1,6 +1,8 @@
 // art/print/page.h: paper sizes, and the placement of a drawing on a page.
 #pragma once
 
+#include "engine/geometry/box.h"
+
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -21,17 +23,6 @@ struct Page {
 /// `WIDTHxHEIGHT` with units (`300x300mm`, `50x70cm`, `20cmx30cm`, `12x18in`; a unit at the end applies to both).
 /// Returns width and height in millimetres; their range is not checked here.
 std::optional<glm::dvec2> parse_size(std::string_view text, double dpi);
-
-/// An axis-parallel box of a drawing; empty until something is added.
-struct Box {
-    glm::dvec2 low{1e300, 1e300};
-    glm::dvec2 high{-1e300, -1e300};
-    bool empty() const { return low.x > high.x; }
-    void add(glm::dvec2 point) {
-        low = {point.x < low.x ? point.x : low.x, point.y < low.y ? point.y : low.y};
-        high = {point.x > high.x ? point.x : high.x, point.y > high.y ? point.y : high.y};
-    }
-};
 
 /// Maps pattern units to millimetres on the page, y down from the top left corner.
 struct Placement {

@@ -2,16 +2,12 @@
 #pragma once
 
 #include "art/product/draw_settings.h"
+#include "engine/base/input_file.h"
 #include "engine/language/document.h"
 
 #include <filesystem>
-#include <functional>
-#include <string>
 
 namespace sikku {
-
-/// Receives the name of a file that was read and its text.
-using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
 
 /// Loads the patterns that the border of `style` names into `options`. Files that an option names are in `folder`,
 /// files that the pattern names are beside it; other names are bundled patterns.

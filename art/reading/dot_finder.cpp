@@ -1,6 +1,6 @@
 #include "art/reading/dot_finder.h"
 
-#include "art/reading/point_grid.h"
+#include "engine/geometry/point_grid.h"
 
 #include <glm/geometric.hpp>
 

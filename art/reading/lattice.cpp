@@ -1,6 +1,7 @@
 #include "art/reading/lattice.h"
 
-#include "art/reading/point_grid.h"
+#include "engine/geometry/box.h"
+#include "engine/geometry/point_grid.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,8 +18,10 @@ namespace {
 
 using Place = std::pair<std::int32_t, std::int32_t>;  // steps along the two vectors of a basis
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
+/// Converts a whole number to an integer, limited to ±10^8, because wrong fits can reach infinity.
+std::int32_t whole(double number) {
+    constexpr double farthest = 1e8;
+    return static_cast<std::int32_t>(number < farthest ? std::max(number, -farthest) : farthest);
 }
 
 /// Solves a system of 8 equations by elimination with pivots; false if it is singular.
@@ -151,9 +154,7 @@ double angle_between(glm::dvec2 a, glm::dvec2 b) {
 
 /// The typical distance of neighbours.
 double typical_distance(const std::vector<glm::dvec2>& points) {
-    PointBox box;
-    for (const glm::dvec2 point : points) box.add(point);
-    const double side = std::max({box.high.x - box.low.x, box.high.y - box.low.y, 1e-9});
+    const double side = std::max(box_of(points).longest(), 1e-9);
     const PointGrid index(points, side / std::max(1.0, std::sqrt(static_cast<double>(points.size()))));
     std::vector<double> distances;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -205,7 +206,7 @@ std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& poin
                 if (step && (glm::length(first) < 0.7 * *step || glm::length(first) > 1.4 * *step)) continue;
                 auto places = patch.grow(seed, first, second);
                 // Among equal patches, the one with shorter steps leaves fewer places empty.
-                const double area = std::fabs(cross(first, second));
+                const double area = std::fabs(determinant(first, second));
                 if (places.size() < best_size) continue;
                 const std::size_t between = points_between(places, points, index);
                 const std::size_t size = places.size() - std::min(places.size(), between);
@@ -286,7 +287,7 @@ struct Axes {
         double nearest = 1e300;
         for (const glm::dvec2 side : sides) {
             const double turned = angle_between(right, side);
-            if (cross(right, side) > 0 && turned < nearest) {
+            if (determinant(right, side) > 0 && turned < nearest) {
                 nearest = turned;
                 up = side;
             }
@@ -303,7 +304,7 @@ struct Axes {
 
 private:
     glm::dvec2 coordinates(glm::dvec2 w) const {
-        return glm::round(glm::dvec2(cross(w, up), cross(right, w)) / cross(right, up));
+        return glm::round(glm::dvec2(determinant(w, up), determinant(right, w)) / determinant(right, up));
     }
     glm::dvec2 first_{0.0};
     glm::dvec2 second_{0.0};

@@ -5,6 +5,7 @@
 #include "art/reading/picture.h"
 #include "art/reading/spots.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -1,5 +1,6 @@
 #include "art/relief/outlines.h"
 
+#include "engine/geometry/box.h"
 #include "engine/geometry/simple_polygon.h"
 
 #include <glm/geometric.hpp>
@@ -21,17 +22,12 @@ Micrometres whole(glm::dvec2 point) {
     return {to_whole(point.x * 1000), to_whole(point.y * 1000)};
 }
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 glm::dvec2 left_of(glm::dvec2 direction) {
     return {-direction.y, direction.x};
 }
 
 glm::dvec2 turned(glm::dvec2 vector, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * vector.x - s * vector.y, s * vector.x + c * vector.y};
+    return complex_product(vector, {std::cos(angle), std::sin(angle)});
 }
 
 /// True if corners turn only left, once around.
@@ -79,7 +75,7 @@ std::optional<Points> mitred(const Points& corners, double distance) {
         const glm::dvec2 before = glm::normalize(corners[i] - corners[(i + count - 1) % count]);
         const glm::dvec2 after = glm::normalize(corners[(i + 1) % count] - corners[i]);
         const double cosine = glm::dot(before, after);
-        if (!(cosine > sharpest) && !(cross(before, after) > 0)) return std::nullopt;
+        if (!(cosine > sharpest) && !(determinant(before, after) > 0)) return std::nullopt;
         moved[i] = corners[i] + (left_of(before) + left_of(after)) * (distance / (1 + cosine));
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -99,7 +95,7 @@ Points parallel(const Points& corners, double distance, double tolerance) {
         const glm::dvec2 before = glm::normalize(corners[i] - corners[(i + count - 1) % count]);
         const glm::dvec2 after = glm::normalize(corners[(i + 1) % count] - corners[i]);
         const double cosine = glm::dot(before, after);
-        const double turn = std::atan2(cross(before, after), cosine);
+        const double turn = std::atan2(determinant(before, after), cosine);
         path.push_back(corners[i] + left_of(before) * distance);
         if (turn > 0) {
             path.push_back(corners[i]);
@@ -143,7 +139,7 @@ std::vector<Part> parts_of(std::span<const glm::dvec2> points, double radius, bo
         if (i + 1 == parts.size() && !is_closed) break;
         Part &part = parts[i], &next = parts[(i + 1) % parts.size()];
         const double cosine = glm::dot(part.direction, next.direction);
-        part.turn = std::atan2(cross(part.direction, next.direction), cosine);
+        part.turn = std::atan2(determinant(part.direction, next.direction), cosine);
         const double half = std::tan(std::fabs(part.turn) / 2);
         const double shorter = std::min(glm::distance(part.from, part.to), glm::distance(next.from, next.to));
         // The tip of the mitre is as near to the arc as its chords would be, and parts keep their inner sides.

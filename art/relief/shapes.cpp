@@ -51,7 +51,7 @@ private:
             box.add(b);
             length += glm::distance(a, b);
         }
-        return {box.low, box.high, length / static_cast<double>(edges.size()), same_place};
+        return {box, length / static_cast<double>(edges.size()), same_place};
     }
 
     std::vector<std::pair<glm::dvec2, glm::dvec2>> edges_;

@@ -1,5 +1,6 @@
 #include "art/space/triangles.h"
 
+#include "engine/geometry/box.h"
 #include "engine/geometry/simple_polygon.h"
 
 #include <glm/common.hpp>
@@ -14,13 +15,9 @@ namespace {
 
 constexpr std::size_t most_ears = 1000;
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// True if a triangle contains a point, also on its edges.
 bool contains(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 point) {
-    return cross(b - a, point - a) >= 0 && cross(c - b, point - b) >= 0 && cross(a - c, point - c) >= 0;
+    return side_of(a, b, point) >= 0 && side_of(b, c, point) >= 0 && side_of(c, a, point) >= 0;
 }
 
 }  // namespace
@@ -55,7 +52,7 @@ Triangulation triangulate(std::span<const glm::vec3> vertices) {
     }
     const auto is_ear = [&](std::size_t before, std::size_t at, std::size_t after) {
         const glm::dvec2 a = flat[left[before]], b = flat[left[at]], c = flat[left[after]];
-        if (!(cross(b - a, c - b) > 0)) return false;
+        if (!(determinant(b - a, c - b) > 0)) return false;
         for (std::size_t i = 0; i < left.size(); ++i) {
             if (i == before || i == at || i == after) continue;
             const glm::dvec2 point = flat[left[i]];

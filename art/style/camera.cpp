@@ -1,7 +1,7 @@
 #include "art/style/camera.h"
 
+#include "art/style/values.h"
 #include "engine/base/diagnostic.h"
-#include "engine/base/text.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -38,16 +38,8 @@ glm::dvec2 direction(double degrees) {
 }  // namespace
 
 std::optional<Camera> parse_camera(std::string_view text) {
-    constexpr std::string_view separators = " \t,";
-    std::vector<std::string> words;
-    for (;;) {
-        text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
-        if (text.empty()) break;
-        const std::string_view word = text.substr(0, text.find_first_of(separators));
-        text.remove_prefix(word.size());
-        words.push_back(lower_case(word));
-        if (words.size() > 4) return std::nullopt;
-    }
+    const std::vector<std::string> words = words_of(text, 5);
+    if (words.size() > 4) return std::nullopt;
     Camera camera;
     std::size_t next = 0;
     if (words.empty()) return std::nullopt;

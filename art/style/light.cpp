@@ -10,25 +10,9 @@
 #include <vector>
 
 namespace sikku {
-namespace {
-
-std::vector<std::string> words_of(std::string_view text) {
-    constexpr std::string_view separators = " \t,";
-    std::vector<std::string> words;
-    while (words.size() < 4) {
-        text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
-        if (text.empty()) break;
-        const std::string_view word = text.substr(0, text.find_first_of(separators));
-        text.remove_prefix(word.size());
-        words.push_back(lower_case(word));
-    }
-    return words;
-}
-
-}  // namespace
 
 std::optional<Light> parse_light(std::string_view text) {
-    const std::vector<std::string> words = words_of(text);
+    const std::vector<std::string> words = words_of(text, 4);
     Light light;
     if (words.size() == 1) {
         light.is_flat = words[0] == "flat";

@@ -3,8 +3,6 @@
 #include "art/style/values.h"
 #include "engine/base/text.h"
 
-#include <fmt/format.h>
-
 #include <string>
 #include <string_view>
 
@@ -13,14 +11,6 @@ namespace {
 
 std::string value_of(const Key& key) {
     return lower_case(trimmed(key.value.view()));
-}
-
-void refuse(const Key& key, std::string_view expected, Diagnostics& diagnostics) {
-    if (key.value.empty()) {
-        diagnostics.error(key.name_at, fmt::format("'{}:' is empty: expected {}", key.name, expected));
-    } else {
-        diagnostics.error(key.value, fmt::format("{}: expected {}", quoted_value(key.value.view()), expected));
-    }
 }
 
 void read_cells(const Key& key, MapStyle& style, Diagnostics& diagnostics) {

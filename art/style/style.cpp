@@ -61,17 +61,24 @@ std::optional<Colour> read_colour(const Span& word, std::string_view expected, D
     return colour;
 }
 
-/// The only word of a value; reports an absent or a second one.
-std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnostics& diagnostics) {
+/// Reports a word after the last one that is expected.
+void refuse_more(const Key& key, const Span& word, std::string_view expected, Diagnostics& diagnostics) {
+    diagnostics.error(word, fmt::format("unexpected {}: '{}:' is {}", quoted_value(word.view()), key.name, expected));
+}
+
+/// The only word of a value, perhaps after "by"; reports an absent or a second one.
+std::optional<Span> only_word(const Key& key, std::string_view expected, Diagnostics& diagnostics,
+                              bool may_follow_by = false) {
     std::size_t at = 0;
-    const Span word = next_word(key.value, at, false);
+    Span word = next_word(key.value, at, false);
+    if (may_follow_by && lower_case(word.view()) == "by") word = next_word(key.value, at, false);
     if (word.empty()) {
-        diagnostics.error(key.name_at, fmt::format("'{}:' is empty: expected {}", key.name, expected));
+        diagnostics.error(key.name_at, fmt::format("'{}:' is {}: expected {}", key.name,
+                                                   may_follow_by ? "incomplete" : "empty", expected));
         return std::nullopt;
     }
     if (const Span second = next_word(key.value, at, false); !second.empty()) {
-        diagnostics.error(second,
-                          fmt::format("unexpected {}: '{}:' is {}", quoted_value(second.view()), key.name, expected));
+        refuse_more(key, second, expected, diagnostics);
         return std::nullopt;
     }
     return word;
@@ -153,9 +160,7 @@ public:
             } else if (lower_case(text) == "none") {
                 diagnostics_.error(word, fmt::format("'none' must stand alone in '{}:'", key_.name));
             } else if (has_colour_) {
-                diagnostics_.error(
-                    word, fmt::format("unexpected {}: '{}:' is {}", quoted_value(text), key_.name, expected));
-                return;
+                return refuse_more(key_, word, expected, diagnostics_);
             } else {
                 has_colour_ = true;
                 colour = read_colour(word, expected, diagnostics_);
@@ -337,27 +342,17 @@ void read_powders(const Key& key, Style& style, Diagnostics& diagnostics) {
 template <class Value, std::size_t count>
 std::optional<Value> read_choice(const Key& key, const std::array<std::pair<std::string_view, Value>, count>& choices,
                                  std::string_view expected, Diagnostics& diagnostics) {
-    std::size_t at = 0;
-    Span word = next_word(key.value, at, false);
-    if (lower_case(word.view()) == "by") word = next_word(key.value, at, false);
-    const std::string text = lower_case(word.view());
-    if (word.empty()) {
-        diagnostics.error(key.name_at, fmt::format("'{}:' is incomplete: expected {}", key.name, expected));
-        return std::nullopt;
-    }
-    if (const Span second = next_word(key.value, at, false); !second.empty()) {
-        diagnostics.error(second,
-                          fmt::format("unexpected {}: '{}:' is {}", quoted_value(second.view()), key.name, expected));
-        return std::nullopt;
-    }
+    const auto word = only_word(key, expected, diagnostics, true);
+    if (!word) return std::nullopt;
+    const std::string text = lower_case(word->view());
     std::vector<std::string_view> names;
     for (const auto& [name, value] : choices) {
         if (name == text) return value;
         names.push_back(name);
     }
     const std::string_view near = nearest(text, names);
-    diagnostics.error(word, near.empty() ? fmt::format("{}: expected {}", quoted_value(word.view()), expected)
-                                         : fmt::format("{}: did you mean '{}'?", quoted_value(word.view()), near));
+    diagnostics.error(*word, near.empty() ? fmt::format("{}: expected {}", quoted_value(word->view()), expected)
+                                          : fmt::format("{}: did you mean '{}'?", quoted_value(word->view()), near));
     return std::nullopt;
 }
 
@@ -426,7 +421,7 @@ void read_weave(const Key& key, Style& style, Diagnostics& diagnostics) {
     const std::string text = lower_case(word->view());
     if (text == "none" || text == "no") return;
     style.weave = text == "yes" ? usual_gap : number_in(text, 0, widest_gap);
-    if (!style.weave) diagnostics.error(*word, fmt::format("{}: expected {}", quoted_value(word->view()), expected));
+    if (!style.weave) refuse(*word, expected, diagnostics);
 }
 
 void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
@@ -441,16 +436,13 @@ void read_parallel(const Key& key, Style& style, Diagnostics& diagnostics) {
         diagnostics.error(key.name_at, fmt::format("'parallel:' is empty: expected {}", expected));
         return;
     }
-    const auto refuse = [&](const Span& word) {
-        diagnostics.error(word, fmt::format("{}: expected {}", quoted_value(word.view()), expected));
-    };
     const auto number = number_in(count.view(), 1, 9);
-    if (!number || *number != std::floor(*number)) return refuse(count);
+    if (!number || *number != std::floor(*number)) return refuse(count, expected, diagnostics);
     style.parallel.count = static_cast<int>(*number);
-    if (!third.empty()) return refuse(third);
+    if (!third.empty()) return refuse(third, expected, diagnostics);
     if (spacing.empty()) return;
     const auto width = number_in(spacing.view(), 1, 50);
-    if (!width) return refuse(spacing);
+    if (!width) return refuse(spacing, expected, diagnostics);
     style.parallel.spacing = *width;
     style.parallel.is_spaced = true;
 }
@@ -482,7 +474,7 @@ void read_sway(const Key& key, Style& style, Diagnostics& diagnostics) {
     const auto word = only_word(key, expected, diagnostics);
     if (!word) return;
     const auto degrees = number_in(word->view(), 0, 90);
-    if (!degrees) diagnostics.error(*word, fmt::format("{}: expected {}", quoted_value(word->view()), expected));
+    if (!degrees) refuse(*word, expected, diagnostics);
     style.sway = degrees.value_or(0.0);
 }
 

@@ -9,10 +9,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
 namespace sikku {
+
+/// Receives the name and the text of a file that was read.
+using FileWitness = std::function<void(const std::string& name, const std::string& text)>;
 
 /// A regular file, open for reading. No read allocates more memory than the bytes present, whatever sizes the file
 /// claims.

@@ -22,6 +22,19 @@ public:
         b = find(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
+    /// The number of sets.
+    std::uint64_t count() const {
+        std::uint64_t sets = 0;
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) sets += parent_[i] == i ? 1 : 0;
+        return sets;
+    }
+    /// For each number that of its set; sets are numbered from 0 in the order of their least members.
+    std::vector<std::uint32_t> set_numbers() {
+        std::vector<std::uint32_t> numbers(parent_.size());
+        std::uint32_t sets = 0;
+        for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = find(i) == i ? sets++ : numbers[find(i)];
+        return numbers;
+    }
 
 private:
     std::vector<std::uint32_t> parent_;

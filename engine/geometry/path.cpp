@@ -1,6 +1,7 @@
 #include "engine/geometry/path.h"
 
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/lettering.h"
 
 #include <algorithm>
@@ -11,14 +12,7 @@ namespace sikku {
 
 void PathSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
     if (outline.empty()) return;
-    glm::dvec2 low = outline.front();
-    glm::dvec2 high = low;
-    for (const glm::dvec2 point : outline) {
-        low = {std::min(low.x, point.x), std::min(low.y, point.y)};
-        high = {std::max(high.x, point.x), std::max(high.y, point.y)};
-    }
-    const double side = std::max(high.x - low.x, high.y - low.y);
-    const double tolerance = std::max(side / 1000, std::numeric_limits<double>::min());
+    const double tolerance = std::max(box_of(outline).longest() / 1000, std::numeric_limits<double>::min());
     std::vector<glm::dvec2> vertices = {outline.front()};
     for (std::size_t i = 0; i + 3 < outline.size(); i += 3) {
         flatten(outline[i], outline[i + 1], outline[i + 2], outline[i + 3], tolerance,

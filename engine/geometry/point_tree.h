@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/monitor.h"
+#include "engine/geometry/box.h"
 
 #include <glm/vec2.hpp>
 
@@ -82,14 +83,9 @@ private:
         monitor.check();
         nodes_[node].count = static_cast<std::uint32_t>(ids.size());
         if (node >= leaves_) return;
-        glm::dvec2 low(0.0);
-        glm::dvec2 high(0.0);
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            const glm::dvec2 point = points[ids[i]];
-            low = i == 0 ? point : glm::dvec2(std::min(low.x, point.x), std::min(low.y, point.y));
-            high = i == 0 ? point : glm::dvec2(std::max(high.x, point.x), std::max(high.y, point.y));
-        }
-        const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+        Box box;
+        for (const std::uint32_t id : ids) box.add(points[id]);
+        const int axis = box.size().x >= box.size().y ? 0 : 1;
         const std::size_t middle = ids.size() / 2;
         // Equal points are ordered by index, so that the order is the same everywhere.
         std::nth_element(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(middle), ids.end(),

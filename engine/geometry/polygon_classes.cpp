@@ -1,5 +1,8 @@
 #include "engine/geometry/polygon_classes.h"
 
+#include "engine/geometry/box.h"
+#include "engine/geometry/simple_polygon.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -18,10 +21,6 @@ std::int64_t rounded(double value) {
     return static_cast<std::int64_t>(std::floor(std::clamp(value * parts + shift, -9e18, 9e18)));
 }
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// The corners, anticlockwise, without those on straight stretches.
 std::vector<glm::dvec2> true_corners(std::span<const glm::dvec2> given) {
     std::vector<glm::dvec2> corners;
@@ -29,14 +28,10 @@ std::vector<glm::dvec2> true_corners(std::span<const glm::dvec2> given) {
         const glm::dvec2 before = given[i] - given[(i + given.size() - 1) % given.size()];
         const glm::dvec2 after = given[(i + 1) % given.size()] - given[i];
         const double scale = glm::length(before) * glm::length(after);
-        if (std::fabs(cross(before, after)) > 1e-9 * scale || glm::dot(before, after) < 0)
+        if (std::fabs(determinant(before, after)) > 1e-9 * scale || glm::dot(before, after) < 0)
             corners.push_back(given[i]);
     }
-    double area = 0;
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        area += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-    }
-    if (area < 0) std::reverse(corners.begin(), corners.end());
+    if (signed_area(corners) < 0) std::reverse(corners.begin(), corners.end());
     return corners;
 }
 
@@ -90,7 +85,7 @@ PolygonClasses::Signature PolygonClasses::sides_and_angles(const std::vector<glm
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
         const glm::dvec2 next = corners[(i + 2) % corners.size()] - corners[(i + 1) % corners.size()];
-        const double angle = std::atan2(cross(side, next), glm::dot(side, next));
+        const double angle = std::atan2(determinant(side, next), glm::dot(side, next));
         if (tolerance_ > 0) {
             result.push_back(lengths_.number(glm::length(side), tolerance_, ignore));
             const double error = angle_error(tolerance_, glm::length(side), glm::length(next));

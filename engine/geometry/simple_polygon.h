@@ -1,4 +1,4 @@
-// engine/geometry/simple_polygon.h: areas of polygons, and whether they cross themselves.
+// engine/geometry/simple_polygon.h: areas of polygons, points within them, and whether they cross themselves.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -19,6 +19,17 @@ inline double signed_area(std::span<const glm::dvec2> corners) {
     double area = 0;
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) area += side_of(corners[0], corners[i], corners[i + 1]);
     return area / 2;
+}
+
+/// True if a point lies within a polygon, by the even-odd rule.
+inline bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point) {
+    bool is_inside = false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 a = corners[i], b = corners[(i + 1) % corners.size()];
+        if ((a.y > point.y) == (b.y > point.y)) continue;
+        if (point.x < a.x + (b.x - a.x) * ((point.y - a.y) / (b.y - a.y))) is_inside = !is_inside;
+    }
+    return is_inside;
 }
 
 /// True if two sides of a polygon cross at inner points. Cost: quadratic.

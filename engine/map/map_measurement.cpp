@@ -1,7 +1,7 @@
 #include "engine/map/map_measurement.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/text.h"
+#include "engine/base/json_text.h"
 
 #include <fmt/format.h>
 
@@ -29,18 +29,10 @@ MapMeasurement measure_map(const Map& map, const MapSystem& system, std::int64_t
 }
 
 std::string measurement_json(const std::string& title, const MapMeasurement& m) {
-    std::string labels;
-    for (const auto& [label, count] : m.labels) {
-        labels += fmt::format("{}{}: {}", labels.empty() ? "" : ", ", json_string(label), count);
-    }
-    std::string sides;
-    for (const auto& [number, count] : m.sides) {
-        sides += fmt::format("{}\"{}\": {}", sides.empty() ? "" : ", ", number, count);
-    }
-    return fmt::format(
-        "{{\"title\": {}, \"n\": {}, \"cells\": {}, \"edges\": {}, \"vertices\": {}, \"outer\": {}, "
-        "\"labels\": {{{}}}, \"sides\": {{{}}}}}\n",
-        json_string(title), m.n, m.cells, m.edges, m.vertices, m.outer, labels, sides);
+    return JsonText::object("title", title, "n", m.n, "cells", m.cells, "edges", m.edges, "vertices", m.vertices,
+                            "outer", m.outer, "labels", JsonText::object_of(m.labels), "sides",
+                            JsonText::object_of(m.sides))
+        .line();
 }
 
 std::string undivided_remark(std::size_t cells, const MapSystem& system, std::int64_t steps) {

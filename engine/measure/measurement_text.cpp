@@ -1,12 +1,13 @@
 #include "engine/measure/measurement_text.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/text.h"
+#include "engine/base/json_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -19,14 +20,8 @@ std::string number(double value) {
     return fmt::format("{}", value);
 }
 
-std::string json(const Quantity& quantity) {
-    return quantity.digits.empty() ? number(quantity.value) : json_string(quantity.digits);
-}
-
-std::string json(const std::vector<Quantity>& list) {
-    std::string text = "[";
-    for (const Quantity& quantity : list) text += (text.size() > 1 ? ", " : "") + json(quantity);
-    return text + "]";
+JsonText json(const Quantity& quantity) {
+    return quantity.digits.empty() ? JsonText::raw(number(quantity.value)) : quantity.digits;
 }
 
 /// Geometry of a drawing in the plane or in space, with two or three axes.
@@ -77,26 +72,22 @@ std::string plain(const std::vector<Quantity>& list) {
 }  // namespace
 
 std::string measurement_json(const std::string& title, const Measurement& m) {
-    std::string counts;
-    for (const auto& [letter, count] : m.counts) {
-        counts += fmt::format("{}{}: {}", counts.empty() ? "" : ", ", json_string(letter), json(count));
+    std::vector<std::pair<std::string, JsonText>> counts;
+    for (const auto& [letter, count] : m.counts) counts.emplace_back(letter, json(count));
+    JsonText length = json(m.length);
+    if (m.length.digits.empty() && length.text.find_first_not_of("0123456789") == std::string::npos) {
+        length.text += ".0";
     }
-    std::string length = json(m.length);
-    if (m.length.digits.empty() && length.find_first_not_of("0123456789") == std::string::npos) length += ".0";
     const std::optional<Geometry> g = geometry_of(m);
-    return fmt::format(
-        "{{\"title\": {}, \"n\": {}, \"symbols\": {}, \"counts\": {{{}}}, \"drawn\": {}, \"moves\": {}, "
-        "\"length\": {}, \"polygons\": {}, \"box\": {}, \"ink\": {}, \"end\": {}, \"heading\": {}, \"closed\": {}, "
-        "\"depth\": {}, "
-        "\"derived\": {}}}\n",
-        json_string(title), m.n < (std::int64_t{1} << 53) ? fmt::format("{}", m.n) : fmt::format("\"{}\"", m.n),
-        json(m.symbols), counts, json(m.drawn), json(m.moves), length, json(m.polygons), g ? json(g->box) : "null",
-        g && !g->ink.empty() ? json(g->ink) : "null", g ? json(g->end) : "null",
-        g && g->heading ? number(*g->heading) : "null",
-        !g          ? "null"
-        : g->closed ? "true"
-                    : "false",
-        g ? fmt::format("{}", g->depth) : "null", m.derived ? "true" : "false");
+    const auto list = [](const std::vector<Quantity>& values) { return JsonText::list(values, json); };
+    return JsonText::object("title", title, "n", JsonText::whole(m.n), "symbols", json(m.symbols), "counts",
+                            JsonText::object_of(counts), "drawn", json(m.drawn), "moves", json(m.moves), "length",
+                            length, "polygons", json(m.polygons), "box", g ? list(g->box) : nullptr, "ink",
+                            g && !g->ink.empty() ? list(g->ink) : nullptr, "end", g ? list(g->end) : nullptr,
+                            "heading", g && g->heading ? JsonText::raw(number(*g->heading)) : nullptr, "closed",
+                            g ? JsonText(g->closed) : nullptr, "depth", g ? JsonText(g->depth) : nullptr, "derived",
+                            m.derived)
+        .line();
 }
 
 std::string measurement_text(const std::string& title, const Measurement& m) {

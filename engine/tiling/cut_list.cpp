@@ -1,6 +1,7 @@
 #include "engine/tiling/cut_list.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/json_text.h"
 #include "engine/base/text.h"
 #include "engine/geometry/polygon_classes.h"
 #include "engine/tiling/tiling_text.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -113,24 +115,17 @@ std::string cut_list_text(const std::string& title, std::optional<std::int64_t> 
 std::string cut_list_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                           double step) {
     const TilingExamination& t = result.examination;
-    std::string kinds;
-    for (const CutKind& kind : cut_list(result, step)) {
-        std::string corners;
-        for (const glm::dvec2 corner : kind.corners) {
-            corners += fmt::format("{}[{}, {}]", corners.empty() ? "" : ", ", corner.x, corner.y);
-        }
-        kinds += fmt::format(
-            "{}{{\"kind\": \"{}\", \"shape\": {}, \"name\": \"{}\", \"hand\": {}, \"colour\": {}, \"pieces\": {}, "
-            "\"area\": {}, \"corners\": [{}]}}",
-            kinds.empty() ? "" : ", ", kind.name, kind.shape, shape_name(t.shapes[kind.shape]),
-            t.shapes[kind.shape].is_chiral ? fmt::format("\"{}\"", hand_name(t, kind)) : "null", kind.colour,
-            kind.pieces, kind.area, corners);
-    }
-    return fmt::format(
-        "{{\"title\": {}, \"n\": {}, \"step\": {}, \"pieces\": {}, \"violations\": {}, \"area\": {}, \"kinds\": "
-        "[{}]}}\n",
-        json_string(title), n ? std::to_string(*n) : "null", step, t.tiles, t.violations.count, t.area * step * step,
-        kinds);
+    const auto corner = [](glm::dvec2 at) { return std::array{at.x, at.y}; };
+    const auto kind = [&](const CutKind& each) {
+        const TileShape& shape = t.shapes[each.shape];
+        return JsonText::object("kind", each.name, "shape", each.shape, "name", shape_name(shape), "hand",
+                                shape.is_chiral ? JsonText(hand_name(t, each)) : nullptr, "colour", each.colour,
+                                "pieces", each.pieces, "area", each.area, "corners",
+                                JsonText::list(each.corners, corner));
+    };
+    return JsonText::object("title", title, "n", n, "step", step, "pieces", t.tiles, "violations", t.violations.count,
+                            "area", t.area * step * step, "kinds", JsonText::list(cut_list(result, step), kind))
+        .line();
 }
 
 }  // namespace sikku

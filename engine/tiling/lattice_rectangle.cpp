@@ -1,5 +1,7 @@
 #include "engine/tiling/lattice_rectangle.h"
 
+#include "engine/geometry/box.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,15 +12,11 @@ namespace {
 constexpr int most_multiples = 1000;
 constexpr double rounding = 1e-7;  // rounding error of a multiple
 
-double dot(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
-
 /// The shortest vector m a + n b, m > 0 or n = 1, that is perpendicular to another; nullopt if there is none.
 std::optional<glm::dvec2> perpendicular(glm::dvec2 a, glm::dvec2 b, glm::dvec2 to) {
-    const double along_a = dot(a, to), along_b = dot(b, to);
-    const double size = std::sqrt(dot(to, to));
-    if (std::fabs(along_b) <= rounding * size * std::sqrt(dot(b, b))) return b;
+    const double along_a = scalar_product(a, to), along_b = scalar_product(b, to);
+    const double size = std::sqrt(scalar_product(to, to));
+    if (std::fabs(along_b) <= rounding * size * std::sqrt(scalar_product(b, b))) return b;
     for (int m = 1; m <= most_multiples; ++m) {
         const double n = -m * along_a / along_b;
         if (std::fabs(n) <= most_multiples && std::fabs(n - std::round(n)) <= rounding) {
@@ -49,7 +47,7 @@ std::optional<LatticeRectangle> least_rectangle(glm::dvec2 a, glm::dvec2 b) {
             glm::dvec2 up = *found;
             if (std::fabs(across.y) > std::fabs(across.x) * (1 + rounding)) std::swap(across, up);
             if (across.x < 0) across = -across;
-            if (across.x * up.y - across.y * up.x < 0) up = -up;
+            if (determinant(across, up) < 0) up = -up;
             const LatticeRectangle rectangle{across, up};
             const bool is_smaller = !least || rectangle.area() < least->area() * (1 - rounding);
             const bool is_as_large = least && rectangle.area() < least->area() * (1 + rounding);

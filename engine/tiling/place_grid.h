@@ -1,7 +1,7 @@
 // engine/tiling/place_grid.h: finds the points near a straight line, and lines near each other.
 #pragma once
 
-#include "engine/base/monitor.h"
+#include "engine/geometry/box.h"
 
 #include <glm/vec2.hpp>
 
@@ -16,8 +16,8 @@ namespace sikku {
 /// A grid of square cells over a box, about as many as there are things in it.
 class PlaceGrid {
 public:
-    PlaceGrid(glm::dvec2 low, glm::dvec2 high, std::size_t things) : low_(low) {
-        const glm::dvec2 size = high - low;
+    PlaceGrid(const Box& box, std::size_t things) : low_(box.low) {
+        const glm::dvec2 size = box.size();
         const double count = static_cast<double>(std::max<std::size_t>(things, 1));
         width_ = std::max({std::sqrt(size.x * size.y / count), std::max(size.x, size.y) / count, 1e-12});
         columns_ = static_cast<std::int64_t>(size.x / width_) + 1;
@@ -51,9 +51,9 @@ public:
 
     /// Visits the cells that a box touches.
     template <class Visit>
-    void over(glm::dvec2 low, glm::dvec2 high, Visit&& visit) const {
-        for (std::int64_t y = row(low.y); y <= row(high.y); ++y) {
-            for (std::int64_t x = column(low.x); x <= column(high.x); ++x) {
+    void over(const Box& box, Visit&& visit) const {
+        for (std::int64_t y = row(box.low.y); y <= row(box.high.y); ++y) {
+            for (std::int64_t x = column(box.low.x); x <= column(box.high.x); ++x) {
                 visit(static_cast<std::size_t>(y * columns_ + x));
             }
         }

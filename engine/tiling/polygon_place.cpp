@@ -10,17 +10,6 @@
 namespace sikku {
 namespace {
 
-struct Corners {
-    glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
-    explicit Corners(std::span<const glm::dvec2> points) {
-        for (const glm::dvec2 point : points) {
-            low = glm::min(low, point);
-            high = glm::max(high, point);
-        }
-        if (points.empty()) low = high = glm::dvec2(0.0);
-    }
-};
-
 double distance_to(glm::dvec2 from, glm::dvec2 to, glm::dvec2 point) {
     const glm::dvec2 along = to - from;
     const double square = scalar_product(along, along);
@@ -47,16 +36,6 @@ PolygonMass mass_of(std::span<const glm::dvec2> corners) {
     return mass;
 }
 
-bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point) {
-    bool is_inside = false;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec2 a = corners[i], b = corners[(i + 1) % corners.size()];
-        if ((a.y > point.y) == (b.y > point.y)) continue;
-        if (point.x < a.x + (b.x - a.x) * ((point.y - a.y) / (b.y - a.y))) is_inside = !is_inside;
-    }
-    return is_inside;
-}
-
 bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point, double margin) {
     if (contains(corners, point)) return true;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -68,7 +47,7 @@ bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point, double marg
 glm::dvec2 inner_middle(std::span<const glm::dvec2> corners) {
     constexpr double drawn_to_centroid = 1e-3;
     const glm::dvec2 centroid = mass_of(corners).centre;
-    const Corners box(corners);
+    const Box box = box_of(corners);
     const auto worth = [&](glm::dvec2 point) {
         double nearest = std::numeric_limits<double>::max();
         for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -88,7 +67,7 @@ glm::dvec2 inner_middle(std::span<const glm::dvec2> corners) {
         return true;
     };
     for (const glm::dvec2 point : points_within(corners)) try_point(point);
-    const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    const double size = box.longest();
     for (double step = size / 8; step > size / 2000;) {
         bool is_better = false;
         for (int direction = 0; direction < 8 && !is_better; ++direction) {
@@ -102,13 +81,13 @@ glm::dvec2 inner_middle(std::span<const glm::dvec2> corners) {
 
 std::vector<glm::dvec2> points_within(std::span<const glm::dvec2> corners) {
     constexpr int side = 5;
-    const Corners box(corners);
+    const Box box = box_of(corners);
     std::vector<glm::dvec2> points;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
             // Slightly off the middle, so that lines of symmetry contain none.
             const glm::dvec2 share((column + 0.47) / side, (row + 0.52) / side);
-            const glm::dvec2 point = box.low + (box.high - box.low) * share;
+            const glm::dvec2 point = box.low + box.size() * share;
             if (contains(corners, point)) points.push_back(point);
         }
     }
@@ -118,14 +97,13 @@ std::vector<glm::dvec2> points_within(std::span<const glm::dvec2> corners) {
 
 PolygonFinder::PolygonFinder(const PolygonList& polygons)
     : polygons_(polygons),
-      low_(Corners(polygons.corners).low),
-      high_(Corners(polygons.corners).high),
-      grid_(low_, high_, polygons.size()),
+      box_(polygons.corners.empty() ? Box{glm::dvec2(0.0), glm::dvec2(0.0)} : box_of(polygons.corners)),
+      grid_(box_, polygons.size()),
       lists_(grid_.cells()) {
     const auto each = [&](auto&& visit) {
         for (std::size_t i = 0; i < polygons.size(); ++i) {
-            const Corners box(polygons.polygon(i));
-            grid_.over(box.low, box.high, [&](std::size_t cell) { visit(cell, static_cast<std::uint32_t>(i)); });
+            const Box box = box_of(polygons.polygon(i));
+            grid_.over(box, [&](std::size_t cell) { visit(cell, static_cast<std::uint32_t>(i)); });
         }
     };
     each([&](std::size_t cell, std::uint32_t) { lists_.count(cell); });
@@ -134,7 +112,7 @@ PolygonFinder::PolygonFinder(const PolygonList& polygons)
 }
 
 std::uint32_t PolygonFinder::at(glm::dvec2 point) const {
-    if (point.x < low_.x || point.y < low_.y || point.x > high_.x || point.y > high_.y) return no_number;
+    if (!box_.contains(point)) return no_number;
     std::uint32_t found = no_number;
     lists_.visit(grid_.cell(point), [&](std::uint32_t polygon) {
         if (found == no_number && contains(polygons_.polygon(polygon), point)) found = polygon;

@@ -1,6 +1,7 @@
 // engine/tiling/polygon_place.h: positions of polygons: centroids, inner points, and the polygon at a point.
 #pragma once
 
+#include "engine/geometry/simple_polygon.h"
 #include "engine/tiling/place_grid.h"
 #include "engine/tiling/polygon_list.h"
 #include "engine/tiling/tile_plane.h"
@@ -20,9 +21,7 @@ struct PolygonMass {
 /// Area and centroid; of polygons without area, the mean of their corners.
 PolygonMass mass_of(std::span<const glm::dvec2> corners);
 
-/// True if a point lies within a polygon, by the even-odd rule.
-bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point);
-/// The same for a polygon that is widened by `margin`.
+/// True if a point lies within a polygon that is widened by `margin`.
 bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point, double margin);
 
 /// The middle of the largest disc within a polygon, to about a thousandth of its size; among several the one nearest
@@ -42,7 +41,7 @@ public:
 
 private:
     const PolygonList& polygons_;
-    glm::dvec2 low_, high_;
+    Box box_;
     PlaceGrid grid_;
     CellLists<std::uint32_t> lists_;
 };

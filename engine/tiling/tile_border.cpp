@@ -112,7 +112,7 @@ private:
             components.join(pieces_.from[side], pieces_.to(side));
             is_used[pieces_.from[side]] = 1;
         }
-        for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) result_.regions += regions.find(tile) == tile;
+        result_.regions = regions.count();
         for (std::uint32_t point = 0; point < plane_.points(); ++point) {
             result_.components += is_used[point] && components.find(point) == point;
         }
@@ -132,13 +132,9 @@ private:
     /// Pieces meet at corners only, so that they cross only where each has its ends on either side of the other.
     void find_crossings() {
         if (result_.sides.empty()) return;
-        glm::dvec2 low = start(result_.sides.front()), high = low;
-        for (const std::uint32_t side : result_.sides) {
-            const glm::dvec2 at = start(side);
-            low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-            high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-        }
-        const PlaceGrid grid(low, high, result_.sides.size());
+        Box box;
+        for (const std::uint32_t side : result_.sides) box.add(start(side));
+        const PlaceGrid grid(box, result_.sides.size());
         CellLists<std::uint32_t> lists(grid.cells());
         const auto visit = [&](std::uint32_t side, auto&& take) {
             pulse_();
@@ -177,11 +173,9 @@ private:
         gap_around_.assign(count, no_number);
         if (count < 2) return;
         // Pieces in levels of about their own height.
-        double low = start(result_.sides.front()).y, high = low;
-        for (const std::uint32_t side : result_.sides) {
-            low = std::min(low, start(side).y);
-            high = std::max(high, start(side).y);
-        }
+        Box box;
+        for (const std::uint32_t side : result_.sides) box.add(start(side));
+        const double low = box.low.y, high = box.high.y;
         const auto levels = static_cast<std::size_t>(std::sqrt(static_cast<double>(result_.sides.size()))) + 1;
         const double width = std::max((high - low) / static_cast<double>(levels), 1e-12);
         const auto level = [&](double y) {

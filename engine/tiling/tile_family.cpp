@@ -21,15 +21,11 @@ void add(PolygonMass& sum, const PolygonMass& mass) {
     sum.area = area;
 }
 
-glm::dvec2 product(glm::dvec2 a, glm::dvec2 b) {
-    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-}
-
 /// A turn and a scale.
 struct Turn {
     glm::dvec2 factor{1.0, 0.0};
 
-    glm::dvec2 operator()(glm::dvec2 at) const { return product(factor, at); }
+    glm::dvec2 operator()(glm::dvec2 at) const { return complex_product(factor, at); }
     glm::dmat3x2 map(glm::dvec2 shift) const { return {factor, {-factor.y, factor.x}, shift}; }
 };
 
@@ -75,7 +71,7 @@ std::optional<Turn> best_turn(const std::vector<Pair>& pairs) {
     double square = 0;
     for (const Pair& pair : pairs) {
         const glm::dvec2 from = pair.from - mean.from;
-        sum += product(pair.to - mean.to, {from.x, -from.y}) * pair.weight;
+        sum += complex_product(pair.to - mean.to, {from.x, -from.y}) * pair.weight;
         square += scalar_product(from, from) * pair.weight;
     }
     if (!(square > 0)) return std::nullopt;

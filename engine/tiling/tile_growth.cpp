@@ -78,9 +78,6 @@ struct Move {
     glm::dvec2 way{0.0};
     glm::dvec2 turn{1.0, 0.0};
 };
-glm::dvec2 product(glm::dvec2 a, glm::dvec2 b) {
-    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
-}
 
 class GrowthFinder {
 public:
@@ -475,8 +472,8 @@ private:
                 step.turn =
                     command.angle.exact ? unit_vector(*command.angle.exact) : unit_vector(command.angle.degrees);
             }
-            result.way += product(result.turn, step.way);
-            result.turn = product(result.turn, step.turn);
+            result.way += complex_product(result.turn, step.way);
+            result.turn = complex_product(result.turn, step.turn);
         }
         return result;
     }
@@ -495,7 +492,7 @@ private:
             const bool is_turned = glm::distance(next.turn, own.turn) > accuracy;
             const bool begins_to_move = square < accuracy && scalar_product(next.way, next.way) > accuracy;
             const glm::dvec2 ratio =
-                square < accuracy ? glm::dvec2(0.0) : product(next.way, {own.way.x, -own.way.y}) / square;
+                square < accuracy ? glm::dvec2(0.0) : complex_product(next.way, {own.way.x, -own.way.y}) / square;
             if (is_turned || begins_to_move ||
                 (square >= accuracy && factor && glm::distance(ratio, *factor) > accuracy)) {
                 result_.no_length = "the moves are not multiplied by one number";

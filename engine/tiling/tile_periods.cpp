@@ -1,11 +1,12 @@
 #include "engine/tiling/tile_periods.h"
 
+#include "engine/tiling/tile_anchors.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 namespace sikku {
 namespace {
@@ -21,7 +22,7 @@ public:
           monitor_(monitor),
           pulse_(monitor) {
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
-            placed_.emplace(key(tiles_.in_class[tile], anchor(tile)), tile);
+            placed_.add(tiles_.in_class[tile], anchor(tile));
         }
         for (std::uint32_t side = 0; side < pieces_.sides(); ++side) {
             if (pieces_.twin[side] == no_number) border_.push_back(side);
@@ -50,9 +51,6 @@ public:
     }
 
 private:
-    static std::uint64_t key(std::uint32_t in_class, std::uint32_t point) {
-        return std::uint64_t{in_class} << 32U | point;
-    }
     std::uint32_t anchor(std::uint32_t tile) const { return tiles_.corner[tiles_.begin[tile]]; }
 
     /// Finds the tile farthest from the border, from there inwards.
@@ -122,8 +120,8 @@ private:
         }
         const std::uint32_t point = plane_.find(at, plane_.at(anchor(tile)) + way);
         if (point == no_number) return no_number;
-        const auto found = placed_.find(key(tiles_.in_class[tile], point));
-        return found == placed_.end() || !is_alike(tile, found->second) ? no_number : found->second;
+        const std::uint32_t found = placed_.find(tiles_.in_class[tile], point);
+        return found == no_number || !is_alike(tile, found) ? no_number : found;
     }
 
     /// The number of tiles with an image under the translation from the middle tile to another; 0 if it fails.
@@ -157,9 +155,9 @@ private:
     std::span<const std::uint32_t> kinds_;
     const Monitor& monitor_;
     Pulse pulse_;
-    std::unordered_map<std::uint64_t, std::uint32_t> placed_;  // by class and first corner
-    std::vector<std::uint32_t> border_;                        // sides without a twin
-    std::vector<char> is_inner_;                               // tiles without such sides
+    TileAnchors placed_;
+    std::vector<std::uint32_t> border_;  // sides without a twin
+    std::vector<char> is_inner_;         // tiles without such sides
     TilePeriods result_;
 };
 

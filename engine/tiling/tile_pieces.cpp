@@ -39,13 +39,9 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
     const std::vector<std::uint32_t> points = corner_points(plane, tiles);
     std::vector<Cut> cuts;
     if (points.empty()) return cuts;
-    glm::dvec2 low = plane.at(points.front()), high = low;
-    for (const std::uint32_t point : points) {
-        const glm::dvec2 at = plane.at(point);
-        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-    }
-    const PlaceGrid grid(low, high, points.size());
+    Box box;
+    for (const std::uint32_t point : points) box.add(plane.at(point));
+    const PlaceGrid grid(box, points.size());
     struct Entry {
         glm::dvec2 at;
         std::uint32_t point;

@@ -1,7 +1,5 @@
 #include "engine/tiling/tile_plane.h"
 
-#include "engine/base/chance.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,100 +9,10 @@ namespace sikku {
 namespace {
 
 constexpr std::int64_t largest_coordinate = std::int64_t{1} << 26;
-constexpr double cell_in_tolerances = 64;
 /// Relative error of determinants in doubles that counts as certain.
 constexpr double certain = 1e-9;
 
-std::uint32_t tag_of_cell(std::int64_t x, std::int64_t y) {
-    const std::uint64_t hash = scrambled(scrambled(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
-    return static_cast<std::uint32_t>(hash >> 32U);
-}
-std::int64_t cell_of(double value, double width) {
-    return static_cast<std::int64_t>(std::floor(std::clamp(value / width, -9e18, 9e18)));
-}
-
 }  // namespace
-
-PlaceTable::PlaceTable(std::size_t rank, double tolerance)
-    : rank_(rank), tolerance_(tolerance), table_(64), shift_(32 - 6) {}
-
-std::uint32_t PlaceTable::tag_of(const std::int32_t* coordinates, glm::dvec2 place) const {
-    if (rank_ == 0) {
-        const double width = cell_in_tolerances * tolerance_;
-        return tag_of_cell(cell_of(place.x, width), cell_of(place.y, width));
-    }
-    std::uint64_t hash = 0;
-    for (std::size_t i = 0; i < rank_; i += 2) {
-        const auto low = static_cast<std::uint32_t>(coordinates[i]);
-        const auto high = static_cast<std::uint32_t>(coordinates[i + 1]);
-        hash = scrambled(hash + 0x9e3779b97f4a7c15 + (static_cast<std::uint64_t>(high) << 32U | low));
-    }
-    return static_cast<std::uint32_t>(hash >> 32U);
-}
-
-std::uint32_t PlaceTable::find_exact(const std::int32_t* coordinates, std::uint32_t tag) const {
-    for (std::size_t at = home(tag);; at = after(at)) {
-        const Slot& found = table_[at];
-        if (found.number == no_number) return no_number;
-        if (found.tag == tag && equals(found.number, coordinates)) return found.number;
-    }
-}
-
-std::uint32_t PlaceTable::find_near(glm::dvec2 place) const {
-    const double width = cell_in_tolerances * tolerance_;
-    const std::int64_t left = cell_of(place.x - tolerance_, width), right = cell_of(place.x + tolerance_, width);
-    const std::int64_t low = cell_of(place.y - tolerance_, width), high = cell_of(place.y + tolerance_, width);
-    std::uint32_t nearest = no_number;
-    double least = tolerance_;
-    for (std::int64_t x = left; x <= right; ++x) {
-        for (std::int64_t y = low; y <= high; ++y) {
-            const std::uint32_t tag = tag_of_cell(x, y);
-            for (std::size_t at = home(tag); table_[at].number != no_number; at = after(at)) {
-                if (table_[at].tag != tag) continue;
-                const glm::dvec2 gap = places_[table_[at].number] - place;
-                const double distance = std::sqrt(scalar_product(gap, gap));
-                if (distance > least || (distance == least && nearest != no_number)) continue;
-                least = distance;
-                nearest = table_[at].number;
-            }
-        }
-    }
-    return nearest;
-}
-
-std::uint32_t PlaceTable::find(const std::int32_t* coordinates, glm::dvec2 place) const {
-    return rank_ > 0 ? find_exact(coordinates, tag_of(coordinates, place)) : find_near(place);
-}
-
-void PlaceTable::insert(const Slot& entry) {
-    std::size_t at = home(entry.tag);
-    while (table_[at].number != no_number) at = after(at);
-    table_[at] = entry;
-}
-
-/// Doubles the table. Both tables are traversed in order from a free slot, so that no run of entries is split.
-void PlaceTable::grow() {
-    std::vector<Slot> entries(2 * table_.size());
-    entries.swap(table_);
-    --shift_;
-    std::size_t start = 0;
-    while (entries[start].number != no_number) ++start;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const Slot& entry = entries[(start + i) & (entries.size() - 1)];
-        if (entry.number != no_number) insert(entry);
-    }
-}
-
-std::uint32_t PlaceTable::add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag) {
-    const std::uint32_t known = rank_ > 0 ? find_exact(coordinates, tag) : find_near(place);
-    if (known != no_number) return known;
-    const auto number = static_cast<std::uint32_t>(places_.size());
-    if (rank_ > 0) coordinates_.insert(coordinates_.end(), coordinates, coordinates + rank_);
-    places_.push_back(place);
-    if (2 * places_.size() >= table_.size()) grow();
-    insert({number, tag});
-    return number;
-}
 
 TilePlane::TilePlane(const Lattice& lattice, bool exact)
     : lattice_(lattice),
@@ -158,7 +66,7 @@ std::uint32_t TilePlane::find(const Cyclotomic::Number& coordinates, glm::dvec2 
 std::uint32_t TilePlane::find_vector(const Cyclotomic::Number& coordinates, glm::dvec2 place) const {
     return find_in(vectors_, coordinates, place);
 }
-std::uint32_t TilePlane::find_in(const PlaceTable& table, const Cyclotomic::Number& coordinates,
+std::uint32_t TilePlane::find_in(const PlaceTable<std::int32_t>& table, const Cyclotomic::Number& coordinates,
                                  glm::dvec2 place) const {
     std::array<std::int32_t, 8> small{};
     for (std::size_t i = 0; i < rank_; ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/geometry/cyclotomic.h"
+#include "engine/geometry/place_table.h"
 
 #include <glm/vec2.hpp>
 
@@ -14,58 +15,6 @@
 #include <vector>
 
 namespace sikku {
-
-constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
-
-/// Numbers places in the order in which they are added; equal ones have one number. Memory: 4 bytes a coordinate, and
-/// up to 48 a place.
-class PlaceTable {
-public:
-    /// @param rank  whole coordinates of a place; 0: places are doubles, and those within the tolerance are equal
-    PlaceTable(std::size_t rank, double tolerance);
-
-    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place) {
-        return add(coordinates, place, tag_of(coordinates, place));
-    }
-    /// The same for a known tag.
-    std::uint32_t add(const std::int32_t* coordinates, glm::dvec2 place, std::uint32_t tag);
-    /// The number of a place, or no_number if it was not added.
-    std::uint32_t find(const std::int32_t* coordinates, glm::dvec2 place) const;
-    /// A hash; equal whole coordinates have equal tags.
-    std::uint32_t tag_of(const std::int32_t* coordinates, glm::dvec2 place) const;
-    /// Prefetches the memory in which a place with that tag will be looked up.
-    void prefetch(std::uint32_t tag) const { __builtin_prefetch(&table_[home(tag)]); }
-    std::size_t size() const { return places_.size(); }
-    glm::dvec2 at(std::uint32_t number) const { return places_[number]; }
-    const std::int32_t* coordinates(std::uint32_t number) const { return coordinates_.data() + number * rank_; }
-
-private:
-    struct Slot {
-        std::uint32_t number = no_number;
-        std::uint32_t tag = 0;
-    };
-    /// The upper bits of tags, so that a table of twice the size has the same order.
-    std::size_t home(std::uint32_t tag) const { return tag >> shift_; }
-    std::size_t after(std::size_t slot) const { return (slot + 1) & (table_.size() - 1); }
-    bool equals(std::uint32_t number, const std::int32_t* coordinates) const {
-        const std::int32_t* known = this->coordinates(number);
-        for (std::size_t i = 0; i < rank_; ++i) {
-            if (known[i] != coordinates[i]) return false;
-        }
-        return true;
-    }
-    std::uint32_t find_exact(const std::int32_t* coordinates, std::uint32_t tag) const;
-    std::uint32_t find_near(glm::dvec2 place) const;
-    void insert(const Slot& entry);
-    void grow();
-
-    std::size_t rank_;
-    double tolerance_;
-    std::vector<std::int32_t> coordinates_;
-    std::vector<glm::dvec2> places_;
-    std::vector<Slot> table_;  // numbers by tag, open addressing
-    unsigned shift_;           // 32 less the bits of the table's size
-};
 
 /// Points and edges of tiles in the plane. Exact on a lattice: equality and collinearity are decided by whole
 /// numbers, signs by intervals that are refined until they exclude 0. Otherwise points within tolerance() of each
@@ -130,24 +79,18 @@ private:
     using Coordinates = std::array<std::int32_t, 8>;
     Coordinates small(std::span<const std::int64_t> coordinates) const;
     Cyclotomic::Number number(const std::int32_t* coordinates) const;
-    std::uint32_t find_in(const PlaceTable& table, const Cyclotomic::Number& coordinates, glm::dvec2 place) const;
+    std::uint32_t find_in(const PlaceTable<std::int32_t>& table, const Cyclotomic::Number& coordinates,
+                          glm::dvec2 place) const;
     glm::dvec2 place(const Cyclotomic::Number& coordinates) const;
 
     Lattice lattice_;
     std::optional<Cyclotomic> numbers_;
     std::size_t rank_;
     double tolerance_;
-    PlaceTable points_;
-    PlaceTable vectors_;
+    PlaceTable<std::int32_t> points_;
+    PlaceTable<std::int32_t> vectors_;
     std::vector<std::uint32_t> direction_;  // of vectors
     std::uint32_t directions_ = 0;
 };
-
-inline double determinant(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-inline double scalar_product(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.x + a.y * b.y;
-}
 
 }  // namespace sikku

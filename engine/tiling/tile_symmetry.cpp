@@ -189,7 +189,7 @@ private:
     }
     static glm::dvec2 turned(const Motion& motion, glm::dvec2 at) {
         if (motion.reflects) at.y = -at.y;
-        return {at.x * motion.turn.x - at.y * motion.turn.y, at.x * motion.turn.y + at.y * motion.turn.x};
+        return complex_product(at, motion.turn);
     }
     /// The image of a vector, or of its opposite.
     std::uint32_t turned(const Motion& motion, std::uint32_t vector, bool opposite) const {

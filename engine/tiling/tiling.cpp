@@ -183,13 +183,7 @@ constexpr double largest_tolerance = 1e-3;  // as a share of the size of all pol
 
 /// The longer side of the box of all polygons.
 double size_of(const PolygonList& polygons) {
-    glm::dvec2 low(0.0), high(0.0);
-    if (!polygons.corners.empty()) low = high = polygons.corners.front();
-    for (const glm::dvec2 corner : polygons.corners) {
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-    }
-    return std::max(high.x - low.x, high.y - low.y);
+    return polygons.corners.empty() ? 0 : box_of(polygons.corners).longest();
 }
 
 }  // namespace

@@ -1,43 +1,31 @@
-#include "engine/base/text.h"
+#include "engine/base/json_text.h"
 #include "engine/tiling/tiling_text.h"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 namespace sikku {
 namespace {
 
-/// Formats a number to a billionth.
-std::string number(double value) {
-    const double rounded = std::round(value * 1e9) / 1e9;
-    return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
+/// A number to a billionth, never -0.
+double rounded(double value) {
+    const double result = std::round(value * 1e9) / 1e9;
+    return result == 0 ? 0.0 : result;
 }
-std::string json(glm::dvec2 at) {
-    return fmt::format("[{}, {}]", number(at.x), number(at.y));
+JsonText json(glm::dvec2 at) {
+    return std::array{rounded(at.x), rounded(at.y)};
 }
-std::string json(const std::vector<double>& values) {
-    std::string text = "[";
-    for (const double value : values) text += (text.size() > 1 ? ", " : "") + number(value);
-    return text + "]";
+JsonText json(const std::vector<double>& values) {
+    return JsonText::list(values, rounded);
 }
-std::string json(bool value) {
-    return value ? "true" : "false";
-}
-std::string json(const std::optional<double>& value) {
-    return value ? number(*value) : "null";
+JsonText json(const std::optional<double>& value) {
+    return value ? JsonText(rounded(*value)) : nullptr;
 }
 /// A number of any size: digits in a string where doubles do not hold it.
-std::string json(const Integer& value) {
-    return value < (Integer(1) << 53) ? value.str() : "\"" + value.str() + "\"";
-}
-/// Joins the results of `format` for all elements.
-template <class List, class Format>
-std::string array(const List& list, Format&& format) {
-    std::string text = "[";
-    for (const auto& each : list) text += (text.size() > 1 ? ", " : "") + format(each);
-    return text + "]";
+JsonText json(const Integer& value) {
+    return value < (Integer(1) << 53) ? JsonText::raw(value.str()) : value.str();
 }
 
 std::string fault_name(TileFault fault) {
@@ -58,139 +46,97 @@ std::string fault_name(TileFault fault) {
     return "overlap";
 }
 
-std::string whole_json(std::span<const std::int64_t> numbers) {
-    return array(numbers, [](std::int64_t each) { return fmt::format("{}", each); });
+JsonText shape_json(const TileShape& shape) {
+    return JsonText::object("name", shape_name(shape), "tiles", shape.tiles, "reflected", shape.reflected,
+                            "orientations", shape.orientations, "angles", json(shape.angles), "sides",
+                            json(shape.sides), "area", rounded(shape.area), "area_4i",
+                            shape.area_4i.empty() ? nullptr : JsonText(shape.area_4i));
 }
 
-std::string shape_json(const TileShape& shape) {
-    return fmt::format(
-        "{{\"name\": \"{}\", \"tiles\": {}, \"reflected\": {}, \"orientations\": {}, \"angles\": {}, "
-        "\"sides\": {}, \"area\": {}, \"area_4i\": {}}}",
-        shape_name(shape), shape.tiles, shape.reflected, shape.orientations, json(shape.angles), json(shape.sides),
-        number(shape.area), shape.area_4i.empty() ? "null" : whole_json(shape.area_4i));
+JsonText growth_json(const TileGrowth& growth) {
+    const auto shape = [](const TileShape& each) {
+        return JsonText::object("name", shape_name(each), "angles", json(each.angles), "sides", json(each.sides),
+                                "area", rounded(each.area));
+    };
+    const auto count = [](const TileKindCount& each) {
+        return JsonText::object("shape", each.shape, "reflected", each.is_reflected, "colour", each.colour, "letters",
+                                each.letters, "count", json(each.count), "share", json(each.share));
+    };
+    const auto colour = [](const auto& each) {
+        return JsonText::object("colour", each.first, "share", rounded(each.second));
+    };
+    return JsonText::object(
+        "unknown", JsonText::unless_empty(growth.unknown), "shapes", JsonText::list(growth.shapes, shape), "counts",
+        JsonText::list(growth.counts, count), "tiles", json(growth.tiles), "average", growth.is_average,
+        "frequencies", json(growth.frequencies), "reflected", json(growth.reflected), "colours",
+        JsonText::list(growth.colours, colour), "primitive", growth.period == 1, "period", growth.period, "no_limit",
+        JsonText::unless_empty(growth.no_limit), "length", json(growth.length), "closed_form",
+        JsonText::unless_empty(growth.length ? closed_form(*growth.length) : ""), "turn", rounded(growth.turn),
+        "no_length", JsonText::unless_empty(growth.no_length));
 }
 
-std::string growth_json(const TileGrowth& growth) {
-    const auto reason = [](const std::string& text) { return text.empty() ? "null" : json_string(text); };
-    return fmt::format(
-        "{{\"unknown\": {}, \"shapes\": {}, \"counts\": {}, \"tiles\": {}, \"average\": {}, \"frequencies\": {}, "
-        "\"reflected\": {}, \"colours\": {}, \"primitive\": {}, "
-        "\"period\": {}, \"no_limit\": {}, \"length\": {}, \"closed_form\": {}, \"turn\": {}, \"no_length\": {}}}",
-        reason(growth.unknown),
-        array(growth.shapes,
-              [](const TileShape& shape) {
-                  return fmt::format("{{\"name\": \"{}\", \"angles\": {}, \"sides\": {}, \"area\": {}}}",
-                                     shape_name(shape), json(shape.angles), json(shape.sides), number(shape.area));
-              }),
-        array(growth.counts,
-              [](const TileKindCount& each) {
-                  return fmt::format(
-                      "{{\"shape\": {}, \"reflected\": {}, \"colour\": {}, \"letters\": {}, \"count\": {}, "
-                      "\"share\": {}}}",
-                      each.shape, json(each.is_reflected), each.colour ? fmt::format("{}", *each.colour) : "null",
-                      json_string(each.letters), json(each.count), json(each.share));
-              }),
-        json(growth.tiles), json(growth.is_average), json(growth.frequencies), json(growth.reflected),
-        array(growth.colours,
-              [](const auto& each) {
-                  return fmt::format("{{\"colour\": {}, \"share\": {}}}", each.first, number(each.second));
-              }),
-        json(growth.period == 1), growth.period, reason(growth.no_limit), json(growth.length),
-        growth.length ? reason(closed_form(*growth.length)) : "null", number(growth.turn), reason(growth.no_length));
-}
-
-std::string lattice_json(const TilePlane& plane) {
-    if (!plane.is_exact()) return "null";
+JsonText lattice_json(const TilePlane& plane) {
+    if (!plane.is_exact()) return nullptr;
     const Lattice& lattice = plane.lattice();
-    std::string basis = "[";
-    for (int i = 0; i < lattice.rank; ++i) basis += (i > 0 ? ", " : "") + json(lattice.unit * lattice.basis(i));
-    return fmt::format("{{\"k\": {}, \"rank\": {}, \"basis\": {}]}}", lattice.headings, lattice.rank, basis);
+    std::vector<JsonText> basis;
+    for (int i = 0; i < lattice.rank; ++i) basis.push_back(json(lattice.unit * lattice.basis(i)));
+    return JsonText::object("k", lattice.headings, "rank", lattice.rank, "basis", basis);
 }
 
-std::string origin_json(const TileOrigin& origin) {
-    return fmt::format("{{\"line\": {}, \"column\": {}, \"path\": {}}}", origin.line, origin.column,
-                       origin.path.empty() ? "null" : json_string(origin.path));
+JsonText violation_json(const TileViolation& violation) {
+    const auto origin = [](const TileOrigin& each) {
+        return JsonText::object("line", each.line, "column", each.column, "path", JsonText::unless_empty(each.path));
+    };
+    return JsonText::object("fault", fault_name(violation.fault), "tile", violation.tile, "other",
+                            violation.other == 0 ? nullptr : JsonText(violation.other), "at", json(violation.at),
+                            "origins", JsonText::list(violation.origins, origin));
 }
 
-std::string facts_json(const TilingResult& result, const TileGrowth& growth) {
+/// All facts but those of single loops and tiles.
+JsonText facts_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                    const TileGrowth& growth) {
     const TilingExamination& t = result.examination;
-    std::string text = fmt::format(
-        "\"tiling\": {}, \"exact\": {}, \"inexact\": {}, \"tolerance\": {}, \"lattice\": {}, \"polygons\": {}, "
-        "\"tiles\": {}, ",
-        json(t.is_tiling()), json(t.is_exact), t.inexact.empty() ? "null" : json_string(t.inexact),
-        fmt::format("{}", t.tolerance), lattice_json(result.patch.plane), t.polygons, t.tiles);
-    text += fmt::format("\"violations\": {}, \"violation_list\": {}, ", t.violations.count,
-                        array(t.violations.list, [](const TileViolation& violation) {
-                            return fmt::format(
-                                "{{\"fault\": \"{}\", \"tile\": {}, \"other\": {}, \"at\": {}, \"origins\": {}}}",
-                                fault_name(violation.fault), violation.tile,
-                                violation.other == 0 ? "null" : fmt::format("{}", violation.other),
-                                json(violation.at), array(violation.origins, origin_json));
-                        }));
-    const auto known = [&](std::string value) { return t.has_border ? std::move(value) : "null"; };
-    text += fmt::format(
-        "\"regions\": {}, \"components\": {}, \"gaps\": {}, \"area\": {}, \"euler\": {}, \"areas_agree\": {}, ",
-        known(std::to_string(t.regions)), known(std::to_string(t.components)),
-        known(array(t.gaps,
-                    [](const TileGap& gap) {
-                        return fmt::format("{{\"area\": {}, \"centre\": {}}}", number(gap.area), json(gap.centre));
-                    })),
-        number(t.area), json(t.euler_agrees), json(t.areas_agree));
-    text += fmt::format("\"shapes\": {}, ", array(t.shapes, shape_json));
-    text += fmt::format("\"edges\": {}, \"inner_edges\": {}, \"border_edges\": {}, \"edges_cut\": {}, ", t.edges,
-                        t.inner_edges, t.border_edges, t.edges_cut);
-    text +=
-        fmt::format("\"vertices\": {}, \"inner_vertices\": {}, \"figures\": {}, ", t.vertices, t.inner_vertices,
-                    array(t.figures, [](const VertexFigure& figure) {
-                        return fmt::format("{{\"angles\": {}, \"shapes\": {}, \"count\": {}}}", json(figure.angles),
-                                           array(figure.shapes, [](std::uint32_t i) { return fmt::format("{}", i); }),
-                                           figure.count);
-                    }));
-    text += fmt::format(
-        "\"neighbours\": {}, \"neighbour_counts\": {}, \"least_colours\": {}, \"most_colours\": {}, ", t.neighbours,
-        array(t.neighbour_counts, [](const auto& each) { return fmt::format("[{}, {}]", each.first, each.second); }),
-        t.least_colours, t.most_colours);
-    text += fmt::format("\"symmetry\": \"{}\", \"rotations\": {}, \"mirrors\": {}, \"centre\": {}, ",
-                        t.symmetry.name(), t.symmetry.rotations, t.symmetry.mirrors, json(t.symmetry.centre));
-    return text + "\"growth\": " + growth_json(growth);
+    const auto gap = [](const TileGap& each) {
+        return JsonText::object("area", rounded(each.area), "centre", json(each.centre));
+    };
+    const auto figure = [](const VertexFigure& each) {
+        return JsonText::object("angles", json(each.angles), "shapes", each.shapes, "count", each.count);
+    };
+    const auto known = [&](JsonText value) { return t.has_border ? std::move(value) : nullptr; };
+    return JsonText::object(
+        "title", title, "n", n ? JsonText::whole(*n) : nullptr, "tiling", t.is_tiling(), "exact", t.is_exact,
+        "inexact", JsonText::unless_empty(t.inexact), "tolerance", t.tolerance, "lattice",
+        lattice_json(result.patch.plane), "polygons", t.polygons, "tiles", t.tiles, "violations", t.violations.count,
+        "violation_list", JsonText::list(t.violations.list, violation_json), "regions", known(t.regions),
+        "components", known(t.components), "gaps", known(JsonText::list(t.gaps, gap)), "area", rounded(t.area),
+        "euler", t.euler_agrees, "areas_agree", t.areas_agree, "shapes", JsonText::list(t.shapes, shape_json),
+        "edges", t.edges, "inner_edges", t.inner_edges, "border_edges", t.border_edges, "edges_cut", t.edges_cut,
+        "vertices", t.vertices, "inner_vertices", t.inner_vertices, "figures", JsonText::list(t.figures, figure),
+        "neighbours", t.neighbours, "neighbour_counts", t.neighbour_counts, "least_colours", t.least_colours,
+        "most_colours", t.most_colours, "symmetry", t.symmetry.name(), "rotations", t.symmetry.rotations, "mirrors",
+        t.symmetry.mirrors, "centre", json(t.symmetry.centre), "growth", growth_json(growth));
 }
 
-std::string tile_json(const TilingPatch& patch, std::uint32_t tile, const std::string& path) {
+JsonText tile_json(const TilingPatch& patch, std::uint32_t tile, const std::string& path) {
     const TileSet& tiles = patch.tiles;
     const TileClass& in_class = tiles.class_of(tile);
-    std::string corners, exact, neighbours;
-    for (const std::uint32_t point : tiles.corners(tile)) {
-        corners += (corners.empty() ? "" : ", ") + json(patch.plane.at(point));
-        if (!patch.plane.is_exact()) continue;
+    const auto place = [&](std::uint32_t point) { return json(patch.plane.at(point)); };
+    const auto exact = [&](std::uint32_t point) {
         const Cyclotomic::Number at = patch.plane.coordinates(point);
-        exact += (exact.empty() ? "" : ", ") + whole_json(std::span(at).first(patch.plane.numbers().rank()));
-    }
-    for (const std::uint32_t other : patch.neighbours.of(tile)) {
-        neighbours += fmt::format("{}{}", neighbours.empty() ? "" : ", ", tiles.number[other]);
-    }
-    return fmt::format(
-        "{{\"tile\": {}, \"shape\": {}, \"reflected\": {}, \"orientation\": {}, \"colour\": {}, \"corners\": [{}], "
-        "\"exact\": {}, \"neighbours\": [{}], \"neighbour_colour\": {}, \"path\": {}}}",
-        tiles.number[tile], in_class.shape, json(in_class.is_reflected), tiles.in_class[tile], tiles.colour[tile],
-        corners, patch.plane.is_exact() ? "[" + exact + "]" : "null", neighbours,
-        patch.colours.empty() ? "null" : fmt::format("{}", patch.colours[tile]),
-        path.empty() ? "null" : json_string(path));
+        return JsonText(std::span(at).first(patch.plane.numbers().rank()));
+    };
+    const auto number = [&](std::uint32_t other) { return tiles.number[other]; };
+    return JsonText::object(
+        "tile", tiles.number[tile], "shape", in_class.shape, "reflected", in_class.is_reflected, "orientation",
+        tiles.in_class[tile], "colour", tiles.colour[tile], "corners", JsonText::list(tiles.corners(tile), place),
+        "exact", patch.plane.is_exact() ? JsonText::list(tiles.corners(tile), exact) : nullptr, "neighbours",
+        JsonText::list(patch.neighbours.of(tile), number), "neighbour_colour",
+        patch.colours.empty() ? nullptr : JsonText(patch.colours[tile]), "path", JsonText::unless_empty(path));
 }
 
-std::string loop_json(const TilingPatch& patch, const TileLoop& loop) {
-    std::string text = "[";
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
-        const std::uint32_t side = patch.border.sides[i];
-        text += (i > loop.begin ? ", " : "") + json(patch.plane.at(patch.pieces.from[side]));
-    }
-    return text + "]";
-}
-
-std::string head(const std::string& title, std::optional<std::int64_t> n) {
-    return fmt::format("{{\"title\": {}, \"n\": {}, ", json_string(title),
-                       !n                             ? "null"
-                       : *n < (std::int64_t{1} << 53) ? fmt::format("{}", *n)
-                                                      : fmt::format("\"{}\"", *n));
+JsonText loop_json(const TilingPatch& patch, const TileLoop& loop) {
+    const auto start = [&](std::uint32_t side) { return json(patch.plane.at(patch.pieces.from[side])); };
+    return JsonText::list(std::span(patch.border.sides).subspan(loop.begin, loop.end - loop.begin), start);
 }
 
 }  // namespace
@@ -198,21 +144,22 @@ std::string head(const std::string& title, std::optional<std::int64_t> n) {
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                        const TileGrowth& growth, const std::function<std::string(std::uint32_t)>& path,
                        const std::function<void(std::string_view)>& write) {
-    write(head(title, n) + facts_json(result, growth));
+    std::string facts = facts_json(title, n, result, growth).text;
+    facts.pop_back();
     const TilingPatch& patch = result.patch;
-    write(", \"border\": [");
+    write(facts + ", \"border\": [");
     for (std::size_t i = 0; i < patch.border.loops.size(); ++i) {
-        write((i > 0 ? ", " : "") + loop_json(patch, patch.border.loops[i]));
+        write((i > 0 ? ", " : "") + loop_json(patch, patch.border.loops[i]).text);
     }
     write("], \"list\": [");
     for (std::uint32_t tile = 0; tile < patch.tiles.tiles(); ++tile) {
-        write((tile > 0 ? ", " : "") + tile_json(patch, tile, path ? path(patch.tiles.number[tile]) : ""));
+        write((tile > 0 ? ", " : "") + tile_json(patch, tile, path ? path(patch.tiles.number[tile]) : "").text);
     }
     write("]}\n");
 }
 
 std::string tile_counts_json(const std::string& title, std::int64_t n, const TileGrowth& growth) {
-    return head(title, n) + "\"growth\": " + growth_json(growth) + "}\n";
+    return JsonText::object("title", title, "n", JsonText::whole(n), "growth", growth_json(growth)).line();
 }
 
 }  // namespace sikku

@@ -1,5 +1,6 @@
 #include "music/score/scale_text.h"
 
+#include "engine/base/json_text.h"
 #include "engine/base/text.h"
 #include "music/score/spelling.h"
 
@@ -18,10 +19,8 @@ std::string number(double value) {
     return value == 0 ? "0" : fmt::format("{}", value);
 }
 
-std::string json_numbers(const std::vector<double>& values) {
-    std::string text;
-    for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
-    return "[" + text + "]";
+JsonText json(double value) {
+    return JsonText::raw(number(value));
 }
 
 /// Cents with at most three decimals.
@@ -111,14 +110,11 @@ std::string entry(const Scale& scale) {
 }  // namespace
 
 std::string scale_json(const Scale& scale) {
-    std::string names;
-    for (const std::string& name : scale.names) names += (names.empty() ? "" : ", ") + json_string(name);
-    return fmt::format(
-        "{{\"id\": {}, \"title\": {}, \"group\": {}, \"size\": {}, \"ascent\": {}, \"descent\": {}, \"period\": {}, "
-        "\"names\": [{}], \"sources\": {}}}",
-        json_string(scale.id), json_string(scale.title), json_string(scale.group), scale.size(),
-        json_numbers(scale.ascent), json_numbers(scale.descent), number(scale.period), names,
-        json_string(scale.sources));
+    return JsonText::object("id", scale.id, "title", scale.title, "group", scale.group, "size", scale.size(),
+                            "ascent", JsonText::list(scale.ascent, json), "descent",
+                            JsonText::list(scale.descent, json), "period", json(scale.period), "names", scale.names,
+                            "sources", scale.sources)
+        .text;
 }
 
 std::string scale_text(const Scale& scale, const Tonic& tonic) {

@@ -1,0 +1,45 @@
+// engine/geometry/box.h: axis-parallel boxes, and products of vectors in the plane.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <span>
+
+namespace sikku {
+
+/// An axis-parallel box of a drawing; empty until something is added.
+struct Box {
+    glm::dvec2 low{1e300, 1e300};
+    glm::dvec2 high{-1e300, -1e300};
+    bool empty() const { return low.x > high.x; }
+    void add(glm::dvec2 point) {
+        low = {point.x < low.x ? point.x : low.x, point.y < low.y ? point.y : low.y};
+        high = {point.x > high.x ? point.x : high.x, point.y > high.y ? point.y : high.y};
+    }
+    bool contains(glm::dvec2 point) const {
+        return point.x >= low.x && point.y >= low.y && point.x <= high.x && point.y <= high.y;
+    }
+    glm::dvec2 size() const { return high - low; }
+    /// The longer side.
+    double longest() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+inline Box box_of(std::span<const glm::dvec2> points) {
+    Box box;
+    for (const glm::dvec2 point : points) box.add(point);
+    return box;
+}
+
+inline double determinant(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline double scalar_product(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+/// The product of complex numbers: the first vector, turned and scaled by the second.
+inline glm::dvec2 complex_product(glm::dvec2 a, glm::dvec2 b) {
+    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+}  // namespace sikku
