@@ -282,45 +282,16 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
                     distant * (questions * question_seconds + ground * ground_block_seconds);
 }
 
-/// Seconds that a format takes for each pixel, and for each with ink.
-struct PictureSeconds {
-    double pixel, ink, bytes;
-};
-PictureSeconds seconds_of(PrintFormat format) {
-    switch (format) {
-        case PrintFormat::png:
-            return {9e-9, 60e-9, 0.01};
-        case PrintFormat::tiff:
-            return {14e-9, 40e-9, 0.01};
-        case PrintFormat::jpeg:
-            return {3e-9, 15e-9, 0.03};
-        case PrintFormat::exr:
-            return {34e-9, 40e-9, 0.01};
-        case PrintFormat::svg:
-        case PrintFormat::pdf:
-        case PrintFormat::eps:
-        case PrintFormat::gif:
-        case PrintFormat::hpgl:
-        case PrintFormat::gcode:
-        case PrintFormat::dxf:
-        case PrintFormat::obj:
-        case PrintFormat::glb:
-        case PrintFormat::stl:
-            break;
-    }
-    throw std::logic_error("the cost of a picture is forecast in the format of one");
-}
-
 void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& options, const DrawingCost& drawing,
                  Cost& cost) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     const double pixels = static_cast<double>(size.width) * size.height;
     const double fine = print.dpi / 25.4;
-    const PictureSeconds each = seconds_of(options.format);
+    const PixelCost each = pixel_cost(options.format);
     // Most time is spent on pixels at the edges of lines and polygons.
     const double rims = std::min(pixels, drawing.length * fine * 3);
     const double inked = std::min(pixels, drawing.ink * square(fine) + rims + drawing.area * square(fine) * 0.1);
-    cost.seconds += 0.004 + pixels * each.pixel + inked * each.ink;
+    cost.seconds += 0.004 + pixels * each.seconds + inked * each.ink_seconds;
     cost.bytes += 1000 + pixels * each.bytes + inked * 1.0;
     cost.band = drawing.thread_memory;
     if (grammar.is_spatial()) return add_scene(print, drawing, cost);
@@ -338,38 +309,6 @@ double shaded_polygons(const DrawingCost& drawing) {
     const double width = drawing.length > 0 ? drawing.ink / drawing.length : 0;
     return (drawing.lines - drawing.polygons) * (width > wide_stem ? 8 : 2) + drawing.polygons +
            patch_polygons(drawing, 0.1);
-}
-
-/// Seconds and bytes for each point of a straight line or, three for each step, of a curve, and for each polygon in a
-/// shade of its own; bytes of a file.
-struct WriterCost {
-    double line_seconds, curve_seconds, line_bytes, curve_bytes, shade_seconds, shade_bytes, bytes;
-};
-WriterCost writer_of(PrintFormat format) {
-    switch (format) {
-        case PrintFormat::svg:
-            return {20e-9, 80e-9, 5, 30, 3e-6, 90, 700};
-        case PrintFormat::pdf:
-            return {80e-9, 250e-9, 3, 12, 14e-6, 35, 2000};
-        case PrintFormat::eps:
-            return {40e-9, 120e-9, 15, 45, 5e-6, 110, 1200};
-        case PrintFormat::hpgl:
-            return {100e-9, 2e-6, 12, 60, 0, 0, 500};
-        case PrintFormat::gcode:
-            return {250e-9, 2e-6, 20, 60, 0, 0, 500};
-        case PrintFormat::dxf:
-            return {200e-9, 2e-6, 40, 400, 0, 0, 500};
-        case PrintFormat::png:
-        case PrintFormat::tiff:
-        case PrintFormat::jpeg:
-        case PrintFormat::exr:
-        case PrintFormat::gif:
-        case PrintFormat::obj:
-        case PrintFormat::glb:
-        case PrintFormat::stl:
-            break;
-    }
-    throw std::logic_error("the cost of lines is forecast in a format of lines");
 }
 
 }  // namespace
@@ -394,7 +333,7 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
         return cost;
     }
     const bool spline = print.style.line == Line::spline;
-    const WriterCost writer = writer_of(options.format);
+    const LineCost writer = line_cost(options.format);
     double points = drawing.points;
     const bool is_plot = options.plot || is_for_plotters(options.format);
     if (grammar.is_spatial() && !is_plot) {

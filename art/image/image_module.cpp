@@ -166,14 +166,85 @@ class FileWriter final : public ImageWriter {
 public:
     FileWriter(const std::filesystem::path& path, const ImageSpec& spec);
     ~FileWriter() override;
-    void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) override;
-    void close() override;
+    void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) override {
+        const std::size_t channels = static_cast<std::size_t>(spec_.channels);
+        if (spec_.format == "exr") {
+            // Linear light, with associated alpha.
+            static const std::array<float, 256> linear = linear_light();
+            linear_.resize(pixels.size());
+            for (std::size_t i = 0; i < pixels.size(); i += channels) {
+                const float alpha = channels == 4 ? static_cast<float>(pixels[i + 3]) / 255 : 1;
+                for (std::size_t channel = 0; channel < std::min<std::size_t>(channels, 3); ++channel) {
+                    linear_[i + channel] = linear[pixels[i + channel]] * alpha;
+                }
+                if (channels == 4) linear_[i + 3] = alpha;
+            }
+            write(first_row, rows, OIIO::TypeDesc::FLOAT, linear_.data());
+            return;
+        }
+        if (spec_.bits == 1) {
+            const auto on_white = on_paper(pixels);
+            converted_.resize(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(rows));
+            if (channels == 1) {
+                std::transform(on_white.begin(), on_white.end(), converted_.begin(),
+                               [](std::uint8_t grey) { return static_cast<std::uint8_t>(grey < 128 ? 0 : 255); });
+            } else {
+                // Rec. 709 weights of sRGB values, in which coverage is mixed.
+                for (std::size_t i = 0; i < converted_.size(); ++i) {
+                    const std::uint8_t* colour = &on_white[3 * i];
+                    const int luminance = 2126 * colour[0] + 7152 * colour[1] + 722 * colour[2];
+                    converted_[i] = luminance < 128 * 10000 ? 0 : 255;
+                }
+            }
+            write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
+            return;
+        }
+        if (inks_) {
+            auto on_white = on_paper(pixels);
+            if (channels == 1) {
+                flattened_.resize(3 * on_white.size());
+                for (std::size_t i = 0; i < on_white.size(); ++i) std::fill_n(&flattened_[3 * i], 3, on_white[i]);
+                on_white = flattened_;
+            }
+            converted_.resize(on_white.size() / 3 * 4);
+            inks_->convert(on_white, converted_);
+            write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
+            return;
+        }
+        write(first_row, rows, OIIO::TypeDesc::UINT8, (spec_.format == "jpg" ? on_paper(pixels) : pixels).data());
+    }
+    void close() override {
+        if (!output_->close()) fail();
+        output_.reset();
+        stream_.reset();
+        file_.finish();
+    }
 
 private:
-    [[noreturn]] void fail();
+    [[noreturn]] void fail() {
+        std::string message = output_->geterror();
+        // The original cause, if known, is more informative than the error of the library.
+        file_.check();
+        while (!message.empty() && message.back() == '\n') message.pop_back();
+        throw std::runtime_error(message.empty() ? "the picture could not be written" : message);
+    }
     /// 3 channels, or 1 if there was 1; transparent parts lie on white paper.
-    std::span<const std::uint8_t> on_paper(std::span<const std::uint8_t> pixels);
-    void write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels);
+    std::span<const std::uint8_t> on_paper(std::span<const std::uint8_t> pixels) {
+        if (spec_.channels != 4) return pixels;
+        flattened_.clear();
+        for (std::size_t i = 0; i < pixels.size(); i += 4) {
+            const unsigned alpha = pixels[i + 3];
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                flattened_.push_back(
+                    static_cast<std::uint8_t>((pixels[i + channel] * alpha + 255 * (255 - alpha) + 127) / 255));
+            }
+        }
+        return flattened_;
+    }
+    void write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels) {
+        if (!output_->write_scanlines(first_row, first_row + rows, 0, type, pixels)) fail();
+        file_.check();
+    }
 
     ImageSpec spec_;
     CheckedFile file_;
@@ -268,87 +339,6 @@ FileWriter::~FileWriter() {
     // would report missing pixels on standard error.
     if (output_ && spec_.format == "png") output_->set_ioproxy(nullptr);
     output_.reset();
-}
-
-void FileWriter::fail() {
-    std::string message = output_->geterror();
-    // The original cause, if known, is more informative than the error of the library.
-    file_.check();
-    while (!message.empty() && message.back() == '\n') message.pop_back();
-    throw std::runtime_error(message.empty() ? "the picture could not be written" : message);
-}
-
-void FileWriter::write(int first_row, int rows, const OIIO::TypeDesc& type, const void* pixels) {
-    if (!output_->write_scanlines(first_row, first_row + rows, 0, type, pixels)) fail();
-    file_.check();
-}
-
-void FileWriter::rows(int first_row, int rows, std::span<const std::uint8_t> pixels) {
-    const std::size_t channels = static_cast<std::size_t>(spec_.channels);
-    if (spec_.format == "exr") {
-        // Linear light, with associated alpha.
-        static const std::array<float, 256> linear = linear_light();
-        linear_.resize(pixels.size());
-        for (std::size_t i = 0; i < pixels.size(); i += channels) {
-            const float alpha = channels == 4 ? static_cast<float>(pixels[i + 3]) / 255 : 1;
-            for (std::size_t channel = 0; channel < std::min<std::size_t>(channels, 3); ++channel) {
-                linear_[i + channel] = linear[pixels[i + channel]] * alpha;
-            }
-            if (channels == 4) linear_[i + 3] = alpha;
-        }
-        write(first_row, rows, OIIO::TypeDesc::FLOAT, linear_.data());
-        return;
-    }
-    if (spec_.bits == 1) {
-        const auto on_white = on_paper(pixels);
-        converted_.resize(static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(rows));
-        if (channels == 1) {
-            std::transform(on_white.begin(), on_white.end(), converted_.begin(),
-                           [](std::uint8_t grey) { return static_cast<std::uint8_t>(grey < 128 ? 0 : 255); });
-        } else {
-            // Rec. 709 weights of sRGB values, in which coverage is mixed.
-            for (std::size_t i = 0; i < converted_.size(); ++i) {
-                const std::uint8_t* colour = &on_white[3 * i];
-                const int luminance = 2126 * colour[0] + 7152 * colour[1] + 722 * colour[2];
-                converted_[i] = luminance < 128 * 10000 ? 0 : 255;
-            }
-        }
-        write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
-        return;
-    }
-    if (inks_) {
-        auto on_white = on_paper(pixels);
-        if (channels == 1) {
-            flattened_.resize(3 * on_white.size());
-            for (std::size_t i = 0; i < on_white.size(); ++i) std::fill_n(&flattened_[3 * i], 3, on_white[i]);
-            on_white = flattened_;
-        }
-        converted_.resize(on_white.size() / 3 * 4);
-        inks_->convert(on_white, converted_);
-        write(first_row, rows, OIIO::TypeDesc::UINT8, converted_.data());
-        return;
-    }
-    write(first_row, rows, OIIO::TypeDesc::UINT8, (spec_.format == "jpg" ? on_paper(pixels) : pixels).data());
-}
-
-std::span<const std::uint8_t> FileWriter::on_paper(std::span<const std::uint8_t> pixels) {
-    if (spec_.channels != 4) return pixels;
-    flattened_.clear();
-    for (std::size_t i = 0; i < pixels.size(); i += 4) {
-        const unsigned alpha = pixels[i + 3];
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            flattened_.push_back(
-                static_cast<std::uint8_t>((pixels[i + channel] * alpha + 255 * (255 - alpha) + 127) / 255));
-        }
-    }
-    return flattened_;
-}
-
-void FileWriter::close() {
-    if (!output_->close()) fail();
-    output_.reset();
-    stream_.reset();
-    file_.finish();
 }
 
 /// The library cannot be initialised, or its threads be set, by two threads at once.

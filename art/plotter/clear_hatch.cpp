@@ -1,5 +1,8 @@
 #include "art/plotter/clear_hatch.h"
 
+#include "art/plotter/shading.h"
+#include "engine/geometry/simple_polygon.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -13,12 +16,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_lines = 1e6;
 constexpr std::size_t most_meetings = 20'000'000;  // meetings of lines with sides and obstacles: some 500 MB
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 double distance_to_segment(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b) {
     const glm::dvec2 way = b - a;
@@ -28,8 +26,7 @@ double distance_to_segment(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b) {
 }
 
 double distance_of_segments(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
-    const auto side = [](glm::dvec2 from, glm::dvec2 to, glm::dvec2 point) { return cross(to - from, point - from); };
-    const bool crosses = side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+    const bool crosses = side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
     if (crosses) return 0;
     return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
                      distance_to_segment(d, a, b)});
@@ -140,15 +137,7 @@ private:
     }
 
     void find_rows() {
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
-        for (const glm::dvec2 vertex : vertices_) {
-            low = std::min(low, vertex.y);
-            high = std::max(high, vertex.y);
-        }
-        if (!((high - low) / spacing_ < most_lines && std::max(-low, high) / spacing_ < 1e15)) {
-            throw std::runtime_error("hatching takes over a million lines for one shape; use a wider spacing");
-        }
+        const auto [low, high] = hatched_heights(vertices_, {0, 1}, spacing_);
         first_ = static_cast<std::int64_t>(std::floor(low / spacing_));
         rows_.resize(static_cast<std::size_t>(std::ceil(high / spacing_) - std::floor(low / spacing_)) + 1);
         near_.resize(rows_.size());

@@ -1,6 +1,5 @@
 #include "art/plotter/dxf.h"
 
-#include "art/plotter/arc_follower.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 
@@ -90,15 +89,10 @@ std::optional<Circle> circle_of(const std::vector<Vertex>& vertices) {
     return circle;
 }
 
-class Writer final : public PlotWriter {
+class Writer final : public ArcWriter {
 public:
     Writer(const Print& print, Output& file, std::vector<TileKind> kinds)
-        : PlotWriter(print),
-          file_(file),
-          kinds_(std::move(kinds)),
-          follower_(
-              true, 0.0, [this](glm::dvec2 end) { to(end); },
-              [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {
+        : ArcWriter(print, file, true, 0.0), kinds_(std::move(kinds)) {
         file_.write("999\nSikku, millimetres\n");
         for (const std::string& piece : recipe_comments(print.pattern, print.made))
             file_.write("999\n" + piece + "\n");
@@ -110,27 +104,7 @@ public:
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         begin_entities();
-        here_ = start;
-        pen_ = number(pen);
-        vertices_.clear();
-    }
-    void lines(std::span<const glm::dvec2> ends) override {
-        start();
-        follower_.finish();
-        for (const glm::dvec2 end : ends) to(on_page(here_ = end));
-        follower_.begin(on_page(here_));
-    }
-    void curves(std::span<const glm::dvec2> controls) override {
-        start();
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
-                                   on_page(controls[i + 2])};
-            // Enough of them also for an arc of a small circle.
-            const int count = std::max(4, chords(bezier, ArcFollower::chord));
-            for (int k = 1; k < count; ++k) follower_.add(at(bezier, static_cast<double>(k) / count));
-            follower_.add(bezier[3]);
-            here_ = controls[i + 2];
-        }
+        PlotWriter::begin_stroke(start, pen);
     }
     void end_stroke(bool closed) override {
         if (vertices_.empty()) return;
@@ -157,7 +131,7 @@ public:
         if (vertices.size() < 3 || colour.alpha == 0) return;
         begin_entities();
         put(on_page(vertices.front()));
-        for (const glm::dvec2 vertex : vertices.subspan(1)) to(on_page(vertex));
+        for (const glm::dvec2 vertex : vertices.subspan(1)) line_to(on_page(vertex));
         if (vertices_.size() > 1 && vertices_.front().at == vertices_.back().at) vertices_.pop_back();
         const TileKind& kind = kinds_.at(numbers_of_kinds_.kind_of(vertices, colour));
         // Tiny tiles may vanish by rounding.
@@ -202,16 +176,14 @@ private:
         return fmt::format("0\nLAYER\n2\n{}\n70\n0\n62\n{}\n6\nCONTINUOUS\n", name, colour);
     }
 
-    /// Called only when something is drawn, since a stroke may change its pen before.
-    void start() {
-        if (!vertices_.empty()) return;
-        put(on_page(here_));
-        follower_.begin(on_page(here_));
+    void put_down(glm::dvec2 at) override {
+        put(at);
+        follower_.begin(at);
     }
-    void to(glm::dvec2 millimetres) {
+    void line_to(glm::dvec2 millimetres) override {
         if (rounded(millimetres) != vertices_.back().at) put(millimetres);
     }
-    void arc_to(const PlotArc& arc, glm::dvec2 end) {
+    void arc_to(const PlotArc& arc, glm::dvec2 end) override {
         const glm::dvec2 next = rounded(end);
         if (next == vertices_.back().at) return;
         vertices_.back().bulge = bulge_of(arc, vertices_.back().at, next);
@@ -231,13 +203,10 @@ private:
         file_.write(fmt::format("0\nSEQEND\n8\n{}\n", name));
     }
 
-    Output& file_;
     std::vector<TileKind> kinds_;
     TileKinds numbers_of_kinds_;
     bool begun_ = false;
-    int pen_ = 0;
     std::vector<Vertex> vertices_;  // vertices of the stroke, in millimetres of the page
-    ArcFollower follower_;          // follows its curves
 };
 
 }  // namespace

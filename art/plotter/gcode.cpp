@@ -1,6 +1,5 @@
 #include "art/plotter/gcode.h"
 
-#include "art/plotter/arc_follower.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 #include "engine/base/decimal.h"
@@ -51,15 +50,10 @@ void for_each_word(std::string_view lines, const Visit& visit) {
     }
 }
 
-class Writer final : public PlotWriter {
+class Writer final : public ArcWriter {
 public:
     Writer(const Print& print, const GcodeOptions& options, Output& file)
-        : PlotWriter(print),
-          options_(options),
-          file_(file),
-          follower_(
-              options.arcs, options.least_arc, [this](glm::dvec2 end) { line_to(end); },
-              [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {
+        : ArcWriter(print, file, options.arcs, options.least_arc), options_(options) {
         for (const double feed : {options.drawing_feed, options.travel_feed}) {
             require(std::isfinite(feed) && feed > 0, "feeds must be finite and above 0 mm/min");
         }
@@ -77,35 +71,6 @@ public:
         lift();
     }
 
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
-        here_ = start;
-        if (const int next = number(pen); next != pen_) take_pen(next, print_.style.line_colour(pen));
-        started_ = false;
-    }
-    void lines(std::span<const glm::dvec2> ends) override {
-        start();
-        follower_.finish();
-        for (const glm::dvec2 end : ends) {
-            here_ = end;
-            line_to(on_page(end));
-        }
-        follower_.begin(on_page(here_));
-    }
-    void curves(std::span<const glm::dvec2> controls) override {
-        start();
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
-                                   on_page(controls[i + 2])};
-            // Also enough of them for an arc of a small circle.
-            const int count = std::max(4, chords(bezier, ArcFollower::chord));
-            for (int k = 1; k <= count; ++k) {
-                const glm::dvec2 point = k < count ? at(bezier, static_cast<double>(k) / count) : bezier[3];
-                require_on_page(point);
-                follower_.add(point);
-            }
-            here_ = controls[i + 2];
-        }
-    }
     void end_stroke(bool) override {
         if (!started_) return;
         follower_.finish();
@@ -113,7 +78,7 @@ public:
         lift();
     }
     void dip(glm::dvec2 place, const Pen& pen) override {
-        if (const int next = number(pen); next != pen_) take_pen(next, print_.style.line_colour(pen));
+        take_pen(pen);
         travel(place);
         lower();
         lift();
@@ -121,16 +86,16 @@ public:
     void finish() override { write_text(options_.end); }
 
 private:
-    /// Called only when something is drawn, since a stroke may change its pen before.
-    void start() {
-        if (started_) return;
-        started_ = true;
-        const glm::dvec2 from = on_page(here_);
+    void put_down(glm::dvec2 from) override {
         require_on_page(from);
         follower_.begin(from);
         travel(from);
         lower();
         feed_ = fmt::format(" F{}", decimal(settings_.speed ? 60 * *settings_.speed : options_.drawing_feed, 3));
+    }
+    void curve_point(glm::dvec2 point) override {
+        require_on_page(point);
+        ArcWriter::curve_point(point);
     }
 
     /// Moves the raised pen, unless it is there already.
@@ -143,7 +108,8 @@ private:
     }
 
     /// Stops the machine for the pen of that number, unless it is the first, which is in place.
-    void take_pen(int next, Colour colour) {
+    using PlotWriter::take_pen;
+    void take_pen(int next, Colour colour) override {
         colour_ = colour;
         write_comment(fmt::format("pen {}", next), colour_name(colour));
         if (pen_ != 0 && options_.park) travel(*options_.park);
@@ -205,12 +171,12 @@ private:
         file_.write(gcode_comment(label, text, options_.comment) + "\n");
     }
 
-    void line_to(glm::dvec2 end) {
+    void line_to(glm::dvec2 end) override {
         require_on_page(end);
         put("G1", end, "");
     }
 
-    void arc_to(const PlotArc& arc, glm::dvec2 end) {
+    void arc_to(const PlotArc& arc, glm::dvec2 end) override {
         const glm::dvec2 centre = arc.centre - at_;
         put(arc.is_left ? "G3" : "G2", end, fmt::format(" I{} J{}", decimal(centre.x, 3), decimal(centre.y, 3)));
     }
@@ -235,16 +201,12 @@ private:
     }
 
     GcodeOptions options_;
-    Output& file_;
-    int pen_ = 0;
     Colour colour_;
     PenSettings settings_;    // settings of the current pen
     double lifted_to_ = 0;    // height of the raised pen
-    bool started_ = false;    // the pen is down
     glm::dvec2 at_{0.0};      // where it is, as it was written
     bool is_placed_ = false;  // its position as written
     std::string feed_;        // to be sent with the next command
-    ArcFollower follower_;    // follows curves from the last command's end
 };
 
 }  // namespace

@@ -59,34 +59,18 @@ glm::dvec2 on_page_at(glm::dvec2 point, const Page& page, const HpglOptions& opt
 class Writer final : public PlotWriter {
 public:
     Writer(const Print& print, const HpglOptions& options, Output& file)
-        : PlotWriter(print), options_(options), file_(file) {
+        : PlotWriter(print, file, chord_units * options.unit, 1), options_(options) {
         has_speeds_ = std::any_of(options.rules.begin(), options.rules.end(),
                                   [](const PenRule& rule) { return rule.settings.speed.has_value(); });
         file_.write("IN;\n");
     }
 
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override {
-        here_ = start;
-        if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
-        started_ = false;
-    }
     void lines(std::span<const glm::dvec2> ends) override {
         start();
         for (const glm::dvec2 end : ends) to(on_page(here_ = end));
     }
-    void curves(std::span<const glm::dvec2> controls) override {
-        start();
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
-                                   on_page(controls[i + 2])};
-            const int count = chords(bezier, chord_units * options_.unit);
-            for (int k = 1; k < count; ++k) to(at(bezier, static_cast<double>(k) / count));
-            to(bezier[3]);
-            here_ = controls[i + 2];
-        }
-    }
     void dip(glm::dvec2 place, const Pen& pen) override {
-        if (number(pen) != pen_) take_pen(number(pen), print_.style.line_colour(pen));
+        take_pen(pen);
         file_.write(fmt::format("{}PD;PU;\n", move("refilling", place)));
         at_.reset();
     }
@@ -105,7 +89,8 @@ public:
     }
 
 private:
-    void take_pen(int next, Colour colour) {
+    using PlotWriter::take_pen;
+    void take_pen(int next, Colour colour) override {
         const bool parks = options_.park && pen_ != 0;
         file_.write(fmt::format("{}SP{};\n", parks ? "PU;" + move("parking", *options_.park) : "PU;", next));
         pen_ = next;
@@ -132,15 +117,13 @@ private:
         return fmt::format("PU{},{};", at.x, at.y);
     }
 
-    /// Called only when something is drawn, since a stroke may change its pen before.
-    void start() {
-        if (started_) return;
-        started_ = true;
+    void put_down(glm::dvec2 millimetres) override {
         moved_ = false;
-        const Units from = rounded(on_page(here_));
+        const Units from = rounded(millimetres);
         file_.write(at_ == from ? "PU;\n" : fmt::format("PU{},{};\n", from.x, from.y));
         at_ = from;
     }
+    void curve_point(glm::dvec2 point) override { to(point); }
 
     Units rounded(glm::dvec2 millimetres) const {
         require_on_page(millimetres);
@@ -196,11 +179,8 @@ private:
     }
 
     const HpglOptions& options_;
-    Output& file_;
     bool has_speeds_ = false;
-    int pen_ = 0;
-    bool started_ = false;     // the pen is down
-    bool moved_ = false;       // it has drawn something
+    bool moved_ = false;       // the lowered pen has drawn something
     std::optional<Units> at_;  // position of the pen, if known
     std::string instruction_;
 };

@@ -247,12 +247,8 @@ std::vector<int> fill_pens(const Style& style) {
     for (int i = 0; i < count; ++i) {
         const Colour colour = style.fill_colour(Pen{.colour = i});
         int pen = i;
-        if (style.line_colour(Pen{.colour = i}) != colour) {
-            for (int k = 0; k < count; ++k) {
-                if (style.line_colour(Pen{.colour = k}) != colour) continue;
-                pen = k;
-                break;
-            }
+        for (int k = 0; k < count && style.line_colour(Pen{.colour = pen}) != colour; ++k) {
+            if (style.line_colour(Pen{.colour = k}) == colour) pen = k;
         }
         pens.push_back(pen);
     }
@@ -261,17 +257,14 @@ std::vector<int> fill_pens(const Style& style) {
 
 PlotPlan::PlotPlan(const Print& print, const PlotOptions& options)
     : print_(print), options_(options), slots_(print.style.line_slots()) {
-    if (!(std::isfinite(options.split) && options.split >= 0)) {
-        throw std::runtime_error("the length at which strokes are split must be finite and at least 0 mm");
-    }
-    if (!(std::isfinite(options.pen_width) && options.pen_width >= 0)) {
-        throw std::runtime_error("the width of the pen must be finite and at least 0 mm");
-    }
-    if (options.hatch && !(std::isfinite(options.hatch->spacing) && options.hatch->spacing >= 0)) {
-        throw std::runtime_error("the spacing of hatching must be finite and at least 0 mm");
-    }
-    if (!(std::isfinite(options.resume) && options.resume >= 0)) {
-        throw std::runtime_error("the length after which a plot resumes must be finite and at least 0 mm");
+    const std::pair<double, const char*> lengths[] = {
+        {options.split, "length at which strokes are split"},
+        {options.pen_width, "width of the pen"},
+        {options.hatch ? options.hatch->spacing : 0.0, "spacing of hatching"},
+        {options.resume, "length after which a plot resumes"}};
+    for (const auto& [length, name] : lengths) {
+        if (std::isfinite(length) && length >= 0) continue;
+        throw std::runtime_error(fmt::format("the {} must be finite and at least 0 mm", name));
     }
     for (const int pen : fill_pens(print.style)) {
         fill_slots_.push_back(slots_[static_cast<std::size_t>(pen)]);

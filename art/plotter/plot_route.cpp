@@ -20,14 +20,45 @@ class PlotRoute {
 public:
     /// @param points  ends of the strokes, two each
     /// @param start   position of the pen before the first one
-    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start);
+    PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start)
+        : points_(std::move(points)), order_(std::move(order)), place_(order_.size()), start_(start) {
+        for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i] / 2] = i;
+    }
 
     /// Length of all travel between the strokes.
-    double length() const;
+    double length() const {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < order_.size(); ++i) sum += glm::distance(leave(i), points_[order_[i]]);
+        return sum;
+    }
 
     /// 2-opt: travels a → b and c → d become a → c and b → d, and the strokes between them are reversed, as long as
     /// that shortens them, in at most 10 passes. Examines only c near a, or d near b.
-    void improve(const Monitor& monitor);
+    void improve(const Monitor& monitor) {
+        const PointTree tree(points_, monitor);
+        // Long ranges are reversed only if there are few strokes, so that this stays fast.
+        const std::size_t longest = std::max<std::size_t>(1000, 3'000'000'000 / (order_.size() + 1));
+        std::vector<bool> settled(order_.size());
+        std::vector<PointTree::Near> near;
+        for (int pass = 0; pass < 10; ++pass) {
+            bool changed = false;
+            for (std::uint32_t i = 0; i < order_.size(); ++i) {
+                if (settled[order_[i] / 2]) continue;
+                monitor.check();
+                const Change best = best_change(i, tree, near, longest);
+                if (best.gain <= 0) {
+                    settled[order_[i] / 2] = true;
+                    continue;
+                }
+                changed = true;
+                for (const std::uint32_t k : {best.first, best.last, best.last + 1}) {
+                    if (k < order_.size()) settled[order_[k] / 2] = false;
+                }
+                turn_round(best.first, best.last);
+            }
+            if (!changed) break;
+        }
+    }
 
     const std::vector<PlotEnd>& order() const { return order_; }
 
@@ -40,88 +71,46 @@ private:
     /// Position of the pen before it travels to the i-th stroke.
     glm::dvec2 leave(std::uint32_t i) const { return i == 0 ? start_ : points_[order_[i - 1] ^ 1U]; }
     Change best_change(std::uint32_t i, const PointTree& tree, std::vector<PointTree::Near>& near,
-                       std::size_t longest) const;
-    void turn_round(std::uint32_t first, std::uint32_t last);
+                       std::size_t longest) const {
+        constexpr std::size_t neighbours = 10;
+        Change best;
+        const double way = glm::distance(leave(i), points_[order_[i]]);
+        // A change that gains has a new travel that is shorter than one it replaces, at the same end.
+        const auto consider = [&](std::uint32_t k) {  // travels to stroke i and to stroke k
+            if (i == k || std::max(i, k) - std::min(i, k) > longest) return;
+            const std::uint32_t first = std::min(i, k);
+            const std::uint32_t last = std::max(i, k);
+            double gain = way - glm::distance(leave(first), leave(last));
+            if (k < order_.size()) gain += glm::distance(leave(k), points_[order_[k]]);
+            if (last < order_.size()) gain -= glm::distance(points_[order_[first]], points_[order_[last]]);
+            // Smaller gains are rounding errors.
+            if (gain > best.gain + 1e-9 * way) best = {gain, first, last - 1};
+        };
+        tree.nearest(leave(i), way, neighbours, near);
+        for (const auto& [distance, end] : near) {
+            const std::uint32_t place = place_[end / 2];
+            if (order_[place] == (end ^ 1U)) consider(place + 1);
+        }
+        tree.nearest(points_[order_[i]], way, neighbours, near);
+        for (const auto& [distance, end] : near) {
+            const std::uint32_t place = place_[end / 2];
+            if (order_[place] == end) consider(place);
+        }
+        return best;
+    }
+    void turn_round(std::uint32_t first, std::uint32_t last) {
+        std::reverse(order_.begin() + first, order_.begin() + last + 1);
+        for (std::uint32_t i = first; i <= last; ++i) {
+            order_[i] ^= 1U;
+            place_[order_[i] / 2] = i;
+        }
+    }
 
     std::vector<glm::dvec2> points_;
     std::vector<PlotEnd> order_;
     std::vector<std::uint32_t> place_;  // place of each stroke in the order
     glm::dvec2 start_;
 };
-
-PlotRoute::PlotRoute(std::vector<glm::dvec2> points, std::vector<PlotEnd> order, glm::dvec2 start)
-    : points_(std::move(points)), order_(std::move(order)), place_(order_.size()), start_(start) {
-    for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i] / 2] = i;
-}
-
-double PlotRoute::length() const {
-    double sum = 0;
-    for (std::uint32_t i = 0; i < order_.size(); ++i) sum += glm::distance(leave(i), points_[order_[i]]);
-    return sum;
-}
-
-void PlotRoute::improve(const Monitor& monitor) {
-    const PointTree tree(points_, monitor);
-    // Long ranges are reversed only if there are few strokes, so that this stays fast.
-    const std::size_t longest = std::max<std::size_t>(1000, 3'000'000'000 / (order_.size() + 1));
-    std::vector<bool> settled(order_.size());
-    std::vector<PointTree::Near> near;
-    for (int pass = 0; pass < 10; ++pass) {
-        bool changed = false;
-        for (std::uint32_t i = 0; i < order_.size(); ++i) {
-            if (settled[order_[i] / 2]) continue;
-            monitor.check();
-            const Change best = best_change(i, tree, near, longest);
-            if (best.gain <= 0) {
-                settled[order_[i] / 2] = true;
-                continue;
-            }
-            changed = true;
-            for (const std::uint32_t k : {best.first, best.last, best.last + 1}) {
-                if (k < order_.size()) settled[order_[k] / 2] = false;
-            }
-            turn_round(best.first, best.last);
-        }
-        if (!changed) break;
-    }
-}
-
-PlotRoute::Change PlotRoute::best_change(std::uint32_t i, const PointTree& tree, std::vector<PointTree::Near>& near,
-                                         std::size_t longest) const {
-    constexpr std::size_t neighbours = 10;
-    Change best;
-    const double way = glm::distance(leave(i), points_[order_[i]]);
-    // A change that gains has a new travel that is shorter than one it replaces, at the same end.
-    const auto consider = [&](std::uint32_t k) {  // travels to stroke i and to stroke k
-        if (i == k || std::max(i, k) - std::min(i, k) > longest) return;
-        const std::uint32_t first = std::min(i, k);
-        const std::uint32_t last = std::max(i, k);
-        double gain = way - glm::distance(leave(first), leave(last));
-        if (k < order_.size()) gain += glm::distance(leave(k), points_[order_[k]]);
-        if (last < order_.size()) gain -= glm::distance(points_[order_[first]], points_[order_[last]]);
-        // Smaller gains are rounding errors.
-        if (gain > best.gain + 1e-9 * way) best = {gain, first, last - 1};
-    };
-    tree.nearest(leave(i), way, neighbours, near);
-    for (const auto& [distance, end] : near) {
-        const std::uint32_t place = place_[end / 2];
-        if (order_[place] == (end ^ 1U)) consider(place + 1);
-    }
-    tree.nearest(points_[order_[i]], way, neighbours, near);
-    for (const auto& [distance, end] : near) {
-        const std::uint32_t place = place_[end / 2];
-        if (order_[place] == end) consider(place);
-    }
-    return best;
-}
-
-void PlotRoute::turn_round(std::uint32_t first, std::uint32_t last) {
-    std::reverse(order_.begin() + first, order_.begin() + last + 1);
-    for (std::uint32_t i = first; i <= last; ++i) {
-        order_[i] ^= 1U;
-        place_[order_[i] / 2] = i;
-    }
-}
 
 }  // namespace
 

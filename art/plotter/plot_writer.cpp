@@ -1,5 +1,7 @@
 #include "art/plotter/plot_writer.h"
 
+#include "engine/geometry/bezier.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -8,6 +10,35 @@
 #include <stdexcept>
 
 namespace sikku {
+namespace {
+
+/// Number of equal steps of its parameter for which the chords of a curve stay within `tolerance`.
+/// Source: Wang, Proc. SPIE, 1984: by the second differences.
+int chords(const Bezier& b, double tolerance) {
+    const double bend = std::max(glm::length(b[0] - 2.0 * b[1] + b[2]), glm::length(b[1] - 2.0 * b[2] + b[3]));
+    const double count = std::ceil(std::sqrt(0.75 * bend / tolerance));
+    return static_cast<int>(std::clamp(count, 1.0, 1e6));
+}
+
+}  // namespace
+
+void PlotWriter::begin_stroke(glm::dvec2 start, const Pen& pen) {
+    here_ = start;
+    take_pen(pen);
+    started_ = false;
+}
+
+void PlotWriter::curves(std::span<const glm::dvec2> controls) {
+    start();
+    for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
+        const Bezier bezier = {on_page(here_), on_page(controls[i]), on_page(controls[i + 1]),
+                               on_page(controls[i + 2])};
+        const int count = std::max(least_chords_, chords(bezier, tolerance_));
+        for (int k = 1; k < count; ++k) curve_point(point_of(bezier, static_cast<double>(k) / count));
+        curve_point(bezier[3]);
+        here_ = controls[i + 2];
+    }
+}
 
 void PlotWriter::change_pen(const Pen& pen) {
     // The stroke ends and continues as another one.
@@ -29,23 +60,26 @@ glm::dvec2 PlotWriter::on_page(glm::dvec2 point) const {
     return {down.x, print_.page.height - down.y};
 }
 
-int PlotWriter::chords(const Bezier& b, double tolerance) {
-    const double bend = std::max(glm::length(b[0] - 2.0 * b[1] + b[2]), glm::length(b[1] - 2.0 * b[2] + b[3]));
-    const double count = std::ceil(std::sqrt(0.75 * bend / tolerance));
-    return static_cast<int>(std::clamp(count, 1.0, 1e6));
-}
-
-glm::dvec2 PlotWriter::at(const Bezier& b, double t) {
-    const double s = 1 - t;
-    return s * s * s * b[0] + 3 * s * s * t * b[1] + 3 * s * t * t * b[2] + t * t * t * b[3];
-}
-
 void PlotWriter::require_on_page(glm::dvec2 millimetres) const {
     constexpr double slack = 1e-6;
     const auto inside = [](double value, double most) { return value >= -slack && value <= most + slack; };
     if (!inside(millimetres.x, print_.page.width) || !inside(millimetres.y, print_.page.height)) {
         throw std::runtime_error("the drawing is larger than the page, and a plotter cannot cut it off at the edge");
     }
+}
+
+// Four chords are enough for an arc of a small circle.
+ArcWriter::ArcWriter(const Print& print, Output& file, bool arcs, double least_arc)
+    : PlotWriter(print, file, ArcFollower::chord, 4),
+      follower_(
+          arcs, least_arc, [this](glm::dvec2 end) { line_to(end); },
+          [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {}
+
+void ArcWriter::lines(std::span<const glm::dvec2> ends) {
+    start();
+    follower_.finish();
+    for (const glm::dvec2 end : ends) line_to(on_page(here_ = end));
+    follower_.begin(on_page(here_));
 }
 
 }  // namespace sikku

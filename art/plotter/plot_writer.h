@@ -1,14 +1,16 @@
 // art/plotter/plot_writer.h: the common base of the writers of HP-GL, G-code and DXF.
 #pragma once
 
+#include "art/plotter/arc_follower.h"
 #include "art/print/print.h"
+#include "engine/base/output.h"
 #include "engine/geometry/path.h"
 
 #include <glm/vec2.hpp>
 
-#include <array>
 #include <map>
 #include <span>
+#include <utility>
 
 namespace sikku {
 
@@ -16,6 +18,8 @@ namespace sikku {
 /// Ignores areas, discs and widths, and polygons unless the format has layers for tiles.
 class PlotWriter : public PathSink {
 public:
+    void begin_stroke(glm::dvec2 start, const Pen& pen) override;
+    void curves(std::span<const glm::dvec2> controls) final;
     void change_pen(const Pen& pen) final;
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void area(std::span<const glm::dvec2>, const Pen&) final {}
@@ -29,27 +33,59 @@ public:
     virtual void finish() = 0;
 
 protected:
-    explicit PlotWriter(const Print& print) : print_(print) {}
+    /// @param tolerance  distance of curves from their chords, in millimetres @param least_chords  of a curve
+    PlotWriter(const Print& print, Output& file, double tolerance, int least_chords)
+        : print_(print), file_(file), tolerance_(tolerance), least_chords_(least_chords) {}
 
-    using Bezier = std::array<glm::dvec2, 4>;
+    /// Takes the pen of that number.
+    virtual void take_pen(int next, Colour) { pen_ = next; }
+    void take_pen(const Pen& pen) {
+        if (const int next = number(pen); next != pen_) take_pen(next, print_.style.line_colour(pen));
+    }
+    /// Lowers the pen at here_, unless it is down. Called only when something is drawn, since a stroke may change its
+    /// pen before.
+    void start() {
+        if (!std::exchange(started_, true)) put_down(on_page(here_));
+    }
+    virtual void put_down(glm::dvec2 millimetres) = 0;
+    /// Receives the next point of a curve, in millimetres of the page.
+    virtual void curve_point(glm::dvec2 point) = 0;
+
     /// Millimetres from the bottom left corner of the page, y up.
     glm::dvec2 on_page(glm::dvec2 point) const;
     /// Number of a pen, from 1 in the order of appearance; plotters hold six or eight pens.
     int number(const Pen& pen);
     /// The numbers given so far, by colour index.
     const std::map<int, int>& numbers() const { return numbers_; }
-    /// Number of equal steps of its parameter for which the chords of a curve stay within `tolerance`.
-    /// Source: Wang, Proc. SPIE, 1984: by the second differences.
-    static int chords(const Bezier& bezier, double tolerance);
-    static glm::dvec2 at(const Bezier& bezier, double t);
     /// @throws std::runtime_error  off the page, where a plotter would run against its stops
     void require_on_page(glm::dvec2 millimetres) const;
 
     const Print& print_;
+    Output& file_;
     glm::dvec2 here_{0.0};  ///< end of the stroke so far, in pattern units
+    int pen_ = 0;           ///< number of the current pen; 0: none yet
+    bool started_ = false;  ///< the pen is down
 
 private:
+    double tolerance_;
+    int least_chords_;
     std::map<int, int> numbers_;  ///< numbers of pens, by colour index
+};
+
+/// Follows curves by arcs and lines.
+class ArcWriter : public PlotWriter {
+public:
+    void lines(std::span<const glm::dvec2> ends) final;
+
+protected:
+    /// @param arcs, least_arc  as in ArcFollower
+    ArcWriter(const Print& print, Output& file, bool arcs, double least_arc);
+
+    void curve_point(glm::dvec2 point) override { follower_.add(point); }
+    virtual void line_to(glm::dvec2 end) = 0;
+    virtual void arc_to(const PlotArc& arc, glm::dvec2 end) = 0;
+
+    ArcFollower follower_;  ///< from the end of the last line or arc
 };
 
 }  // namespace sikku

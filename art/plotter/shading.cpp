@@ -15,7 +15,6 @@
 namespace sikku {
 namespace {
 
-constexpr double most_lines = 1e6;
 constexpr std::size_t most_crossings = 5'000'000;  // some 500 MB
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -61,15 +60,7 @@ private:
     glm::dvec2 point(std::int64_t line, double at) const { return at * along_ + height(line) * across_; }
 
     void find_crossings() {
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
-        for (const glm::dvec2 vertex : vertices_) {
-            low = std::min(low, glm::dot(vertex, across_));
-            high = std::max(high, glm::dot(vertex, across_));
-        }
-        if (!((high - low) / spacing_ < most_lines && std::max(-low, high) / spacing_ < 1e15)) {
-            throw std::runtime_error("hatching takes over a million lines for one shape; use a wider spacing");
-        }
+        hatched_heights(vertices_, across_, spacing_);
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             const glm::dvec2 a = vertices_[i], b = vertices_[(i + 1) % vertices_.size()];
             const double from = glm::dot(a, across_), to = glm::dot(b, across_);
@@ -180,6 +171,20 @@ std::vector<glm::dvec2> hatch_directions(const Hatch& hatch, const Placement& pl
         if (!hatch.is_crossed) break;
     }
     return ways;
+}
+
+std::pair<double, double> hatched_heights(std::span<const glm::dvec2> vertices, glm::dvec2 across, double spacing) {
+    constexpr double most_lines = 1e6;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const glm::dvec2 vertex : vertices) {
+        low = std::min(low, glm::dot(vertex, across));
+        high = std::max(high, glm::dot(vertex, across));
+    }
+    if (!((high - low) / spacing < most_lines && std::max(-low, high) / spacing < 1e15)) {
+        throw std::runtime_error("hatching takes over a million lines for one shape; use a wider spacing");
+    }
+    return {low, high};
 }
 
 std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> vertices, glm::dvec2 along,

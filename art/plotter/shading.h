@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -20,6 +21,10 @@ struct Hatch {
 
 /// The one or two directions of the lines, as unit vectors of the drawing that have the given angles on the page.
 std::vector<glm::dvec2> hatch_directions(const Hatch& hatch, const Placement& placement);
+
+/// The least and the largest height of a shape along the unit vector `across` its hatching.
+/// @throws std::runtime_error for over 10^6 lines in one shape
+std::pair<double, double> hatched_heights(std::span<const glm::dvec2> vertices, glm::dvec2 across, double spacing);
 
 /// Hatches a polygon (non-zero winding rule; it may cross itself) with lines along the unit vector `along`,
 /// `spacing` apart. All polygons share one set of lines, so that the hatching of neighbours lines up. Ends stay

@@ -21,25 +21,22 @@ constexpr double line_share = 0.24;
 constexpr double earth_share = 0.6;  // share of the line's width
 constexpr double dot_share = 0.4;    // share of the loop
 
-/// Depth relative to BorderKind::kaavi.
-double relative_depth(BorderKind kind) {
-    switch (kind) {
-        case BorderKind::kaavi:
-            return 1.0;
-        case BorderKind::padi:
-            return 1.9;
-        case BorderKind::lotus:
-            return 1.75;
-        case BorderKind::rope:
-            return 1.35;
-        case BorderKind::diamonds:
-            return 1.5;
-        case BorderKind::waves:
-            return 1.5;
-        case BorderKind::pattern:
-            return 1.6;
-    }
-    return 1.0;
+/// A kind of border, and its depth relative to BorderKind::kaavi.
+struct BorderRow {
+    BorderKind kind;
+    double depth;
+    void (*draw)(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink) = nullptr;
+};
+constexpr std::array<BorderRow, 7> border_rows = {{{BorderKind::kaavi, 1.0},
+                                                   {BorderKind::padi, 1.9, draw_padi},
+                                                   {BorderKind::lotus, 1.75, draw_lotus},
+                                                   {BorderKind::rope, 1.35, draw_rope},
+                                                   {BorderKind::diamonds, 1.5, draw_diamonds},
+                                                   {BorderKind::waves, 1.5, draw_waves},
+                                                   {BorderKind::pattern, 1.6}}};
+
+const BorderRow& row_of(BorderKind kind) {
+    return *std::find_if(border_rows.begin(), border_rows.end(), [&](const auto& row) { return row.kind == kind; });
 }
 
 double thickness(const Page& page) {
@@ -60,7 +57,6 @@ void draw_kaavi(const Print& print, const Window& window, double width, int colo
     const std::array<glm::dvec2, 4> corners = {glm::dvec2(left, top), glm::dvec2(right, top),
                                                glm::dvec2(right, bottom), glm::dvec2(left, bottom)};
     const std::array<glm::dvec2, 4> ways = {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(-1, 0), glm::dvec2(0, -1)};
-    const double handle = 0.5522847498307936 * radius;  // for a quarter circle as a Bézier
     for (const bool is_earth : {false, true}) {
         // A pen plotter cannot paint over lines.
         if (print.is_plot && !is_earth) continue;
@@ -72,16 +68,7 @@ void draw_kaavi(const Print& print, const Window& window, double width, int colo
             ink.line(corner + radius * along);
             // Three quarters around the dot, then down the next side.
             const glm::dvec2 centre = corner + radius * (along + out);
-            std::array<glm::dvec2, 9> loop;
-            glm::dvec2 from = -out;
-            glm::dvec2 heading = along;
-            for (std::size_t i = 0; i < 9; i += 3) {
-                loop[i] = ink.drawn(centre + radius * from + handle * heading);
-                loop[i + 1] = ink.drawn(centre + radius * heading + handle * from);
-                loop[i + 2] = ink.drawn(centre + radius * heading);
-                from = std::exchange(heading, -from);
-            }
-            sink.curves(loop);
+            ink.arc(centre, radius, -out, along, 3);
             ink.line(corner - radius * out);
         }
         ink.end(true);
@@ -210,15 +197,10 @@ void draw_pattern(const Border& border, std::span<const BorderSide, 4> sides, do
             continue;
         }
         const glm::dvec2 centre = side.at({depth / 2, depth / 2});
-        const double radius = depth * 0.3, handle = 0.5522847498307936 * radius;
+        const double radius = depth * 0.3;
         const double width = repeat.style.draws({}) ? repeat.style.line_width({}, depth / size.y) : depth / 12;
-        glm::dvec2 from = side.along, heading = side.inwards;
-        ink.begin(centre + radius * from, width, 0);
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            ink.curve(centre + radius * from + handle * heading, centre + radius * heading + handle * from,
-                      centre + radius * heading);
-            from = std::exchange(heading, -from);
-        }
+        ink.begin(centre + radius * side.along, width, 0);
+        ink.arc(centre, radius, side.along, side.inwards, 4);
         ink.end(true);
         ink.disc(centre, depth * 0.1, 0);
     }
@@ -227,7 +209,7 @@ void draw_pattern(const Border& border, std::span<const BorderSide, 4> sides, do
 }  // namespace
 
 double border_depth(BorderKind kind, const Page& page) {
-    return relative_depth(kind) * thickness(page);
+    return row_of(kind).depth * thickness(page);
 }
 
 double border_room(BorderKind kind, const Page& page) {
@@ -285,22 +267,8 @@ void draw_border(const Border& border, const Print& print, const Window& window,
     // A cell may be too small for any frame.
     if (std::min(sides[0].length, sides[1].length) < 3 * depth) return;
     BorderInk ink(print, colour, sink);
-    switch (border.kind) {
-        case BorderKind::kaavi:
-            break;
-        case BorderKind::padi:
-            return draw_padi(sides, depth, ink);
-        case BorderKind::lotus:
-            return draw_lotus(sides, depth, ink);
-        case BorderKind::rope:
-            return draw_rope(sides, depth, ink);
-        case BorderKind::diamonds:
-            return draw_diamonds(sides, depth, ink);
-        case BorderKind::waves:
-            return draw_waves(sides, depth, ink);
-        case BorderKind::pattern:
-            return draw_pattern(border, sides, depth, ink);
-    }
+    if (border.kind == BorderKind::pattern) return draw_pattern(border, sides, depth, ink);
+    row_of(border.kind).draw(sides, depth, ink);
 }
 
 }  // namespace sikku

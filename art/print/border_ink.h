@@ -9,6 +9,7 @@
 #include <array>
 #include <initializer_list>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -60,6 +61,15 @@ public:
         sink_.curves(controls);
     }
     void end(bool closed) { sink_.end_stroke(closed); }
+    /// Draws quarters of a circle. @param from, heading  unit vectors from the centre and along the circle
+    void arc(glm::dvec2 centre, double radius, glm::dvec2 from, glm::dvec2 heading, int quarters) {
+        const double handle = 0.5522847498307936 * radius;
+        for (int quarter = 0; quarter < quarters; ++quarter) {
+            curve(centre + radius * from + handle * heading, centre + radius * heading + handle * from,
+                  centre + radius * heading);
+            from = std::exchange(heading, -from);
+        }
+    }
 
     void disc(glm::dvec2 centre, double radius, int colour) {
         sink_.disc(drawn(centre), radius / placement_.step, pen(1.0, colour));

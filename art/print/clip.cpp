@@ -1,5 +1,7 @@
 #include "art/print/clip.h"
 
+#include "art/print/outline.h"
+
 namespace sikku {
 
 bool ClipSink::overlaps(const Box& box) const {
@@ -13,57 +15,20 @@ bool ClipSink::sees(std::span<const glm::dvec2> points) const {
     return overlaps(box);
 }
 
-void ClipSink::lift(bool closed) {
-    if (is_down_) sink_.end_stroke(closed);
-    is_down_ = false;
-}
-
-void ClipSink::start() {
-    if (!is_down_) sink_.begin_stroke(at_, pen_);
-    is_down_ = true;
-}
-
-void ClipSink::begin_stroke(glm::dvec2 start_at, const Pen& pen) {
-    at_ = start_at;
-    pen_ = pen;
-    is_whole_ = true;
-}
-
-void ClipSink::lines(std::span<const glm::dvec2> ends) {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        const auto end = ends.subspan(i, 1);
-        if (sees(end)) {
-            start();
-            sink_.lines(end);
+/// Draws lines or curves of `stride` points each.
+void ClipSink::draw(std::span<const glm::dvec2> points, std::size_t stride,
+                    void (PathSink::*pass)(std::span<const glm::dvec2>)) {
+    for (std::size_t i = 0; i + stride <= points.size(); i += stride) {
+        const auto piece = points.subspan(i, stride);
+        if (sees(piece)) {
+            lower(at_);
+            (sink_.*pass)(piece);
         } else {
             lift(false);
             is_whole_ = false;
         }
-        at_ = end.front();
+        at_ = piece.back();
     }
-}
-
-void ClipSink::curves(std::span<const glm::dvec2> controls) {
-    for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-        const auto curve = controls.subspan(i, 3);
-        if (sees(curve)) {
-            start();
-            sink_.curves(curve);
-        } else {
-            lift(false);
-            is_whole_ = false;
-        }
-        at_ = curve.back();
-    }
-}
-
-void ClipSink::change_pen(const Pen& pen) {
-    pen_ = pen;
-    if (is_down_) sink_.change_pen(pen);
-}
-
-void ClipSink::end_stroke(bool closed) {
-    lift(closed && is_whole_);
 }
 
 void ClipSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {

@@ -57,7 +57,7 @@ void add_crossings(const Bezier& curve, const HalfPlane& side, std::vector<doubl
 }  // namespace
 
 CropSink::CropSink(PathSink& sink, glm::dvec2 low, glm::dvec2 high, const glm::dmat3x2& to_page, double tolerance)
-    : sink_(sink), tolerance_(tolerance) {
+    : CutStrokes(sink), tolerance_(tolerance) {
     const glm::dmat2x2 linear(to_page[0], to_page[1]);
     const auto side = [&](glm::dvec2 normal, double offset) {
         return HalfPlane{glm::transpose(linear) * normal, offset - glm::dot(normal, to_page[2])};
@@ -77,22 +77,10 @@ bool CropSink::misses(std::span<const glm::dvec2> points) const {
     });
 }
 
-void CropSink::lift(bool closed) {
-    if (is_down_) sink_.end_stroke(closed);
-    is_down_ = false;
-}
-
-void CropSink::begin_stroke(glm::dvec2 start, const Pen& pen) {
-    at_ = start;
-    pen_ = pen;
-    is_whole_ = true;
-}
-
 /// Draws the parts of a piece that lie inside. @param is_line  ignore its control points
 void CropSink::draw(const Bezier& piece, bool is_line) {
     const auto put = [&](const Bezier& part) {
-        if (!is_down_) sink_.begin_stroke(part[0], pen_);
-        is_down_ = true;
+        lower(part[0]);
         is_line ? sink_.lines(std::span(part).subspan(3)) : sink_.curves(std::span(part).subspan(1));
     };
     if (contains(piece)) return put(piece);
@@ -125,15 +113,6 @@ void CropSink::curves(std::span<const glm::dvec2> controls) {
         draw({at_, controls[i], controls[i + 1], controls[i + 2]}, false);
         at_ = controls[i + 2];
     }
-}
-
-void CropSink::change_pen(const Pen& pen) {
-    pen_ = pen;
-    if (is_down_) sink_.change_pen(pen);
-}
-
-void CropSink::end_stroke(bool closed) {
-    lift(closed && is_whole_);
 }
 
 /// Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.

@@ -1,8 +1,8 @@
 // art/print/crop.h: cuts a drawing off exactly at the edges of a rectangle.
 #pragma once
 
+#include "art/print/clip.h"
 #include "engine/geometry/bezier.h"
-#include "engine/geometry/path.h"
 
 #include <glm/mat3x2.hpp>
 
@@ -19,17 +19,14 @@ struct HalfPlane {
 
 /// Passes on the parts of a drawing that lie in a rectangle. Lines and curves end at its edges, without the width of
 /// their pens; fills that cross an edge become polygons.
-class CropSink : public PathSink {
+class CropSink : public CutStrokes {
 public:
     /// @param low, high  corners of the rectangle, in the coordinates of the page
     /// @param to_page    maps the drawing to the page, invertible @param tolerance  of curved fills, in the drawing
     CropSink(PathSink& sink, glm::dvec2 low, glm::dvec2 high, const glm::dmat3x2& to_page, double tolerance);
 
-    void begin_stroke(glm::dvec2 start, const Pen& pen) override;
     void lines(std::span<const glm::dvec2> ends) override;
     void curves(std::span<const glm::dvec2> controls) override;
-    void change_pen(const Pen& pen) override;
-    void end_stroke(bool closed) override;
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
@@ -38,16 +35,10 @@ private:
     bool contains(std::span<const glm::dvec2> points) const;
     bool misses(std::span<const glm::dvec2> points) const;
     void draw(const Bezier& piece, bool is_line);
-    void lift(bool closed);
     void fill(std::vector<glm::dvec2> corners, const Pen& pen);
 
-    PathSink& sink_;
     std::array<HalfPlane, 4> sides_;
     double tolerance_;
-    Pen pen_;
-    glm::dvec2 at_{0.0};
-    bool is_down_ = false;
-    bool is_whole_ = true;  ///< the stroke has not been cut so far
 };
 
 }  // namespace sikku

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 namespace sikku {
 namespace {
@@ -28,6 +29,41 @@ constexpr auto table = std::to_array<FormatInfo>({
     {.format = stl, .kind = model, .label = "STL", .extension = "stl"},
 });
 
+/// The forecast of a format.
+template <class Cost>
+struct CostOf {
+    PrintFormat format;
+    Cost cost;
+};
+constexpr auto line_costs = std::to_array<CostOf<LineCost>>({
+    {svg, {20e-9, 80e-9, 5, 30, 3e-6, 90, 700}},
+    {pdf, {80e-9, 250e-9, 3, 12, 14e-6, 35, 2000}},
+    {eps, {40e-9, 120e-9, 15, 45, 5e-6, 110, 1200}},
+    {hpgl, {100e-9, 2e-6, 12, 60, 0, 0, 500}},
+    {gcode, {250e-9, 2e-6, 20, 60, 0, 0, 500}},
+    {dxf, {200e-9, 2e-6, 40, 400, 0, 0, 500}},
+});
+constexpr auto pixel_costs = std::to_array<CostOf<PixelCost>>({
+    {png, {9e-9, 60e-9, 0.01}},
+    {tiff, {14e-9, 40e-9, 0.01}},
+    {jpeg, {3e-9, 15e-9, 0.03}},
+    {exr, {34e-9, 40e-9, 0.01}},
+});
+
+constexpr auto found(const auto& list, PrintFormat format) {
+    return std::find_if(list.begin(), list.end(), [format](const auto& row) { return row.format == format; });
+}
+const auto& cost_in(const auto& list, PrintFormat format) {
+    const auto row = found(list, format);
+    if (row == list.end()) throw std::logic_error("the cost of a print is forecast for its kind of format");
+    return row->cost;
+}
+// Every format of lines or pixels has its forecast.
+static_assert(std::all_of(table.begin(), table.end(), [](const FormatInfo& row) {
+    return (row.kind == vectors || row.kind == plot) == (found(line_costs, row.format) != line_costs.end()) &&
+           (row.kind == pixels) == (found(pixel_costs, row.format) != pixel_costs.end());
+}));
+
 }  // namespace
 
 std::span<const FormatInfo> print_formats() {
@@ -35,7 +71,15 @@ std::span<const FormatInfo> print_formats() {
 }
 
 const FormatInfo& info(PrintFormat format) {
-    return *std::find_if(table.begin(), table.end(), [&](const FormatInfo& row) { return row.format == format; });
+    return *found(table, format);
+}
+
+const LineCost& line_cost(PrintFormat format) {
+    return cost_in(line_costs, format);
+}
+
+const PixelCost& pixel_cost(PrintFormat format) {
+    return cost_in(pixel_costs, format);
 }
 
 std::optional<PrintFormat> named_format(std::string_view name) {

@@ -15,6 +15,17 @@ enum class PrintFormat : std::uint8_t { svg, pdf, eps, png, tiff, jpeg, exr, gif
 /// Contents of a format, which determine how it is drawn.
 enum class FormatKind : std::uint8_t { vectors, pixels, plot, animation, model };
 
+/// Forecast of formats that draw lines: seconds and bytes for each point of a straight line or, three for each step,
+/// of a curve, and for each polygon in a shade of its own; bytes of a file.
+struct LineCost {
+    double line_seconds = 0, curve_seconds = 0, line_bytes = 0, curve_bytes = 0;
+    double shade_seconds = 0, shade_bytes = 0, bytes = 0;
+};
+/// Forecast of pictures: seconds for each pixel and for each with ink, bytes for each pixel.
+struct PixelCost {
+    double seconds = 0, ink_seconds = 0, bytes = 0;
+};
+
 /// One file format. All code that depends on the format reads this row.
 struct FormatInfo {
     PrintFormat format = PrintFormat::svg;
@@ -32,6 +43,10 @@ struct FormatInfo {
 /// them.
 std::span<const FormatInfo> print_formats();
 const FormatInfo& info(PrintFormat format);
+/// @param format  of the kind `vectors` or `plot`
+const LineCost& line_cost(PrintFormat format);
+/// @param format  of the kind `pixels`
+const PixelCost& pixel_cost(PrintFormat format);
 
 /// The format of a file by its extension (any case), or nullopt.
 std::optional<PrintFormat> print_format(const std::filesystem::path& file);

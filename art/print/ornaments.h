@@ -32,7 +32,7 @@ public:
         sink_.label(text, centre, height, old(pen));
     }
 
-private:
+protected:
     Pen old(Pen pen) const {
         pen.colour = style_.index(pen);
         return pen;
@@ -56,12 +56,13 @@ private:
     const Style& style_;
 };
 
-/// Draws the strokes of each line in the next of the given colours, which are indices into the palette.
-class StrokeColours : public PathFilter {
+/// Draws the strokes of each line in the next of the given colours, which are indices into the palette. Labels are
+/// not lines: they keep their colours.
+class StrokeColours : public OldColours {
 public:
     StrokeColours(PathSink& sink, const Style& style, std::vector<int> colours,
                   const std::vector<std::uint32_t>& line_of_stroke)
-        : Forwarding(sink), style_(style), colours_(std::move(colours)), lines_(line_of_stroke) {}
+        : OldColours(sink, style), colours_(std::move(colours)), lines_(line_of_stroke) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         is_seen_ = false;
@@ -72,13 +73,6 @@ public:
         look(pen);
         sink_.change_pen(coloured(pen));
     }
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { sink_.polygon(vertices, old(pen)); }
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { sink_.area(outline, old(pen)); }
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override { sink_.disc(centre, radius, old(pen)); }
-    /// Labels are not lines: they keep their colours.
-    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override {
-        sink_.label(text, centre, height, old(pen));
-    }
 
 private:
     /// Starts a visible stroke when the pen becomes visible.
@@ -87,17 +81,12 @@ private:
         if (is_seen && !is_seen_) ++stroke_;
         is_seen_ = is_seen;
     }
-    Pen old(Pen pen) const {
-        pen.colour = style_.index(pen);
-        return pen;
-    }
     Pen coloured(Pen pen) const {
         pen.colour = style_.draws(pen) ? colours_[line() % colours_.size()] : style_.index(pen);
         return pen;
     }
     std::size_t line() const { return stroke_ < lines_.size() ? lines_[stroke_] : 0; }
 
-    const Style& style_;
     std::vector<int> colours_;
     const std::vector<std::uint32_t>& lines_;
     std::size_t stroke_ = SIZE_MAX;  ///< index among the visible strokes

@@ -44,16 +44,16 @@ inline void row_scalar(std::uint8_t* line, int first, int end, const Capsule& c,
     }
 }
 
-template <bool soft>
-void block_scalar(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
-    for (int row = 0; row < rows; ++row) row_scalar<soft>(pixels + row * stride, 0, columns, c, row);
+// Both draw all rows by a function for one row.
+template <auto row_of>
+void block(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
+    for (int row = 0; row < rows; ++row) row_of(pixels + row * stride, 0, columns, c, row);
 }
 
-template <bool soft>
-void spans_scalar(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count,
-                  const Capsule& c) {
+template <auto row_of>
+void spans_by(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count, const Capsule& c) {
     for (const Span* span = spans; span != spans + count; ++span) {
-        row_scalar<soft>(pixels + span->row * stride, span->first, span->end, c, span->row);
+        row_of(pixels + span->row * stride, span->first, span->end, c, span->row);
     }
 }
 
@@ -92,18 +92,6 @@ inline void row_sse2(std::uint8_t* line, int first, int end, const Capsule& c, i
         std::memcpy(&four, line + column, 4);
         four = _mm_cvtsi128_si32(_mm_max_epu8(_mm_cvtsi32_si128(four), coverage_sse2<soft>(c, u, v, x)));
         std::memcpy(line + column, &four, 4);
-    }
-}
-
-template <bool soft>
-void block_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, int columns, int rows, const Capsule& c) {
-    for (int row = 0; row < rows; ++row) row_sse2<soft>(pixels + row * stride, 0, columns, c, row);
-}
-
-template <bool soft>
-void spans_sse2(std::uint8_t* pixels, std::ptrdiff_t stride, const Span* spans, std::size_t count, const Capsule& c) {
-    for (const Span* span = spans; span != spans + count; ++span) {
-        row_sse2<soft>(pixels + span->row * stride, span->first, span->end, c, span->row);
     }
 }
 
@@ -185,10 +173,10 @@ template <bool soft>
 Stroker::Kernels kernels(Simd simd) {
 #ifdef SIKKU_X86
     if (simd == Simd::avx2) return {block_avx2<soft>, spans_avx2<soft>};
-    if (simd == Simd::sse2) return {block_sse2<soft>, spans_sse2<soft>};
+    if (simd == Simd::sse2) return {block<row_sse2<soft>>, spans_by<row_sse2<soft>>};
 #endif
     static_cast<void>(simd);
-    return {block_scalar<soft>, spans_scalar<soft>};
+    return {block<row_scalar<soft>>, spans_by<row_scalar<soft>>};
 }
 
 // Narrower pens are drawn by their bounding box, wider ones row by row.

@@ -261,7 +261,7 @@ ReliefReport write_relief(ReliefShapes& shapes, const Print& print, const Relief
     ReliefReport report = maker.report();
     report.volume = solid.volume();
     report.size = solid.size();
-    const SolidReport written = write_solid(solid, print, options.format, file, monitor, destination);
+    const ModelReport written = write_solid(solid, print, options.format, file, monitor, destination);
     report.triangles = written.triangles;
     report.materials = written.materials;
     return report;

@@ -1,6 +1,5 @@
 #include "art/relief/relief_files.h"
 
-#include "art/space/mesh_files.h"
 #include "engine/base/bits.h"
 #include "engine/base/chance.h"
 
@@ -70,8 +69,8 @@ private:
     std::string buffer_;
 };
 
-SolidReport write_stl(const Solid& solid, const std::filesystem::path& file, Destination& destination) {
-    SolidReport report;
+ModelReport write_stl(const Solid& solid, const std::filesystem::path& file, Destination& destination) {
+    ModelReport report;
     solid.visit([&](std::uint32_t, const SolidTriangle&) { ++report.triangles; });
     const auto output = destination.open(file);
     StlFile stl(*output, report.triangles);
@@ -107,19 +106,10 @@ std::vector<Mesh> meshes_of(const Solid& solid) {
 
 }  // namespace
 
-SolidReport write_solid(const Solid& solid, const Print& print, PrintFormat format, const std::filesystem::path& file,
+ModelReport write_solid(const Solid& solid, const Print& print, PrintFormat format, const std::filesystem::path& file,
                         const Monitor& monitor, Destination& destination) {
     if (format == PrintFormat::stl) return write_stl(solid, file, destination);
-    const std::vector<Mesh> meshes = meshes_of(solid);
-    const MeshPlacement placement{.is_solid = true};
-    if (format == PrintFormat::obj) {
-        write_obj(meshes, placement, print, file, monitor, destination);
-    } else {
-        write_glb(meshes, placement, print, file, monitor, destination);
-    }
-    SolidReport report{0, meshes.size()};
-    for (const Mesh& mesh : meshes) report.triangles += mesh.corners.size() / 3;
-    return report;
+    return write_meshes(meshes_of(solid), {.is_solid = true}, print, format, file, monitor, destination);
 }
 
 }  // namespace sikku

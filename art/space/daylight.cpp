@@ -84,16 +84,7 @@ public:
         const float lowest = std::min({a.z, b.z, c.z}), top = std::max({a.z, b.z, c.z});
         for (int y = first; y < end; ++y) {
             const float middle = static_cast<float>(y) + 0.5F;
-            float left = 1e30F, right = -1e30F;
-            const auto cut = [&](const glm::vec3& p, const glm::vec3& q) {
-                if ((p.y <= middle) == (q.y <= middle)) return;
-                const float x = p.x + (q.x - p.x) * ((middle - p.y) / (q.y - p.y));
-                left = std::min(left, x);
-                right = std::max(right, x);
-            };
-            cut(a, b);
-            cut(b, c);
-            cut(c, a);
+            const auto [left, right] = triangle_run(a, b, c, middle);
             cover(y, left, right, [&](int x) {
                 const float height = a.z + (static_cast<float>(x) + 0.5F - a.x) * slope_x + (middle - a.y) * slope_y;
                 return static_cast<std::uint16_t>(std::clamp(height, lowest, top));

@@ -32,16 +32,6 @@ std::string one_line(std::string text) {
     return text;
 }
 
-}  // namespace
-
-std::uint32_t Mesh::add(const glm::dvec3& position, const glm::dvec3& normal) {
-    if (!(glm::length(position) < 1e30)) throw std::runtime_error("the model has corners that are not finite");
-    if (positions.size() >= UINT32_MAX - 1) throw std::runtime_error("the model has over 2^32 corners");
-    positions.emplace_back(position);
-    normals.emplace_back(glm::normalize(normal));
-    return static_cast<std::uint32_t>(positions.size() - 1);
-}
-
 void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
                const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     Pulse pulse(monitor);
@@ -95,14 +85,7 @@ void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, 
     output.commit();
 }
 
-namespace {
-
 // --- binary glTF: Khronos Group, glTF 2.0 specification, sections 3 and 4 ------------------------------------------
-
-double linear(std::uint8_t channel) {
-    const double value = channel / 255.0;
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
 
 std::string bytes_of(std::uint32_t number) {
     std::string bytes;
@@ -145,13 +128,14 @@ public:
         }
         append(primitives,
                fmt::format(R"({{"attributes":{{{}}},"indices":{},"material":{}}})", attributes, corners, meshes_++));
-        append(materials,
-               fmt::format(
-                   R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.6f},{:.6f},{:.6f},{:.6f}],)"
-                   R"("metallicFactor":0,"roughnessFactor":0.85}}{}{}}})",
-                   material_name(mesh), linear(mesh.colour.red), linear(mesh.colour.green), linear(mesh.colour.blue),
-                   mesh.colour.alpha / 255.0, mesh.two_sided ? R"(,"doubleSided":true)" : "",
-                   mesh.colour.alpha < 255 ? R"(,"alphaMode":"BLEND")" : ""));
+        append(
+            materials,
+            fmt::format(R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.6f},{:.6f},{:.6f},{:.6f}],)"
+                        R"("metallicFactor":0,"roughnessFactor":0.85}}{}{}}})",
+                        material_name(mesh), linear_light(mesh.colour.red), linear_light(mesh.colour.green),
+                        linear_light(mesh.colour.blue), mesh.colour.alpha / 255.0,
+                        mesh.two_sided ? R"(,"doubleSided":true)" : "",
+                        mesh.colour.alpha < 255 ? R"(,"alphaMode":"BLEND")" : ""));
     }
 
     std::string accessors, views, materials, primitives;
@@ -199,8 +183,6 @@ std::string node_place(const MeshPlacement& placement) {
     return R"("rotation":[-0.70710678,0,0,0.70710678],"scale":[0.001,0.001,0.001])";
 }
 
-}  // namespace
-
 void write_glb(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
                const std::filesystem::path& file, const Monitor& monitor, Destination& destination) {
     GlbLists lists;
@@ -226,11 +208,30 @@ void write_glb(const std::vector<Mesh>& meshes, const MeshPlacement& placement, 
         write_raw(output, mesh.corners, monitor);
         std::vector<glm::vec3> colours;
         for (const Colour& colour : mesh.colours) {
-            colours.emplace_back(linear(colour.red), linear(colour.green), linear(colour.blue));
+            colours.emplace_back(linear_light(colour.red), linear_light(colour.green), linear_light(colour.blue));
         }
         write_raw(output, colours, monitor);
     }
     output.commit();
+}
+
+}  // namespace
+
+std::uint32_t Mesh::add(const glm::dvec3& position, const glm::dvec3& normal) {
+    if (!(glm::length(position) < 1e30)) throw std::runtime_error("the model has corners that are not finite");
+    if (positions.size() >= UINT32_MAX - 1) throw std::runtime_error("the model has over 2^32 corners");
+    positions.emplace_back(position);
+    normals.emplace_back(glm::normalize(normal));
+    return static_cast<std::uint32_t>(positions.size() - 1);
+}
+
+ModelReport write_meshes(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
+                         PrintFormat format, const std::filesystem::path& file, const Monitor& monitor,
+                         Destination& destination) {
+    (format == PrintFormat::obj ? write_obj : write_glb)(meshes, placement, print, file, monitor, destination);
+    ModelReport report{0, meshes.size()};
+    for (const Mesh& mesh : meshes) report.triangles += mesh.corners.size() / 3;
+    return report;
 }
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 // art/space/mesh_files.h: triangles of one material each, and their files: Wavefront OBJ and binary glTF 2.0.
 #pragma once
 
+#include "art/print/format.h"
 #include "art/print/print.h"
 #include "art/style/colour.h"
 #include "engine/base/monitor.h"
@@ -37,12 +38,16 @@ struct MeshPlacement {
     bool is_solid = false;  ///< in millimetres, z up; glTF uses metres, y up
 };
 
-/// Writes a model, with its materials beside NAME.obj as NAME.mtl, which is in place first.
-/// @throws std::runtime_error if the file cannot be written; Stopped
-void write_obj(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
-               const std::filesystem::path& file, const Monitor& monitor, Destination& destination);
-/// @throws std::runtime_error if the file cannot be written, or would be over 4 GB; Stopped
-void write_glb(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
-               const std::filesystem::path& file, const Monitor& monitor, Destination& destination);
+struct ModelReport {
+    std::size_t triangles = 0;
+    std::size_t materials = 0;
+};
+
+/// Writes a model as OBJ, with its materials beside NAME.obj as NAME.mtl, which is in place first, or as glTF.
+/// @param format  obj or glb
+/// @throws std::runtime_error if the file cannot be written, or a .glb would be over 4 GB; Stopped
+ModelReport write_meshes(const std::vector<Mesh>& meshes, const MeshPlacement& placement, const Print& print,
+                         PrintFormat format, const std::filesystem::path& file, const Monitor& monitor,
+                         Destination& destination);
 
 }  // namespace sikku

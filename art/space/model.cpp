@@ -1,6 +1,5 @@
 #include "art/space/model.h"
 
-#include "art/space/mesh_files.h"
 #include "art/space/tessellation.h"
 #include "art/space/triangles.h"
 #include "engine/base/output.h"
@@ -230,16 +229,7 @@ ModelReport write_model(const Scene& scene, const Print& print, PrintFormat form
     const Modeller modeller(scene, print, monitor);
     const std::vector<Mesh>& meshes = modeller.meshes();
     if (meshes.empty()) throw std::runtime_error("nothing to model: every line and polygon lacks width and area");
-    const MeshPlacement placement{.origin = modeller.origin()};
-    if (format == PrintFormat::obj) {
-        write_obj(meshes, placement, print, file, monitor, destination);
-    } else {
-        write_glb(meshes, placement, print, file, monitor, destination);
-    }
-    ModelReport report;
-    report.materials = meshes.size();
-    for (const Mesh& mesh : meshes) report.triangles += mesh.corners.size() / 3;
-    return report;
+    return write_meshes(meshes, {.origin = modeller.origin()}, print, format, file, monitor, destination);
 }
 
 }  // namespace sikku

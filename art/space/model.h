@@ -3,6 +3,7 @@
 
 #include "art/print/format.h"
 #include "art/print/print.h"
+#include "art/space/mesh_files.h"
 #include "art/space/scene.h"
 #include "engine/base/monitor.h"
 #include "engine/base/output.h"
@@ -11,11 +12,6 @@
 #include <optional>
 
 namespace sikku {
-
-struct ModelReport {
-    std::size_t triangles = 0;
-    std::size_t materials = 0;
-};
 
 /// Writes stems as tubes of eight sides, joined where a line continues and closed at its ends, spheres, and polygons
 /// as triangles with two sides; a material for each colour, and one for polygons whose vertices have their own.

@@ -5,10 +5,27 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace sikku {
+
+/// Where the middle of a row meets a triangle; the first is larger than the second if it does not.
+template <class Point, class Number = typename Point::value_type>
+std::pair<Number, Number> triangle_run(const Point& a, const Point& b, const Point& c, Number middle) {
+    Number left = std::numeric_limits<Number>::infinity(), right = -left;
+    const auto cut = [&](const Point& p, const Point& q) {
+        if ((p.y <= middle) == (q.y <= middle)) return;
+        const Number x = p.x + (q.x - p.x) * ((middle - p.y) / (q.y - p.y));
+        left = std::min(left, x);
+        right = std::max(right, x);
+    };
+    cut(a, b);
+    cut(b, c);
+    cut(c, a);
+    return {left, right};
+}
 
 /// Calls `visit(y, from, to)` for each stretch that the outline runs around (non-zero winding rule), along the
 /// middles of the rows from `first` up to `end`. @param outline  points with x and y

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -51,17 +50,7 @@ protected:
     void each_run(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Visit&& visit) {
         const int first = row_after(std::min({a.y, b.y, c.y})), end = row_after(std::max({a.y, b.y, c.y}));
         for (int y = first; y < end; ++y) {
-            const double middle = y + 0.5;
-            double left = std::numeric_limits<double>::infinity(), right = -left;
-            const auto cut = [&](const glm::dvec3& p, const glm::dvec3& q) {
-                if ((p.y <= middle) == (q.y <= middle)) return;
-                const double x = p.x + (q.x - p.x) * ((middle - p.y) / (q.y - p.y));
-                left = std::min(left, x);
-                right = std::max(right, x);
-            };
-            cut(a, b);
-            cut(b, c);
-            cut(c, a);
+            const auto [left, right] = triangle_run(a, b, c, y + 0.5);
             const int begin = column_after(left), stop = column_after(right);
             if (begin < stop) visit(y, line(y), begin, stop);
         }

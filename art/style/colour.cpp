@@ -241,16 +241,16 @@ const std::vector<std::string_view>& colour_names() {
     return names;
 }
 
-namespace {
-
-double linear(std::uint8_t channel) {
+double linear_light(std::uint8_t channel) {
     const double value = channel / 255.0;
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
+namespace {
+
 /// CIE L*a*b* relative to the white of sRGB.
 glm::dvec3 cielab(Colour colour) {
-    const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
+    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
     const auto share = [](double value) {
         constexpr double knee = 6.0 / 29;
         return value > knee * knee * knee ? std::cbrt(value) : value / (3 * knee * knee) + 4.0 / 29;
@@ -262,7 +262,7 @@ glm::dvec3 cielab(Colour colour) {
 }
 
 glm::dvec3 oklab(Colour colour) {
-    const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
+    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
     const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
     const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
     const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);

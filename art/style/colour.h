@@ -27,6 +27,8 @@ std::string colour_name(Colour colour);
 /// Lightness of a colour: 0 for black to 1 for white; ignores alpha. Source: Ottosson, A perceptual color
 /// space for image processing (OKLab), 2020.
 double lightness(Colour colour);
+/// Linear light of a channel of sRGB (IEC 61966-2-1), 0 to 1.
+double linear_light(std::uint8_t channel);
 /// Perceived difference between two colours in OKLab: 0.02 is barely visible, 1 is black to white; ignores alpha.
 double colour_distance(Colour a, Colour b);
 

@@ -1,12 +1,11 @@
 #include "art/vector/eps.h"
 
 #include "art/print/recipe_comments.h"
-#include "art/vector/vector_writer.h"
+#include "art/vector/operator_writer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -14,30 +13,8 @@
 namespace sikku {
 namespace {
 
-constexpr double points_of_micrometre = 72.0 / 25400.0;
-constexpr std::size_t flush_bytes = std::size_t{1} << 18;
-/// Printers of level 2 support paths of 1,500 points. Cuts in lines are invisible, as caps are round and everything
-/// is opaque.
+/// Printers of level 2 support paths of 1,500 points.
 constexpr int most_path_points = 1000;
-constexpr std::size_t block_of_points = 512;
-/// Distance of the control points of a quarter circle's Bézier from its ends, in radii.
-constexpr double quarter_circle = 0.5522847498307936;
-
-inline char* put_point(char* out, Micrometres point) {
-    out = put_number(out, point.x);
-    *out++ = ' ';
-    out = put_number(out, point.y);
-    *out++ = ' ';
-    return out;
-}
-inline char* put_operator(char* out, char name) {
-    *out++ = name;
-    *out++ = '\n';
-    return out;
-}
-constexpr std::size_t point_room = 2 * number_room + 2;
-constexpr std::size_t line_room = point_room + 2;
-constexpr std::size_t curve_room = 3 * point_room + 2;
 
 /// A text of a comment: printable ASCII, at most 200 characters.
 std::string comment_text(std::string_view text) {
@@ -47,22 +24,14 @@ std::string comment_text(std::string_view text) {
     return result;
 }
 
-struct Layer : VectorLayer {
-    int points = 0;  ///< points of the open path
-};
+using Layer = OperatorLayer;
 
-void end_path(Layer& layer) {
-    if (layer.path_open) layer.text.append("S\n");
-    layer.path_open = false;
-    layer.points = 0;
-}
-
-class Writer final : public VectorWriter<Layer> {
+class Writer final : public OperatorWriter<Layer> {
 public:
-    Writer(const Print& print, Output& file) : VectorWriter(print, file) {
+    Writer(const Print& print, Output& file) : OperatorWriter(print, file, most_path_points) {
         write_head();
         write_ground(print.style.ground, window_);
-        body_begin_ = file_.size();
+        begin_layers();
     }
 
     void begin_part(const Print& part, const Window& window) override {
@@ -72,8 +41,7 @@ public:
         if (window.clips) file_.write(rectangle(window) + " rectclip\n");
         has_part_ = true;
         write_ground(part.style.ground, window);
-        body_begin_ = file_.size();
-        streaming_ = false;
+        begin_layers();
     }
 
     void finish() override {
@@ -127,180 +95,22 @@ private:
         return fmt::format("{} {} {} k", decimal(colour.red / 255.0, 4), decimal(colour.green / 255.0, 4),
                            decimal(colour.blue / 255.0, 4));
     }
-    std::string ink(Colour colour) const { return set(mixed(colour, paper_)); }
 
-    /// Writes the layers in their order.
     void end_part() {
-        std::string before;
-        bool is_behind = streaming_;
-        for (auto& [order, layer] : layers_) {
-            end_path(layer);
-            if (layer.to_file) {
-                is_behind = false;
-                file_.write(layer.text.view());
-            } else if (is_behind) {
-                before.append(layer.text.view());
-            } else {
-                file_.write(layer.text.view());
-            }
-        }
-        if (!before.empty()) file_.insert(body_begin_, before);
-        layers_.clear();
+        write_layers([](Layer& layer) { end_path(layer); });
         if (has_part_) file_.write("grestore\n");
         has_part_ = false;
         paper_ = mixed(print_.style.ground.value_or(white), white);
     }
 
-    /// The first layer of all is written to the file at once; the others wait in memory, as they may have to precede
-    /// it.
-    template <typename Label>
-    Layer& open_layer(LayerOrder order, Label&& label) {
-        const auto [found, is_new] = layers_.try_emplace(order);
-        Layer& layer = found->second;
-        if (!is_new) return layer;
-        layer.to_file = layers_.size() == 1 && file_.can_insert();
-        streaming_ = streaming_ || layer.to_file;
-        layer.text.append(fmt::format("% {}\n", label()));
-        return layer;
+    void begin_layer(Layer& layer, LayerOrder order, Colour colour) override {
+        take_layer(layer);
+        layer.text.append("% " + label_of(order, colour) + "\n");
     }
-    void flush(Layer& layer) {
-        if (!layer.to_file || layer.text.size() < flush_bytes) return;
-        file_.write(layer.text.view());
-        layer.text.clear();
-    }
-
-    /// Polygons keep their order whatever their colours, as they may cover each other.
-    Layer& polygon_layer(Colour colour) {
-        Layer& layer = open_layer({LayerKind::polygons, 0}, [] { return std::string("fills"); });
-        if (layer.run != colour) layer.text.append(ink(colour) + "\n");
-        layer.run = colour;
-        return layer;
-    }
-
-    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
-        Layer& layer = polygon_layer(colour);
-        const MicrometrePlacement place = place_;
-        bool first = true;
-        while (!vertices.empty()) {
-            const auto block = vertices.first(std::min(vertices.size(), block_of_points));
-            vertices = vertices.subspan(block.size());
-            char* out = layer.text.room(block.size() * line_room);
-            for (const glm::dvec2 vertex : block) {
-                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
-                first = false;
-            }
-            layer.text.filled_to(out);
-            flush(layer);
-        }
-        layer.text.append("f\n");
-    }
-
-    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
-        Layer& layer = polygon_layer(colour);
-        const MicrometrePlacement place = place_;
-        layer.text.filled_to(put_operator(put_point(layer.text.room(line_room), place(outline.front())), 'm'));
-        write_bezier_blocks(layer, outline.subspan(1));
-        layer.text.append("f\n");
-    }
-    void write_bezier_blocks(Layer& layer, std::span<const glm::dvec2> controls) {
-        const MicrometrePlacement place = place_;
-        while (controls.size() >= 3) {
-            const auto block = controls.first(std::min(controls.size() / 3, block_of_points) * 3);
-            controls = controls.subspan(block.size());
-            char* out = layer.text.room(block.size() / 3 * curve_room);
-            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
-                for (std::size_t k = i; k < i + 3; ++k) out = put_point(out, place(block[k]));
-                out = put_operator(out, 'c');
-            }
-            layer.text.filled_to(out);
-            flush(layer);
-        }
-    }
-
-    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
-        Layer& layer =
-            open_layer({LayerKind::discs, slot}, [&] { return fmt::format("discs {}", colour_name(colour)); });
-        if (!layer.run) layer.text.append(ink(colour) + "\n");
-        layer.run = colour;
-        const auto at = [&](double x, double y) {
-            return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
-        };
-        constexpr double k = quarter_circle;
-        const std::array<std::array<Micrometres, 3>, 4> quarters = {{{at(1, k), at(k, 1), at(0, 1)},
-                                                                     {at(-k, 1), at(-1, k), at(-1, 0)},
-                                                                     {at(-1, -k), at(-k, -1), at(0, -1)},
-                                                                     {at(k, -1), at(1, -k), at(1, 0)}}};
-        char* out = layer.text.room(6 * curve_room);
-        out = put_operator(put_point(out, at(1, 0)), 'm');
-        for (const auto& [first, second, end] : quarters) {
-            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-        }
-        out = put_operator(out, 'f');
-        layer.text.filled_to(out);
-        flush(layer);
-    }
-
-    Layer& stroke_layer() override {
-        return open_layer({LayerKind::strokes, slot_},
-                          [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
-    }
-    void write_start() override {
-        if (layer_->width != width_) {
-            end_path(*layer_);
-            if (layer_->width.empty()) layer_->text.append(ink(colour_) + "\n");
-            layer_->text.append(fmt::format("{} w\n", width_));
-            layer_->width = width_;
-        }
-        layer_->path_open = true;
-        put(here_, 'm');
-    }
-    void put(Micrometres point, char name) {
-        char* out = layer_->text.room(line_room);
-        layer_->text.filled_to(put_operator(put_point(out, point), name));
-    }
-    void write_lines(std::span<const glm::dvec2> ends) override {
-        char* out = layer_->text.room(ends.size() * line_room);
-        const MicrometrePlacement place = place_;
-        for (const glm::dvec2 point : ends) {
-            const Micrometres next = place(point);
-            if (next == here_) continue;
-            here_ = next;
-            out = put_operator(put_point(out, next), 'l');
-        }
-        layer_->text.filled_to(out);
-    }
-    void write_curves(std::span<const glm::dvec2> controls) override {
-        char* out = layer_->text.room(controls.size() / 3 * curve_room);
-        const MicrometrePlacement place = place_;
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const Micrometres first = place(controls[i]), second = place(controls[i + 1]),
-                              end = place(controls[i + 2]);
-            if (first == here_ && second == here_ && end == here_) continue;
-            here_ = end;
-            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-        }
-        layer_->text.filled_to(out);
-    }
-    void end_block(std::size_t points, std::size_t) override {
-        layer_->points += static_cast<int>(points);
-        if (layer_->points > most_path_points) {
-            end_piece(false);
-            end_path(*layer_);
-        }
-        flush(*layer_);
-    }
-    void write_end(bool closed) override {
-        // A line without length: the round caps make it a dot.
-        if (!drawn_) put(here_, 'l');
-        if (closed) layer_->text.append("h\n");
-        layer_->points += 1;
-        if (layer_->points > most_path_points) end_path(*layer_);
-    }
+    std::string ink_of(LayerKind, Colour colour) override { return set(mixed(colour, paper_)); }
 
     static constexpr Colour white{255, 255, 255, 255};
-    Colour paper_ = white;          ///< colour with which translucent colours are mixed
-    std::uint64_t body_begin_ = 0;  ///< position at which the layers of the part begin
-    bool streaming_ = false;        ///< a layer of the part went to the file
+    Colour paper_ = white;  ///< colour with which translucent colours are mixed
     bool has_part_ = false;
 };
 

@@ -1,9 +1,9 @@
 #include "art/vector/pdf.h"
 
 #include "art/print/tile_kinds.h"
+#include "art/vector/operator_writer.h"
 #include "art/vector/pdf_text.h"
 #include "art/vector/pdf_x.h"
-#include "art/vector/vector_writer.h"
 #include "engine/base/deflate.h"
 #include "engine/base/hash.h"
 
@@ -24,17 +24,12 @@
 namespace sikku {
 namespace {
 
-constexpr double points_of_micrometre = 72.0 / 25400.0;
 constexpr double mark_width = 0.25;     // points
 constexpr double most_units = 14400.0;  // maximum side of a page, in its units: ISO 32000-1, annex C
 
-constexpr std::size_t pack_bytes = std::size_t{1} << 18;
-/// Points of a path that are painted at once, since readers keep a whole path in memory. Cuts are invisible, as caps
-/// are round and a translucent layer is painted as a group.
+constexpr std::size_t pack_bytes = std::size_t{1} << 16;
+/// Readers keep a whole path in memory.
 constexpr int most_path_points = 8192;
-
-/// Distance of the control points of a quarter circle's Bézier from its ends, in radii.
-constexpr double quarter_circle = 0.5522847498307936;
 
 /// Compresses pieces of streams separately, so that one compressor serves any number of streams at once.
 class Deflater {
@@ -55,9 +50,9 @@ public:
         stream_.avail_in = static_cast<uInt>(text.size());
         do {
             const std::size_t size = packed.size();
-            packed.resize(size + pack_bytes / 4);
+            packed.resize(size + pack_bytes);
             stream_.next_out = reinterpret_cast<Bytef*>(packed.data() + size);
-            stream_.avail_out = static_cast<uInt>(pack_bytes / 4);
+            stream_.avail_out = static_cast<uInt>(pack_bytes);
             deflate(&stream_, Z_FULL_FLUSH);
             packed.resize(packed.size() - stream_.avail_out);
         } while (stream_.avail_out == 0);
@@ -67,25 +62,7 @@ private:
     z_stream stream_{};
 };
 
-inline char* put_point(char* out, Micrometres point) {
-    out = put_number(out, point.x);
-    *out++ = ' ';
-    out = put_number(out, point.y);
-    *out++ = ' ';
-    return out;
-}
-
-inline char* put_operator(char* out, char name) {
-    *out++ = name;
-    *out++ = '\n';
-    return out;
-}
-
-constexpr std::size_t point_room = 2 * number_room + 2;
-constexpr std::size_t line_room = point_room + 2;
-constexpr std::size_t curve_room = 3 * point_room + 2;
-
-struct Layer : VectorLayer {
+struct Layer : OperatorLayer {
     std::string label;
     int stream = 0;            ///< number of the object with the drawing
     int length = 0;            ///< number of the object with its length, unless known in advance
@@ -95,14 +72,7 @@ struct Layer : VectorLayer {
     std::string packed;
     std::uint64_t packed_bytes = 0;  ///< including those in the file
     uLong checksum = 1;              ///< Adler-32
-    int points = 0;                  ///< points of the open path
 };
-
-void end_path(Layer& layer) {
-    if (layer.path_open) layer.text.append("S\n");
-    layer.path_open = false;
-    layer.points = 0;
-}
 
 /// Appends an empty last block, and the checksum.
 void end_packed(Layer& layer) {
@@ -111,10 +81,13 @@ void end_packed(Layer& layer) {
     layer.packed_bytes += 6;
 }
 
-class Writer final : public VectorWriter<Layer, PagesWriter> {
+class Writer final : public OperatorWriter<Layer, PagesWriter> {
 public:
     Writer(const Print& print, Output& file)
-        : VectorWriter(print, file), colours_(print.press), size_(print.page), edge_(press_edge(print.press)) {
+        : OperatorWriter(print, file, most_path_points),
+          colours_(print.press),
+          size_(print.page),
+          edge_(press_edge(print.press)) {
         const double longest =
             (std::max(print.page.width, print.page.height) + 2 * edge_) * 1000.0 * points_of_micrometre;
         unit_ = std::max(1.0, std::ceil(longest / most_units));
@@ -170,12 +143,11 @@ private:
         // An object that is under way in the file ends before the next begins.
         for (auto& [order, layer] : layers_) {
             if (!layer.to_file) continue;
-            pack(layer, 0);
+            pack(layer);
             end_packed(layer);
             write(layer.packed);
             write("\nendstream\nendobj\n");
-            begin_object(layer.length);
-            write(fmt::format("{}\nendobj\n", layer.packed_bytes));
+            write_object(layer.length, fmt::format("{}", layer.packed_bytes));
         }
         std::string groups, order_of_groups;
         if (part_ == &print_) begin_art();
@@ -183,26 +155,22 @@ private:
         if (window_.clips) paint(write_plain_stream(fmt::format("q {} W n\n", area)));
         if (const auto& ground = part_->style.ground; ground && ground->alpha > 0) {
             const int group = new_object();
-            write_group(group, "ground");
-            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
-            fmt::format_to(std::back_inserter(groups), " {} 0 R", group);
-            order_of_groups = groups;
+            order_of_groups = groups = write_group(group, "ground");
             paint(write_plain_stream(fmt::format("/OC /G{} BDC q {} {} {} f Q EMC\n", group,
                                                  ink(*ground, false, false), set_alpha(ground->alpha), area)));
         }
         for (auto& [order, layer] : layers_) {
             if (!layer.to_file) {
-                pack(layer, 0);
+                pack(layer);
                 end_packed(layer);
                 begin_object(layer.stream);
                 write(stream_head(layer, fmt::format("{}", layer.packed_bytes)));
                 write(layer.packed);
                 write("\nendstream\nendobj\n");
             }
-            write_group(layer.group, layer.label);
-            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", layer.group, layer.group);
-            fmt::format_to(std::back_inserter(groups), " {} 0 R", layer.group);
-            fmt::format_to(std::back_inserter(order_of_groups), " {} 0 R", layer.group);
+            const std::string reference = write_group(layer.group, layer.label);
+            groups += reference;
+            order_of_groups += reference;
             if (order.first == LayerKind::polygons && !kind_groups_.empty()) {
                 const std::string kinds = write_kinds();
                 groups += kinds;
@@ -244,10 +212,7 @@ private:
     std::string write_kinds() {
         std::string references;
         for (std::size_t i = 0; i < kind_groups_.size(); ++i) {
-            const int group = kind_groups_[i];
-            write_group(group, kinds_.kinds()[i].label());
-            fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
-            fmt::format_to(std::back_inserter(references), " {} 0 R", group);
+            references += write_group(kind_groups_[i], kinds_.kinds()[i].label());
         }
         kind_groups_.clear();
         kinds_ = {};
@@ -298,10 +263,9 @@ private:
             }
         }
         const int group = new_object();
-        write_group(group, "marks");
-        fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", group, group);
-        fmt::format_to(std::back_inserter(groups_), " {} 0 R", group);
-        fmt::format_to(std::back_inserter(order_), " {} 0 R", group);
+        const std::string reference = write_group(group, "marks");
+        groups_ += reference;
+        order_ += reference;
         paint(write_plain_stream(fmt::format("Q /OC /G{} BDC q /Registration CS 1 SCN {} S Q EMC\n", group, text)));
     }
 
@@ -324,6 +288,16 @@ private:
     void begin_object(int number) {
         offsets_[static_cast<std::size_t>(number) - 1] = file_.size();
         write(fmt::format("{} 0 obj\n", number));
+    }
+    void write_object(int number, std::string_view contents) {
+        begin_object(number);
+        write(contents);
+        write("\nendobj\n");
+    }
+    int write_object(std::string_view contents) {
+        const int number = new_object();
+        write_object(number, contents);
+        return number;
     }
 
     /// Converts millimetres to units of the page.
@@ -412,14 +386,10 @@ private:
 
     /// The first layer of all is written to the file at once, the others wait in memory. One whose `colour` is
     /// translucent is painted as a whole, so that nothing darkens where it overlaps or where paths are cut.
-    template <typename Label>
-    Layer& open_layer(LayerOrder order, Colour colour, Label&& label) {
-        const auto [found, is_new] = layers_.try_emplace(order);
-        Layer& layer = found->second;
-        if (!is_new) return layer;
-        layer.label = label();
-        layer.colour = colour;
-        layer.translucent = colour.alpha != 255;
+    void begin_layer(Layer& layer, LayerOrder order, Colour colour) override {
+        layer.label = label_of(order, colour);
+        layer.colour = order.first == LayerKind::polygons ? Colour{} : colour;
+        layer.translucent = layer.colour.alpha != 255;
         layer.stream = new_object();
         layer.group = new_object();
         layer.packed = "\x78\x9C";
@@ -432,152 +402,21 @@ private:
         }
         if (!layer.translucent) layer.text.append(fmt::format("/OC /G{} BDC\n", layer.group));
         layer.text.append(fmt::format("q {} 1 J 1 j\n", matrix()));
-        return layer;
+    }
+    std::string ink_of(LayerKind kind, Colour colour) override {
+        const std::string text = ink(colour, kind == LayerKind::strokes, kind != LayerKind::polygons);
+        return kind == LayerKind::polygons ? text + " " + set_alpha(colour.alpha) : text;
+    }
+    void begin_polygon(Layer& layer, std::span<const glm::dvec2> vertices, Colour colour) override {
+        if (!print_.names_tiles) return;
+        show_kind(layer, vertices.empty() ? no_kind : kinds_.kind_of(vertices, colour));
     }
 
-    /// Polygons keep their order whatever their colours, as they may cover each other.
-    Layer& polygon_layer(Colour colour) {
-        Layer& layer = open_layer({LayerKind::polygons, 0}, Colour{}, [] { return std::string("fills"); });
-        if (layer.run != colour) {
-            layer.text.append(fmt::format("{} {}\n", ink(colour, false, false), set_alpha(colour.alpha)));
-            layer.run = colour;
-        }
-        return layer;
+    void flush(Layer& layer) override {
+        if (layer.text.size() >= flush_bytes) pack(layer);
     }
-
-    void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
-        Layer& layer = polygon_layer(colour);
-        if (print_.names_tiles) show_kind(layer, kinds_.kind_of(vertices, colour));
-        const MicrometrePlacement place = place_;
-        bool first = true;
-        while (!vertices.empty()) {
-            const auto block = vertices.first(std::min(vertices.size(), block_points));
-            vertices = vertices.subspan(block.size());
-            char* out = layer.text.room(block.size() * line_room);
-            for (const glm::dvec2 vertex : block) {
-                out = put_operator(put_point(out, place(vertex)), first ? 'm' : 'l');
-                first = false;
-            }
-            layer.text.filled_to(out);
-            pack(layer, pack_bytes);
-        }
-        layer.text.append("f\n");
-    }
-
-    void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
-        Layer& layer = polygon_layer(colour);
-        show_kind(layer, no_kind);
-        const MicrometrePlacement place = place_;
-        layer.text.filled_to(put_operator(put_point(layer.text.room(line_room), place(outline.front())), 'm'));
-        outline = outline.subspan(1);
-        while (outline.size() >= 3) {
-            const auto block = outline.first(std::min(outline.size() / 3, block_points) * 3);
-            outline = outline.subspan(block.size());
-            char* out = layer.text.room(block.size() / 3 * curve_room);
-            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
-                for (std::size_t k = i; k < i + 3; ++k) out = put_point(out, place(block[k]));
-                out = put_operator(out, 'c');
-            }
-            layer.text.filled_to(out);
-            pack(layer, pack_bytes);
-        }
-        layer.text.append("f\n");
-    }
-
-    void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
-        Layer& layer = open_layer({LayerKind::discs, slot}, colour,
-                                  [&] { return fmt::format("discs {}", colour_name(colour)); });
-        if (!layer.run) layer.text.append(ink(colour, false, true) + "\n");
-        layer.run = colour;
-        const auto at = [&](double x, double y) {
-            return Micrometres{to_whole(centre.x + radius * x), to_whole(centre.y + radius * y)};
-        };
-        constexpr double k = quarter_circle;
-        char* out = layer.text.room(6 * curve_room);
-        out = put_operator(put_point(out, at(1, 0)), 'm');
-        const auto curve = [&](Micrometres first, Micrometres second, Micrometres end) {
-            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-        };
-        curve(at(1, k), at(k, 1), at(0, 1));
-        curve(at(-k, 1), at(-1, k), at(-1, 0));
-        curve(at(-1, -k), at(-k, -1), at(0, -1));
-        curve(at(k, -1), at(1, -k), at(1, 0));
-        out = put_operator(out, 'f');
-        layer.text.filled_to(out);
-        pack(layer, pack_bytes);
-    }
-
-    Layer& stroke_layer() override {
-        return open_layer({LayerKind::strokes, slot_}, colour_,
-                          [&] { return fmt::format("{} {}", slot_ + 1, colour_name(colour_)); });
-    }
-
-    void write_start() override {
-        if (layer_->width != width_) {
-            end_path(*layer_);
-            if (layer_->width.empty()) layer_->text.append(ink(colour_, true, true) + "\n");
-            layer_->text.append(fmt::format("{} w\n", width_));
-            layer_->width = width_;
-        }
-        layer_->path_open = true;
-        put(here_, 'm');
-    }
-
-    void put(Micrometres point, char name) {
-        char* out = layer_->text.room(line_room);
-        layer_->text.filled_to(put_operator(put_point(out, point), name));
-    }
-
-    void write_lines(std::span<const glm::dvec2> ends) override {
-        char* out = layer_->text.room(ends.size() * line_room);
-        Micrometres here = here_;
-        const MicrometrePlacement place = place_;
-        for (const glm::dvec2 point : ends) {
-            const Micrometres next = place(point);
-            if (next == here) continue;
-            here = next;
-            out = put_operator(put_point(out, next), 'l');
-        }
-        here_ = here;
-        layer_->text.filled_to(out);
-    }
-
-    void write_curves(std::span<const glm::dvec2> controls) override {
-        char* out = layer_->text.room(controls.size() / 3 * curve_room);
-        Micrometres here = here_;
-        const MicrometrePlacement place = place_;
-        for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const Micrometres first = place(controls[i]);
-            const Micrometres second = place(controls[i + 1]);
-            const Micrometres end = place(controls[i + 2]);
-            if (first == here && second == here && end == here) continue;
-            here = end;
-            out = put_operator(put_point(put_point(put_point(out, first), second), end), 'c');
-        }
-        here_ = here;
-        layer_->text.filled_to(out);
-    }
-
-    void end_block(std::size_t points, std::size_t) override {
-        layer_->points += static_cast<int>(points);
-        if (layer_->points > most_path_points) {
-            end_piece(false);
-            end_path(*layer_);
-        }
-        pack(*layer_, pack_bytes);
-    }
-
-    void write_end(bool closed) override {
-        // A line without length: the round caps make it a dot.
-        if (!drawn_) put(here_, 'l');
-        if (closed) layer_->text.append("h\n");
-        layer_->points += 1;
-        if (layer_->points > most_path_points) end_path(*layer_);
-    }
-
-    /// Compresses the text of the layer if it is at least `least` bytes.
-    void pack(Layer& layer, std::size_t least) {
-        if (layer.text.size() < least) return;
+    /// Compresses the text of the layer.
+    void pack(Layer& layer) {
         const std::string_view text = layer.text.view();
         const std::size_t before = layer.packed.size();
         layer.checksum = adler32_z(layer.checksum, reinterpret_cast<const Bytef*>(text.data()), text.size());
@@ -594,15 +433,14 @@ private:
     }
 
     int write_plain_stream(const std::string& text) {
-        const int number = new_object();
-        begin_object(number);
-        write(fmt::format("<< /Length {} >>\nstream\n{}endstream\nendobj\n", text.size(), text));
-        return number;
+        return write_object(fmt::format("<< /Length {} >>\nstream\n{}endstream", text.size(), text));
     }
 
-    void write_group(int number, std::string_view label) {
-        begin_object(number);
-        write(fmt::format("<< /Type /OCG /Name {} >>\nendobj\n", text_string(label)));
+    /// Writes an optional content group; returns the reference to it.
+    std::string write_group(int number, std::string_view label) {
+        write_object(number, fmt::format("<< /Type /OCG /Name {} >>", text_string(label)));
+        fmt::format_to(std::back_inserter(properties_), "/G{} {} 0 R\n", number, number);
+        return fmt::format(" {} 0 R", number);
     }
 
     void write_structure() {
@@ -631,16 +469,15 @@ private:
         const bool has_group = !alphas_.empty() && spots_.empty() && !has_marks();
         std::string kids;
         for (const PageEntry& page : entries_) {
-            begin_object(page.object);
-            write(
-                fmt::format("<< /Type /Page /Parent {} 0 R\n{}{}{}/Resources {} 0 R\n/Contents [{} ] >>\nendobj\n",
-                            pages_, page.boxes, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
+            write_object(
+                page.object,
+                fmt::format("<< /Type /Page /Parent {} 0 R\n{}{}{}/Resources {} 0 R\n/Contents [{} ] >>", pages_,
+                            page.boxes, unit_ > 1.0 ? fmt::format("/UserUnit {}\n", decimal(unit_, 4)) : "",
                             has_group ? fmt::format("/Group << /S /Transparency /CS /{} >>\n", colours_.space()) : "",
                             resources_, page.contents));
             fmt::format_to(std::back_inserter(kids), "{}{} 0 R", kids.empty() ? "" : " ", page.object);
         }
-        begin_object(pages_);
-        write(fmt::format("<< /Type /Pages /Kids [{}] /Count {} >>\nendobj\n", kids, entries_.size()));
+        write_object(pages_, fmt::format("<< /Type /Pages /Kids [{}] /Count {} >>", kids, entries_.size()));
         const std::string title = print_.title.empty() && print_.press.inks ? "Sikku" : print_.title;
         const std::string id = print_.press.inks ? identifier() : "";
         const std::string press = print_.press.inks ? write_press(title, id) : "";
@@ -682,22 +519,16 @@ private:
         const PressInks& inks = *print_.press.inks;
         const std::string packed =
             deflated({reinterpret_cast<const char*>(inks.profile.data()), inks.profile.size()}, Deflate::zlib);
-        const int profile = new_object();
-        begin_object(profile);
-        write(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()));
-        write(packed);
-        write("\nendstream\nendobj\n");
-        const int intent = new_object();
-        begin_object(intent);
-        write(
-            fmt::format("<< /Type /OutputIntent /S /GTS_PDFX /OutputConditionIdentifier {} /Info {} "
-                        "/DestOutputProfile {} 0 R >>\nendobj\n",
-                        text_string(inks.name), text_string(inks.name), profile));
+        const int profile =
+            write_object(fmt::format("<< /N 4 /Length {} /Filter /FlateDecode >>\nstream\n", packed.size()) + packed +
+                         "\nendstream");
+        const int intent =
+            write_object(fmt::format("<< /Type /OutputIntent /S /GTS_PDFX /OutputConditionIdentifier {} /Info {} "
+                                     "/DestOutputProfile {} 0 R >>",
+                                     text_string(inks.name), text_string(inks.name), profile));
         const std::string packet = pdf_x_metadata(title, id);
-        const int metadata = new_object();
-        begin_object(metadata);
-        write(fmt::format("<< /Type /Metadata /Subtype /XML /Length {} >>\nstream\n{}endstream\nendobj\n",
-                          packet.size(), packet));
+        const int metadata = write_object(fmt::format(
+            "<< /Type /Metadata /Subtype /XML /Length {} >>\nstream\n{}endstream", packet.size(), packet));
         return fmt::format("/Metadata {} 0 R\n/OutputIntents [{} 0 R]\n", metadata, intent);
     }
 

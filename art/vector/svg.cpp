@@ -25,7 +25,6 @@ namespace {
 constexpr std::uint64_t most_path_bytes = 3'900'000;
 constexpr std::uint64_t long_path_region = 3'000'000;
 constexpr std::uint64_t late_path_bytes = 32'000;
-constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 /// The first strokes of a layer are paths of their own, so that they can be selected one by one; among very many the
 /// short ones share paths of about this size.
 constexpr int single_strokes = 256;
@@ -107,7 +106,6 @@ double curve_length(const std::array<glm::dvec2, 4>& b) {
 }
 
 struct Layer : VectorLayer {
-    std::uint64_t flushed = 0;     ///< bytes of its text that were written to the file
     std::uint64_t path_begin = 0;  ///< position() of the open path's attribute d
     std::string path_width;        ///< stroke-width of the open path
     Micrometres at;                ///< end of the open path
@@ -137,7 +135,8 @@ class Writer final : public VectorWriter<Layer> {
 public:
     Writer(const Print& print, Output& file) : VectorWriter(print, file) {
         write_head();
-        body_begin_ = written_ = file_.size();
+        written_ = file_.size();
+        begin_layers();
     }
 
     void begin_part(const Print& part, const Window& window) override {
@@ -154,8 +153,7 @@ public:
         moved_ = 0;
         write_ground(part.style.ground, box);
         take_part(part, window);
-        body_begin_ = file_.size();
-        streaming_ = false;
+        begin_layers();
     }
 
     void finish() override {
@@ -167,26 +165,13 @@ public:
     }
 
 private:
-    /// Writes the layers in their order.
     void end_part() {
-        std::string before;
-        const Layer* streamed = nullptr;
-        for (auto& [order, layer] : layers_) {
+        write_layers([](Layer& layer) {
             end_path(layer);
             if (layer.run) layer.text.append("</g>\n");
             layer.text.append("</g>\n");
-            if (layer.to_file) {
-                streamed = &layer;
-                file_.write(layer.text.view());
-            } else if (!streamed && streaming_) {
-                before.append(layer.text.view());
-            } else {
-                file_.write(layer.text.view());
-            }
-        }
+        });
         if (parts_ > 0) file_.write("</g>\n");
-        if (!before.empty()) file_.insert(body_begin_, before);
-        layers_.clear();
     }
 
     static char* put_text(char* out, std::string_view text) {
@@ -262,36 +247,34 @@ private:
         return part_->lesson && slot_ >= part_->lesson->first_new && slot_ <= part_->lesson->last_new;
     }
 
-    struct LayerText {
-        std::string label;
-        std::string attributes;
-    };
-
-    /// The layer of that order, begun with its group on first use. The first layer of all is written to the file at
-    /// once; the others wait in memory, as they may have to precede it.
-    template <typename Text>
-    Layer& open_layer(LayerOrder order, Text&& text) {
+    /// The layer of that order, begun with its group on first use. @param attributes  returns those of the group
+    template <typename Attributes>
+    Layer& open_layer(LayerOrder order, Colour colour, Attributes&& attributes) {
         const auto [found, is_new] = layers_.try_emplace(order);
         Layer& layer = found->second;
-        if (is_new) {
-            layer.to_file = layers_.size() == 1 && file_.can_insert();
-            streaming_ = streaming_ || layer.to_file;
-            const LayerText is = text();
-            const PartMotion* motion = part_->motion;
-            const std::string_view moves = !motion                              ? std::string_view()
-                                           : order.first == LayerKind::polygons ? std::string_view(motion->polygons)
-                                                                                : std::string_view(motion->lines);
-            layer.text.append(
-                fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
-                            "transform=\"scale(0.001)\"{}{}>\n",
-                            is.label, is.attributes, moves));
-        }
+        if (!is_new) return layer;
+        take_layer(layer);
+        const PartMotion* motion = part_->motion;
+        const std::string_view moves = !motion                              ? std::string_view()
+                                       : order.first == LayerKind::polygons ? std::string_view(motion->polygons)
+                                                                            : std::string_view(motion->lines);
+        layer.text.append(
+            fmt::format("<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" "
+                        "transform=\"scale(0.001)\"{}{}>\n",
+                        name_of(order, colour), attributes(), moves));
         return layer;
+    }
+
+    std::string name_of(LayerOrder order, Colour colour) const {
+        if (order.first != LayerKind::strokes) return label_of(order, colour);
+        if (order.second == print_.travel_colour) return "% travel";
+        const auto name = print_.layer_names.find(order.second);
+        return name != print_.layer_names.end() ? name->second : label_of(order, colour);
     }
 
     /// Polygons keep their order whatever their colours, as they may cover each other.
     Layer& polygon_run(Colour colour) {
-        Layer& layer = open_layer({LayerKind::polygons, 0}, [] { return LayerText{"fills", ""}; });
+        Layer& layer = open_layer({LayerKind::polygons, 0}, colour, [] { return ""; });
         if (layer.run != colour) {
             if (layer.run) layer.text.append("</g>\n");
             layer.text.append(group_of(colour));
@@ -374,9 +357,8 @@ private:
     }
 
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
-        Layer& layer = open_layer({LayerKind::discs, slot}, [&] {
-            return LayerText{fmt::format("discs {}", colour_name(colour)),
-                             fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour))};
+        Layer& layer = open_layer({LayerKind::discs, slot}, colour, [&] {
+            return fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour));
         });
         layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", centre.x, centre.y,
                                       decimal(std::min(radius, 1e9), 1)));
@@ -385,15 +367,11 @@ private:
 
     Layer& stroke_layer() override {
         // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
-        Layer& layer = open_layer({LayerKind::strokes, slot_}, [&] {
-            const auto name = print_.layer_names.find(slot_);
-            return LayerText{slot_ == print_.travel_colour ? std::string("% travel")
-                             : name != print_.layer_names.end()
-                                 ? name->second
-                                 : fmt::format("{} {}", slot_ + 1, colour_name(colour_)),
-                             fmt::format(" fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
-                                         "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                                         hex(colour_), opacity("opacity", colour_), width_)};
+        Layer& layer = open_layer({LayerKind::strokes, slot_}, colour_, [&] {
+            return fmt::format(
+                " fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
+                "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                hex(colour_), opacity("opacity", colour_), width_);
         });
         if (layer.width.empty()) layer.width = width_;
         return layer;
@@ -508,16 +486,7 @@ private:
         }
     }
 
-    void flush(Layer& layer) {
-        if (!layer.to_file || layer.text.size() < flush_bytes) return;
-        file_.write(layer.text.view());
-        layer.flushed += layer.text.size();
-        layer.text.clear();
-    }
-
-    std::uint64_t body_begin_ = 0;  ///< where layers begin in the file
-    std::uint64_t written_ = 0;     ///< bytes of the head and of path data, of all layers
-    bool streaming_ = false;
+    std::uint64_t written_ = 0;  ///< bytes of the head and of path data, of all layers
     int parts_ = 0;
     std::optional<LessonPart> lesson_;  ///< the last one
     bool has_falling_ = false;          ///< pieces of lines drawn by hand

@@ -25,6 +25,7 @@ using LayerOrder = std::pair<LayerKind, int>;
 struct VectorLayer {
     TextBuffer text;
     bool to_file = false;       ///< the text is written to the file at once, instead of waiting in memory
+    std::uint64_t flushed = 0;  ///< bytes of the text that were written to the file
     bool path_open = false;     ///< strokes are being added to a path
     std::string width;          ///< width of lines set last
     std::optional<Colour> run;  ///< colour of polygons or discs set last
@@ -75,6 +76,7 @@ public:
 
 protected:
     static constexpr std::size_t block_points = 1024;
+    static constexpr std::size_t flush_bytes = std::size_t{1} << 18;
 
     VectorWriter(const Print& print, Output& file)
         : print_(print),
@@ -95,6 +97,46 @@ protected:
         layers_.clear();
         layer_ = nullptr;
         pen_.reset();
+    }
+
+    /// Begins the layers of a part. The first one of all is written to the file at once; the others wait in memory,
+    /// as they may have to precede it.
+    void begin_layers() {
+        body_begin_ = file_.size();
+        streaming_ = false;
+    }
+    void take_layer(Layer& layer) {
+        layer.to_file = layers_.size() == 1 && file_.can_insert();
+        streaming_ = streaming_ || layer.to_file;
+    }
+    /// Passes on the text of a layer when there is enough of it.
+    virtual void flush(Layer& layer) {
+        if (!layer.to_file || layer.text.size() < flush_bytes) return;
+        file_.write(layer.text.view());
+        layer.flushed += layer.text.size();
+        layer.text.clear();
+    }
+    /// Writes the layers of a part in their order, each after `end(layer)`.
+    template <class End>
+    void write_layers(End&& end) {
+        std::string before;
+        for (auto& [order, layer] : layers_) {
+            end(layer);
+            streaming_ = streaming_ && !layer.to_file;
+            if (streaming_) {
+                before.append(layer.text.view());
+            } else {
+                file_.write(layer.text.view());
+            }
+        }
+        if (!before.empty()) file_.insert(body_begin_, before);
+        layers_.clear();
+    }
+
+    static std::string label_of(LayerOrder order, Colour colour) {
+        if (order.first == LayerKind::polygons) return "fills";
+        return (order.first == LayerKind::discs ? "discs" : std::to_string(order.second + 1)) + " " +
+               colour_name(colour);
     }
 
     /// Ends the piece drawn with the current pen, if any.
@@ -181,6 +223,8 @@ private:
         write_start();
     }
 
+    std::uint64_t body_begin_ = 0;  ///< position at which the layers of the part begin
+    bool streaming_ = false;        ///< a layer of the part went to the file
     std::vector<int> line_slots_;
     std::vector<int> fill_slots_;
     std::optional<Pen> pen_;
