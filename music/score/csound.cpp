@@ -2,6 +2,7 @@
 
 #include "music/score/comments.h"
 #include "music/score/glides.h"
+#include "music/score/note_order.h"
 
 #include <fmt/format.h>
 
@@ -72,9 +73,7 @@ void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64
         instruments.insert(instruments.end(), static_cast<std::size_t>(std::max(head.parts[i].voices, 0)),
                            static_cast<int>(i) + 1);
     }
-    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
-        return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-    });
+    sort_by_time(notes);
     std::string text = tempo_statement(head, curves, end);
     const bool glides = has_glides(notes);
     const bool is_panned = has_pan(curves) || glides;

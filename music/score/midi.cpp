@@ -8,6 +8,7 @@
 #include "music/score/midi_conductor.h"
 #include "music/score/midi_voice.h"
 #include "music/score/mpe.h"
+#include "music/score/note_order.h"
 
 #include <fmt/format.h>
 
@@ -149,9 +150,7 @@ private:
 
     /// Channels are distributed in the order of onsets.
     void write_collected() {
-        std::stable_sort(collected_.begin(), collected_.end(), [](const Note& a, const Note& b) {
-            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-        });
+        sort_by_time(collected_);
         MpeChannels distribution;
         std::array<int, channels> programs{};
         programs.fill(-1);

@@ -3,6 +3,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "music/score/glides.h"
+#include "music/score/note_order.h"
 
 #include <embedded/music_page.h>
 #include <fmt/format.h>
@@ -114,9 +115,7 @@ struct Melody {
 Melody survey(const std::vector<Note>& notes, std::int64_t end) {
     Melody melody;
     melody.notes = notes;
-    std::stable_sort(melody.notes.begin(), melody.notes.end(), [](const Note& a, const Note& b) {
-        return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-    });
+    sort_by_time(melody.notes);
     melody.end = std::max<std::int64_t>(end, 1);
     if (notes.empty()) return melody;
     constexpr double infinity = std::numeric_limits<double>::infinity();
