@@ -3,6 +3,7 @@
 #include "music/score/comments.h"
 #include "music/score/glides.h"
 #include "music/score/note_order.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -19,10 +20,7 @@ namespace {
 
 /// A number with at most six decimals.
 std::string number(double value) {
-    std::string text = fmt::format("{:.6f}", value);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
+    return sikku::number(value, 6);
 }
 
 double quarters(std::int64_t ticks) {
