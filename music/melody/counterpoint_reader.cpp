@@ -156,17 +156,9 @@ private:
         const bool is_upper = &voice == &voices_[0];
         const int loud = loudness(melody_, voice.turned, static_cast<double>(time_ - voice.onset), stack_.depth(),
                                   ticks(voice.onset));
-        emitter_.level = voice.level;
-        emitter_.emphasis.is_accented = clock_.is_accented(voice.onset);
-        Shaper::Draft draft;
-        draft.degree = voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_);
-        draft.onset = ticks(voice.onset);
-        draft.end = clock_.end_ticks(time_);
-        draft.velocity = loud + (is_upper ? 8 : -8);
-        draft.from = voice.from;
-        draft.to = here_;
-        draft.symbol = voice.symbol;
-        emitter_.note(voice.line, draft);
+        const std::int64_t degree = voice.sounding - voice.origin / 2 - (is_upper ? 0 : lower_);
+        const Sound sound{loud + (is_upper ? 8 : -8), voice.level, voice.from, here_, voice.symbol};
+        emitter_.note(voice.line, this->draft_of(degree, voice.onset, time_, sound));
         voice.sounding = unknown;
     }
 

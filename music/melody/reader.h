@@ -137,6 +137,14 @@ enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, l
 /// The kind of each symbol. @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
 std::vector<Kind> kinds_of(const Grammar& grammar, const Marks& marks, bool moves_sound);
 
+/// How a note sounds, and where it comes from: see Note.
+struct Sound {
+    int velocity;
+    int level;
+    glm::dvec2 from, to;
+    std::uint64_t symbol;
+};
+
 /// The common state of all readers. Times are counted in steps of the turtle.
 template <class Walk>
 class TimedReader : public Reader {
@@ -156,6 +164,21 @@ protected:
     std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
     /// Position of the symbol in the word for Note::symbol; 0 after parts that were skipped.
     std::uint64_t counted(std::uint64_t symbol) const { return is_counted_ ? symbol : 0; }
+
+    /// A note from one step to another, with its accent.
+    Shaper::Draft draft_of(std::int64_t degree, Number onset, Number end, const Sound& sound) const {
+        emitter_.level = sound.level;
+        emitter_.emphasis = {clock_.is_accented(onset)};
+        Shaper::Draft draft;
+        draft.degree = degree;
+        draft.onset = ticks(onset);
+        draft.end = clock_.end_ticks(end);
+        draft.velocity = sound.velocity;
+        draft.from = sound.from;
+        draft.to = sound.to;
+        draft.symbol = sound.symbol;
+        return draft;
+    }
 
     /// Ends the phrases that are due in the first voices, and takes their breath.
     void end_phrases(int voices, Number now) {

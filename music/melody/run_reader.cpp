@@ -353,17 +353,9 @@ private:
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
         if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
-        emitter_.level = note.level;
-        emitter_.emphasis.is_accented = clock_.is_accented(note.onset);
         const auto origin = static_cast<Number>(origin_.y);
-        Shaper::Draft draft;
-        draft.degree = Walk::degree(note.twice - origin);
-        draft.onset = ticks(note.onset);
-        draft.end = clock_.end_ticks(note.end);
-        draft.velocity = note.velocity;
-        draft.from = note.from;
-        draft.to = note.to;
-        draft.symbol = note.symbol;
+        Shaper::Draft draft = this->draft_of(Walk::degree(note.twice - origin), note.onset, note.end,
+                                             {note.velocity, note.level, note.from, note.to, note.symbol});
         if (note.glide <= 0) return emitter_.note(state_.line, draft);
         draft.goal = Walk::degree(note.goal_twice - origin);
         draft.glide = std::max<std::int64_t>(0, draft.end - ticks(note.end - note.glide));
@@ -437,17 +429,10 @@ private:
                 steps = lasting(steps);
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 end_phrases();
-                emitter_.level = std::exchange(levels_[1], 0);
-                emitter_.emphasis.is_accented = clock_.is_accented(state_.other_time);
-                Shaper::Draft draft;
-                draft.degree = degree;
-                draft.onset = ticks(state_.other_time);
-                draft.end = clock_.end_ticks(state_.other_time + steps);
-                draft.velocity = velocity;
-                draft.from = point(run.from);
-                draft.to = point(state_.at);
-                draft.symbol = run.symbol;
-                emitter_.note(state_.other, draft);
+                const Sound sound{velocity, std::exchange(levels_[1], 0), point(run.from), point(state_.at),
+                                  run.symbol};
+                emitter_.note(state_.other,
+                              this->draft_of(degree, state_.other_time, state_.other_time + steps, sound));
                 state_.other_time += steps;
                 break;
             }

@@ -273,17 +273,8 @@ private:
             const int velocity =
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
             if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
-            emitter_.level = state_.begun;
-            emitter_.emphasis = {clock_.is_accented(state_.onset)};
-            Shaper::Draft draft;
-            draft.degree = state_.sounding - origin_;
-            draft.onset = ticks(state_.onset);
-            draft.end = clock_.end_ticks(state_.time);
-            draft.velocity = velocity;
-            draft.from = {state_.onset, height};
-            draft.to = {state_.time, height};
-            draft.symbol = state_.symbol;
-            emitter_.note(state_.line, draft);
+            const Sound sound{velocity, state_.begun, {state_.onset, height}, {state_.time, height}, state_.symbol};
+            emitter_.note(state_.line, draft_of(state_.sounding - origin_, state_.onset, state_.time, sound));
         }
         state_.sounding = unknown;
         end_phrases();
