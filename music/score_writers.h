@@ -18,7 +18,7 @@ enum class ScoreMedium {
 };
 
 /// Form in which a score contains the text of the pattern.
-enum class PatternText { exact, comments, xml };
+enum class PatternForm { exact, comments, xml };
 
 /// Seconds of processor time, bytes and bytes of memory of a score, and of each of its notes.
 struct ScoreCost {
@@ -33,7 +33,7 @@ struct ScoreWriter {
     /// Note values are written and performance is left to the player: no swing, articulation, pan or gamakas.
     bool is_printed = false;
     bool has_glides = true;  ///< notes may slide; else they are held at the pitch they begin with
-    PatternText pattern = PatternText::exact;
+    PatternForm pattern = PatternForm::exact;
     double lowest = 0;              ///< MIDI key of its lowest note
     std::string_view needs_file{};  ///< subject of the message that a pipe is refused; empty: any output
     ScoreCost cost{};

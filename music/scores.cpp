@@ -233,12 +233,12 @@ void ScoreWork::report(const Rendition& rendition, Made& made) const {
     report_replaced(made);
     if (rendition.notation) report_notation(*rendition.notation, ensemble_, made);
     const std::string& pattern = rendition.head.pattern;
-    if (writer_.pattern == PatternText::comments && !comments_keep(pattern)) {
+    if (writer_.pattern == PatternForm::comments && !comments_keep(pattern)) {
         made.warn(
             "the comments of the score hold the pattern with blanks or '?' for its control characters and marks of "
             "direction");
     }
-    if (writer_.pattern == PatternText::xml && !fits_xml(pattern)) {
+    if (writer_.pattern == PatternForm::xml && !fits_xml(pattern)) {
         made.warn("the score holds the pattern with U+FFFD for its control characters, which XML cannot hold");
     }
     if (!rendition.warning.empty()) made.warn(rendition.warning);
