@@ -3,6 +3,7 @@
 #include "music/form/block.h"
 #include "music/held_ending.h"
 #include "music/score/glides.h"
+#include "music/score/note_order.h"
 
 #include <fmt/format.h>
 
@@ -95,7 +96,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
         }
         options = piece_of_part(player, ensemble.meter, options);
         if (options.from >= options.to) continue;
-        PlayReport report = play(player.document.grammar(), player.melody, part, options);
+        PlayReport report = player.play(part, options);
         report.end = to_score(player).of(std::min(report.end, std::int64_t{1} << 50));
         add(all, report);
         moved = report.moved;
@@ -214,7 +215,7 @@ private:
             if (has_drone) alone.harmony = Harmony::none;
             PlayReport one;
             try {
-                part.block = play_block(player.document.grammar(), alone, options, one);
+                part.block = play_block(*player.playable, alone, options, one);
             } catch (const BudgetError& error) {
                 if (options.to < INT64_MAX) throw;
                 throw BudgetError(
@@ -382,9 +383,7 @@ private:
             }
             notes.push_back(note);
         }
-        std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
-            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-        });
+        sort_by_time(notes);
         report_.notes += notes.size();
         constexpr std::size_t at_once = 1024;
         for (std::size_t i = 0; i < notes.size(); i += at_once) {

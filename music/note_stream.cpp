@@ -7,6 +7,7 @@
 #include "music/players.h"
 #include "music/score/glides.h"
 #include "music/score/music_page.h"
+#include "music/score/note_order.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +24,6 @@ namespace {
 
 constexpr std::int64_t least_span = 16 * ticks_per_quarter;
 
-bool is_earlier(const Note& a, const Note& b) {
-    return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-}
-
 class Stream : public NoteStream {
 public:
     Stream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
@@ -35,18 +32,6 @@ public:
     const MidiOptions& midi() const override { return score_.midi; }
 
 protected:
-    /// Plays notes into a sink, humanised if the score is.
-    template <class Play>
-    auto play_into(NoteSink& sink, const PlayOptions& playing, Play play) const {
-        Humaniser human(sink, score_.humanise, score_.seed, playing.from);
-        return play(score_.humanise > 0 ? static_cast<NoteSink&>(human) : sink);
-    }
-    /// @throws ScoreError with the reason
-    void refuse_silence() const {
-        NullSink nobody;
-        play_all(ensemble_, playing_, nobody);
-    }
-
     StreamedScore score_;
     Ensemble ensemble_;
     PlayOptions playing_;
@@ -100,17 +85,10 @@ public:
     WholeStream(StreamedScore score, Ensemble ensemble, const PlayOptions& playing)
         : Stream(std::move(score), std::move(ensemble), playing) {
         NoteCollector collector(most_block_notes);
-        end_ = play_into(collector, playing_, [&](NoteSink& sink) {
-            if (!ensemble_.has_expression()) return play_parts(ensemble_, playing_, sink).end;
-            ExpressionSink expressive(ensemble_, ExpressionSink::Use::performance);
-            if (expressive.needs_ranges()) play_all(ensemble_, playing_, expressive);
-            expressive.write_to(sink);
-            return play_all(ensemble_, playing_, expressive).end;
-        });
+        end_ = perform(ensemble_, playing_, ExpressionSink::Use::performance, score_.human, collector).end;
         notes_ = collector.notes();
         curves_ = collector.curves();
-        if (notes_.empty()) refuse_silence();
-        std::stable_sort(notes_.begin(), notes_.end(), is_earlier);
+        sort_by_time(notes_);
         std::stable_sort(curves_.controls.begin(), curves_.controls.end(), comes_before);
     }
 
@@ -226,7 +204,7 @@ public:
         for (std::size_t voice = 0; voice < open_.size(); ++voice) {
             if (open_[voice] != 0) window_.ends.push_back({window_.from, static_cast<std::int16_t>(voice)});
         }
-        std::stable_sort(window_.notes.begin(), window_.notes.end(), is_earlier);
+        sort_by_time(window_.notes);
         sort_pitches(window_);
         std::vector<ControlPoint> points;
         if (is_sought_) before_.put(window_.from, points);
@@ -307,7 +285,9 @@ public:
         EnsembleReport report;
         std::vector<TempoPoint> tempos;
         if (options.from < options.to) {
-            report = play_into(sink, options, [&](NoteSink& next) { return play_piece(options, next, tempos); });
+            Humaniser humaniser(sink, score_.human.amount, score_.human.seed, options.from);
+            NoteSink& to = score_.human.amount > 0 ? static_cast<NoteSink&>(humaniser) : sink;
+            report = play_piece(options, to, tempos);
         }
         open_ = sink.complete();
         known_until_ = until;
@@ -319,7 +299,10 @@ public:
         }
         if (window.is_last) {
             window.to = std::max(window.from, end_);
-            if (is_silent_) refuse_silence();
+            if (is_silent_) {
+                NullSink nobody;
+                play_all(ensemble_, playing_, nobody);  // throws the reason
+            }
             seek(0);
         } else {
             at_ = window.to;
@@ -438,7 +421,7 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
             options.degrees = &degrees;
             plain.anchor = anchor;
             NullSink nobody;
-            play(player.document.grammar(), plain, nobody, options);
+            player.playable->play(plain, nobody, options);
             return degrees.empty() ? std::optional<std::int64_t>() : degrees.front();
         };
         if (const auto degree = first_degree(Anchor::piece)) {

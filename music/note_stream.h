@@ -4,6 +4,7 @@
 #include "engine/base/monitor.h"
 #include "engine/interpreter.h"
 #include "music/arrangement.h"
+#include "music/performance.h"
 #include "music/score/curves.h"
 #include "music/score/midi.h"
 #include "music/score/score.h"
@@ -80,8 +81,7 @@ struct PlayOptions;
 struct StreamedScore {
     ScoreHead head;
     MidiOptions midi;
-    double humanise = 0;
-    std::uint64_t seed = 0;
+    Human human;
 };
 
 /// Streams a piece of an ensemble. @throws ScoreError if it has no notes

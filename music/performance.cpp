@@ -1,5 +1,7 @@
 #include "music/performance.h"
 
+#include "music/humaniser.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -270,6 +272,35 @@ std::vector<TempoPoint> ExpressionSink::tempos(std::int64_t end) const {
         if (one.number == tempo_number) return tempo_->points(one.range, end);
     }
     return {};
+}
+
+EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
+                       const Human& human, NoteSink& sink) {
+    Humaniser humaniser(sink, human.amount, human.seed, playing.from);
+    NoteSink& to = human.amount > 0 ? static_cast<NoteSink&>(humaniser) : sink;
+    std::vector<TempoPoint> tempo;
+    EnsembleReport report;
+    if (ensemble.has_expression()) {
+        ExpressionSink expressive(ensemble, use);
+        expressive.fold_ranges(playing);
+        if (expressive.needs_ranges()) play_all(ensemble, playing, expressive);
+        expressive.write_to(to);
+        report = play_all(ensemble, playing, expressive);
+        tempo = expressive.tempo();
+    } else {
+        report = play_all(ensemble, playing, to);
+    }
+    report.seconds = seconds_of(ensemble, report.end, use, tempo);
+    return report;
+}
+
+double seconds_of(const Ensemble& ensemble, std::int64_t end, ExpressionSink::Use use,
+                  const std::vector<TempoPoint>& curve) {
+    ScoreHead times;
+    if (ensemble.close != Close::none && use != ExpressionSink::Use::print) {
+        times.ritardando = 2 * ensemble.meter.bar();
+    }
+    return seconds_at(end, ensemble.tempo, tempo_map(times, {curve, {}}, end));
 }
 
 }  // namespace sikku

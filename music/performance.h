@@ -93,4 +93,19 @@ private:
     std::vector<ControlPoint> bends_;
 };
 
+/// Deviations of a player from exact onsets and velocities.
+struct Human {
+    double amount = 0;  ///< 0 to 1; 0: none
+    std::uint64_t seed = 0;
+};
+
+/// Plays all parts with their expression and the deviations of a player into `sink`. The seconds of the report
+/// include all changes of tempo. @throws as play_all()
+EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
+                       const Human& human, NoteSink& sink);
+
+/// Seconds until a tick of a score, with all changes of tempo. @param curve  the tempo that follows the curve
+double seconds_of(const Ensemble& ensemble, std::int64_t end, ExpressionSink::Use use,
+                  const std::vector<TempoPoint>& curve = {});
+
 }  // namespace sikku

@@ -51,14 +51,6 @@ std::string slowing_time_of(std::int64_t ticks, const Melody& melody) {
 
 }  // namespace
 
-bool has_brackets(const Grammar& grammar) {
-    const std::vector<char> reached = grammar.reachable();
-    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
-        if (reached[symbol] && grammar.is_push(symbol)) return true;
-    }
-    return false;
-}
-
 void check_phrases(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics) {
     Diagnostics known;  // reported by read_melody() before
     const Melody melody = read_melody(pattern, {}, known);
@@ -124,6 +116,7 @@ Player bass_of(const Player& player) {
     if (ratio > longest / melody.unit)
         throw ScoreError("the notes of the bass would be too long: a lower order is needed");
     bass.melody.unit *= std::max<std::int64_t>(1, ratio.convert_to<std::int64_t>());
+    bass.playable = std::make_shared<PlayableMelody>(bass.document.shared_grammar(), bass.melody);
     return bass;
 }
 
@@ -151,7 +144,7 @@ std::vector<Player> followers_of(const Player& player) {
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness) {
     require_turtle(given, "it has no melody");
-    Player player{given, {}, 0, 0, 0, false, false, false, 0, {}, {}};
+    Player player{given, {}, 0, 0, 0, false, false, false, 0, {}, {}, {}};
     for (const Setting& setting : settings.keys) {
         try {
             player.document = player.document.with({setting});
@@ -180,6 +173,7 @@ Player read_player(const PlaySettings& settings, const Document& given, const st
         if (warning.where.line == 0) player.warnings.push_back(warning.message);
     }
     transpose(player.melody, settings.transpose);
+    player.playable = std::make_shared<PlayableMelody>(player.document.shared_grammar(), player.melody);
     return player;
 }
 
@@ -189,7 +183,7 @@ int voices_of(const Player& player, const PlayOptions& playing) {
         return melody.own_voices();
     }
     NullSink nobody;
-    return std::max(1, play(player.document.grammar(), melody, nobody, playing).voices);
+    return std::max(1, player.play(nobody, playing).voices);
 }
 
 std::string scale_of(const Melody& melody) {
@@ -283,7 +277,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         cut_excerpt(player, of_part);
         try {
             NullSink nobody;
-            played = is_arranged ? play_whole(player) : play(player.document.grammar(), melody, nobody, of_part);
+            played = is_arranged ? play_whole(player) : player.play(nobody, of_part);
         } catch (const BudgetError&) {
             if (!known) throw;
         }

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,17 @@ struct Player {
     int chords_from = 0;  ///< number of its voices before those of drone or chords
     int drums_from = 0;   ///< offset of the voices of drums
     bool has_drums = false;
-    bool is_bass = false;               ///< bass of the player before it: `harmony: bass`
-    bool is_follower = false;           ///< follows a player before it in canon
-    char section = 0;                   ///< section of the score, `A` to `Z`; 0: it plays from the beginning
-    std::string name;                   ///< name of its part; empty: that of the instrument
-    std::vector<std::string> warnings;  ///< warnings about values of options
+    bool is_bass = false;                      ///< bass of the player before it: `harmony: bass`
+    bool is_follower = false;                  ///< follows a player before it in canon
+    char section = 0;                          ///< section of the score, `A` to `Z`; 0: it plays from the beginning
+    std::string name;                          ///< name of its part; empty: that of the instrument
+    std::vector<std::string> warnings;         ///< warnings about values of options
+    std::shared_ptr<PlayableMelody> playable;  ///< prepared once for it and the players that follow it in canon
+
+    /// Plays the part alone. @throws as PlayableMelody::play()
+    PlayReport play(NoteSink& sink, const PlayOptions& options) const {
+        return playable->play(melody, sink, options);
+    }
 };
 
 /// Reads the melody of a document with the keys of `settings`. @param folder  folder of files that options name
@@ -54,9 +61,6 @@ std::vector<Player> followers_of(const Player& player);
 
 /// The curve of a lower order in notes so long that it lasts as long as the melody. @throws ScoreError, SettingError
 Player bass_of(const Player& player);
-
-/// True if the word may contain brackets.
-bool has_brackets(const Grammar& grammar);
 
 /// Number of voices that sound, counted by playing the part if brackets are voices.
 int voices_of(const Player& player, const PlayOptions& playing);

@@ -238,14 +238,14 @@ Ending ending_of(const Block& piece, const Melody& melody, const FormSection& se
 
 }  // namespace
 
-Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report) {
+Block play_block(PlayableMelody& playable, const Melody& melody, const PlayOptions& options, PlayReport& report) {
     Block block;
     std::vector<std::int64_t> degrees;
     PlayOptions recording = options;
     recording.degrees = &degrees;
     recording.phrase_ends = &block.ends;
     BlockSink sink(block, degrees);
-    report = play(grammar, melody, sink, recording);
+    report = playable.play(melody, sink, recording);
     sort(block.notes);
     block.chords_from = options.chords_from > 0 ? options.chords_from : melody.own_voices();
     const bool is_whole = block.length < options.to - options.from;

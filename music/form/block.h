@@ -32,8 +32,8 @@ struct Block {
 /// Largest number of notes in all blocks of a score.
 constexpr std::size_t most_block_notes = 4'000'000;
 
-/// Plays a melody into a block. @throws as play(); ScoreError for too many notes
-Block play_block(const Grammar& grammar, const Melody& melody, const PlayOptions& options, PlayReport& report);
+/// Plays a melody into a block. @throws as PlayableMelody::play(); ScoreError for too many notes
+Block play_block(PlayableMelody& playable, const Melody& melody, const PlayOptions& options, PlayReport& report);
 
 /// Adjusts slides to the present keys of the notes that follow.
 void link_glides(std::vector<FormNote>& notes);

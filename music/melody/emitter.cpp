@@ -4,10 +4,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
 namespace sikku::mapping {
+namespace {
+
+constexpr std::size_t notes_in_block = 1024;
+constexpr std::int64_t cached_degrees = 8192;
+
+}  // namespace
+
+Emitter::Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
+    : melody_(melody), sink_(sink), options_(options) {
+    if (melody.is_shaped()) shaper_.emplace(melody);
+    if (melody.accompanying_voices() > 0) accompaniment_.emplace(melody);
+    block_.reserve(notes_in_block);
+    for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
+}
+
+void Emitter::end_phrase(int voice, bool is_odd) {
+    if (!shaper_) return;
+    shaper_->end_phrase(voice, is_odd);
+    hand_on();
+}
+
+void Emitter::shape(Line& line, Shaper::Draft& draft) {
+    take_time(line, draft.onset, draft.end);
+    draft.voice = line.voice;
+    shaper_->add(line.voice, draft);
+    hand_on();
+}
+
+void Emitter::hand_on() {
+    for (const Shaper::Draft& note : shaper_->take()) {
+        const auto at = static_cast<std::size_t>(note.voice);
+        if (at >= shaped_.size()) shaped_.resize(at + 1);
+        shaped_[at].voice = note.voice;
+        if (note.is_moved && is_in_piece(note)) ++report.moved;
+        if (note.is_fixed() || note.glide <= 0) {
+            place_fixed(shaped_[at], note);
+        } else {
+            place_gliding(shaped_[at], note);
+        }
+    }
+    for (const auto& [begin, end, chord] : shaper_->take_chords()) {
+        const std::int64_t bar = melody_.meter.bar();
+        std::int64_t at = std::max(begin, options_.from / bar * bar);
+        for (; at < std::min(end, options_.to); at += bar) accompany(at, chord);
+    }
+}
 
 void Emitter::finish(std::int64_t end) {
     if (shaper_) {
@@ -49,44 +97,79 @@ void Emitter::accompany(std::int64_t begin, const Chord* chord) {
             note.voice + (options_.chords_from > 0 ? options_.chords_from : melody_.own_voices()));
         accompanied_ = std::max(accompanied_, to - options_.from);
         ++report.notes;
-        block_.push_back(note);
-        if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
-        if (block_.size() == notes_in_block) flush();
+        put(note, PlayOptions::no_degree);
     }
 }
 
-void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
-    if (!note.is_fixed()) {
-        return place(line, note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
+void Emitter::put(const Note& note, std::int64_t degree) {
+    block_.push_back(note);
+    if (options_.degrees) options_.degrees->push_back(degree);
+    if (block_.size() == notes_in_block) flush();
+}
+
+void Emitter::put(const Shaper::Draft& draft, const Placed& placed, int voice, std::int64_t degree,
+                  const Glide& glide) {
+    const int accent = draft.emphasis.is_accented ? accent_velocity : 0;
+    report.moved += placed.is_moved ? 1 : 0;
+    ++report.notes;
+    Note note{draft.onset,
+              draft.end - draft.onset,
+              placed.key,
+              static_cast<std::int16_t>(voice),
+              static_cast<std::uint8_t>(std::clamp(draft.velocity + accent, 1, 127)),
+              draft.from,
+              draft.to,
+              draft.symbol,
+              static_cast<std::uint8_t>(std::min(draft.depth, 255)),
+              static_cast<std::uint8_t>(draft.level),
+              glide.semitones != 0,
+              glide,
+              false,
+              draft.emphasis};
+    if (!draft.is_drum) extend_range(placed.key);
+    cut(note, options_.from, options_.to);
+    note.onset -= options_.from;
+    put(note, degree);
+}
+
+void Emitter::follow_line(Line& line, std::int64_t degree) const {
+    if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
+    line.last_degree = degree;
+}
+
+void Emitter::place(Line& line, const Shaper::Draft& note) {
+    follow_line(line, note.degree);
+    if (note.end <= note.onset) {
+        ++report.lost;
+        return;
     }
+    // Notes before the piece count, so that voices are those of the whole melody.
+    reserve(line, note.onset, note.end);
+    if (held_back_ > 0) settle(line.voice, &note, line.falling);
+    if (!is_in_piece(note)) return;
+    const Placed placed = key_of(note.degree, line.falling);
+    if (placed.is_silent) {
+        ++report.lost;
+        return;
+    }
+    put(note, placed, line.voice, placed.degree);
+}
+
+void Emitter::place_fixed(Line& line, const Shaper::Draft& note) {
+    if (!note.is_fixed()) return place(line, note);
     if (note.end <= note.onset) {
         ++report.lost;
         return;
     }
     reserve(line, note.onset, note.end);
-    if (note.end <= options_.from || note.onset >= options_.to) return;
+    if (!is_in_piece(note)) return;
     const Placed placed =
         note.is_drum ? Placed{note.key, false, false, 0} : within_range(note.key, note.degree, false);
-    report.moved += placed.is_moved ? 1 : 0;
-    ++report.notes;
-    if (!note.is_drum) {
-        report.lowest = std::min(report.lowest, placed.key);
-        report.highest = std::max(report.highest, placed.key);
-    }
-    const std::int64_t onset = std::max(note.onset, options_.from);
-    const int voice = line.voice + (note.is_drum ? options_.drums_from : 0);
-    block_.push_back({onset - options_.from, std::min(note.end, options_.to) - onset, placed.key,
-                      static_cast<std::int16_t>(voice), sounding_velocity(note.velocity, note.emphasis), note.from,
-                      note.to, note.symbol, static_cast<std::uint8_t>(std::min(note.depth, 255)),
-                      static_cast<std::uint8_t>(note.level)});
-    block_.back().emphasis = note.emphasis;
-    if (options_.degrees) options_.degrees->push_back(PlayOptions::no_degree);
-    if (block_.size() == notes_in_block) flush();
+    put(note, placed, line.voice + (note.is_drum ? options_.drums_from : 0), PlayOptions::no_degree);
 }
 
 void Emitter::place_gliding(Line& line, const Shaper::Draft& note) {
-    if (line.last_degree != unknown && note.degree != line.last_degree) line.falling = note.degree < line.last_degree;
-    line.last_degree = note.degree;
+    follow_line(line, note.degree);
     if (note.end <= note.onset) {
         ++report.lost;
         return;
@@ -105,7 +188,7 @@ void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
     if (!std::exchange(gliding.is_held, false)) return;
     --held_back_;
     const Shaper::Draft& note = gliding.note;
-    if (note.end <= options_.from || note.onset >= options_.to) return;
+    if (!is_in_piece(note)) return;
     const Placed placed = key_of(note.degree, gliding.falling);
     if (placed.is_silent) {
         ++report.lost;
@@ -115,29 +198,8 @@ void Emitter::settle(int voice, const Shaper::Draft* next, bool falling) {
     const Placed goal = meets ? key_of(next->degree, falling)
                               : key_of(note.goal, note.goal != note.degree && note.goal < note.degree);
     const double slide = goal.is_silent ? 0 : goal.key - placed.key;
-    report.moved += placed.is_moved ? 1 : 0;
-    ++report.notes;
-    report.lowest = std::min({report.lowest, placed.key, placed.key + slide});
-    report.highest = std::max({report.highest, placed.key, placed.key + slide});
-    Note result{note.onset,
-                note.end - note.onset,
-                placed.key,
-                static_cast<std::int16_t>(voice),
-                sounding_velocity(note.velocity, note.emphasis),
-                note.from,
-                note.to,
-                note.symbol,
-                static_cast<std::uint8_t>(std::min(note.depth, 255)),
-                static_cast<std::uint8_t>(note.level),
-                slide != 0,
-                {note.glide, static_cast<float>(slide), note.rise},
-                false,
-                note.emphasis};
-    cut(result, options_.from, options_.to);
-    result.onset -= options_.from;
-    block_.push_back(result);
-    if (options_.degrees) options_.degrees->push_back(placed.degree);
-    if (block_.size() == notes_in_block) flush();
+    extend_range(placed.key + slide);
+    put(note, placed, voice, placed.degree, {note.glide, static_cast<float>(slide), note.rise});
 }
 
 void Emitter::reserve(Line& line, std::int64_t onset, std::int64_t end) {
@@ -167,6 +229,13 @@ int Emitter::free_voice(std::int64_t onset) {
         held_[at] = true;
         return voice;
     }
+}
+
+Emitter::Placed Emitter::key_of(std::int64_t degree, bool falling) {
+    if (degree < -cached_degrees || degree >= cached_degrees) return look_up(degree, falling);
+    Placed& known = keys_[falling ? 1 : 0][static_cast<std::size_t>(degree + cached_degrees)];
+    if (std::isnan(known.key)) known = look_up(degree, falling);
+    return known;
 }
 
 Emitter::Placed Emitter::look_up(std::int64_t degree, bool falling) {

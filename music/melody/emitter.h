@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -24,13 +22,7 @@ constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::min();
 /// Converts degrees to keys and passes the notes of the requested piece to the sink, counted and in blocks.
 class Emitter {
 public:
-    Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options)
-        : melody_(melody), sink_(sink), options_(options) {
-        if (melody.is_shaped()) shaper_.emplace(melody);
-        if (melody.accompanying_voices() > 0) accompaniment_.emplace(melody);
-        block_.reserve(notes_in_block);
-        for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
-    }
+    Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& options);
 
     /// State of a voice between its notes.
     struct Line {
@@ -39,54 +31,29 @@ public:
         bool falling = false;
     };
 
-    /// @param symbol  as in Note
-    void note(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
-              glm::dvec2 to, std::uint64_t symbol) {
-        if (melody_.is_inverted) degree = -degree;
-        degree += melody_.shift;
-        if (shaper_) {
-            take_time(line, onset, end);
-            Shaper::Draft draft{degree, onset, end, velocity, depth, level, from, to, symbol};
-            draft.emphasis = emphasis;
-            shaper_->add(line.voice, draft);
-            return hand_on();
-        }
-        place(line, degree, onset, end, velocity, from, to, symbol);
-    }
-
-    /// Passes on a note of a table of symbols; a fixed key sounds as stated.
+    /// Passes on a note of the curve, whose degree is turned and moved as the melody states.
     void note(Line& line, Shaper::Draft draft) {
-        take_time(line, draft.onset, draft.end);
-        draft.voice = line.voice;
-        draft.depth = depth;
-        draft.level = level;
-        draft.emphasis = emphasis;
-        if (!shaper_) return place_fixed(line, draft);
-        shaper_->add(line.voice, draft);
-        hand_on();
+        draft.degree = moved(draft.degree);
+        describe(draft);
+        shaper_ ? shape(line, draft) : place(line, draft);
     }
-
-    /// Passes on a note whose pitch slides.
-    void gliding_note(Line& line, Shaper::Draft draft) {
-        for (std::int64_t* degree : {&draft.degree, &draft.goal}) {
-            *degree = (melody_.is_inverted ? -*degree : *degree) + melody_.shift;
-        }
+    /// Passes on a note of a table of symbols; a fixed key sounds as stated.
+    void table_note(Line& line, Shaper::Draft draft) {
         take_time(line, draft.onset, draft.end);
-        draft.voice = line.voice;
-        draft.depth = depth;
-        draft.level = level;
-        draft.emphasis = emphasis;
-        if (!shaper_) return place_gliding(line, draft);
-        shaper_->add(line.voice, draft);
-        hand_on();
+        describe(draft);
+        shaper_ ? shape(line, draft) : place_fixed(line, draft);
+    }
+    /// Passes on a note of the curve whose pitch slides.
+    void gliding_note(Line& line, Shaper::Draft draft) {
+        draft.degree = moved(draft.degree);
+        draft.goal = moved(draft.goal);
+        take_time(line, draft.onset, draft.end);
+        describe(draft);
+        shaper_ ? shape(line, draft) : place_gliding(line, draft);
     }
 
     /// Ends the phrase of a voice with its last note.
-    void end_phrase(int voice, bool is_odd) {
-        if (!shaper_) return;
-        shaper_->end_phrase(voice, is_odd);
-        hand_on();
-    }
+    void end_phrase(int voice, bool is_odd);
 
     /// Records that a phrase has ended and the next begins at `tick`.
     void begin_phrase(std::int64_t tick) const {
@@ -105,97 +72,6 @@ public:
         if (shaper_) shaper_->follow(voice);
     }
 
-    int depth = 0;        ///< brackets around the next note
-    int level = 0;        ///< level of the next note, as in Note
-    Emphasis emphasis{};  ///< emphasis of the next note; its velocity does not include the accent
-
-private:
-    /// Places the notes that are shaped.
-    void hand_on() {
-        const int here = depth;
-        const int begun = level;
-        const Emphasis stated = emphasis;
-        for (const Shaper::Draft& note : shaper_->take()) {
-            const auto at = static_cast<std::size_t>(note.voice);
-            if (at >= shaped_.size()) shaped_.resize(at + 1);
-            shaped_[at].voice = note.voice;
-            depth = note.depth;
-            level = note.level;
-            emphasis = note.emphasis;
-            if (note.is_moved && note.end > options_.from && note.onset < options_.to) ++report.moved;
-            if (note.is_fixed()) {
-                place_fixed(shaped_[at], note);
-                continue;
-            }
-            if (note.glide > 0) {
-                place_gliding(shaped_[at], note);
-                continue;
-            }
-            place(shaped_[at], note.degree, note.onset, note.end, note.velocity, note.from, note.to, note.symbol);
-        }
-        depth = here;
-        level = begun;
-        emphasis = stated;
-        for (const auto& [begin, end, chord] : shaper_->take_chords()) {
-            const std::int64_t bar = melody_.meter.bar();
-            std::int64_t at = std::max(begin, options_.from / bar * bar);
-            for (; at < std::min(end, options_.to); at += bar) accompany(at, chord);
-        }
-    }
-
-    static std::uint8_t sounding_velocity(int velocity, const Emphasis& emphasis) {
-        const int accent = emphasis.is_accented ? accent_velocity : 0;
-        return static_cast<std::uint8_t>(std::clamp(velocity + accent, 1, 127));
-    }
-
-    /// Plays the accompaniment of a bar.
-    void accompany(std::int64_t begin, const Chord* chord);
-    /// Places a note by its fixed key, or else by its degree.
-    void place_fixed(Line& line, const Shaper::Draft& note);
-    void reserve(Line& line, std::int64_t onset, std::int64_t end);
-    /// Holds a note back until it is known where its pitch slides.
-    void place_gliding(Line& line, const Shaper::Draft& note);
-    /// Passes on the note of a voice that was held back. @param next  the note after it; null if there is none
-    void settle(int voice, const Shaper::Draft* next, bool falling);
-
-    void place(Line& line, std::int64_t degree, std::int64_t onset, std::int64_t end, int velocity, glm::dvec2 from,
-               glm::dvec2 to, std::uint64_t symbol) {
-        if (line.last_degree != unknown && degree != line.last_degree) line.falling = degree < line.last_degree;
-        line.last_degree = degree;
-        if (end <= onset) {
-            ++report.lost;
-            return;
-        }
-        // Notes before the piece count, so that voices are those of the whole melody.
-        if (line.voice < 0) line.voice = free_voice(onset);
-        if (line.voice >= static_cast<int>(busy_until_.size())) busy_until_.resize(line.voice + 1U, 0);
-        busy_until_[static_cast<std::size_t>(line.voice)] = end;
-        if (held_back_ > 0) {
-            Shaper::Draft next;
-            next.degree = degree;
-            next.onset = onset;
-            settle(line.voice, &next, line.falling);
-        }
-        if (end <= options_.from || onset >= options_.to) return;
-        const Placed placed = key_of(degree, line.falling);
-        if (placed.is_silent) {
-            ++report.lost;
-            return;
-        }
-        report.moved += placed.is_moved ? 1 : 0;
-        ++report.notes;
-        report.lowest = std::min(report.lowest, placed.key);
-        report.highest = std::max(report.highest, placed.key);
-        onset = std::max(onset, options_.from);
-        block_.push_back({onset - options_.from, std::min(end, options_.to) - onset, placed.key,
-                          static_cast<std::int16_t>(line.voice), sounding_velocity(velocity, emphasis), from, to,
-                          symbol, static_cast<std::uint8_t>(std::min(depth, 255)), static_cast<std::uint8_t>(level)});
-        block_.back().emphasis = emphasis;
-        if (options_.degrees) options_.degrees->push_back(placed.degree);
-        if (block_.size() == notes_in_block) flush();
-    }
-
-public:
     /// Assigns a voice to a line that exists from the beginning.
     void take(Line& line, int voice) {
         line.voice = voice;
@@ -212,6 +88,9 @@ public:
     void finish(std::int64_t end);
 
     PlayReport report;
+    int depth = 0;        ///< brackets around the next note
+    int level = 0;        ///< level of the next note, as in Note
+    Emphasis emphasis{};  ///< emphasis of the next note; its velocity does not include the accent
 
 private:
     struct Placed {
@@ -221,6 +100,37 @@ private:
         std::int64_t degree = 0;  // sounding degree
     };
 
+    std::int64_t moved(std::int64_t degree) const { return (melody_.is_inverted ? -degree : degree) + melody_.shift; }
+    void describe(Shaper::Draft& draft) const {
+        draft.depth = depth;
+        draft.level = level;
+        draft.emphasis = emphasis;
+    }
+    void shape(Line& line, Shaper::Draft& draft);
+    /// Places the notes that are shaped.
+    void hand_on();
+    /// Plays the accompaniment of a bar.
+    void accompany(std::int64_t begin, const Chord* chord);
+    /// Places a note by its degree. Hot: the notes of most melodies come here.
+    void place(Line& line, const Shaper::Draft& note);
+    /// Places a note by its fixed key, or else by its degree.
+    void place_fixed(Line& line, const Shaper::Draft& note);
+    /// Holds a note back until it is known where its pitch slides.
+    void place_gliding(Line& line, const Shaper::Draft& note);
+    /// Passes on the note of a voice that was held back. @param next  the note after it; null if there is none
+    void settle(int voice, const Shaper::Draft* next, bool falling);
+    void follow_line(Line& line, std::int64_t degree) const;
+    void reserve(Line& line, std::int64_t onset, std::int64_t end);
+    bool is_in_piece(const Shaper::Draft& note) const { return note.end > options_.from && note.onset < options_.to; }
+
+    void extend_range(double key) {
+        report.lowest = std::min(report.lowest, key);
+        report.highest = std::max(report.highest, key);
+    }
+    /// Adds a note of the melody, cut to the piece. @param degree  as in PlayOptions::degrees
+    void put(const Shaper::Draft& draft, const Placed& placed, int voice, std::int64_t degree,
+             const Glide& glide = {});
+    void put(const Note& note, std::int64_t degree);
     void flush() {
         if (!block_.empty()) sink_.notes(block_);
         block_.clear();
@@ -230,15 +140,8 @@ private:
     /// Assigns a voice to a line, until `end`.
     void take_time(Line& line, std::int64_t onset, std::int64_t end);
 
-    Placed key_of(std::int64_t degree, bool falling) {
-        if (degree < -cached_degrees || degree >= cached_degrees) return look_up(degree, falling);
-        Placed& known = keys_[falling ? 1 : 0][static_cast<std::size_t>(degree + cached_degrees)];
-        if (std::isnan(known.key)) known = look_up(degree, falling);
-        return known;
-    }
-
+    Placed key_of(std::int64_t degree, bool falling);
     bool is_within(double key) const { return key >= melody_.lowest && key <= melody_.highest; }
-
     Placed look_up(std::int64_t degree, bool falling);
     /// The sound of a degree within the range, moved by the interval of a canon.
     Placed answered(Placed placed, bool falling) const;
@@ -246,8 +149,6 @@ private:
     Placed within_range(double raw, std::int64_t degree, bool falling);
     [[noreturn]] void refuse(std::int64_t degree, const std::string& key) const;
 
-    static constexpr std::size_t notes_in_block = 1024;
-    static constexpr std::int64_t cached_degrees = 8192;
     const Melody& melody_;
     NoteSink& sink_;
     const PlayOptions& options_;

@@ -1,13 +1,13 @@
 #include "music/melody/expression.h"
 
 #include "engine/base/text.h"
+#include "music/melody/key_values.h"
 #include "music/melody/melody.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -29,16 +29,6 @@ constexpr std::array<SourceName, 7> sources = {{{"x", ExpressionSource::x},
                                                 {"curvature", ExpressionSource::turn},
                                                 {"length", ExpressionSource::length},
                                                 {"level", ExpressionSource::level}}};
-
-std::vector<std::string> words_of(std::string_view text) {
-    std::vector<std::string> words;
-    while (!(text = trimmed(text)).empty()) {
-        const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-        words.push_back(lower_case(text.substr(0, end)));
-        text.remove_prefix(end);
-    }
-    return words;
-}
 
 class ExpressionReader {
 public:
@@ -67,14 +57,13 @@ public:
 private:
     static bool is_none(const Key& key) { return lower_case(key.value.view()) == "none"; }
 
-    void fail(const Key& key, const std::string& message) {
-        diagnostics_.error(key.value.empty() ? key.name_at : key.value, message);
-    }
+    void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
 
     /// Reads `by SOURCE` and an optional `LOW-HIGH` from word `at` on.
     void read_curve(const Key& key, std::size_t at, ExpressionCurve& curve, std::pair<double, double> usual,
                     double least, double most, std::string_view expected) {
-        const std::vector<std::string> words = words_of(key.value.view());
+        const std::string text = lower_case(key.value.view());
+        const std::vector<std::string_view> words = words_of(text);
         const auto refuse = [&] {
             fail(key, fmt::format("expected {}; by x, y, depth, turn, length or level", expected));
         };
@@ -94,31 +83,27 @@ private:
 
     void read_controller(const Key& key) {
         constexpr std::string_view expected = "none, or a controller of MIDI from 0 to 119 such as 74 by y 0-127";
-        const std::vector<std::string> words = words_of(key.value.view());
-        int number = -1;
-        if (!words.empty()) {
-            const char* const end = words[0].data() + words[0].size();
-            const auto [stop, error] = std::from_chars(words[0].data(), end, number);
-            if (error != std::errc() || stop != end) number = -1;
-        }
-        if (number < 0 || number > 119) {
+        const std::vector<std::string_view> words = words_of(key.value.view());
+        const auto number = words.empty() ? std::nullopt : whole_number(words[0], 0, 119);
+        if (!number) {
             return fail(key, fmt::format("expected {}; by x, y, depth, turn, length or level", expected));
         }
         // Registered parameters and data entry would change the range of pitch bends, and 10 is the pan.
         for (const int taken : {0, 6, 10, 32, 38, 96, 97, 98, 99, 100, 101}) {
-            if (number == taken) {
+            if (*number == taken) {
                 return fail(key,
                             fmt::format("controller {} has a fixed use; expected another such as 1 (modulation), "
                                         "11 (expression) or 74 (brightness)",
-                                        number));
+                                        *number));
             }
         }
-        expression_.controller = number;
+        expression_.controller = static_cast<int>(*number);
         read_curve(key, 1, expression_.control, {0, highest_value}, 0, highest_value, expected);
     }
 
     void read_gamakas(const Key& key) {
-        std::string_view rest = key.value.view();
+        const std::string text = lower_case(key.value.view());
+        std::string_view rest = text;
         const auto refuse = [&] {
             fail(key,
                  "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, such "
@@ -126,7 +111,7 @@ private:
         };
         for (;;) {
             const std::size_t comma = std::min(rest.find(','), rest.size());
-            const std::vector<std::string> words = words_of(rest.substr(0, comma));
+            const std::vector<std::string_view> words = words_of(rest.substr(0, comma));
             if (words.size() < 2) return refuse();
             Gamaka gamaka;
             if (words[0] == "jaru") {
@@ -137,16 +122,14 @@ private:
                 return refuse();
             }
             for (std::size_t i = 1; i < words.size() && words[1] != "all"; ++i) {
-                std::int64_t degree = -1;
-                const char* const end = words[i].data() + words[i].size();
-                const auto [stop, error] = std::from_chars(words[i].data(), end, degree);
-                if (error != std::errc() || stop != end) return refuse();
+                const auto degree = whole_number(words[i]);
+                if (!degree) return refuse();
                 const auto size = static_cast<std::int64_t>(melody_.scale.size());
-                if (degree < 0 || degree >= size) {
+                if (*degree < 0 || *degree >= size) {
                     return fail(key,
-                                fmt::format("degree {} is not in the scale; expected 0 to {}", degree, size - 1));
+                                fmt::format("degree {} is not in the scale; expected 0 to {}", *degree, size - 1));
                 }
-                gamaka.degrees.push_back(degree);
+                gamaka.degrees.push_back(*degree);
             }
             if (words[1] == "all" && words.size() > 2) return refuse();
             expression_.gamakas.push_back(std::move(gamaka));
@@ -165,7 +148,8 @@ private:
 }  // namespace
 
 bool states_curve(std::string_view value) {
-    const std::vector<std::string> words = words_of(value);
+    const std::string text = lower_case(value);
+    const std::vector<std::string_view> words = words_of(text);
     const auto by = std::find(words.begin(), words.end(), "by");
     if (by == words.end()) return false;
     // `by turn`, `by depth` and `by length` alone are the fixed rules of `velocity`.

@@ -2,12 +2,12 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "music/melody/key_values.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -26,19 +26,12 @@ constexpr std::size_t most_followers = 16;
 constexpr std::array<std::string_view, 8> intervals = {"unison", "second", "third",   "fourth",
                                                        "fifth",  "sixth",  "seventh", "octave"};
 
-std::optional<std::int64_t> whole(std::string_view text, std::int64_t least, std::int64_t most) {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_good = error == std::errc() && end == text.data() + text.size() && !text.empty();
-    return is_good && value >= least && value <= most ? std::optional(value) : std::nullopt;
-}
-
 /// Reads `3:2`, `3/2` or `2`.
 std::optional<Ratio> ratio(std::string_view text) {
     constexpr std::int64_t most = 64;
     const std::size_t mark = std::min(text.find_first_of(":/"), text.size());
-    const auto above = whole(trimmed(text.substr(0, mark)), 1, most);
-    const auto below = mark < text.size() ? whole(trimmed(text.substr(mark + 1)), 1, most) : 1;
+    const auto above = whole_number(trimmed(text.substr(0, mark)), 1, most);
+    const auto below = mark < text.size() ? whole_number(trimmed(text.substr(mark + 1)), 1, most) : 1;
     if (!above || !below) return std::nullopt;
     const std::int64_t common = std::gcd(*above, *below);
     return Ratio{*above / common, *below / common};
@@ -81,7 +74,7 @@ private:
     void read_key(std::string_view name, std::string_view expected, Read read) {
         const Key* key = pattern_.find(name);
         if (key && !read(key->value.view())) {
-            diagnostics_.error(key->value.empty() ? key->name_at : key->value, std::string(expected));
+            diagnostics_.error(place_of(*key), std::string(expected));
         }
     }
 
@@ -107,9 +100,9 @@ private:
         read_key("excerpt", "expected bars of the melody, such as 1-8, up to 1000000", [&](std::string_view text) {
             if (lower_case(text) == "all") return true;
             const std::size_t dash = std::min(text.find('-'), text.size());
-            const auto first = whole(trimmed(text.substr(0, dash)), 1, most_excerpt_bars);
+            const auto first = whole_number(trimmed(text.substr(0, dash)), 1, most_excerpt_bars);
             const std::string_view after = dash < text.size() ? trimmed(text.substr(dash + 1)) : text;
-            const auto last = after.empty() ? 0 : whole(after, first.value_or(1), most_excerpt_bars);
+            const auto last = after.empty() ? 0 : whole_number(after, first.value_or(1), most_excerpt_bars);
             if (!first || !last) return false;
             layout_.first_bar = *first;
             layout_.bars = *last == 0 ? 0 : *last - *first + 1;
@@ -126,7 +119,7 @@ private:
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");
                 if (word != std::string::npos) {
-                    const auto order = whole(trimmed(text.substr(word + 5)), 1, 1'000'000);
+                    const auto order = whole_number(trimmed(text.substr(word + 5)), 1, 1'000'000);
                     if (!order) return false;
                     layout_.form_order = *order;
                 }
@@ -147,7 +140,7 @@ private:
                     layout_.loop = word == "fill" ? Loop::fill : Loop::common;
                     return true;
                 }
-                const auto times = whole(text, 1, most_times);
+                const auto times = whole_number(text, 1, most_times);
                 if (!times) return false;
                 layout_.loop = *times > 1 ? Loop::times : Loop::none;
                 layout_.times = *times;

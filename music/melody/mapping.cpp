@@ -2,11 +2,10 @@
 
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lattice.h"
-#include "music/melody/counterpoint_reader.h"
 #include "music/melody/emitter.h"
 #include "music/melody/melody_fold.h"
-#include "music/melody/run_reader.h"
-#include "music/melody/symbol_reader.h"
+#include "music/melody/reader.h"
+#include "music/melody/symbol_table.h"
 
 #include <fmt/format.h>
 
@@ -122,15 +121,12 @@ public:
           options_(options),
           lattice_(make_lattice(grammar)) {
         is_grid_ = is_on_grid(lattice_, first_);
-        const std::vector<char> reached = grammar.reachable();
-        for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
-            if (reached[symbol] && grammar.is_push(symbol)) has_brackets_ = true;
-        }
-        has_voices_ = has_brackets_ && melody.branches == Branches::voices;
+        const bool has_branches = has_brackets(grammar);
+        has_voices_ = has_branches && melody.branches == Branches::voices;
         if (has_voices_ && has_phrases(melody)) {
             throw ScoreError(phrases_of_voices);
         }
-        shares_ = has_brackets_ && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
+        shares_ = has_branches && melody.branches == Branches::shares && melody.mapping != Mapping::counterpoint;
         const bool has_anchor = melody.anchor != Anchor::first_note && melody.anchor != Anchor::piece;
         const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
         if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody, marks.phrase);
@@ -194,18 +190,17 @@ private:
 
     std::unique_ptr<Reader> make_reader(const Melody& melody, Emitter& emitter, Origin origin,
                                         const PlayOptions& options) const {
-        if (melody.mapping == Mapping::symbols) {
-            return std::make_unique<SymbolReader>(grammar_, melody, marks_, emitter, options, has_voices_);
+        const Reading reading{grammar_, lattice_, first_,  melody,      marks_,
+                              emitter,  origin,   options, has_voices_, is_grid_ && !shares_};
+        switch (melody.mapping) {
+            case Mapping::symbols:
+                return read_symbols(reading);
+            case Mapping::counterpoint:
+                return read_counterpoint(reading);
+            case Mapping::runs:
+                break;
         }
-        const auto make = [&]<class Walk>() -> std::unique_ptr<Reader> {
-            if (melody.mapping == Mapping::counterpoint) {
-                return std::make_unique<CounterpointReader<Walk>>(grammar_, lattice_, first_, melody, marks_, emitter,
-                                                                  origin, options);
-            }
-            return std::make_unique<RunReader<Walk>>(grammar_, lattice_, first_, melody, marks_, emitter, origin,
-                                                     options, has_voices_);
-        };
-        return is_grid_ && !shares_ ? make.template operator()<GridWalk>() : make.template operator()<PlaneWalk>();
+        return read_runs(reading);
     }
 
     /// The y that sounds the tonic. The first note is found while reading, except for a piece from the middle.
@@ -232,22 +227,42 @@ private:
         return survey();
     }
 
-    /// Reads the word once to measure how long its branches would last by themselves.
-    void measure_spans() {
-        require_affordable(plain_, true, options_.budget);
+    /// Options that play the whole melody.
+    PlayOptions whole() const {
         PlayOptions all = options_;
         all.ahead = 0;
         all.degrees = all.phrase_ends = nullptr;
         all.from = 0;
         all.to = INT64_MAX;
+        all.most_voices = std::numeric_limits<int>::max();
+        return all;
+    }
+
+    /// Reads the word once without sound. @param prepare, examine  functions of the reader, before and after it
+    template <class Prepare, class Examine>
+    auto read_unheard(Prepare prepare, Examine examine) const {
+        const PlayOptions all = whole();
         Melody silent = melody_;
         silent.range = Range::clamp;
         NullSink nobody;
-        Emitter unheard(silent, nobody, all);
-        const auto reader = make_reader(silent, unheard, {0}, all);
-        reader->spans = &spans_;
-        reader->measures_spans = true;
-        derive(grammar_, *reader, derivation_options());
+        Emitter emitter(silent, nobody, all);
+        const auto reader = make_reader(silent, emitter, {0}, all);
+        prepare(*reader);
+        try {
+            derive(grammar_, *reader, derivation_options());
+        } catch (const Enough&) {
+        }
+        return examine(*reader);
+    }
+
+    /// Measures how long the branches would last by themselves.
+    void measure_spans() {
+        require_affordable(plain_, true, options_.budget);
+        const auto prepare = [&](Reader& reader) {
+            reader.spans = &spans_;
+            reader.measures_spans = true;
+        };
+        read_unheard(prepare, [](const Reader&) {});
     }
 
     /// The first voice of the whole melody that has notes; above 0 if all notes are in branches.
@@ -261,10 +276,10 @@ private:
             int first = std::numeric_limits<int>::max();
         };
         require_affordable(plain_, true, options_.budget);
-        PlayOptions all = options_;
-        all.degrees = all.phrase_ends = nullptr;
-        all.from = all.drums_from = 0;
-        all.to = INT64_MAX;
+        PlayOptions all = whole();
+        all.ahead = options_.ahead;
+        all.most_voices = options_.most_voices;
+        all.drums_from = 0;
         Melody alone = melody_;
         alone.harmony = Harmony::none;
         FirstVoice sink;
@@ -276,47 +291,21 @@ private:
 
     Origin survey() const {
         require_affordable(plain_, true, options_.budget);
-        PlayOptions all = options_;
-        all.ahead = 0;
-        all.degrees = all.phrase_ends = nullptr;
-        all.from = 0;
-        all.to = INT64_MAX;
-        all.most_voices = std::numeric_limits<int>::max();
-        Melody silent = melody_;
-        silent.range = Range::clamp;
-        NullSink nobody;
-        Emitter emitter(silent, nobody, all);
-        const auto reader = make_reader(silent, emitter, {0}, all);
-        derive(grammar_, *reader, derivation_options());
-        switch (melody_.anchor) {
-            case Anchor::lowest_note:
-                return {reader->lowest_degree() == unknown ? 0 : 2 * reader->lowest_degree()};
-            case Anchor::lowest_vertex:
-                return {2 * reader->lowest_vertex()};
-            default: {
-                const std::int64_t sum = reader->lowest_vertex() + reader->highest_vertex();
-                return {2 * (sum >= 0 ? sum / 2 : -((1 - sum) / 2))};
+        const auto origin = [&](const Reader& reader) -> Origin {
+            if (melody_.anchor == Anchor::lowest_note) {
+                return {reader.lowest_degree() == unknown ? 0 : 2 * reader.lowest_degree()};
             }
-        }
+            if (melody_.anchor == Anchor::lowest_vertex) return {2 * reader.lowest_vertex()};
+            const std::int64_t sum = reader.lowest_vertex() + reader.highest_vertex();
+            return {2 * (sum >= 0 ? sum / 2 : -((1 - sum) / 2))};
+        };
+        return read_unheard([](Reader&) {}, origin);
     }
 
     std::int64_t first_note() const {
-        PlayOptions beginning = options_;
-        beginning.ahead = 0;
-        beginning.degrees = beginning.phrase_ends = nullptr;
-        beginning.from = 0;
-        beginning.to = INT64_MAX;
-        Melody silent = melody_;
-        silent.range = Range::clamp;
-        NullSink nobody;
-        Emitter emitter(silent, nobody, beginning);
-        const auto reader = make_reader(silent, emitter, {0}, beginning);
-        reader->seeks_first_note = true;
-        try {
-            derive(grammar_, *reader, derivation_options());
-        } catch (const Enough&) {
-        }
-        return reader->first_degree() == unknown ? 0 : 2 * reader->first_degree();
+        return read_unheard(
+            [](Reader& reader) { reader.seeks_first_note = true; },
+            [](const Reader& reader) { return reader.first_degree() == unknown ? 0 : 2 * reader.first_degree(); });
     }
 
     const Grammar& grammar_;
@@ -327,7 +316,6 @@ private:
     Lattice lattice_;
     bool is_grid_ = false;
     int first_ = 0;
-    bool has_brackets_ = false;
     bool has_voices_ = false;  // brackets are voices
     bool shares_ = false;      // branches share durations
     std::vector<double> spans_;
@@ -336,16 +324,53 @@ private:
 
 }  // namespace
 
-PlayReport play(const Grammar& given, const Melody& melody, NoteSink& sink, const PlayOptions& options) {
+struct PlayableMelody::Word {
+    double budget;   ///< limit that it was prepared with
+    Grammar plain;   ///< without marks
+    Grammar played;  ///< with marks, without contexts, parameters and chance
+    Marks marks;
+
+    const Grammar& measured() const { return marks.phrase || marks.whole > 0 ? plain : played; }
+};
+
+PlayableMelody::PlayableMelody(std::shared_ptr<const Grammar> grammar, const Melody& melody)
+    : grammar_(std::move(grammar)), marked_for_(melody) {}
+
+PlayableMelody::~PlayableMelody() = default;
+
+std::shared_ptr<const PlayableMelody::Word> PlayableMelody::word(const PlayOptions& options) {
+    constexpr std::size_t most_kept = std::size_t{1} << 20;  // symbols, so that many parts fit into memory
+    if (word_ && word_->budget == options.budget) return word_;
+    word_.reset();
     DerivationOptions whole_words;
     whole_words.limit_whole_words(options.budget);
     whole_words.watch = options.watch;
-    const Grammar plain = shorten(given);
-    Marked with_marks = marked(plain, melody);
-    Grammar grammar = resolve_contexts(std::move(with_marks.grammar), whole_words);
-    if (!grammar.is_plain()) grammar = write_out(grammar, whole_words);
-    const bool has_marks = with_marks.marks.phrase || with_marks.marks.whole > 0;
-    return Player(grammar, has_marks ? plain : grammar, melody, with_marks.marks, options).play(sink);
+    Grammar plain = shorten(*grammar_);
+    Marked with_marks = marked(plain, marked_for_);
+    Grammar played = resolve_contexts(std::move(with_marks.grammar), whole_words);
+    if (!played.is_plain()) played = write_out(played, whole_words);
+    const bool is_small = played.axiom().size() <= most_kept;
+    auto result = std::make_shared<const Word>(
+        Word{options.budget, std::move(plain), std::move(played), std::move(with_marks.marks)});
+    if (is_small) word_ = result;
+    return result;
+}
+
+PlayReport PlayableMelody::play(const Melody& melody, NoteSink& sink, const PlayOptions& options) {
+    const auto prepared = word(options);
+    return Player(prepared->played, prepared->measured(), melody, prepared->marks, options).play(sink);
+}
+
+PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options) {
+    return PlayableMelody(std::make_shared<const Grammar>(grammar), melody).play(melody, sink, options);
+}
+
+bool has_brackets(const Grammar& grammar) {
+    const std::vector<char> reached = grammar.reachable();
+    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
+        if (reached[symbol] && grammar.is_push(symbol)) return true;
+    }
+    return false;
 }
 
 std::string problem_of(const Grammar& grammar, const Melody& melody) {
@@ -353,13 +378,8 @@ std::string problem_of(const Grammar& grammar, const Melody& melody) {
     const bool marks_phrases = order > 0 && order <= grammar.steps();
     const bool marks_levels = melody.expression.uses(ExpressionSource::level) && grammar.steps() > 0;
     if ((marks_phrases || marks_levels) && !shorten(grammar).with_marks(1)) return unmarkable(order > 0);
-    const std::vector<char> reached = grammar.reachable();
-    bool has_brackets = false;
-    for (Symbol symbol = 0; symbol < reached.size(); ++symbol) {
-        has_brackets = has_brackets || (reached[symbol] != 0 && grammar.is_push(symbol));
-    }
-    return has_brackets && melody.branches == Branches::voices && has_phrases(melody) ? phrases_of_voices
-                                                                                      : std::string();
+    const bool has_voices = melody.branches == Branches::voices && has_brackets(grammar);
+    return has_voices && has_phrases(melody) ? phrases_of_voices : std::string();
 }
 
 Integer period(const Melody& melody) {

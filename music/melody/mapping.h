@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,30 @@ struct PlayReport {
 /// @throws BudgetError, WordError, ScoreError, and exceptions of `sink`
 /// Source: Prusinkiewicz & Hanan 1989, section 6.3; the choices it leaves open are those of Melody.
 PlayReport play(const Grammar& grammar, const Melody& melody, NoteSink& sink, const PlayOptions& options);
+
+/// The word of a melody, prepared to be played many times: shortened, with marks at the ends of phrases and
+/// sub-curves, contexts resolved, and written out if it has parameters or chance.
+class PlayableMelody {
+public:
+    /// @param melody  determines the marks, by its phrases, form, table and curves of expression
+    PlayableMelody(std::shared_ptr<const Grammar> grammar, const Melody& melody);
+    ~PlayableMelody();
+
+    /// Plays the word like the function play(). @param melody  the melody given before; other keys than those that
+    /// determine the marks may have changed
+    PlayReport play(const Melody& melody, NoteSink& sink, const PlayOptions& options);
+
+private:
+    struct Word;
+    std::shared_ptr<const Word> word(const PlayOptions& options);
+
+    std::shared_ptr<const Grammar> grammar_;
+    Melody marked_for_;
+    std::shared_ptr<const Word> word_;  // the last one, unless it is large
+};
+
+/// True if the word may contain brackets.
+bool has_brackets(const Grammar& grammar);
 
 /// Explains why phrases, forms, cadences or levels of a melody cannot be played from this grammar; empty if they can.
 std::string problem_of(const Grammar& grammar, const Melody& melody);

@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "music/melody/key_values.h"
 #include "music/score/instruments.h"
 #include "music/score/spelling.h"
 
@@ -9,7 +10,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <climits>
 #include <cmath>
 #include <stdexcept>
 
@@ -107,9 +108,8 @@ private:
             }
             if (word != "center" && word != "true" && word != "false") words.push_back(word);
         }
-        diagnostics_.error(
-            key->value.empty() ? key->name_at : key->value,
-            fmt::format("expected {}{}{}", alternatives(words), remark, did_you_mean(nearest(wanted, words))));
+        diagnostics_.error(place_of(*key), fmt::format("expected {}{}{}", alternatives(words), remark,
+                                                       did_you_mean(nearest(wanted, words))));
     }
 
     void warn_of_what_has_no_meaning() {
@@ -173,7 +173,7 @@ private:
             while (text.ends_with(' ')) text.pop_back();
             double frequency = 0;
             if (!read_number(text, frequency) || !(frequency > 0)) {
-                diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+                diagnostics_.error(place_of(*key),
                                    "expected a note such as C4, F#3 or Bb, or a frequency such as 261.63 Hz");
                 return;
             }
@@ -196,14 +196,12 @@ private:
     bool fraction(const Key& key, std::int64_t& above, std::int64_t& below) const {
         const std::string_view text = key.value.view();
         const std::size_t slash = text.find('/');
-        const auto whole = [](std::string_view digits, std::int64_t& number) {
-            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-            return error == std::errc() && end == digits.data() + digits.size() && !digits.empty() && number >= 0 &&
-                   number <= 100'000;
-        };
-        below = 1;
-        return whole(text.substr(0, slash), above) &&
-               (slash == std::string_view::npos || whole(text.substr(slash + 1), below));
+        constexpr std::int64_t most = 100'000;
+        const auto first = whole_number(text.substr(0, slash), 0, most);
+        const auto second = slash == std::string_view::npos ? 1 : whole_number(text.substr(slash + 1), 0, most);
+        above = first.value_or(0);
+        below = second.value_or(0);
+        return first && second;
     }
 
     /// Reads `fold` or `fold C2-C7`.
@@ -245,7 +243,7 @@ private:
             return;
         }
         if (!good || above * whole_note / below > 16 * whole_note) {
-            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+            diagnostics_.error(place_of(*key),
                                "expected a note value such as 1/16, 1/8 or 3/16, up to 16 whole notes");
             return;
         }
@@ -288,9 +286,8 @@ private:
         if (const Key* key = pattern_.find("phrases"); key && lower_case(key->value.view()) != "none") {
             std::string_view text = key->value.view();
             if (text.starts_with("order ")) text.remove_prefix(6);
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), melody_.phrase_order);
-            if (error != std::errc() || end != text.data() + text.size() || melody_.phrase_order < 1) {
-                melody_.phrase_order = 0;
+            melody_.phrase_order = whole_number(text, 1).value_or(0);
+            if (melody_.phrase_order == 0) {
                 diagnostics_.error(place_of(*key),
                                    "expected the order of the sub-curves that are phrases, 1 or more, or none");
             } else {
@@ -354,11 +351,11 @@ private:
             if (melody_.progression.empty()) diagnostics_.error(place_of(*key), problem);
         } else if (kind == "bass" && !rest.empty()) {
             melody_.harmony = Harmony::bass;
-            const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), melody_.bass_order);
-            if (error != std::errc() || end != rest.data() + rest.size() || melody_.bass_order < 1 ||
-                melody_.bass_order > 30) {
+            const auto order = whole_number(rest, 1, 30);
+            if (!order) {
                 diagnostics_.error(place_of(*key), "expected the orders by which the bass is coarser, from 1 to 30");
             }
+            melody_.bass_order = order.value_or(1);
         } else {
             choose<Harmony>("harmony", text, melody_.harmony,
                             {{"none", Harmony::none},
@@ -428,24 +425,6 @@ private:
                              ", or the share of each note that sounds, from 5 to 100 percent, such as 60%");
     }
 
-    static const Span& place_of(const Key& key) { return key.value.empty() ? key.name_at : key.value; }
-
-    /// Ticks of `1/8` or `2`, up to 16 whole notes; nullopt for anything else.
-    static std::optional<std::int64_t> note_value(std::string_view text) {
-        const std::size_t slash = std::min(text.find('/'), text.size());
-        const auto whole = [](std::string_view digits) {
-            std::int64_t number = 0;
-            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-            const bool is_good = error == std::errc() && end == digits.data() + digits.size() && number > 0;
-            return is_good && number <= 100'000 ? number : 0;
-        };
-        const std::int64_t above = whole(text.substr(0, slash));
-        const std::int64_t below = slash < text.size() ? whole(text.substr(slash + 1)) : 1;
-        const std::int64_t whole_note = 4 * ticks_per_quarter;
-        if (above == 0 || below == 0 || above * whole_note % below != 0 || above > 16 * below) return std::nullopt;
-        return above * whole_note / below;
-    }
-
     void read_tempo() {
         const Key* key = pattern_.find("tempo");
         if (!key) return;
@@ -454,8 +433,7 @@ private:
         // A curve follows after a blank.
         const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
         if (!read_number(number, tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
-            diagnostics_.error(key->value.empty() ? key->name_at : key->value,
-                               "expected quarter notes a minute, from 4 to 1000");
+            diagnostics_.error(place_of(*key), "expected quarter notes a minute, from 4 to 1000");
             return;
         }
         melody_.tempo = tempo;
@@ -469,48 +447,20 @@ private:
             melody_.meter = *meter;
             return;
         }
-        diagnostics_.error(key->value.empty() ? key->name_at : key->value,
+        diagnostics_.error(place_of(*key),
                            "expected a meter such as 4/4, 7/8 or 3+2+2/8: 1 to 64, in up to 16 groups, over a power "
                            "of two up to 64");
-    }
-
-    static std::optional<Meter> parse_meter(std::string_view text) {
-        const std::size_t slash = text.find('/');
-        if (slash == std::string_view::npos) return std::nullopt;
-        const auto whole = [](std::string_view digits, int& number) {
-            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-            return error == std::errc() && end == digits.data() + digits.size() && number >= 1 && number <= 64;
-        };
-        Meter meter;
-        std::string_view beats = trimmed(text.substr(0, slash));
-        const bool is_grouped = beats.find('+') != std::string_view::npos;
-        if (!whole(trimmed(text.substr(slash + 1)), meter.unit) || (meter.unit & (meter.unit - 1)) != 0) {
-            return std::nullopt;
-        }
-        meter.beats = 0;
-        for (std::size_t i = 0;; ++i) {
-            const std::size_t plus = beats.find('+');
-            int group = 0;
-            if (i == meter.groups.size() || !whole(trimmed(beats.substr(0, plus)), group)) return std::nullopt;
-            meter.beats += group;
-            if (is_grouped) meter.groups[i] = static_cast<std::uint8_t>(group);
-            if (plus == std::string_view::npos) break;
-            beats.remove_prefix(plus + 1);
-        }
-        return meter.beats <= 64 ? std::optional(meter) : std::nullopt;
     }
 
     void read_instrument() {
         const Key* key = pattern_.find("instrument");
         if (!key) return;
         const std::string_view text = key->value.view();
-        int number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error == std::errc() && end == text.data() + text.size() && !text.empty()) {
-            if (number < 1 || number > 128) {
+        if (const auto number = whole_number(text, INT_MIN, INT_MAX)) {
+            if (*number < 1 || *number > 128) {
                 diagnostics_.error(key->value, "the programs of General MIDI are 1 to 128");
             } else {
-                melody_.program = number - 1;
+                melody_.program = static_cast<int>(*number) - 1;
             }
             return;
         }

@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -55,30 +54,10 @@ private:
 /// @param turned  sign of the turn before it: louder after a turn to the left
 /// @param steps   its duration
 /// @param depth   number of brackets around it: softer with each
-inline int loudness(const Melody& melody, int turned, double steps, std::size_t depth, std::int64_t onset) {
-    switch (melody.loudness) {
-        case Loudness::fixed:
-            break;
-        case Loudness::by_turn:
-            return 80 + 18 * turned;
-        case Loudness::by_depth:
-            return std::max(30, 100 - 12 * static_cast<int>(std::min<std::size_t>(depth, 10)));
-        case Loudness::by_length: {
-            // Long notes are louder, and a phrase of four bars swells towards its middle.
-            const double weight = 8.0 * std::min(4.0, steps);
-            const auto phrase = static_cast<double>(4 * melody.meter.bar());
-            const double within = std::fmod(static_cast<double>(onset), phrase) / phrase;
-            return static_cast<int>(std::lround(58 + weight + 40 * within * (1 - within)));
-        }
-    }
-    return 80;
-}
+int loudness(const Melody& melody, int turned, double steps, std::size_t depth, std::int64_t onset);
 
 /// Sign of a turn: 1 to the left, -1 to the right.
-inline int sign_of(const Angle& turn) {
-    const double degrees = std::remainder(turn.degrees, 360.0);
-    return degrees > 0 ? 1 : degrees < 0 ? -1 : 0;
-}
+int sign_of(const Angle& turn);
 
 /// The y that sounds the tonic, doubled; unknown: that of the first note. The x is that of the turtle's start.
 struct Origin {
@@ -93,15 +72,19 @@ struct Marks {
     int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }
 };
 
-/// Ends the last phrases of the word like all others, with a breath.
-/// @param due  number of phrases
-/// @param end  end of the word, in steps
-template <class Walk>
-void end_last_phrases(Clock<Walk>& clock, const Emitter& emitter, int due, typename Walk::Number end) {
-    if (due == 0) return;
-    clock.breathe(due, end);
-    emitter.begin_phrase(clock.ticks(end));
-}
+/// What a reader reads and where its notes go. All of it has to outlive the reader.
+struct Reading {
+    const Grammar& grammar;
+    const Lattice& lattice;
+    int first;  ///< first heading in quarter turns, on the square grid
+    const Melody& melody;
+    const Marks& marks;
+    Emitter& emitter;
+    Origin origin;
+    const PlayOptions& options;
+    bool has_voices;  ///< brackets are voices
+    bool is_on_grid;  ///< the turtle is read in whole numbers
+};
 
 class Reader : public SymbolSink {
 public:
@@ -143,26 +126,129 @@ private:
     std::size_t opened_ = 0;
 };
 
-/// Meaning of a symbol for the reader of runs.
+/// The readers of words. A new one is declared here, and Mapping names it.
+std::unique_ptr<Reader> read_runs(const Reading& reading);
+std::unique_ptr<Reader> read_counterpoint(const Reading& reading);
+std::unique_ptr<Reader> read_symbols(const Reading& reading);
+
+/// Meaning of a symbol for a reader.
 enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, level, not_finite };
 
-/// @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
-inline Kind kind_of(const Command& command, bool moves_sound) {
-    const bool is_finite = std::isfinite(command.value) && std::isfinite(command.angle.degrees);
-    switch (command.action) {
-        case Action::draw:
-            return is_finite ? Kind::draw : Kind::not_finite;
-        case Action::move:
-            return !is_finite ? Kind::not_finite : moves_sound ? Kind::draw : Kind::move;
-        case Action::turn:
-            return is_finite ? Kind::turn : Kind::not_finite;
-        case Action::push:
-            return Kind::open;
-        case Action::pop:
-            return Kind::close;
-        default:
-            return Kind::nothing;
+/// The kind of each symbol. @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
+std::vector<Kind> kinds_of(const Grammar& grammar, const Marks& marks, bool moves_sound);
+
+/// How a note sounds, and where it comes from: see Note.
+struct Sound {
+    int velocity;
+    int level;
+    glm::dvec2 from, to;
+    std::uint64_t symbol;
+};
+
+/// The common state of all readers. Times are counted in steps of the turtle.
+template <class Walk>
+class TimedReader : public Reader {
+protected:
+    using Number = typename Walk::Number;
+
+    TimedReader(const Reading& reading, bool moves_sound)
+        : grammar_(reading.grammar),
+          marks_(reading.marks),
+          melody_(reading.melody),
+          emitter_(reading.emitter),
+          options_(reading.options),
+          kinds_(kinds_of(grammar_, marks_, moves_sound)),
+          clock_(melody_),
+          may_stop_(!reading.has_voices) {}
+
+    std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
+    /// Position of the symbol in the word for Note::symbol; 0 after parts that were skipped.
+    std::uint64_t counted(std::uint64_t symbol) const { return is_counted_ ? symbol : 0; }
+
+    /// A note from one step to another, with its accent.
+    Shaper::Draft draft_of(std::int64_t degree, Number onset, Number end, const Sound& sound) const {
+        emitter_.level = sound.level;
+        emitter_.emphasis = {clock_.is_accented(onset)};
+        Shaper::Draft draft;
+        draft.degree = degree;
+        draft.onset = ticks(onset);
+        draft.end = clock_.end_ticks(end);
+        draft.velocity = sound.velocity;
+        draft.from = sound.from;
+        draft.to = sound.to;
+        draft.symbol = sound.symbol;
+        return draft;
     }
-}
+
+    /// Ends the phrases that are due in the first voices, and takes their breath.
+    void end_phrases(int voices, Number now) {
+        for (int voice = 0; voice < voices; ++voice) emitter_.end_phrase(voice, clock_.is_odd());
+        clock_.breathe(due_, now);
+        emitter_.begin_phrase(ticks(now));
+        due_ = 0;
+    }
+
+    /// Ends the word: its last phrases end like all others, with a breath. @param last  tick of the end
+    void finish_at(Number end, std::int64_t last, int due) {
+        if (due > 0) {
+            clock_.breathe(due, end);
+            emitter_.begin_phrase(ticks(end));
+        }
+        emitter_.finish(last);
+    }
+
+    const Grammar& grammar_;
+    const Marks& marks_;
+    const Melody& melody_;
+    Emitter& emitter_;
+    const PlayOptions& options_;
+    const std::vector<Kind> kinds_;  // by symbol
+    Clock<Walk> clock_;
+    bool may_stop_;
+    int due_ = 0;  // phrases that end before the next note
+    std::uint64_t position_ = 0;
+    bool is_counted_ = true;  // nothing was skipped
+};
+
+/// The common state of readers of the curve.
+template <class Walk>
+class CurveReader : public TimedReader<Walk> {
+public:
+    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
+    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
+    std::int64_t lowest_degree() const override { return lowest_degree_; }
+
+protected:
+    using typename TimedReader<Walk>::Number;
+    using Position = typename Walk::Position;
+    using Step = typename Walk::Step;
+
+    explicit CurveReader(const Reading& reading)
+        : TimedReader<Walk>(reading, draws_nothing(reading.grammar)),
+          walk_(reading.grammar, reading.lattice, reading.first) {}
+
+    static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
+    /// Moves the turtle.
+    static void advance(Position& at, const Step& step) {
+        at.x += step.x;
+        at.y += step.y;
+    }
+    /// Registers a corner of the curve.
+    void note_vertex(const Position& at) {
+        lowest_ = std::min(lowest_, at.y);
+        highest_ = std::max(highest_, at.y);
+    }
+    /// Registers the height of a note.
+    void note_degree(std::int64_t degree) {
+        lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, degree);
+    }
+
+    Walk walk_;
+
+private:
+    Number lowest_ = 0;
+    Number highest_ = 0;
+    std::int64_t lowest_degree_ = unknown;
+};
 
 }  // namespace sikku::mapping

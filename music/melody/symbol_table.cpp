@@ -1,6 +1,7 @@
 #include "music/melody/symbol_table.h"
 
 #include "engine/base/text.h"
+#include "music/melody/key_values.h"
 #include "music/melody/melody.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -35,13 +35,6 @@ constexpr std::array<KindName, 5> kinds = {{{"note ", Kind::note},
                                             {"chord ", Kind::chord},
                                             {"rest ", Kind::rest},
                                             {"change ", Kind::change}}};
-
-std::optional<std::int64_t> whole(std::string_view text) {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_good = error == std::errc() && end == text.data() + text.size() && !text.empty();
-    return is_good ? std::optional(value) : std::nullopt;
-}
 
 /// The velocity of `ppp` to `fff`.
 std::optional<int> level_of(std::string_view name) {
@@ -104,18 +97,12 @@ public:
     }
 
 private:
-    void fail(const Key& key, const std::string& message) {
-        diagnostics_.error(key.value.empty() ? key.name_at : key.value, message);
-    }
+    void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
 
     void read_names() {
         const Key* key = pattern_.find("symbols");
-        std::string_view rest = key ? key->value.view() : std::string_view();
-        while (!(rest = trimmed(rest)).empty()) {
-            const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-            names_.insert(std::string(rest.substr(0, end)));
-            rest.remove_prefix(end);
-        }
+        if (!key) return;
+        for (const std::string_view name : words_of(key->value.view())) names_.emplace(name);
     }
 
     /// True for one character, `@` with another, a listed name or a surface.
@@ -168,38 +155,23 @@ private:
         melody_.table.rows.push_back(std::move(row));
     }
 
-    static std::vector<std::string_view> words_of(std::string_view text) {
-        std::vector<std::string_view> words;
-        while (!(text = trimmed(text)).empty()) {
-            const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-            words.push_back(text.substr(0, end));
-            text.remove_prefix(end);
-        }
-        return words;
-    }
-
     /// Reads a note value with a `/`, and a velocity, from word `at` on. @return the problem; empty if there is none
     std::string read_ending(const std::vector<std::string_view>& words, std::size_t at, bool has_velocity,
                             SymbolRow& row) const {
         if (at < words.size() && words[at].find('/') != std::string_view::npos) {
-            const std::size_t slash = words[at].find('/');
-            const auto above = whole(words[at].substr(0, slash));
-            const auto below = whole(words[at].substr(slash + 1));
-            const std::int64_t whole_note = 4 * ticks_per_quarter;
-            if (!above || !below || *above < 1 || *below < 1 || *above > 100'000 || *below > 100'000 ||
-                *above * whole_note % *below != 0 || *above > 16 * *below) {
+            const auto ticks = note_value(words[at]);
+            if (!ticks) {
                 return fmt::format(
                     "unknown duration '{}'; expected a note value above 0, such as 1/8, 3/16 or 1/1, up "
                     "to 16 whole notes",
                     words[at]);
             }
-            const std::int64_t ticks = *above * whole_note / *below;
-            row.steps = static_cast<double>(ticks) / static_cast<double>(melody_.unit);
+            row.steps = static_cast<double>(*ticks) / static_cast<double>(melody_.unit);
             ++at;
         }
         if (has_velocity && at < words.size()) {
             const auto level = level_of(words[at]);
-            const auto number = whole(words[at]);
+            const auto number = whole_number(words[at]);
             if (!level && number && (*number < softest || *number > loudest)) {
                 return fmt::format("velocity {}; expected 1 to 127, or ppp to fff", *number);
             }
@@ -218,7 +190,7 @@ private:
     }
 
     std::string read_degree(std::string_view word, SymbolRow& row) const {
-        const auto degree = whole(word.starts_with('+') ? word.substr(1) : word);
+        const auto degree = whole_number(word.starts_with('+') ? word.substr(1) : word);
         if (!degree || *degree < -most_degree || *degree > most_degree) {
             return fmt::format("unknown degree '{}'; expected a whole number from -{} to {}; 0 is the tonic", word,
                                most_degree, most_degree);
@@ -366,7 +338,7 @@ private:
             // `octave up`, `octave down 2`, `octave -1`, or `octave` alone for up.
             row.change = SoundChange::octave;
             const bool has_direction = words.size() > 1 && (words[1] == "up" || words[1] == "down");
-            const auto number = words.size() > 1 ? whole(words[1]) : std::nullopt;
+            const auto number = words.size() > 1 ? whole_number(words[1]) : std::nullopt;
             sign = (has_direction && words[1] == "down") || (number && *number < 0) ? -1 : 1;
             if (number) row.amount = std::fabs(static_cast<double>(*number));
             at = has_direction || number ? 2 : 1;
@@ -380,7 +352,7 @@ private:
         } else if (first == "up" || first == "down") {
             row.change = SoundChange::degree;
             sign = first == "up" ? 1 : -1;
-        } else if (const auto number = whole(first); level || number) {
+        } else if (const auto number = whole_number(first); level || number) {
             row.change = SoundChange::level;
             row.amount = level ? *level : static_cast<double>(*number);
             row.is_dynamic = level.has_value();
@@ -393,7 +365,7 @@ private:
                    "down 2";
         }
         if (at < words.size() && row.change != SoundChange::level) {
-            const auto amount = whole(words[at]);
+            const auto amount = whole_number(words[at]);
             if (!amount || *amount < 0 || *amount > loudest) {
                 return fmt::format("unexpected '{}'; expected an amount from 0 to 127", words[at]);
             }

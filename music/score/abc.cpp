@@ -3,6 +3,7 @@
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +11,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -87,10 +86,10 @@ std::string meter_name(const Meter& meter) {
     return fmt::format("({})/{}", groups, meter.unit);
 }
 
-class Writer {
+class Writer : private TextWriter {
 public:
     Writer(const Notation& notation, const ScoreHead& head, Output& out)
-        : notation_(notation), head_(head), out_(out) {}
+        : TextWriter(out), notation_(notation), head_(head) {}
 
     void write() {
         find_drums();
@@ -128,18 +127,6 @@ public:
     }
 
 private:
-    template <typename... Arguments>
-    void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-        constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-        if (text_.size() > flush_bytes) flush();
-    }
-
-    void flush() {
-        out_.write({text_.data(), text_.size()});
-        text_.clear();
-    }
-
     static std::string quoted(std::string_view text) {
         std::string result = field(text);
         std::replace(result.begin(), result.end(), '"', '\'');
@@ -169,11 +156,7 @@ private:
     /// Finds the notes of the drums on the staff; a sign distinguishes drums with the same place.
     void find_drums() {
         std::map<int, int> at_height;
-        for (const NotatedPart& part : notation_.parts) {
-            for (const Staff& staff : part.staves) {
-                for (const int key : drums_of(staff)) drum_notes_.try_emplace(key);
-            }
-        }
+        for (const int key : drums_of(notation_)) drum_notes_.try_emplace(key);
         static constexpr std::array<std::string_view, 5> signs = {"=", "^", "_", "^^", "__"};
         for (auto& [key, note] : drum_notes_) {
             const Drum& drum = drum_of(key);
@@ -186,16 +169,12 @@ private:
     /// Number of bars on a line, which programs print unchanged: fewer if a bar has many notes.
     std::int64_t bars_on_a_line() const {
         std::ptrdiff_t most = 0;
-        for (const NotatedPart& part : notation_.parts) {
-            for (const Staff& staff : part.staves) {
-                for (const NotatedVoice& voice : staff.voices) {
-                    std::map<std::int64_t, std::ptrdiff_t> count;
-                    for (const NotatedSymbol& symbol : voice.symbols) {
-                        most = std::max(most, ++count[symbol.onset / notation_.bar_length]);
-                    }
-                }
+        each_voice(notation_, [&](const NotatedVoice& voice) {
+            std::map<std::int64_t, std::ptrdiff_t> count;
+            for (const NotatedSymbol& symbol : voice.symbols) {
+                most = std::max(most, ++count[symbol.onset / notation_.bar_length]);
             }
-        }
+        });
         return most <= 12 ? 4 : most <= 24 ? 2 : 1;
     }
 
@@ -347,8 +326,6 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    Output& out_;
-    fmt::memory_buffer text_;
     std::map<int, std::string> drum_notes_;  // by key
     std::int64_t bars_on_a_line_ = 4;
 };

@@ -16,8 +16,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -98,30 +100,13 @@ Rendering render(const fs::path& midi, const fs::path& output, const fs::path& s
 
     // Ignores the user's settings, so that the result is the same everywhere. A chorus would blur microtones. Floats
     // do not clip at any gain.
+    std::istringstream options(
+        fmt::format("-n -i -q -f /dev/null -C 0 -R 1 -g 0.5 -r {} -T raw -O float -E little -F /dev/fd/3", rate));
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(options), {}};
+    arguments.push_back(fs::absolute(soundfont).string());
+    arguments.push_back(fs::absolute(midi).string());
     Process process({.program = *program,
-                     .arguments = {"-n",
-                                   "-i",
-                                   "-q",
-                                   "-f",
-                                   "/dev/null",
-                                   "-C",
-                                   "0",
-                                   "-R",
-                                   "1",
-                                   "-g",
-                                   "0.5",
-                                   "-r",
-                                   std::to_string(rate),
-                                   "-T",
-                                   "raw",
-                                   "-O",
-                                   "float",
-                                   "-E",
-                                   "little",
-                                   "-F",
-                                   "/dev/fd/3",
-                                   fs::absolute(soundfont).string(),
-                                   fs::absolute(midi).string()},
+                     .arguments = std::move(arguments),
                      .descriptors = {-1, messages.get(), messages.get(), drain.get()}});
     drain.reset();
 

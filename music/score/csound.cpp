@@ -2,6 +2,8 @@
 
 #include "music/score/comments.h"
 #include "music/score/glides.h"
+#include "music/score/note_order.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -18,10 +20,7 @@ namespace {
 
 /// A number with at most six decimals.
 std::string number(double value) {
-    std::string text = fmt::format("{:.6f}", value);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
+    return sikku::number(value, 6);
 }
 
 double quarters(std::int64_t ticks) {
@@ -72,9 +71,7 @@ void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64
         instruments.insert(instruments.end(), static_cast<std::size_t>(std::max(head.parts[i].voices, 0)),
                            static_cast<int>(i) + 1);
     }
-    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
-        return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-    });
+    sort_by_time(notes);
     std::string text = tempo_statement(head, curves, end);
     const bool glides = has_glides(notes);
     const bool is_panned = has_pan(curves) || glides;

@@ -6,6 +6,7 @@
 #include "music/score/dynamics.h"
 #include "music/score/instruments.h"
 #include "music/score/labels.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,6 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <iterator>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,7 +22,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t flush_bytes = std::size_t{1} << 16;
 constexpr std::string_view rit = "\\markup \\normal-text \\italic \"rit.\" ";
 
 }  // namespace
@@ -85,10 +83,10 @@ std::string key_name(const KeySignature& key) {
                        modes[static_cast<std::size_t>(key.mode)]);
 }
 
-class Writer {
+class Writer : private TextWriter {
 public:
     Writer(const Notation& notation, const ScoreHead& head, Output& sink)
-        : notation_(notation), head_(head), sink_(sink) {}
+        : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
         put("\\version \"2.24.0\"\n\n");
@@ -114,34 +112,17 @@ public:
 private:
     /// Writes a table of the drums used, as LilyPond's own tables lack some.
     void write_drum_table() {
-        std::set<int> used;
-        for (const NotatedPart& part : notation_.parts) {
-            for (const Staff& staff : part.staves) {
-                const std::vector<int> drums = drums_of(staff);
-                used.insert(drums.begin(), drums.end());
-            }
-        }
         const bool has_drums = std::any_of(notation_.parts.begin(), notation_.parts.end(),
                                            [](const NotatedPart& one) { return one.part.is_drums; });
         if (!has_drums) return;
         put("#(define sikkuDrums (alist->hash-table '(\n");
-        for (const int key : used) {
+        for (const int key : drums_of(notation_)) {
             const Drum& drum = drum_of(key);
             // Counted from the middle line.
             const int place = Pitch{drum.letter, drum.octave, 0}.height() - Pitch{6, 4, 0}.height();
             put("  {}  ; {}\n", drum_row(key, place), drum.name);
         }
         put(")))\n\n");
-    }
-
-    template <typename... Arguments>
-    void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-    }
-
-    void flush() {
-        sink_.write({text_.data(), text_.size()});
-        text_.clear();
     }
 
     /// Sets systems farther apart than their staves, and keeps the foot of the page free.
@@ -158,25 +139,16 @@ private:
         put("}}\n\n");
     }
 
-    template <typename Predicate>
-    bool any_voice(Predicate predicate) const {
-        for (const NotatedPart& part : notation_.parts) {
-            for (const Staff& staff : part.staves) {
-                if (std::any_of(staff.voices.begin(), staff.voices.end(), predicate)) return true;
-            }
-        }
-        return false;
-    }
-
     bool has_tuplets() const {
-        return any_voice([](const NotatedVoice& voice) { return !voice.tuplets.empty(); });
+        bool has_any = false;
+        each_voice(notation_, [&](const NotatedVoice& voice) { has_any = has_any || !voice.tuplets.empty(); });
+        return has_any;
     }
 
     bool has_slides() const {
-        return any_voice([](const NotatedVoice& voice) {
-            return std::any_of(voice.symbols.begin(), voice.symbols.end(),
-                               [](const NotatedSymbol& symbol) { return symbol.begins_slide; });
-        });
+        bool has_any = false;
+        each_symbol(notation_, [&](const NotatedSymbol& symbol) { has_any = has_any || symbol.begins_slide; });
+        return has_any;
     }
 
     /// Reserves room for names, and leaves out staves that rest throughout a system.
@@ -469,7 +441,6 @@ private:
                                                                           : "",
                 end / bar);
             if (!is_last) put("        ");
-            if (text_.size() > flush_bytes) flush();
         }
     }
 
@@ -543,8 +514,6 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    Output& sink_;
-    fmt::memory_buffer text_;
 };
 
 }  // namespace

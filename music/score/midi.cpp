@@ -8,6 +8,7 @@
 #include "music/score/midi_conductor.h"
 #include "music/score/midi_voice.h"
 #include "music/score/mpe.h"
+#include "music/score/note_order.h"
 
 #include <fmt/format.h>
 
@@ -30,19 +31,12 @@ using namespace midi;
 namespace {
 
 constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t most_voices = channels - 1;
+constexpr std::size_t most_voices = most_pitched_channels;
 /// Half a cent, which is inaudible, and a margin, as cents are not exact in binary.
 constexpr double least_fraction = 0.005 + 1e-9;
 constexpr int release = 64;  // the velocity of a note-off that does not matter
 constexpr std::uint32_t unset = ~std::uint32_t{0};
 constexpr int none = -1;
-
-constexpr std::uint64_t plain_note_bytes = 14;
-// Bytes before a note that needs a program, bend or tuning, with the delta of one byte that the note-on then has.
-constexpr std::uint64_t program_bytes = 3;
-constexpr std::uint64_t bend_bytes = 4;
-constexpr std::uint64_t tuning_bytes = 14;
-static_assert(note_room >= plain_note_bytes + tuning_bytes);
 
 class MidiWriter final : public NoteSink {
 public:
@@ -135,8 +129,6 @@ private:
         voice.controls = voice.own_controls;
     }
 
-    static bool has_glide(const Note& note) { return note.glide.semitones != 0; }
-
     void collect(std::span<const Note> notes) {
         if (notes.size() > most_collected_ - std::min(most_collected_, collected_.size())) {
             throw ScoreError(
@@ -149,15 +141,13 @@ private:
 
     /// Channels are distributed in the order of onsets.
     void write_collected() {
-        std::stable_sort(collected_.begin(), collected_.end(), [](const Note& a, const Note& b) {
-            return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-        });
+        sort_by_time(collected_);
         MpeChannels distribution;
         std::array<int, channels> programs{};
         programs.fill(-1);
         for (const Note& note : collected_) {
             Voice& voice = voice_of(note);
-            if (note.duration <= 0 || !(note.key >= 0.0 && note.key <= 127.0)) refuse(voice, voice.now, note);
+            if (note.duration <= 0 || !(note.key >= 0.0 && note.key <= 127.0)) refuse_note(voice, voice.now, note);
             const auto end = static_cast<std::int64_t>(static_cast<std::uint64_t>(note.onset) +
                                                        static_cast<std::uint64_t>(note.duration));
             if (voice.is_drums) {
@@ -323,7 +313,7 @@ private:
             const auto length = static_cast<std::uint64_t>(note.duration);
             const bool is_key = note.key >= 0.0 && note.key <= 127.0;
             if (rest > most_delta || length - 1 >= most_delta || !is_key || note.velocity - 1U > 126U) {
-                refuse(voice, now, note);
+                refuse_note(voice, now, note);
             }
             const int key = static_cast<int>(note.key + 0.5);
             const double fraction = note.key - key;
@@ -345,7 +335,7 @@ private:
                 if (tuned != out) rest = 0;
                 out = tuned;
             } else if (is_fraction) {
-                refuse(voice, now, note);
+                refuse_note(voice, now, note);
             }
             out = put_delta(out, rest);
             out = put_byte(out, on);
@@ -373,7 +363,7 @@ private:
             const bool is_bent =
                 (std::fabs(fraction) > least_fraction && !options_.microtonal) || (has_glide(note) && !bends_notes());
             if (is_far || is_bent || note.duration <= 0 || note.velocity - 1U > 126U || !is_key) {
-                refuse(voice, voice.now, note);
+                refuse_note(voice, voice.now, note);
             }
             const std::int64_t end = note.onset + note.duration;
             const double bent = lead_in(voice, note.onset);
@@ -506,40 +496,6 @@ private:
         return put_byte(out, wanted >> 7);
     }
 
-    static char* retune(Voice& voice, char* out, std::uint64_t rest, int key, double fraction) {
-        const auto wanted = static_cast<std::uint32_t>(std::lround((key + fraction) * 0x1p14));
-        std::uint32_t& tuned = voice.tuned[static_cast<std::size_t>(key)];
-        if (wanted == tuned) return out;
-        tuned = wanted;
-        out = put_delta(out, rest);
-        // Real time, to all devices: in this tuning program one key sounds as so many semitones and 2^-14 of them.
-        for (const int byte : {0xF0, 11, 0x7F, 0x7F, 0x08, 0x02, voice.channel, 1, key}) out = put_byte(out, byte);
-        for (const int shift : {14, 7, 0}) out = put_byte(out, static_cast<int>(wanted >> shift & 0x7F));
-        return put_byte(out, 0xF7);
-    }
-
-    /// Reports the fault of a note. @throws ScoreError always
-    [[noreturn]] static void refuse(const Voice& voice, std::int64_t now, const Note& note) {
-        const std::string where = fmt::format("voice {}, tick {}: ", voice.number + 1, note.onset);
-        if (note.onset < 0) throw ScoreError(where + "a note before the beginning of the score");
-        if (note.duration <= 0) throw ScoreError(where + fmt::format("a note of {} ticks", note.duration));
-        if (note.onset < now) throw ScoreError(where + fmt::format("a note before the last one ends at {}", now));
-        if (!(note.key >= 0.0 && note.key <= 127.0)) {
-            throw ScoreError(where + fmt::format("key {} is not within 0 to 127", note.key));
-        }
-        if (note.velocity < 1 || note.velocity > 127) {
-            throw ScoreError(where + fmt::format("velocity {} is not within 1 to 127", note.velocity));
-        }
-        const bool is_long = static_cast<std::uint64_t>(note.duration) > most_delta;
-        if (is_long || static_cast<std::uint64_t>(note.onset - now) > most_delta) {
-            throw ScoreError(where + fmt::format("a {} of {} ticks; a MIDI file can tell up to {}",
-                                                 is_long ? "note" : "rest before it",
-                                                 is_long ? note.duration : note.onset - now, most_delta));
-        }
-        if (has_glide(note)) throw ScoreError(where + "the note slides, which needs pitch bends of microtones");
-        throw ScoreError(where + fmt::format("key {} has a fraction, but no microtones were announced", note.key));
-    }
-
     /// Makes room in the open block.
     void flush(Voice& voice) {
         voice.full_bytes += voice.open_block().size();
@@ -633,58 +589,8 @@ private:
 
 }  // namespace
 
-std::vector<int> channel_slots(const ScoreHead& head) {
-    std::set<int> programs;
-    for (const Part& part : head.parts) {
-        if (!part.is_drums) programs.insert(part.program);
-    }
-    if (programs.size() > most_voices) {
-        throw ScoreError(fmt::format("{} instruments in {} parts: MIDI has channels for {} besides drums",
-                                     programs.size(), head.parts.size(), most_voices));
-    }
-    std::size_t spare = most_voices - programs.size();
-    std::map<int, int> of_program;
-    std::vector<int> slots;
-    int next = 0;
-    for (const Part& part : head.parts) {
-        if (part.is_drums) {
-            slots.push_back(0);
-            continue;
-        }
-        const auto known = of_program.find(part.program);
-        const bool has_own = known == of_program.end() || spare > 0;
-        if (known != of_program.end() && spare > 0) --spare;
-        slots.push_back(has_own ? next++ : known->second);
-        of_program.try_emplace(part.program, slots.back());
-    }
-    return slots;
-}
-
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options) {
     return std::make_unique<MidiWriter>(head, sink, options);
-}
-
-std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head, const MidiOptions& options) {
-    constexpr std::uint64_t text_bytes = 7;  // delta, FF, type, length
-    constexpr std::uint64_t end_bytes = 7;
-    std::uint64_t fixed = 14 + 8 + 8 * 11 + 3 * text_bytes + head.title.size() + head.pattern.size() +
-                          head.made.size() + 7 + 8 + 6 + end_bytes;
-    std::uint64_t longest_name = 0;
-    for (const Label& label : labels_of(head.parts)) {
-        longest_name = std::max(longest_name, std::uint64_t{label.name.size()});
-    }
-    // Up to ten controllers, the program, and a number after the name.
-    fixed += most_voices * (8 + text_bytes + longest_name + 12 + 10 * 4 + 3 + end_bytes);
-    const bool is_mpe = options.tuning == Tuning::mpe;
-    if (is_mpe) fixed += mpe_configuration().size();
-    const std::uint64_t each = plain_note_bytes + (is_mpe                           ? program_bytes + bend_bytes
-                                                   : !options.microtonal            ? 0
-                                                   : options.tuning == Tuning::bend ? bend_bytes
-                                                                                    : tuning_bytes);
-    if (notes > (std::numeric_limits<std::uint64_t>::max() - fixed) / each) {
-        return std::numeric_limits<std::uint64_t>::max();
-    }
-    return fixed + notes * each;
 }
 
 }  // namespace sikku

@@ -55,7 +55,4 @@ std::vector<int> channel_slots(const ScoreHead& head);
 /// 2^28 - 1 ticks, a track above 4 GB, an end before the last note's. `head` and `sink` have to outlive the writer.
 std::unique_ptr<NoteSink> write_midi(const ScoreHead& head, Output& sink, const MidiOptions& options = {});
 
-/// Upper bound of the size of a file with `notes` notes, without curves and glides, in bytes.
-std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head = {}, const MidiOptions& options = {});
-
 }  // namespace sikku

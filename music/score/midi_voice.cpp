@@ -1,5 +1,9 @@
 #include "music/score/midi_voice.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace sikku::midi {
 namespace {
 
@@ -62,6 +66,39 @@ std::uint64_t Events::number() {
         value = value << 7 | (byte & 0x7F);
         if (byte < 0x80) return value;
     }
+}
+
+void refuse_note(const Voice& voice, std::int64_t now, const Note& note) {
+    const std::string where = fmt::format("voice {}, tick {}: ", voice.number + 1, note.onset);
+    if (note.onset < 0) throw ScoreError(where + "a note before the beginning of the score");
+    if (note.duration <= 0) throw ScoreError(where + fmt::format("a note of {} ticks", note.duration));
+    if (note.onset < now) throw ScoreError(where + fmt::format("a note before the last one ends at {}", now));
+    if (!(note.key >= 0.0 && note.key <= 127.0)) {
+        throw ScoreError(where + fmt::format("key {} is not within 0 to 127", note.key));
+    }
+    if (note.velocity < 1 || note.velocity > 127) {
+        throw ScoreError(where + fmt::format("velocity {} is not within 1 to 127", note.velocity));
+    }
+    const bool is_long = static_cast<std::uint64_t>(note.duration) > most_delta;
+    if (is_long || static_cast<std::uint64_t>(note.onset - now) > most_delta) {
+        throw ScoreError(where + fmt::format("a {} of {} ticks; a MIDI file can tell up to {}",
+                                             is_long ? "note" : "rest before it",
+                                             is_long ? note.duration : note.onset - now, most_delta));
+    }
+    if (has_glide(note)) throw ScoreError(where + "the note slides, which needs pitch bends of microtones");
+    throw ScoreError(where + fmt::format("key {} has a fraction, but no microtones were announced", note.key));
+}
+
+char* retune(Voice& voice, char* out, std::uint64_t rest, int key, double fraction) {
+    const auto wanted = static_cast<std::uint32_t>(std::lround((key + fraction) * 0x1p14));
+    std::uint32_t& tuned = voice.tuned[static_cast<std::size_t>(key)];
+    if (wanted == tuned) return out;
+    tuned = wanted;
+    out = put_delta(out, rest);
+    // Real time, to all devices: in this tuning program one key sounds as so many semitones and 2^-14 of them.
+    for (const int byte : {0xF0, 11, 0x7F, 0x7F, 0x08, 0x02, voice.channel, 1, key}) out = put_byte(out, byte);
+    for (const int shift : {14, 7, 0}) out = put_byte(out, static_cast<int>(wanted >> shift & 0x7F));
+    return put_byte(out, 0xF7);
 }
 
 }  // namespace sikku::midi

@@ -15,6 +15,8 @@
 
 namespace sikku::midi {
 
+/// Channels besides that of drums.
+constexpr std::size_t most_pitched_channels = channels - 1;
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 /// Bytes that a note may need, including a tuning before it.
 constexpr std::size_t note_room = 14 + 14;
@@ -41,6 +43,17 @@ struct Voice {
     std::string_view open_block() const { return {block.get(), static_cast<std::size_t>(out - block.get())}; }
     std::uint64_t bytes() const { return full_bytes + open_block().size(); }
 };
+
+/// True for a note whose pitch slides.
+inline bool has_glide(const Note& note) {
+    return note.glide.semitones != 0;
+}
+
+/// Reports the fault of a note. @param now  tick at which the note before it ends. @throws ScoreError always
+[[noreturn]] void refuse_note(const Voice& voice, std::int64_t now, const Note& note);
+
+/// Writes a single note tuning change, if the key needs one. @param fraction  of a semitone, -0.5 to 0.5
+char* retune(Voice& voice, char* out, std::uint64_t rest, int key, double fraction);
 
 /// Iterates over the events of a voice; supports only those that the writer writes.
 class Events {

@@ -3,6 +3,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "music/score/glides.h"
+#include "music/score/note_order.h"
+#include "music/score/text_writer.h"
 
 #include <embedded/music_page.h>
 #include <fmt/format.h>
@@ -19,23 +21,6 @@ namespace sikku {
 namespace {
 
 // ---- texts and numbers
-
-/// Writes a number with at most `places` decimals, without trailing zeros or -0.
-void put(std::string& out, double value, int places) {
-    const std::size_t begin = out.size();
-    fmt::format_to(std::back_inserter(out), "{:.{}f}", value, places);
-    if (out.find('.', begin) != std::string::npos) {
-        while (out.back() == '0') out.pop_back();
-        if (out.back() == '.') out.pop_back();
-    }
-    if (std::string_view(out).substr(begin) == "-0") out.erase(begin, 1);
-}
-
-std::string number(double value, int places = 3) {
-    std::string result;
-    put(result, value, places);
-    return result;
-}
 
 /// A text of at most `most` characters (not bytes), else its beginning and an ellipsis.
 std::string shortened(std::string_view text, std::size_t most) {
@@ -114,9 +99,7 @@ struct Melody {
 Melody survey(const std::vector<Note>& notes, std::int64_t end) {
     Melody melody;
     melody.notes = notes;
-    std::stable_sort(melody.notes.begin(), melody.notes.end(), [](const Note& a, const Note& b) {
-        return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
-    });
+    sort_by_time(melody.notes);
     melody.end = std::max<std::int64_t>(end, 1);
     if (notes.empty()) return melody;
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -179,7 +162,7 @@ void write_curves(std::string& out, const Curves& curves, const std::vector<Temp
     out += "\"tempos\":[";
     for (std::size_t i = 0; i < tempos.size(); ++i) {
         out += fmt::format("{}[{},", i > 0 ? "," : "", tempos[i].tick);
-        put(out, tempos[i].factor, 4);
+        put_number(out, tempos[i].factor, 4);
         out += ']';
     }
     out += "],\"controls\":[";
@@ -187,7 +170,7 @@ void write_curves(std::string& out, const Curves& curves, const std::vector<Temp
     for (const ControlPoint& point : curves.controls) {
         if (point.number != ControlPoint::pan && point.number != ControlPoint::bend) continue;
         out += fmt::format("{}[{},{},{},", is_first ? "" : ",", point.voice, point.tick, point.number);
-        put(out, point.value, 4);
+        put_number(out, point.value, 4);
         out += ']';
         is_first = false;
     }
@@ -485,17 +468,17 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         std::string& text = out.text();
         fmt::format_to(std::back_inserter(text), "{}[{},{},", first ? "\n" : ",\n", note.onset, note.duration);
         first = false;
-        put(text, note.key, 4);
+        put_number(text, note.key, 4);
         fmt::format_to(std::back_inserter(text), ",{},{}", note.voice, note.velocity);
         for (const double value : {note.from.x, note.from.y, note.to.x, note.to.y}) {
             text += ',';
-            put(text, value, 4);
+            put_number(text, value, 4);
         }
         if (note.glide.ticks > 0) {
             text += fmt::format(",{},", note.glide.ticks);
-            put(text, static_cast<double>(note.glide.semitones), 4);
+            put_number(text, static_cast<double>(note.glide.semitones), 4);
             text += ',';
-            put(text, static_cast<double>(note.glide.rise), 4);
+            put_number(text, static_cast<double>(note.glide.rise), 4);
         }
         text += ']';
     }

@@ -4,6 +4,7 @@
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 #include <numeric>
 #include <set>
 #include <span>
@@ -23,7 +23,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t flush_bytes = std::size_t{1} << 16;
 constexpr int voices_per_staff = 4;
 
 std::string_view type_name(int divisor) {
@@ -74,10 +73,10 @@ struct StaffState {
     std::size_t mark = 0;
 };
 
-class Writer {
+class Writer : private TextWriter {
 public:
     Writer(const Notation& notation, const ScoreHead& head, Output& sink)
-        : notation_(notation), head_(head), sink_(sink) {}
+        : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
         find_unit();
@@ -89,26 +88,10 @@ public:
     }
 
 private:
-    template <typename... Arguments>
-    void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
-    }
-
-    void flush() {
-        sink_.write({text_.data(), text_.size()});
-        text_.clear();
-    }
-
     /// Sets the ticks of a division: the largest number that divides every duration.
     void find_unit() {
         unit_ = std::gcd(ticks_per_quarter, notation_.bar_length);
-        for (const NotatedPart& part : notation_.parts) {
-            for (const Staff& staff : part.staves) {
-                for (const NotatedVoice& voice : staff.voices) {
-                    for (const NotatedSymbol& symbol : voice.symbols) unit_ = std::gcd(unit_, symbol.length);
-                }
-            }
-        }
+        each_symbol(notation_, [&](const NotatedSymbol& symbol) { unit_ = std::gcd(unit_, symbol.length); });
     }
 
     void divide_parts() {
@@ -236,7 +219,6 @@ private:
                 put("<barline location=\"right\"><bar-style>light-light</bar-style></barline>\n");
             }
             put("</measure>\n");
-            if (text_.size() > flush_bytes) flush();
         }
         put("</part>\n");
     }
@@ -470,8 +452,6 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    Output& sink_;
-    fmt::memory_buffer text_;
     std::vector<XmlPart> parts_;
     std::int64_t unit_ = 1;  ///< ticks of a division
     std::int64_t here_ = 0;  ///< position of the reader, in ticks

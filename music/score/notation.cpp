@@ -272,15 +272,27 @@ int staff_size(const Notation& notation) {
     return staves >= 10 ? 13 : staves >= 7 ? 15 : staves >= 4 ? 16 : staves >= 2 ? 18 : 20;
 }
 
+namespace {
+
+void add_drums(const NotatedVoice& voice, std::set<int>& drums) {
+    for (const NotatedSymbol& symbol : voice.symbols) {
+        if (symbol.drum == 0) continue;
+        drums.insert(symbol.drum);
+        for (const ChordNote& note : symbol.chord) drums.insert(note.drum);
+    }
+}
+
+}  // namespace
+
 std::vector<int> drums_of(const Staff& staff) {
     std::set<int> drums;
-    for (const NotatedVoice& voice : staff.voices) {
-        for (const NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.drum == 0) continue;
-            drums.insert(symbol.drum);
-            for (const ChordNote& note : symbol.chord) drums.insert(note.drum);
-        }
-    }
+    for (const NotatedVoice& voice : staff.voices) add_drums(voice, drums);
+    return {drums.begin(), drums.end()};
+}
+
+std::vector<int> drums_of(const Notation& notation) {
+    std::set<int> drums;
+    each_voice(notation, [&](const NotatedVoice& voice) { add_drums(voice, drums); });
     return {drums.begin(), drums.end()};
 }
 

@@ -189,6 +189,26 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling);
 
 /// The keys of the drums on a staff, ascending.
 std::vector<int> drums_of(const Staff& staff);
+/// Those of a score.
+std::vector<int> drums_of(const Notation& notation);
+
+/// Calls `visit` with each voice of a score.
+template <class Visit>
+void each_voice(const Notation& notation, Visit visit) {
+    for (const NotatedPart& part : notation.parts) {
+        for (const Staff& staff : part.staves) {
+            for (const NotatedVoice& voice : staff.voices) visit(voice);
+        }
+    }
+}
+
+/// Calls `visit` with each note and rest of a score.
+template <class Visit>
+void each_symbol(const Notation& notation, Visit visit) {
+    each_voice(notation, [&](const NotatedVoice& voice) {
+        for (const NotatedSymbol& symbol : voice.symbols) visit(symbol);
+    });
+}
 
 /// The cents that are printed above a note, those of a chord from the highest note to the lowest.
 std::vector<int> printed_cents(const NotatedSymbol& symbol);

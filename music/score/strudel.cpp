@@ -3,6 +3,7 @@
 #include "engine/base/base64.h"
 #include "music/score/comments.h"
 #include "music/score/drums.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -20,10 +21,7 @@ namespace {
 
 /// A number with at most four decimals.
 std::string number(double value) {
-    std::string text = fmt::format("{:.4f}", value);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
+    return sikku::number(value, 4);
 }
 
 /// Name of a key: `c4`, `f#3`, or the number of one between two semitones.

@@ -1,4 +1,5 @@
 // tests/music/far_bars_test.cpp: compares bars far inside Hilbert's curve with a walk in exact numbers.
+#include "engine/base/integer.h"
 #include "engine/derivation/forecast.h"
 #include "music/scores.h"
 

@@ -2,6 +2,7 @@
 
 #include "tests/files.h"
 #include "tests/midi_tools.h"
+#include "tests/music/midi_size.h"
 #include "tests/print_tools.h"
 
 #include <gtest/gtest.h>

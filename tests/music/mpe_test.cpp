@@ -3,6 +3,7 @@
 #include "music/score/midi.h"
 #include "tests/files.h"
 #include "tests/midi_tools.h"
+#include "tests/music/midi_size.h"
 #include "tests/tools.h"
 
 #include <gtest/gtest.h>

@@ -1,37 +1,30 @@
-// music/melody/run_reader.h: reads the straight runs of a curve as notes.
-#pragma once
-
 #include "music/melody/reader.h"
 
-namespace sikku::mapping {
+#include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace sikku::mapping {
+namespace {
+
+/// Reads the straight runs of a curve as notes.
 template <class Walk>
-class RunReader final : public Reader {
+class RunReader final : public CurveReader<Walk> {
+    using Base = CurveReader<Walk>;
+    using Base::clock_, Base::due_, Base::emitter_, Base::grammar_, Base::is_counted_, Base::kinds_, Base::marks_;
+    using Base::may_stop_, Base::melody_, Base::options_, Base::position_, Base::walk_;
+    using Base::ticks, Base::point, Base::advance, Base::note_vertex, Base::note_degree;
+    using typename Base::Number, typename Base::Position, typename Base::Step;
+
 public:
-    /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
-    RunReader(const Grammar& grammar, const Lattice& lattice, int first, const Melody& melody, const Marks& marks,
-              Emitter& emitter, Origin origin, const PlayOptions& options, bool has_voices)
-        : grammar_(grammar),
-          marks_(marks),
-          melody_(melody),
-          emitter_(emitter),
-          origin_(origin),
-          options_(options),
-          walk_(grammar, lattice, first),
-          clock_(melody),
-          levels_{marks.whole, marks.whole},
-          may_stop_(!has_voices),
-          ahead_(options.ahead) {
-        const bool moves_sound = draws_nothing(grammar);
-        for (const SymbolInfo& symbol : grammar.symbols()) kinds_.push_back(kind_of(symbol.command, moves_sound));
-        for (Symbol symbol = 0; symbol < kinds_.size(); ++symbol) {
-            if (marks.level(symbol) > 0) kinds_[symbol] = Kind::level;
-            if (marks.phrase == symbol) kinds_[symbol] = Kind::mark;
-        }
+    explicit RunReader(const Reading& reading)
+        : Base(reading), origin_(reading.origin), levels_{marks_.whole, marks_.whole}, ahead_(options_.ahead) {
         state_.at = walk_.start;
         state_.run.from = state_.at;
         emitter_.take(state_.line, 0);
-        if (melody.vertical == Vertical::voice) emitter_.take(state_.other, 1);
+        if (melody_.vertical == Vertical::voice) emitter_.take(state_.other, 1);
     }
 
     void symbols(const Run& run) override {
@@ -79,8 +72,7 @@ public:
         release_held();
         const Number end = std::max(state_.time, state_.other_time);
         const std::int64_t last = ticks(end);
-        end_last_phrases(clock_, emitter_, due_, end);
-        emitter_.finish(last);
+        this->finish_at(end, last, due_);
     }
 
     bool skip(const GridStretch& stretch) override {
@@ -110,16 +102,10 @@ public:
         }
     }
 
-    std::int64_t lowest_vertex() const override { return Walk::degree(2 * lowest_); }
-    std::int64_t highest_vertex() const override { return Walk::degree(2 * highest_); }
     std::int64_t first_degree() const override { return first_degree_; }
-    std::int64_t lowest_degree() const override { return lowest_degree_; }
 
 private:
     static constexpr std::int64_t counted_in_skips = std::int64_t{1} << 48;  // ticks, far before the piece
-    using Number = typename Walk::Number;
-    using Position = typename Walk::Position;
-    using Step = typename Walk::Step;
 
     struct Pending {
         bool is_open = false;
@@ -172,8 +158,6 @@ private:
             return steps;
         }
     }
-    std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
-    static glm::dvec2 point(const Position& at) { return {static_cast<double>(at.x), static_cast<double>(at.y)}; }
 
     /// True if a part lies before the piece, with some margin; it may reach a little beyond `ahead_`.
     bool has_room(const Integer& steps, const Integer& phrases) const {
@@ -281,18 +265,16 @@ private:
             run.turned = turned;
             run.marks = 0;
             run.level = 0;
-            run.symbol = is_counted_ ? symbol : 0;
+            run.symbol = this->counted(symbol);
         }
-        state_.at.x += step.x;
-        state_.at.y += step.y;
+        advance(state_.at, step);
     }
 
     void move(Symbol symbol) {
         end_run();
         const Step step = walk_.step(state_.at, symbol);
-        state_.at.x += step.x;
-        state_.at.y += step.y;
-        note_vertex();
+        advance(state_.at, step);
+        note_vertex(state_.at);
         const Number wide = step.x < 0 ? -step.x : step.x;
         const Number high = step.y < 0 ? -step.y : step.y;
         const bool lasts =
@@ -316,14 +298,10 @@ private:
 
     void end_phrases() {
         if (due_ == 0) return;
-        emitter_.end_phrase(0, clock_.is_odd());
-        if (melody_.vertical == Vertical::voice) emitter_.end_phrase(1, clock_.is_odd());
         const Number now = std::max(state_.time, state_.other_time);
-        clock_.breathe(due_, now);
+        Base::end_phrases(melody_.vertical == Vertical::voice ? 2 : 1, now);
         // Two voices begin together at a bar line.
         if (melody_.breathes_to_bar) state_.time = state_.other_time = now;
-        emitter_.begin_phrase(ticks(std::max(state_.time, state_.other_time)));
-        due_ = 0;
     }
 
     /// True if no note of the piece is held back.
@@ -334,16 +312,11 @@ private:
         return !is_held && emitter_.may_stop(ticks(state_.time));
     }
 
-    void note_vertex() {
-        lowest_ = std::min(lowest_, state_.at.y);
-        highest_ = std::max(highest_, state_.at.y);
-    }
-
     void end_run() {
         Pending& run = state_.run;
         if (!run.is_open) return;
         run.is_open = false;
-        note_vertex();
+        note_vertex(state_.at);
         const Number wide = state_.at.x > run.from.x ? state_.at.x - run.from.x : run.from.x - state_.at.x;
         const Number high = state_.at.y > run.from.y ? state_.at.y - run.from.y : run.from.y - state_.at.y;
         const int velocity = loudness(melody_, run.turned, static_cast<double>(wide > high ? wide : high),
@@ -373,32 +346,19 @@ private:
         if (melody_.anchor == Anchor::piece && clock_.end_ticks(end) <= options_.from) return;
         if (first_degree_ == unknown) first_degree_ = Walk::degree(twice);
         if (origin_.y == unknown) origin_.y = 2 * Walk::degree(twice);
-        if (seeks_first_note) throw Enough();
+        if (this->seeks_first_note) throw Enough();
     }
 
     void emit(const Sounding& note) {
         meet(note.twice, note.end);
         if (origin_.y == unknown) return;  // before the piece
         if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
-        emitter_.level = note.level;
-        emitter_.emphasis.is_accented = clock_.is_accented(note.onset);
-        if (note.glide > 0) return emit_gliding(note);
-        emitter_.note(state_.line, Walk::degree(note.twice - static_cast<Number>(origin_.y)), ticks(note.onset),
-                      clock_.end_ticks(note.end), note.velocity, note.from, note.to, note.symbol);
-    }
-
-    void emit_gliding(const Sounding& note) {
         const auto origin = static_cast<Number>(origin_.y);
-        Shaper::Draft draft;
-        draft.degree = Walk::degree(note.twice - origin);
+        Shaper::Draft draft = this->draft_of(Walk::degree(note.twice - origin), note.onset, note.end,
+                                             {note.velocity, note.level, note.from, note.to, note.symbol});
+        if (note.glide <= 0) return emitter_.note(state_.line, draft);
         draft.goal = Walk::degree(note.goal_twice - origin);
-        draft.onset = ticks(note.onset);
-        draft.end = clock_.end_ticks(note.end);
         draft.glide = std::max<std::int64_t>(0, draft.end - ticks(note.end - note.glide));
-        draft.velocity = note.velocity;
-        draft.from = note.from;
-        draft.to = note.to;
-        draft.symbol = note.symbol;
         draft.rise = static_cast<float>(note.rise);
         emitter_.gliding_note(state_.line, draft);
     }
@@ -412,7 +372,7 @@ private:
         const bool may_slide = melody_.vertical == Vertical::glissando;
         if (may_slide) release_held();
         meet(twice, state_.time + steps);
-        lowest_degree_ = std::min(lowest_degree_ == unknown ? farthest : lowest_degree_, Walk::degree(twice));
+        note_degree(Walk::degree(twice));
         const bool is_held = melody_.vertical == Vertical::extend || may_slide;
         if (is_held) {
             release_held();
@@ -469,11 +429,10 @@ private:
                 steps = lasting(steps);
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 end_phrases();
-                emitter_.level = std::exchange(levels_[1], 0);
-                emitter_.emphasis.is_accented = clock_.is_accented(state_.other_time);
-                emitter_.note(state_.other, degree, ticks(state_.other_time),
-                              clock_.end_ticks(state_.other_time + steps), velocity, point(run.from),
-                              point(state_.at), run.symbol);
+                const Sound sound{velocity, std::exchange(levels_[1], 0), point(run.from), point(state_.at),
+                                  run.symbol};
+                emitter_.note(state_.other,
+                              this->draft_of(degree, state_.other_time, state_.other_time + steps, sound));
                 state_.other_time += steps;
                 break;
             }
@@ -545,7 +504,7 @@ private:
         stack_.open(state_, position_);
         emitter_.depth = static_cast<int>(stack_.depth());
         if constexpr (std::is_floating_point_v<Number>) {
-            if (spans) state_.pace = share_of(state_.pace, state_.opened);
+            if (this->spans) state_.pace = this->share_of(state_.pace, state_.opened);
         }
     }
 
@@ -560,9 +519,9 @@ private:
         state_.has_sounded = state_.has_sounded || branch.has_sounded;
         state_.lead = branch.lead;
         if constexpr (std::is_floating_point_v<Number>) {
-            if (spans) {
-                const double span = shared_span(state_.pace, std::max(state_.time, state_.other_time),
-                                                std::max(branch.time, branch.other_time), branch.opened);
+            if (this->spans) {
+                const double span = this->shared_span(state_.pace, std::max(state_.time, state_.other_time),
+                                                      std::max(branch.time, branch.other_time), branch.opened);
                 state_.time += span;
                 state_.other_time += span;
                 return;
@@ -581,29 +540,21 @@ private:
         state_ = stack_.close(position_);
     }
 
-    const Grammar& grammar_;
-    const Marks& marks_;
-    const Melody& melody_;
-    Emitter& emitter_;
     Origin origin_;
-    const PlayOptions& options_;
-    Walk walk_;
-    Clock<Walk> clock_;
-    int due_ = 0;                // phrases that end before the next note
     std::array<int, 2> levels_;  // level of the next note of each voice
-    bool may_stop_;
-    Integer ahead_;  // ticks before tick 0 that are still to be skipped
-    std::vector<Kind> kinds_;
+    Integer ahead_;              // ticks before tick 0 that are still to be skipped
     State state_;
     Brackets<State> stack_;
     std::vector<Block> blocks_;
-    std::uint64_t position_ = 0;
-    bool is_counted_ = true;  // nothing was skipped
-    Number lowest_ = 0;
-    Number highest_ = 0;
     Number step_length_ = 0;  // length of the first step drawn
     std::int64_t first_degree_ = unknown;
-    std::int64_t lowest_degree_ = unknown;
 };
+
+}  // namespace
+
+std::unique_ptr<Reader> read_runs(const Reading& reading) {
+    if (reading.is_on_grid) return std::make_unique<RunReader<GridWalk>>(reading);
+    return std::make_unique<RunReader<PlaneWalk>>(reading);
+}
 
 }  // namespace sikku::mapping

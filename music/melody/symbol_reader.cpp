@@ -1,52 +1,46 @@
-// music/melody/symbol_reader.h: reads the symbols of a word as notes.
-#pragma once
-
 #include "music/melody/reader.h"
 #include "music/melody/symbol_table.h"
 #include "music/score/dynamics.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace sikku::mapping {
+namespace {
 
 /// Reads the word itself, symbol by symbol.
-class SymbolReader final : public Reader {
+class SymbolReader final : public TimedReader<PlaneWalk> {
 public:
-    /// `grammar`, `melody`, `marks`, `emitter` and `options` have to outlive it.
-    SymbolReader(const Grammar& grammar, const Melody& melody, const Marks& marks, Emitter& emitter,
-                 const PlayOptions& options, bool has_voices)
-        : grammar_(grammar),
-          marks_(marks),
-          melody_(melody),
-          emitter_(emitter),
-          options_(options),
-          clock_(melody),
-          level_(marks.whole),
-          may_stop_(!has_voices),
-          entries_(entries_of(grammar, melody)),
-          moves_sound_(entries_.empty() && draws_nothing(grammar)),
-          origin_(melody.anchor == Anchor::piece && entries_.empty() ? unknown : 0) {
-        skipped_.assign(grammar.symbols().size(), 0);
+    SymbolReader(const Reading& reading, std::vector<SymbolEntry> entries)
+        : TimedReader(reading, entries.empty() && draws_nothing(reading.grammar)),
+          level_(marks_.whole),
+          entries_(std::move(entries)),
+          origin_(melody_.anchor == Anchor::piece && entries_.empty() ? unknown : 0) {
+        skipped_.assign(grammar_.symbols().size(), 0);
         emitter_.take(state_.line, 0);
     }
 
     void symbols(const Run& run) override {
         for (const Symbol symbol : run.symbols) {
-            if (const int level = marks_.level(symbol)) {
-                level_ = std::max(level_, level);
-                continue;
-            }
-            if (marks_.phrase == symbol) {
-                ++due_;
-                if (state_.sounding == unknown) end_phrases();
-                continue;
-            }
-            ++position_;
-            if (!entries_.empty() && entries_[symbol].has_row) {
+            const Kind kind = kinds_[symbol];
+            const bool is_mark = kind == Kind::mark || kind == Kind::level;
+            if (!is_mark) ++position_;
+            if (!is_mark && !entries_.empty() && entries_[symbol].has_row) {
                 read_entry(entries_[symbol]);
                 continue;
             }
             const SymbolInfo& info = grammar_.symbols()[symbol];
             const Command& command = info.command;
-            switch (kind_of(command, moves_sound_)) {
+            switch (kind) {
+                case Kind::mark:
+                    ++due_;
+                    if (state_.sounding == unknown) end_phrases();
+                    break;
+                case Kind::level:
+                    level_ = std::max(level_, marks_.level(symbol));
+                    break;
                 case Kind::draw:
                     sound(std::fabs(command.value));
                     break;
@@ -83,8 +77,6 @@ public:
                     break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
-                case Kind::mark:
-                case Kind::level:
                 case Kind::nothing:
                     ++skipped_[symbol];
                     break;
@@ -96,7 +88,7 @@ public:
         for (std::size_t symbol = 0; symbol < skipped_.size(); ++symbol) {
             if (skipped_[symbol] == 0) continue;
             const SymbolInfo& info = grammar_.symbols()[symbol];
-            const bool is_turn = kind_of(info.command, moves_sound_) == Kind::turn;
+            const bool is_turn = kinds_[symbol] == Kind::turn;
             report.skipped[is_turn ? "parameter of " + info.letter : info.letter] += skipped_[symbol];
         }
         if (!entries_.empty()) report.unused = unused_rows(grammar_, melody_.table);
@@ -107,8 +99,7 @@ public:
         const int due = std::exchange(due_, 0);  // the end closes the last phrase
         end_note();
         const std::int64_t last = end_ > 0 ? end_ : ticks(state_.time);
-        end_last_phrases(clock_, emitter_, due, state_.time);
-        emitter_.finish(last);
+        finish_at(state_.time, last, due);
     }
 
     bool skip(const GridStretch& stretch) override {
@@ -196,8 +187,8 @@ private:
             draft.velocity = velocity;
             draft.from = {onset, height};
             draft.to = {state_.time, height};
-            draft.symbol = is_counted_ ? position_ : 0;
-            emitter_.note(i == 0 ? state_.line : others[i - 1], draft);
+            draft.symbol = counted(position_);
+            emitter_.table_note(i == 0 ? state_.line : others[i - 1], draft);
         }
         for (const Emitter::Line& line : others) emitter_.release(line);
     }
@@ -253,15 +244,10 @@ private:
             spans ? state_.time + shared_span(state_.pace, state_.time, branch.time, branch.opened) : branch.time;
     }
 
-    std::int64_t ticks(double steps) const { return clock_.ticks(steps); }
-
     void end_phrases() {
         if (due_ == 0) return;
         end_ = ticks(state_.time);
-        emitter_.end_phrase(0, clock_.is_odd());
-        clock_.breathe(due_, state_.time);
-        emitter_.begin_phrase(ticks(state_.time));
-        due_ = 0;
+        TimedReader::end_phrases(1, state_.time);
     }
 
     /// Sounds a step. Adjacent steps of one degree form a long note, unless each step is to be heard.
@@ -270,7 +256,7 @@ private:
             end_note();
             state_.sounding = state_.degree;
             state_.onset = state_.time;
-            state_.symbol = is_counted_ ? position_ : 0;
+            state_.symbol = counted(position_);
             state_.begun = std::exchange(level_, 0);
         }
         state_.time += length * state_.pace;
@@ -287,10 +273,8 @@ private:
             const int velocity =
                 loudness(melody_, state_.turned, state_.time - state_.onset, stack_.depth(), ticks(state_.onset));
             if (melody_.branches == Branches::voices) emitter_.depth = static_cast<int>(stack_.depth());
-            emitter_.level = state_.begun;
-            emitter_.emphasis = {clock_.is_accented(state_.onset)};
-            emitter_.note(state_.line, state_.sounding - origin_, ticks(state_.onset), clock_.end_ticks(state_.time),
-                          velocity, {state_.onset, height}, {state_.time, height}, state_.symbol);
+            const Sound sound{velocity, state_.begun, {state_.onset, height}, {state_.time, height}, state_.symbol};
+            emitter_.note(state_.line, draft_of(state_.sounding - origin_, state_.onset, state_.time, sound));
         }
         state_.sounding = unknown;
         end_phrases();
@@ -303,24 +287,19 @@ private:
         throw Enough();
     }
 
-    const Grammar& grammar_;
-    const Marks& marks_;
-    const Melody& melody_;
-    Emitter& emitter_;
-    const PlayOptions& options_;
-    Clock<PlaneWalk> clock_;
-    std::int64_t end_ = 0;  // end of the phrase that has just ended
-    int due_ = 0;           // phrases that end with the note
-    int level_;             // level of the next note
-    bool may_stop_;
+    std::int64_t end_ = 0;                // end of the phrase that has just ended
+    int level_;                           // level of the next note
     std::vector<SymbolEntry> entries_;    // by symbol; empty without a table
     std::vector<std::uint64_t> skipped_;  // by symbol; turns count if their parameter has no effect
-    bool moves_sound_;                    // the word has no F: its f are notes
     std::int64_t origin_;
     State state_;
     Brackets<State> stack_;
-    std::uint64_t position_ = 0;
-    bool is_counted_ = true;  // nothing was skipped
 };
+
+}  // namespace
+
+std::unique_ptr<Reader> read_symbols(const Reading& reading) {
+    return std::make_unique<SymbolReader>(reading, entries_of(reading.grammar, reading.melody));
+}
 
 }  // namespace sikku::mapping

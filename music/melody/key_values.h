@@ -1,0 +1,32 @@
+// music/melody/key_values.h: values that several keys of melodies have.
+#pragma once
+
+#include "engine/language/pattern.h"
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// The place of a value for messages; that of the name for a key without a value.
+inline const Span& place_of(const Key& key) {
+    return key.value.empty() ? key.name_at : key.value;
+}
+
+/// Reads a whole number from `least` to `most`; nullopt for anything else.
+std::optional<std::int64_t> whole_number(std::string_view text, std::int64_t least = INT64_MIN,
+                                         std::int64_t most = INT64_MAX);
+
+/// The words between blanks and tabs.
+std::vector<std::string_view> words_of(std::string_view text);
+
+/// Ticks of `1/8` or `2`, up to 16 whole notes; nullopt for anything else.
+std::optional<std::int64_t> note_value(std::string_view text);
+
+/// Reads `4/4`, `7/8`, or with groups `3+2+2/8`; nullopt for anything else.
+std::optional<Meter> parse_meter(std::string_view text);
+
+}  // namespace sikku

@@ -1,0 +1,42 @@
+// music/score/text_writer.h: writes scores that are texts.
+#pragma once
+
+#include "engine/base/output.h"
+
+#include <fmt/format.h>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+
+namespace sikku {
+
+/// Formats text into an output, in blocks.
+class TextWriter {
+protected:
+    explicit TextWriter(Output& out) : out_(out) {}
+
+    template <typename... Arguments>
+    void put(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        constexpr std::size_t block_bytes = std::size_t{1} << 16;
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+        if (text_.size() > block_bytes) flush();
+    }
+    /// Writes what is left. Call last.
+    void flush() {
+        out_.write({text_.data(), text_.size()});
+        text_.clear();
+    }
+
+private:
+    Output& out_;
+    fmt::memory_buffer text_;
+};
+
+/// Appends a number with at most `places` decimals, without trailing zeros or -0.
+void put_number(std::string& text, double value, int places);
+
+/// Formats such a number.
+std::string number(double value, int places = 3);
+
+}  // namespace sikku

@@ -1,0 +1,164 @@
+#include "music/score_head.h"
+
+#include "engine/interpreter.h"
+#include "music/melody/symbol_table.h"
+#include "music/score/instruments.h"
+#include "music/score/spelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+// Programs of General MIDI, counted from 0.
+constexpr int strings = 48;
+constexpr int sitar = 104;
+
+std::string made_with(const PlaySettings& settings, const std::vector<Player>& players, bool is_arrangement) {
+    std::string text;
+    // The document of a single pattern contains the keys itself.
+    for (const Setting& setting : settings.keys) {
+        if (is_arrangement) text += fmt::format(" --{} '{}'", setting.key, setting.value);
+    }
+    if (settings.from_bar != 1) text += fmt::format(" --from-bar {}", settings.from_bar);
+    if (settings.bars != 0) text += fmt::format(" --bars {}", settings.bars);
+    if (settings.seconds != 0) text += fmt::format(" --seconds {}", settings.seconds);
+    if (settings.transpose != 0) text += fmt::format(" --transpose {}", settings.transpose);
+    if (settings.tuning != Tuning::bend) {
+        text += settings.tuning == Tuning::mts ? " --tuning mts" : " --tuning mpe";
+    }
+    if (settings.humanise != 0) {
+        text += fmt::format(" --humanise {}", settings.humanise);
+        if (!players.front().document.has_override("seed")) text += fmt::format(" --seed {}", settings.seed);
+    }
+    const Document& first = players.front().document;
+    const std::string made = recipe(first, first.grammar(), "", text);
+    // An arrangement contains the settings of its patterns.
+    return is_arrangement ? made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text : made;
+}
+
+/// Adds the texts of a pattern.
+void add_texts(const Player& player, std::vector<std::string>& titles, ScoreHead& head) {
+    const Pattern& pattern = player.document.pattern();
+    const std::string title = pattern.text("title");
+    if (!title.empty() && std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
+    if (head.composer.empty()) head.composer = pattern.text("composer");
+    if (head.source.empty()) head.source = pattern.text("source");
+}
+
+Part drum_part(const std::string& name, int voices, bool has_chords) {
+    Part part;
+    part.has_chords = has_chords;
+    part.name = name.empty() ? "Drums" : name;
+    part.is_drums = true;
+    part.voices = voices;
+    part.spelling = spell(*find_scale("major"), {});
+    return part;
+}
+
+/// The part of the curve of a player.
+Part part_of(const Player& player, const PlayOptions& playing) {
+    const Melody& melody = player.melody;
+    Part part;
+    part.name = player.name.empty() ? instrument_of(melody.program).name : player.name;
+    part.has_instrument_name = player.name.empty();
+    part.scale = scale_of(melody);
+    part.program = melody.program;
+    part.key = key_signature(melody.scale, melody.tonic_spelling);
+    part.spelling = spell(melody.scale, melody.tonic_spelling);
+    part.signature = print_signature(melody.scale, melody.tonic_spelling);
+    part.voices = voices_of(player, playing);
+    part.has_chords = melody.table.most_notes() > 1;
+    return part;
+}
+
+/// The part of the drone or the chords of a player, from that of its curve.
+Part accompaniment_of(Part part, const Melody& melody) {
+    part.has_chords = false;
+    part.is_accompaniment = true;
+    part.voices = melody.accompanying_voices();
+    part.program = melody.harmony == Harmony::drone ? sitar : strings;
+    part.name = instrument_of(part.program).name;
+    part.has_instrument_name = true;
+    return part;
+}
+
+struct VoiceCount {
+    int all = 0;
+    int pitched = 0;  ///< all but the drums
+};
+
+/// Numbers the voices of a player after those of the players before it, and adds its parts.
+void add_parts(Player& player, const PlayOptions& playing, VoiceCount& voices, std::vector<Part>& parts) {
+    const Melody& melody = player.melody;
+    player.first_voice = voices.all;
+    const Part part = part_of(player, playing);
+    const SoundKinds sounds = sound_kinds(player.document.grammar(), melody);
+    const int accompanying = melody.accompanying_voices();
+    // Drums alone are the only part of their pattern.
+    const bool is_drums_alone = sounds.has_drums && !sounds.has_pitches && accompanying == 0;
+    player.has_drums = sounds.has_drums;
+    player.chords_from = part.voices;
+    player.drums_from = is_drums_alone ? 0 : part.voices + accompanying;
+    voices.all += player.drums_from + (sounds.has_drums ? part.voices : 0);
+    voices.pitched += player.drums_from;
+    if (voices.all > most_voices)
+        throw ScoreError(fmt::format("too many voices: a score has at most {}", most_voices));
+    if (!is_drums_alone) parts.push_back(part);
+    if (accompanying > 0) parts.push_back(accompaniment_of(part, melody));
+    if (!sounds.has_drums) return;
+    parts.push_back(drum_part(is_drums_alone ? player.name : "", part.voices, part.has_chords));
+}
+
+}  // namespace
+
+ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrangement* arrangement,
+                  const PlayOptions& playing, int most) {
+    ScoreHead head;
+    head.tempo = ensemble.tempo;
+    head.ritardando = ensemble.close != Close::none ? 2 * ensemble.meter.bar() : 0;
+    head.meter = ensemble.meter;
+    head.made = made_with(settings, ensemble.players, arrangement != nullptr);
+    if (arrangement) {
+        head.title = arrangement->title;
+        head.composer = arrangement->composer;
+        head.source = arrangement->source;
+    }
+    head.pattern = arrangement ? arrangement->text : ensemble.players.front().document.source().text();
+    PlayOptions counting = playing;
+    counting.most_voices = most_voices;
+    if (ensemble.needs_whole()) {
+        counting.from = 0;
+        counting.to = INT64_MAX;
+    }
+    std::vector<std::string> titles;
+    VoiceCount voices;
+    for (Player& player : ensemble.players) {
+        if (!player.is_bass) add_texts(player, titles, head);
+        add_parts(player, counting, voices, head.parts);
+    }
+    if (voices.pitched > most) {
+        throw ScoreError(
+            fmt::format("too many voices: {} at once; {} need a MIDI channel for each voice; there are {} besides "
+                        "drums",
+                        voices.pitched,
+                        ensemble.has_glides()  ? "glissandi"
+                        : ensemble.has_bends() ? "gamakas"
+                                               : "notes between the keys",
+                        most_channels));
+    }
+    if (head.title.empty()) head.title = fmt::format("{}", fmt::join(titles, ", "));
+    return head;
+}
+
+int pitched_voices(const ScoreHead& head) {
+    int voices = 0;
+    for (const Part& part : head.parts) voices += part.is_drums ? 0 : part.voices;
+    return voices;
+}
+
+}  // namespace sikku

@@ -1,0 +1,134 @@
+#include "music/score_remarks.h"
+
+#include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
+#include "engine/geometry/lattice.h"
+#include "music/melody/melody_fold.h"
+#include "music/score/instruments.h"
+#include "music/score/rhythm.h"
+#include "music/score/spelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+namespace {
+
+/// Treatment of notes beyond the range of a melody, for a remark.
+std::string_view fate_of(const Melody& melody) {
+    const double period = std::fabs(melody.scale.period) / 100;
+    if (melody.range == Range::reflect) return "reflected";
+    // A range narrower than a period has no other octave for most notes.
+    return melody.range == Range::fold && period <= melody.highest - melody.lowest ? "folded back"
+                                                                                   : "held at the last key";
+}
+
+/// Adds a remark for each range that notes lay beyond.
+void report_moved(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
+    struct Moved {
+        const Melody* melody;
+        std::uint64_t notes;
+        std::vector<std::string_view> instruments;
+        bool is_anchored;  // by the first note of the whole melody
+    };
+    std::vector<Moved> ranges;
+    for (std::size_t i = 0; i < report.moved_of.size(); ++i) {
+        if (report.moved_of[i] == 0) continue;
+        const Melody& melody = ensemble.players[i].melody;
+        const auto is_same = [&](const Moved& one) {
+            return one.melody->lowest == melody.lowest && one.melody->highest == melody.highest &&
+                   fate_of(*one.melody) == fate_of(melody);
+        };
+        auto known = std::find_if(ranges.begin(), ranges.end(), is_same);
+        if (known == ranges.end()) known = ranges.insert(known, {&melody, 0, {}, false});
+        known->notes += report.moved_of[i];
+        known->is_anchored = known->is_anchored || melody.anchor != Anchor::piece;
+        const std::string_view name = instrument_of(melody.program).name;
+        auto& names = known->instruments;
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    for (const Moved& one : ranges) {
+        const auto spelling = spell(one.melody->scale, one.melody->tonic_spelling);
+        made.warn(fmt::format(
+            "{}{} {} beyond {} to {} and {}{}", counted(one.notes, "note"),
+            ranges.size() > 1 ? fmt::format(" of {}", fmt::join(one.instruments, ", ")) : "",
+            one.notes == 1 ? "was" : "were", note_name(one.melody->lowest, spelling),
+            note_name(one.melody->highest, spelling), fate_of(*one.melody),
+            playing.from > 0 && one.is_anchored ? "; with `anchor: piece` the piece begins on the tonic" : ""));
+    }
+}
+
+/// Suggests a key with which notes would begin and end on note values; empty if none is known.
+std::string_view remedy_for_moved(const Ensemble& ensemble) {
+    for (const Player& player : ensemble.players) {
+        const Melody& melody = player.melody;
+        Note step;
+        step.duration = melody.unit;
+        const Grid grid = grid_of(std::span(&step, 1), ensemble.meter);
+        if (grid.nearest(melody.unit) != melody.unit) return "; another `unit` such as 1/8 keeps the rhythm";
+        int first = 0;
+        const bool is_on_square_grid = is_on_grid(make_lattice(player.document.grammar()), first);
+        if (melody.mapping == Mapping::runs && melody.rhythm.empty() && !is_on_square_grid) {
+            return "; the curve leaves the square grid, where `rhythm: x` makes each step last one unit";
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
+    const Melody& first = ensemble.players.front().melody;
+    made.fact(fmt::format("{}, {}, {}, {}", counted(report.notes, "note"),
+                          counted(bars_of(report.end, ensemble.meter).str(), "bar"),
+                          report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
+                          range_of(report, first)));
+    if (report.is_strict) {
+        made.fact(fmt::format("counterpoint: {} moved, {} left before endings",
+                              counted(report.counterpoint.moved, "note"),
+                              counted(report.counterpoint.left, "fault")));
+    }
+    report_moved(ensemble, playing, report, made);
+    if (report.lost > 0) {
+        made.warn(counted(report.lost, "note") + " too short for a tick, or without a key, left out");
+    }
+    if (!report.skipped.empty()) made.fact("skipped: " + skipped_text(report.skipped));
+    for (const std::string& symbol : report.unused) {
+        made.warn(fmt::format("the pattern does not contain the symbol '{}' of the table{}", printable(symbol),
+                              symbol.size() > 1 ? "; names are listed under `symbols:`" : ""));
+    }
+    for (const Player& player : ensemble.players) {
+        const Melody& melody = player.melody;
+        if (player.is_bass || player.is_follower) continue;
+        const bool has_meter = melody.meter.beats == ensemble.meter.beats && melody.meter.unit == ensemble.meter.unit;
+        if (melody.tempo != ensemble.tempo || (!has_meter && !player.document.has_override("meter"))) {
+            made.warn(printable(player.document.text("title")) +
+                      " is played in the tempo and meter of the first pattern");
+        }
+    }
+}
+
+void report_notation(const Notation& notation, const Ensemble& ensemble, Made& made) {
+    if (notation.moved > 0) {
+        const bool is_one = notation.moved == 1;
+        made.warn(
+            fmt::format("{} not begin or end at a 64th or in a tuplet of 3, 5, 6, 10 or 12 and {} written at the "
+                        "nearest 64th{}",
+                        is_one ? "1 note does" : counted(notation.moved, "note") + " do", is_one ? "is" : "are",
+                        remedy_for_moved(ensemble)));
+    }
+    if (notation.merged > 0) {
+        made.fact(fmt::format("{} in unison with other voices printed once", counted(notation.merged, "note")));
+    }
+    if (notation.bent > 0) {
+        made.warn(fmt::format("{} written as the nearest quarter tone, with the difference in cents",
+                              notation.bent == 1 ? "1 note is" : counted(notation.bent, "note") + " are"));
+    }
+}
+
+}  // namespace sikku

@@ -1,0 +1,16 @@
+// music/score_remarks.h: remarks about a finished score.
+#pragma once
+
+#include "engine/interpreter.h"
+#include "music/ensemble.h"
+#include "music/score/notation.h"
+
+namespace sikku {
+
+/// Reports notes, time and range, and what became of notes and symbols that could not be played as stated.
+void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made);
+
+/// Reports notes that are not printed as they sound.
+void report_notation(const Notation& notation, const Ensemble& ensemble, Made& made);
+
+}  // namespace sikku
