@@ -1,6 +1,6 @@
 #include "art/analysis.h"
 
-#include "art/drawing/seen_drawing.h"
+#include "art/deep/seen_drawing.h"
 #include "art/product/draw_settings.h"
 #include "art/style/style.h"
 #include "engine/derivation/forecast.h"
@@ -46,11 +46,11 @@ KolamExamination examine_kolam(const Document& document, double budget, const Mo
 
 bool has_view(const Document& document) {
     try {
-        DrawOptions options;
+        DrawingOptions options;
         options.window = parse_window("0,0,1,1");
         std::string why;
         const Grammar grammar = shorten(document.grammar());
-        return seen_parts(grammar, read_print_style(document, {}), options, why).has_value();
+        return seen_parts(grammar, read_print_style(document, {}), options, {}, why).has_value();
     } catch (const std::runtime_error&) {
         return false;
     }

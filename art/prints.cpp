@@ -1,12 +1,12 @@
 #include "art/prints.h"
 
-#include "art/drawing/draw.h"
-#include "art/drawing/swatch.h"
-#include "art/drawing/window_drawing.h"
+#include "art/deep/window_drawing.h"
 #include "art/product/draw_settings.h"
 #include "art/product/print_work.h"
 #include "art/product/unused_options.h"
 #include "art/raster/raster.h"
+#include "art/writer/draw.h"
+#include "art/writer/swatch.h"
 
 #include <fmt/format.h>
 
@@ -26,13 +26,13 @@ Document fill_page(const Document& document, DrawSettings& settings) {
     if (styled.grammar().is_spatial() || styled.grammar().map()) {
         refuse_option("fill-page", "", "applies only to tilings in the plane");
     }
-    DrawOptions options;
-    options.budget = settings.work.budget;
+    ReadingLimits limits;
+    limits.budget = settings.work.budget;
     std::string why;
     const glm::dvec2 size = (glm::dvec2(page.width, page.height) - 2 * page.margin) / step;
     const double around = (page.margin + settings.press.bleed) / step;
     const auto found =
-        find_filled_page(styled.grammar(), read_print_style(document, settings), size, around, options, why);
+        find_filled_page(styled.grammar(), read_print_style(document, settings), size, around, limits, why);
     if (!found) refuse_option("fill-page", "", why);
     settings.place.step.reset();
     settings.place.window = found->window;
@@ -46,11 +46,12 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
     Page& page = settings.page.sheet;
     const double step = settings.place.step.value_or(std::min(page.width, page.height) / steps_across);
     const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
-    DrawOptions options;
-    static_cast<DrawingOptions&>(options) = drawing_options(settings, document);
+    ReadingLimits limits;
+    limits.budget = settings.work.budget;
     try {
-        settings.place.swatch_place = find_swatch(styled.grammar(), read_print_style(styled, settings), options,
-                                                  settings.place.swatch == SwatchChoice::turned);
+        settings.place.swatch_place =
+            find_swatch(styled.grammar(), read_print_style(styled, settings), drawing_options(settings, document),
+                        limits, settings.place.swatch == SwatchChoice::turned);
     } catch (const SwatchError& error) {
         refuse_option("swatch", "", error.what());
     }

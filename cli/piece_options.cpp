@@ -2,11 +2,11 @@
 
 #include "art/cutting/cutting_sheets.h"
 #include "art/cutting/tile_templates.h"
-#include "art/drawing/drawing.h"
 #include "art/prints.h"
 #include "art/product/draw_settings.h"
 #include "art/product/plot_remarks.h"
 #include "art/style/length.h"
+#include "art/writer/make_drawing.h"
 #include "engine/geometry/lettering.h"
 #include "engine/tiling/cut_list.h"
 
@@ -240,6 +240,7 @@ std::function<std::string(std::int32_t)> colour_as_drawn(const Document& documen
     if (style.tile_colours) {
         DrawOptions options;
         static_cast<DrawingOptions&>(options) = drawing_options(settings, document);
+        options.budget = settings.work.budget;
         options.monitor = monitor;
         options.watch = [&](std::uint64_t symbols) { monitor.advance(symbols); };
         const auto drawing = make_drawing(document.grammar(), style, options);

@@ -31,7 +31,7 @@ struct PlacedPattern {
         diagnostics.throw_if_errors();
         print.page = page;
         print.title = pattern.text("title");
-        drawing = std::make_unique<WordDrawing>(grammar, print.style, DrawOptions{});
+        drawing = std::make_unique<WordDrawing>(grammar, print.style, DrawingOptions{}, Reading{});
         drawing->place(print);
     }
     void read(PathSink& sink) const { drawing->read(print, sink); }

@@ -1,10 +1,10 @@
 #include "art/cutting/piece_drawing.h"
 
-#include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
-#include "art/drawing/united_lines.h"
 #include "art/image/image_file.h"
+#include "art/tiles/united_lines.h"
 #include "art/vector/pdf.h"
+#include "art/writer/draw.h"
 #include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ class PieceDrawing : public Drawing {
 public:
     PieceDrawing(const std::vector<PieceShape>& shapes, const PieceSheet& sheet, const Style& style,
                  const PieceWriting& writing)
-        : Drawing(writing.drawing),
+        : Drawing(writing.drawing, writing.drawing.reading()),
           shapes_(shapes),
           sheet_(sheet),
           style_(style),
@@ -56,7 +56,7 @@ private:
                 united.add_line(cut[i] + at, cut[(i + 1) % cut.size()] + at, cut_pen);
             }
         }
-        draw_lines(united.unite(UnitedLines::Kept::all, options_.monitor).lines, sink, options_.monitor);
+        draw_lines(united.unite(UnitedLines::Kept::all, reading_.monitor).lines, sink, reading_.monitor);
     }
 
     const std::vector<PieceShape>& shapes_;

@@ -1,8 +1,8 @@
 // art/cutting/piece_drawing.h: draws pieces to cut on sheets, and writes them in all formats of prints.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/print/outline.h"
+#include "art/writer/draw_options.h"
 #include "engine/base/output.h"
 
 #include <cstddef>

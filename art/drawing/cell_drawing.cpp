@@ -12,9 +12,9 @@
 
 namespace sikku {
 
-CellDrawing::CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const DrawOptions& options)
-    : Drawing(options), inner_(std::move(inner)), cell_(cell), drawn_(inner_->style()), style_(drawn_) {
-    options_.placement.step = inner_->fixed_step();
+CellDrawing::CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const DrawingOptions& options,
+                         const Reading& reading)
+    : DerivedDrawing(std::move(inner), options, reading), cell_(cell) {
     if (!drawn_.ground) return;
     style_.palette.push_back(*drawn_.ground);
     style_.ground.reset();

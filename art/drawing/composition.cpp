@@ -14,12 +14,13 @@
 
 namespace sikku {
 
-bool has_ornaments(const Style& style, const DrawOptions& options) {
+bool has_ornaments(const Style& style, const DrawingOptions& options) {
     return style.dots || options.colours_strokes || has_line_work(style);
 }
 
-Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options)
-    : Drawing(options), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
+Composition::Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawingOptions& options,
+                         const Reading& reading)
+    : Drawing(options, reading), lines_(std::move(lines)), drawn_(lines_->style()), style_(drawn_) {
     if (grammar.is_spatial()) {
         throw std::runtime_error(
             "dots, fields, weaves, parallel lines and colours by strand apply only to drawings in the plane");
@@ -38,9 +39,9 @@ void Composition::examine(const Grammar& grammar) {
     KolamOptions examined;
     examined.spline = style_.line == Line::spline;
     examined.moves_lift = style_.moves_lift;
-    examined.budget = options_.budget;
-    examined.watch = options_.watch;
-    examined.monitor = options_.monitor;
+    examined.budget = reading_.budget;
+    examined.watch = reading_.watch;
+    examined.monitor = reading_.monitor;
     if (has_line_work(style_)) examined.nodes_of_segment = nodes_of_worked_segment;
     examined.draws = [style = drawn_](const Pen& pen) { return style.draws(pen); };
     const KolamExamination examination = examine_kolam(grammar, examined);
@@ -49,7 +50,7 @@ void Composition::examine(const Grammar& grammar) {
     }
     if (has_line_work(style_) && !options_.only_dots) {
         lines_->seen();  // reading splines needs to know which of them are closed
-        work_.emplace(*lines_, examination, drawn_, options_);
+        work_.emplace(*lines_, examination, drawn_, reading_);
     }
     if (!style_.dots) return;
     dots_ = dot_places(examination);
@@ -132,14 +133,11 @@ const DrawnExtent& Composition::seen() {
 }
 
 void Composition::read(const Print& print, const Window& window, PathSink& sink) const {
-    const bool is_plot = options_.plot || is_for_plotters(options_.format);
-    if (work_ && !is_plot) work_->draw_fields(sink);
-    if (work_ && is_plot && options_.plot && options_.plot->hatch) {
-        InkSink ink(print, options_.plot->pen_width);
+    if (work_ && !reading_.is_plot()) work_->draw_fields(sink);
+    if (work_ && reading_.is_plot() && reading_.pen->hatch) {
+        InkSink ink(print, reading_.pen->pen_width);
         read_lines_and_dots(print, window, ink);
-        PlotOptions plot = *options_.plot;
-        plot.monitor = options_.monitor;
-        work_->hatch_fields(print, plot, ink.ink, sink);
+        work_->hatch_fields(print, *reading_.pen, reading_.monitor, ink.ink, sink);
     }
     read_lines_and_dots(print, window, sink);
 }
@@ -218,7 +216,7 @@ double Composition::dot_radius(const Print& print) const {
     return size->value / (size->in_steps ? 1.0 : print.placement.step) / 2;
 }
 
-void Composition::report(DrawReport& report) const {
+void Composition::report(DrawingReport& report) const {
     lines_->report(report);
     report.dots = dots_.size();
     if (work_) report.fields = work_->fields();

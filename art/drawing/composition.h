@@ -14,7 +14,7 @@
 namespace sikku {
 
 /// True if the style or the options request dots, strand colours or line work.
-bool has_ornaments(const Style& style, const DrawOptions& options);
+bool has_ornaments(const Style& style, const DrawingOptions& options);
 
 /// Adds fields, dots and strand colours to another drawing, in one palette, and draws its lines as a weave or as
 /// parallel lines.
@@ -23,7 +23,8 @@ public:
     /// Finds dots and strands if they are needed, and computes the step for a requested dot spacing. `grammar` is the
     /// grammar of `lines`.
     /// @throws BudgetError, WordError; std::runtime_error if requested dots cannot be drawn
-    Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawOptions& options);
+    Composition(const Grammar& grammar, std::unique_ptr<WordDrawing> lines, const DrawingOptions& options,
+                const Reading& reading);
 
     const DrawnExtent& seen() override;
     const Style& style() const override { return style_; }
@@ -33,7 +34,7 @@ public:
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     std::vector<int> hatched_colours() const override;
-    void report(DrawReport& report) const override;
+    void report(DrawingReport& report) const override;
 
 private:
     void examine(const Grammar& grammar);

@@ -1,18 +1,8 @@
 #include "art/drawing/drawing.h"
 
-#include "art/drawing/cell_drawing.h"
-#include "art/drawing/composition.h"
-#include "art/drawing/framed_drawing.h"
-#include "art/drawing/hand_drawing.h"
 #include "art/drawing/ink_shape.h"
-#include "art/drawing/lesson_drawing.h"
-#include "art/drawing/map_drawing.h"
-#include "art/drawing/repeated_drawing.h"
-#include "art/drawing/seen_drawing.h"
-#include "art/drawing/tile_drawing.h"
-#include "art/drawing/window_drawing.h"
-#include "art/drawing/word_drawing.h"
 #include "art/print/clip.h"
+#include "art/raster/raster.h"
 
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -23,14 +13,14 @@
 
 namespace sikku {
 
-DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
-                       const PlacementOptions& placement) {
+DrawingReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
+                          const PlacementOptions& placement) {
     double ink_steps = 0;
     double ink_millimetres = 0;
     (stroke.in_steps ? ink_steps : ink_millimetres) = seen.widest / 2;
     print.placement = place(seen.box, print.page, placement, ink_steps, ink_millimetres);
     const double step = print.placement.step;
-    DrawReport report;
+    DrawingReport report;
     report.step = step;
     report.size = (seen.box.high - seen.box.low) * step + 2.0 * (ink_steps * step + ink_millimetres);
     report.room = glm::dvec2(print.page.width, print.page.height) - 2 * print.page.margin;
@@ -52,6 +42,10 @@ Box seen_box(const Print& print, const Window& window, double around) {
         }
     }
     return box;
+}
+
+void require_ink(const Box& box) {
+    if (box.empty()) throw NothingDrawn();
 }
 
 const DrawnExtent& Drawing::extent() {
@@ -82,7 +76,7 @@ PlacementOptions Drawing::placement() const {
     return placement;
 }
 
-DrawReport Drawing::place(Print& print) {
+DrawingReport Drawing::place(Print& print) {
     const DrawnExtent& placed = options_.frame ? *options_.frame : extent();
     // Read in any case, to find its properties.
     around_ = seen().around;
@@ -92,7 +86,7 @@ DrawReport Drawing::place(Print& print) {
     // Corners that a cut has widened are cut off at the width of the cut.
     print.page.margin += border_space(page) + options_.kerf;
     print.page.height -= foot_space(page);
-    DrawReport report = place_print(print, placed, style().stroke, placement);
+    DrawingReport report = place_print(print, placed, style().stroke, placement);
     print.page = page;
     if (options_.stretch != glm::dvec2(1.0)) {
         const glm::dvec2 middle = glm::dvec2(page.width, page.height) / 2.0;
@@ -114,79 +108,6 @@ std::unique_ptr<Rendering> Drawing::rendering(const Print& print, const Window& 
     auto raster = make_raster(print);
     read(print, window, *raster);
     return raster;
-}
-
-namespace {
-
-std::unique_ptr<Drawing> make_map_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
-    if (has_ornaments(style, options) || options.only_dots) {
-        throw std::runtime_error("dots, fields, weaves, parallel lines and colours by strand do not apply to maps");
-    }
-    auto frames = options.map_frames;
-    if (!frames) frames = std::make_shared<MapFrames>(grammar, options.budget, options.monitor, KeptFrames::last);
-    auto frame = frames->after(grammar.steps());
-    if (options.map_share < 1) frame = std::make_shared<const MapFrame>(frame->at(options.map_share));
-    return std::make_unique<MapDrawing>(std::move(frame), style, options, grammar.scale_percent());
-}
-
-/// Repeats, tiles, frames and hand-drawn lines around a drawing in the plane.
-std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const Style& style,
-                                    const DrawOptions& options) {
-    if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options);
-    if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), seed, options);
-    if (options.cell) drawing = std::make_unique<CellDrawing>(std::move(drawing), *options.cell, options);
-    if (has_frame(style, options)) drawing = std::make_unique<FramedDrawing>(std::move(drawing), options);
-    if (!(style.hand > 0) && !options.lesson_step) return drawing;
-    auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), seed, options);
-    if (!options.lesson_step) return by_hand;
-    return std::make_unique<LessonDrawing>(std::move(by_hand), options);
-}
-
-/// The grammar, with a mark after each part that `tile colours: by generation` colours.
-Grammar with_generations(const Grammar& grammar, const Style& style) {
-    if (style.tile_colours != TileColours::generation) return grammar;
-    auto marked = grammar.with_marks(style.tile_generation);
-    if (!marked) {
-        throw std::runtime_error(
-            "'tile colours: by generation' needs productions without contexts, parameters and random choices");
-    }
-    return *std::move(marked);
-}
-
-}  // namespace
-
-std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options) {
-    if (grammar.map()) {
-        return surrounded(make_map_drawing(grammar, style, options), grammar.seed(), style, options);
-    }
-    auto shared = std::make_shared<const Grammar>(resolved(with_generations(grammar, style), options));
-    std::string why;
-    if (auto parts = seen_parts(*shared, style, options, why)) {
-        return std::make_unique<SeenDrawing>(std::move(shared), std::move(*parts), style, options);
-    }
-    if (auto window = WindowDrawing::make(shared, style, options, why)) {
-        return surrounded(std::move(window), shared->seed(), style, options);
-    }
-    if (options.window) require_window(*shared, options, why);
-    std::unique_ptr<Drawing> drawing;
-    make_one_copy(options, [&](const DrawOptions& one) {
-        auto lines = std::make_unique<WordDrawing>(*shared, style, one);
-        if (has_ornaments(style, options)) {
-            drawing = std::make_unique<Composition>(*shared, std::move(lines), one);
-        } else {
-            drawing = std::move(lines);
-        }
-    });
-    if (shared->is_spatial() && (options.repeat || has_frame(style, options))) {
-        throw std::runtime_error("repeats, borders and lines of text apply only to drawings in the plane");
-    }
-    if (shared->is_spatial() && has_tile_work(style)) {
-        throw std::runtime_error("'tile colours', 'tile edges' and 'decorate' apply only to drawings in the plane");
-    }
-    if (shared->is_spatial() && (style.hand > 0 || options.lesson_step)) {
-        throw std::runtime_error("hand-drawn lines and lessons apply only to drawings in the plane");
-    }
-    return surrounded(std::move(drawing), shared->seed(), style, options);
 }
 
 }  // namespace sikku

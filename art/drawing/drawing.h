@@ -1,14 +1,16 @@
 // art/drawing/drawing.h: the interface of all drawings, which are placed on a page and then read.
 #pragma once
 
-#include "art/drawing/draw_options.h"
+#include "art/drawing/drawing_options.h"
+#include "art/drawing/drawing_report.h"
+#include "art/drawing/reading.h"
+#include "art/print/print.h"
 #include "art/raster/raster.h"
-#include "art/space/scene.h"
-#include "engine/language/grammar.h"
+#include "engine/geometry/space_bounds.h"
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,8 +18,8 @@ namespace sikku {
 
 /// Calculates the placement of `print` on its page, including the width of the pen, whose unit `stroke` gives.
 /// @throws std::runtime_error if the margins leave no room
-DrawReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
-                       const PlacementOptions& placement);
+DrawingReport place_print(Print& print, const DrawnExtent& seen, const StrokeWidth& stroke,
+                          const PlacementOptions& placement);
 
 /// The whole page of a print, with its margin.
 Window whole_page(const Page& page);
@@ -30,7 +32,7 @@ Box seen_box(const Print& print, const Window& window, double around);
 /// (Composition), or frame it (FramedDrawing); make_drawing() combines them.
 class Drawing {
 public:
-    explicit Drawing(const DrawOptions& options) : options_(options) {}
+    Drawing(const DrawingOptions& options, const Reading& reading) : options_(options), reading_(reading) {}
     virtual ~Drawing() = default;
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
@@ -63,7 +65,7 @@ public:
     PlacementOptions placement() const;
     /// Calculates the placement of `print` on its page. @throws std::runtime_error if nothing is drawn, unless the
     /// options have a frame, or if the margins leave no room
-    DrawReport place(Print& print);
+    DrawingReport place(Print& print);
 
     /// Draws all strokes into `sink`. Call after extent() or place().
     /// @param print   placed, in style()
@@ -87,47 +89,50 @@ public:
     virtual std::vector<int> hatched_colours() const { return {}; }
 
     /// Adds the findings of read() and the renderings so far to a report.
-    virtual void report(DrawReport&) const {}
+    virtual void report(DrawingReport&) const {}
 
 protected:
     /// @param points  with the same convex hull as the drawing @param centre  centre of mass; both in its coordinates
     Balance balance_of(const std::vector<glm::dvec2>& points, glm::dvec2 centre) const;
 
-    DrawOptions options_;
+    DrawingOptions options_;
+    Reading reading_;
 
 private:
     double around_ = 0;  ///< widest pen of lines that continue outside a window, in the unit of the style's stroke
 };
 
-/// Makes the drawing of a grammar: read from the word, or through a view if there is one, with the dots, strand
-/// colours and frame that `style` and `options` request.
-/// @throws BudgetError, WordError; std::runtime_error if it cannot be drawn
-std::unique_ptr<Drawing> make_drawing(const Grammar& grammar, const Style& style, const DrawOptions& options);
+/// A drawing made of another one, with its step. Has the properties and the findings of the other by default.
+class DerivedDrawing : public Drawing {
+public:
+    DerivedDrawing(std::unique_ptr<Drawing> inner, const DrawingOptions& options, const Reading& reading)
+        : Drawing(options, reading), inner_(std::move(inner)), drawn_(inner_->style()), style_(drawn_) {
+        options_.placement.step = inner_->fixed_step();
+    }
 
-/// Rough estimate of the cost of a drawing.
-struct DrawingCost {
-    double nodes = 0;          ///< derivation nodes visited in a pass
-    bool is_doubtful = false;  ///< by its growth so far, the word exceeds the budget
-    double lines = 0;          ///< lines, polygons and discs drawn in a pass
-    double points = 0;         ///< ends of lines, corners of polygons and discs that a writer receives
-    double strokes = 0;        ///< lines without a lift
-    double polygons = 0;       ///< polygons, in space without those of patches
-    double patches = 0;        ///< patches of surfaces in space
-    std::vector<std::pair<double, double>> bent{};  ///< bends of patches in millimetres, and their numbers
-    double length = 0;                              ///< millimetres of lines
-    double ink = 0;                                 ///< square millimetres of lines, however often they cross
-    double area = 0;                                ///< square millimetres of polygons, discs and patches, likewise
-    glm::dvec2 size{0.0};                           ///< millimetres of the drawing
-    double reach = 0;                               ///< longest side in space, in millimetres
-    double seconds = 0;                             ///< processor time of making the drawing and reading it once
-    double memory = 0;                              ///< bytes, on one thread
-    double thread_memory = 0;                       ///< bytes for each further thread
-    double kept_memory = 0;                         ///< bytes of `memory` that the drawing itself keeps
-    double lines_memory = 0;  ///< bytes of `memory` kept by a Raster when it has read the whole drawing
+    const DrawnExtent& seen() override { return inner_->seen(); }
+    const Style& style() const override { return style_; }
+    double scale() const override { return inner_->scale(); }
+    Balance balance() const override { return inner_->balance(); }
+    double border_space(const Page& page) const override { return inner_->border_space(page); }
+    double foot_space(const Page& page) const override { return inner_->foot_space(page); }
+    double dot_distance() const override { return inner_->dot_distance(); }
+    std::vector<int> hatched_colours() const override { return inner_->hatched_colours(); }
+    void report(DrawingReport& report) const override { inner_->report(report); }
+
+protected:
+    std::unique_ptr<Drawing> inner_;
+    Style drawn_;  ///< the style of the other drawing, with its own palette
+    Style style_;  ///< with the colours that this drawing adds
 };
 
-/// Forecasts the cost of make_drawing() and one print. Uses the page, the style and the resolution of `print`.
-/// @throws BudgetError if the word is too long to be read
-DrawingCost drawing_cost(const Grammar& grammar, const Print& print, const DrawOptions& options);
+/// Thrown if nothing is drawn.
+class NothingDrawn : public std::runtime_error {
+public:
+    NothingDrawn()
+        : std::runtime_error("nothing to draw: the word contains no visible line, polygon, disc or label") {}
+};
+/// @throws NothingDrawn if the box is empty
+void require_ink(const Box& box);
 
 }  // namespace sikku

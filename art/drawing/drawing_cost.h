@@ -1,13 +1,36 @@
-// art/drawing/drawing_cost.h: the costs of drawings and prints, and of their stages.
+// art/drawing/drawing_cost.h: the cost of a drawing, and of the stages of its print.
 #pragma once
 
-#include "art/drawing/division.h"
-#include "art/drawing/division_file.h"
-#include "art/drawing/drawing.h"
-#include "art/drawing/growth.h"
-#include "engine/base/cost.h"
+#include "art/raster/raster.h"
+
+#include <glm/vec2.hpp>
+
+#include <utility>
+#include <vector>
 
 namespace sikku {
+
+/// Rough estimate of the cost of a drawing.
+struct DrawingCost {
+    double nodes = 0;          ///< derivation nodes visited in a pass
+    bool is_doubtful = false;  ///< by its growth so far, the word exceeds the budget
+    double lines = 0;          ///< lines, polygons and discs drawn in a pass
+    double points = 0;         ///< ends of lines, corners of polygons and discs that a writer receives
+    double strokes = 0;        ///< lines without a lift
+    double polygons = 0;       ///< polygons, in space without those of patches
+    double patches = 0;        ///< patches of surfaces in space
+    std::vector<std::pair<double, double>> bent{};  ///< bends of patches in millimetres, and their numbers
+    double length = 0;                              ///< millimetres of lines
+    double ink = 0;                                 ///< square millimetres of lines, however often they cross
+    double area = 0;                                ///< square millimetres of polygons, discs and patches, likewise
+    glm::dvec2 size{0.0};                           ///< millimetres of the drawing
+    double reach = 0;                               ///< longest side in space, in millimetres
+    double seconds = 0;                             ///< processor time of making the drawing and reading it once
+    double memory = 0;                              ///< bytes, on one thread
+    double thread_memory = 0;                       ///< bytes for each further thread
+    double kept_memory = 0;                         ///< bytes of `memory` that the drawing itself keeps
+    double lines_memory = 0;  ///< bytes of `memory` kept by a Raster when it has read the whole drawing
+};
 
 // Seconds of processor time and bytes of memory, measured with tests/bench/forecast_table.cpp on the machine of
 // docs/performance.md.
@@ -21,25 +44,5 @@ constexpr double raster_line_bytes = 5;  // for a line in a raster
 double curve_lines(double pixels);
 /// Bytes of a thread that renders lines, for each pixel of a band.
 double band_bytes(PixelSize size);
-
-/// The cost of a print of a drawing, in a program that makes nothing else.
-/// @throws BudgetError if the word is too long to be read
-Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& options);
-
-/// The cost of a model in space, or of a relief if the options have one. @param format  format of the file
-Cost solid_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, PrintFormat format);
-
-/// The cost of an animation or of one file for each generation.
-Cost growth_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, const GrowthOptions& growth);
-
-/// The cost of an animation of tiles that divide.
-Cost division_cost(const Grammar& grammar, const Print& print, const DrawOptions& options,
-                   const DivisionOptions& division);
-
-/// The cost of a lesson, as an animation, as pages and as cells of a picture.
-Cost lesson_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, bool is_animation);
-
-/// The part of a cost that is shared within one program: the program, and the library of pictures.
-Cost base_cost(bool pictures);
 
 }  // namespace sikku

@@ -1,7 +1,7 @@
 // art/drawing/extent_sink.h: the visible extent of a drawing.
 #pragma once
 
-#include "art/drawing/draw_options.h"
+#include "art/drawing/drawing_options.h"
 #include "art/style/style.h"
 #include "engine/geometry/path.h"
 

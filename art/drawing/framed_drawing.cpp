@@ -1,6 +1,5 @@
 #include "art/drawing/framed_drawing.h"
 
-#include "art/drawing/word_drawing.h"
 #include "art/print/border_ink.h"
 #include "art/print/ornaments.h"
 #include "engine/geometry/lettering.h"
@@ -9,13 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace sikku {
 namespace {
 
-constexpr double motif_budget = 1e5;  // maximum nodes of a pattern that is repeated along a border
 constexpr double letter_stem = 0.085;
 constexpr double foot_share = 2.6;  // share of the height of letters, above their baseline
 
@@ -24,7 +21,7 @@ double letters_of(const Page& page) {
     return std::clamp(std::min(page.width, page.height) * 0.0125, 1.2, 14.0);
 }
 
-bool has_text(const DrawOptions& options) {
+bool has_text(const DrawingOptions& options) {
     return !options.title_line.empty() || !options.edition.empty();
 }
 
@@ -43,52 +40,17 @@ private:
     }
 };
 
-std::shared_ptr<const BorderMotif> motif_of(const BorderPattern& pattern, const DrawOptions& given) {
-    if (pattern.grammar->is_spatial()) {
-        throw std::runtime_error(
-            "the pattern of a border has to lie in the plane; this one pitches, rolls, bends or has surfaces");
-    }
-    DrawOptions options;
-    options.budget = std::min(given.budget, motif_budget);
-    options.watch = given.watch;
-    options.monitor = given.monitor;
-    auto motif = std::make_shared<BorderMotif>();
-    Style style = pattern.style;
-    style.border.reset();
-    const auto drawing = make_drawing(*pattern.grammar, style, options);
-    motif->box = drawing->extent().box;
-    const glm::dvec2 size = motif->box.high - motif->box.low;
-    if (!(size.x > 0 && size.y > 0)) {
-        throw std::runtime_error("the pattern of a border needs a width and a height; this one is a straight line");
-    }
-    motif->style = drawing->style();
-    Print print;
-    print.style = motif->style;
-    drawing->read(print, motif->path);
-    return motif;
-}
-
-Border border_of(const BorderStyle& style, const DrawOptions& options) {
-    Border border{.kind = style.kind};
-    if (style.kind != BorderKind::pattern) return border;
-    if (!options.border_repeat) throw std::runtime_error("the pattern of the border is missing");
-    border.repeat = motif_of(*options.border_repeat, options);
-    if (options.border_corner) border.corner = motif_of(*options.border_corner, options);
-    return border;
-}
-
 }  // namespace
 
-bool has_frame(const Style& style, const DrawOptions& options) {
+bool has_frame(const Style& style, const DrawingOptions& options) {
     return style.border || has_text(options);
 }
 
-FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, const DrawOptions& options)
-    : Drawing(options), inner_(std::move(inner)), drawn_(inner_->style()), style_(drawn_) {
-    options_.placement.step = inner_->fixed_step();
+FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, std::optional<Border> border,
+                             const DrawingOptions& options, const Reading& reading)
+    : DerivedDrawing(std::move(inner), options, reading), border_(std::move(border)) {
     style_.stroked = true;
-    if (style_.border) {
-        border_ = border_of(*style_.border, options_);
+    if (border_) {
         border_colour_ = static_cast<int>(style_.palette.size());
         for (const Colour colour : border_colours(*border_, style_.ground)) style_.palette.push_back(colour);
     }

@@ -37,12 +37,12 @@ void draw_with_pens(const HandLine& stroke, double step, double stroke_unit, dou
 
 }  // namespace
 
-HandDrawing::HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawOptions& options)
-    : Drawing(options), drawing_(std::move(drawing)), drawn_(drawing_->style()), style_(drawn_) {
-    options_.placement.step = drawing_->fixed_step();
+HandDrawing::HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const DrawingOptions& options,
+                         const Reading& reading)
+    : DerivedDrawing(std::move(drawing), options, reading) {
     hand_.strength = style_.hand;
     hand_.seed = seed;
-    hand_.monitor = options.monitor;
+    hand_.monitor = reading.monitor;
     // Outlines are filled in the colours of lines.
     if (hand_.strength > 0 && style_.fill_colour({}) != style_.line_colour({}))
         style_.palette.push_back(style_.line_colour({}));
@@ -50,7 +50,7 @@ HandDrawing::HandDrawing(std::unique_ptr<Drawing> drawing, std::uint64_t seed, c
 
 const DrawnExtent& HandDrawing::seen() {
     if (!extent_) {
-        extent_ = drawing_->seen();
+        extent_ = inner_->seen();
         // Lines swell and waver.
         const double more = 1 + 0.6 * hand_.strength;
         extent_->widest *= more;
@@ -62,10 +62,10 @@ const DrawnExtent& HandDrawing::seen() {
 HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathSink& fills,
                                  std::vector<LessonStep>* steps) const {
     const double step = print.placement.step;
-    HandGatherer gatherer(fills, print.style, step, options_.budget / nodes_of_curve);
+    HandGatherer gatherer(fills, print.style, step, reading_.budget / nodes_of_curve);
     if (steps) gatherer.limit(most_lesson_lines, most_lesson_points);
     OldColours coloured(gatherer, drawn_);
-    drawing_->read(print, window, coloured);
+    inner_->read(print, window, coloured);
     HandStrokes strokes{std::move(gatherer.gathered), std::move(gatherer.dots)};
     order_by_hand(strokes.lines);
     if (steps) *steps = lesson_steps(strokes.lines, options_.most_steps);
@@ -76,11 +76,11 @@ HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathS
 void HandDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
     if (!(hand_.strength > 0)) {
         OldColours coloured(sink, drawn_);
-        drawing_->read(print, window, coloured);
+        inner_->read(print, window, coloured);
         return;
     }
     const HandStrokes strokes = this->strokes(print, window, sink);
-    if (options_.plot || is_for_plotters(options_.format)) {
+    if (reading_.is_plot()) {
         read_middles(strokes, sink);
     } else {
         read_outlines(print, strokes, sink);

@@ -138,13 +138,10 @@ Colour sign_colour(const Style& style, Colour ground) {
 
 }  // namespace
 
-LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOptions& options)
-    : Drawing(options),
-      drawing_(std::move(drawing)),
-      memo_(options.lesson_memo ? options.lesson_memo : std::make_shared<LessonMemo>()),
-      drawn_(drawing_->style()),
-      style_(drawn_) {
-    options_.placement.step = drawing_->fixed_step();
+LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawingOptions& options,
+                             const Reading& reading)
+    : DerivedDrawing(std::move(drawing), options, reading),
+      memo_(options.lesson_memo ? options.lesson_memo : std::make_shared<LessonMemo>()) {
     step_ = options.lesson_step.value_or(0);
     const Colour white{255, 255, 255, 255};
     const Colour ground = style_.ground && style_.ground->alpha > 0 ? *style_.ground : white;
@@ -164,7 +161,7 @@ std::shared_ptr<const LessonPlan> LessonDrawing::plan(const Print& print, const 
     return memo_->plan(step, print.style.line_width({}, step), [&] {
         LessonPlan plan;
         NoAreas none;
-        plan.strokes = drawing_->strokes(print, window, none, &plan.steps);
+        plan.strokes = by_hand().strokes(print, window, none, &plan.steps);
         plan.pitch = pitch_of(plan.strokes);
         return plan;
     });
@@ -177,7 +174,7 @@ std::size_t LessonDrawing::count(const Print& print) const {
 void LessonDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
     const auto plan = this->plan(print, window);
     if (step_ > plan->steps.size()) {
-        drawing_->read(print, window, sink);
+        inner_->read(print, window, sink);
         return;
     }
     for (std::size_t number = 1; number <= step_; ++number) {
@@ -192,7 +189,7 @@ void LessonDrawing::read(const Print& print, const Window& window, PathSink& sin
 }
 
 std::unique_ptr<Rendering> LessonDrawing::rendering(const Print& print, const Window& window) const {
-    if (step_ > plan(print, window)->steps.size()) return drawing_->rendering(print, window);
+    if (step_ > plan(print, window)->steps.size()) return inner_->rendering(print, window);
     return Drawing::rendering(print, window);
 }
 
@@ -307,7 +304,7 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
     }
     std::size_t part = 0;
     for (const HandLine& line : lines) {
-        options_.monitor.check();
+        reading_.monitor.check();
         ++part;
         const double half = line.nodes.front().half;
         const double mark = std::max(1.25 * half, std::min(most_mark / step_length, mark_share * plan.pitch));

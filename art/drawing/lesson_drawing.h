@@ -45,20 +45,17 @@ private:
 /// hand (order_by_hand(), lesson_steps()), then the whole drawing. The stretch of a step is drawn as a line with its
 /// number, a mark where it starts and arrow heads; those before it are pale. Fields and other areas come last, with
 /// the whole. Numbers are upright on the page, however the drawing is rotated or mirrored.
-class LessonDrawing : public Drawing {
+class LessonDrawing : public DerivedDrawing {
 public:
-    LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawOptions& options);
+    LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawingOptions& options, const Reading& reading);
 
-    const DrawnExtent& seen() override { return drawing_->seen(); }
-    const Style& style() const override { return style_; }
-    double scale() const override { return drawing_->scale(); }
-    double dot_distance() const override { return drawing_->dot_distance(); }
-    double border_space(const Page& page) const override { return drawing_->border_space(page); }
+    Balance balance() const override { return {}; }
+    double foot_space(const Page&) const override { return 0; }
+    std::vector<int> hatched_colours() const override { return {}; }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
     using Drawing::rendering;
     std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
-    void report(DrawReport& report) const override { drawing_->report(report); }
 
     /// Number of steps: the dots, the stretches, and the whole. Call after place().
     std::size_t count(const Print& print) const;
@@ -81,11 +78,10 @@ private:
     void write_number(const std::string& text, const HandLine& line, double mark, const Print& print,
                       const Window& window, const LessonPlan& plan, PathSink& sink) const;
 
-    std::unique_ptr<HandDrawing> drawing_;
+    const HandDrawing& by_hand() const { return static_cast<const HandDrawing&>(*inner_); }
+
     std::shared_ptr<LessonMemo> memo_;
-    Style drawn_;
-    Style style_;  ///< with pale colours, the colours of new stretches, and those of numbers
-    int pale_begin_, new_begin_, halo_, sign_;
+    int pale_begin_, new_begin_, halo_, sign_;  ///< first indices of colours
     std::size_t step_ = 0;
     double share_ = 1.0;
     bool numbers_pages_ = false;

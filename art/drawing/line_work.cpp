@@ -83,21 +83,21 @@ bool has_line_work(const Style& style) {
 }
 
 LineWork::LineWork(const WordDrawing& drawing, const KolamExamination& examination, const Style& style,
-                   const DrawOptions& options)
+                   const ReadingLimits& limits)
     : style_(style) {
-    const double most = std::min(options.budget / nodes_of_worked_segment, 1e9);
+    const double most = std::min(limits.budget / nodes_of_worked_segment, 1e9);
     CurveReader reader([&style](const Pen& pen) { return style.draws(pen); }, static_cast<std::size_t>(most));
     drawing.read({}, {}, reader);
     lines_ = reader.finish(examination);
     if (style.fields || style.weave) {
-        meetings_ = find_meetings(lines_, static_cast<std::size_t>(most), options.monitor);
+        meetings_ = find_meetings(lines_, static_cast<std::size_t>(most), limits.monitor);
     }
     if (style.fields) {
-        fields_ = find_fields(lines_, meetings_, options.monitor);
-        classes_ = classify(fields_, *style.fields, examination.symmetry, examination.centre, options.monitor);
+        fields_ = find_fields(lines_, meetings_, limits.monitor);
+        classes_ = classify(fields_, *style.fields, examination.symmetry, examination.centre, limits.monitor);
     }
     if (style.weave || style.parallel.count > 1) {
-        bands_ = std::make_unique<LineBands>(lines_, meetings_, style, options.monitor);
+        bands_ = std::make_unique<LineBands>(lines_, meetings_, style, limits.monitor);
     }
 }
 
@@ -140,8 +140,8 @@ void LineWork::draw_fields(PathSink& sink) const {
     }
 }
 
-void LineWork::hatch_fields(const Print& print, const PlotOptions& plot, const std::vector<Obstacle>& ink,
-                            PathSink& sink) const {
+void LineWork::hatch_fields(const Print& print, const PlotPen& plot, const Monitor& monitor,
+                            const std::vector<Obstacle>& ink, PathSink& sink) const {
     const double step = print.placement.step;
     const Hatch& hatch = *plot.hatch;
     const double line = print.style.line_width({}, step);
@@ -152,10 +152,10 @@ void LineWork::hatch_fields(const Print& print, const PlotOptions& plot, const s
     const double width = pen / (unit.in_steps ? step : 1.0) / unit.unit;
     const double around = ((bands_ ? bands_->look(print).band() : 0.0) + pen / step) / 2;
     constexpr double tolerance = 0.01;  // millimetres
-    const ObstacleGrid near(ink, pen / step / 2, plot.monitor);
+    const ObstacleGrid near(ink, pen / step / 2, monitor);
     std::vector<glm::dvec2> outline;
     for (const std::size_t i : fields_by_colour()) {
-        plot.monitor.check();
+        monitor.check();
         const std::vector<glm::dvec2>& curves = fields_[i].outline;
         outline.clear();
         for (std::size_t k = 0; k + 3 < curves.size(); k += 3) {
@@ -168,7 +168,7 @@ void LineWork::hatch_fields(const Print& print, const PlotOptions& plot, const s
         for (const auto& [from, to] : edges_without_ways(outline)) obstacles.push_back({from, to, around});
         for (const glm::dvec2 along : hatch_directions(hatch, print.placement)) {
             for (const auto& way :
-                 clear_hatch_lines(outline, obstacles, along, wanted / step, tolerance / step, plot.monitor)) {
+                 clear_hatch_lines(outline, obstacles, along, wanted / step, tolerance / step, monitor)) {
                 sink.begin_stroke(way.front(), Pen{width, true, colours_[i]});
                 sink.lines(std::span(way).subspan(1));
                 sink.end_stroke(false);

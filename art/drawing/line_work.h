@@ -6,7 +6,6 @@
 #include "art/kolam/fields.h"
 #include "art/kolam/kolam.h"
 #include "art/plotter/clear_hatch.h"
-#include "art/plotter/plot.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +29,7 @@ public:
     /// @param style  of the pattern, with its own palette
     /// @throws BudgetError; std::runtime_error if curved lines run along each other, or if a weave cannot alternate
     LineWork(const WordDrawing& drawing, const KolamExamination& examination, const Style& style,
-             const DrawOptions& options);
+             const ReadingLimits& limits);
     LineWork(const LineWork&) = delete;
     LineWork& operator=(const LineWork&) = delete;
 
@@ -48,8 +47,8 @@ public:
     /// Fills the fields for a plotter: with lines of one pen that end where the ink of lines and dots begins, without
     /// outlines, which would run along the lines. @param print  placed @param plot  with a hatch
     /// @param ink  lines and discs that are drawn over the fields, in steps, each with half its own width
-    void hatch_fields(const Print& print, const PlotOptions& plot, const std::vector<Obstacle>& ink,
-                      PathSink& sink) const;
+    void hatch_fields(const Print& print, const PlotPen& plot, const Monitor& monitor,
+                      const std::vector<Obstacle>& ink, PathSink& sink) const;
     /// Palette indices of the fields that are filled.
     const std::vector<int>& field_colours() const { return colours_; }
     /// @param colours  palette indices of the orbits of lines, repeated from the end; empty: of the pens

@@ -76,9 +76,9 @@ std::vector<glm::dvec2> closed_beta_spline(const std::vector<glm::dvec2>& corner
     return controls;
 }
 
-MapDrawing::MapDrawing(std::shared_ptr<const MapFrame> map, const Style& style, const DrawOptions& options,
-                       double scale_percent)
-    : Drawing(options), map_(std::move(map)), style_(style), scale_percent_(scale_percent) {
+MapDrawing::MapDrawing(std::shared_ptr<const MapFrame> map, const Style& style, const DrawingOptions& options,
+                       const Reading& reading, double scale_percent)
+    : Drawing(options, reading), map_(std::move(map)), style_(style), scale_percent_(scale_percent) {
     add_colours();
     if (style_.stroked && style_.map.draws_walls()) chain_walls();
 }
@@ -140,7 +140,7 @@ std::vector<glm::dvec2> MapDrawing::corners(std::span<const HalfEdge> wall) cons
 
 const DrawnExtent& MapDrawing::seen() {
     if (extent_) return *extent_;
-    if (options_.begin) options_.begin(2);
+    if (reading_.begin) reading_.begin(2);
     ExtentSink sink(style_, orientation(options_.placement));
     read({}, {}, sink);
     return extent_.emplace(placed_extent({sink.box, sink.widest}, options_, is_outside_));
@@ -175,7 +175,7 @@ void MapDrawing::read_cells(PathSink& sink) const {
     const bool is_filled = style.fill != CellFill::none;
     if (!is_filled && !style.draws_splines()) return;
     for (std::size_t i = 0; i < map_->map.cells(); ++i) {
-        if (options_.watch && i % 1024 == 0) options_.watch(1024);
+        if (reading_.watch && i % 1024 == 0) reading_.watch(1024);
         const std::vector<glm::dvec2> wall = corners(map_->map.cell(i));
         if (!style.draws_splines()) {
             if (wall.size() > 2) sink.polygon(wall, cell_pen(i));
@@ -206,7 +206,7 @@ void MapDrawing::read_walls(PathSink& sink) const {
     }
 }
 
-void MapDrawing::report(DrawReport& report) const {
+void MapDrawing::report(DrawingReport& report) const {
     report.is_empty = is_outside_;
     report.cells = map_->map.cells();
     report.crosses_itself = map_->outline_crosses;

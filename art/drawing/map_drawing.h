@@ -17,8 +17,8 @@ namespace sikku {
 class MapDrawing : public Drawing {
 public:
     /// @param scale_percent  share of the page that a fitted drawing fills
-    MapDrawing(std::shared_ptr<const MapFrame> map, const Style& style, const DrawOptions& options,
-               double scale_percent);
+    MapDrawing(std::shared_ptr<const MapFrame> map, const Style& style, const DrawingOptions& options,
+               const Reading& reading, double scale_percent);
 
     const DrawnExtent& seen() override;
     const Style& style() const override { return style_; }
@@ -26,7 +26,7 @@ public:
     Balance balance() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
-    void report(DrawReport& report) const override;
+    void report(DrawingReport& report) const override;
 
 private:
     struct WallStroke {

@@ -1,6 +1,7 @@
 #include "art/drawing/plot_scene.h"
 
 #include "art/plotter/passes.h"
+#include "art/plotter/plot.h"
 #include "art/plotter/shading.h"
 #include "art/space/hidden_lines.h"
 #include "art/space/stage.h"
@@ -52,11 +53,10 @@ struct EdgeHash {
 
 class ScenePlotter {
 public:
-    ScenePlotter(const Scene& scene, const Print& print, const PlotOptions& options, PathSink& sink,
-                 const Monitor& monitor)
+    ScenePlotter(const Scene& scene, const Print& print, const PlotPen& pen, PathSink& sink, const Monitor& monitor)
         : scene_(scene),
           print_(print),
-          options_(options),
+          pen_(pen),
           sink_(sink),
           monitor_(monitor),
           pulse_(monitor),
@@ -86,15 +86,15 @@ private:
 
     /// The pen to draw with: as wide as `pen_width`, or as the style's line if that is 0.
     Pen pen(int colour, const SceneWidth& width) const {
-        if (!(options_.pen_width > 0)) return width.pen(colour);
+        if (!(pen_.pen_width > 0)) return width.pen(colour);
         const StrokeWidth& stroke = print_.style.stroke;
-        return {options_.pen_width / (stroke.in_steps ? step_ : 1.0) / stroke.unit, true, colour};
+        return {pen_.pen_width / (stroke.in_steps ? step_ : 1.0) / stroke.unit, true, colour};
     }
     int fill_colour(int colour) const { return fill_pens_[static_cast<std::size_t>(colour)]; }
     double pen_steps(const Pen& pen) const { return std::max(print_.style.line_width(pen, step_), thinnest) / step_; }
 
     void add_surfaces() {
-        const double thin = std::max(thin_stem, options_.pen_width * 1.001);
+        const double thin = std::max(thin_stem, pen_.pen_width * 1.001);
         for (std::size_t i = 0; i < scene_.segments().size(); ++i) {
             pulse_();
             const SceneSegment& segment = scene_.segments()[i];
@@ -139,7 +139,7 @@ private:
     }
 
     std::size_t passes(const SceneSegment& segment) const {
-        return options_.pen_width > 0 ? pass_count(width(segment), options_.pen_width) : 1;
+        return pen_.pen_width > 0 ? pass_count(width(segment), pen_.pen_width) : 1;
     }
 
     /// Draws consecutive segments of the same colour and number of passes as one stroke.
@@ -177,7 +177,7 @@ private:
     void draw_wide(std::span<const SceneSegment> stem, std::size_t count, Owner owner) {
         require_few_passes(stem.size(), count);
         const Pen real = pen(stem[0].colour, stem[0].after);
-        const double half_pen = options_.pen_width / 2 / step_;
+        const double half_pen = pen_.pen_width / 2 / step_;
         std::vector<glm::dvec3> points;
         for (std::size_t pass = 0; pass < count; ++pass) {
             const double share = 2 * static_cast<double>(pass) / static_cast<double>(count - 1) - 1;
@@ -227,7 +227,7 @@ private:
             line.clear();
         }
         draw_line(line, real, owner_of_polygon(i));
-        if (options_.hatch) hatch(vertices, placed, real, owner_of_polygon(i));
+        if (pen_.hatch) hatch(vertices, placed, real, owner_of_polygon(i));
     }
 
     void hatch(std::span<const glm::vec3> vertices, std::span<const glm::dvec3> placed, const Pen& pen, Owner owner) {
@@ -246,8 +246,8 @@ private:
         }
         const std::vector<glm::dvec2> flat(placed.begin(), placed.end());
         const double width = pen_steps(pen);
-        const double spacing = options_.hatch->spacing > 0 ? options_.hatch->spacing / step_ : width;
-        for (const glm::dvec2 along : hatch_directions(*options_.hatch, print_.placement)) {
+        const double spacing = pen_.hatch->spacing > 0 ? pen_.hatch->spacing / step_ : width;
+        for (const glm::dvec2 along : hatch_directions(*pen_.hatch, print_.placement)) {
             for (const auto& line : hatch_lines(flat, along, spacing, width / 2, monitor_)) {
                 draw_line(on_facets(line, facets), pen, owner);
             }
@@ -368,7 +368,7 @@ private:
 
     const Scene& scene_;
     const Print& print_;
-    const PlotOptions& options_;
+    const PlotPen& pen_;
     PathSink& sink_;
     const Monitor& monitor_;
     Pulse pulse_;
@@ -382,11 +382,10 @@ private:
 
 }  // namespace
 
-void plot_scene(const Scene& scene, const Print& print, const PlotOptions& options, PathSink& sink,
-                const Monitor& monitor) {
-    if (scene.surfaces().empty()) return ScenePlotter(scene, print, options, sink, monitor).draw();
+void plot_scene(const Scene& scene, const Print& print, const PlotPen& pen, PathSink& sink, const Monitor& monitor) {
+    if (scene.surfaces().empty()) return ScenePlotter(scene, print, pen, sink, monitor).draw();
     const Scene divided = tessellated(scene, {.deviation = 0.1 / print.placement.step}, monitor);
-    ScenePlotter(divided, print, options, sink, monitor).draw();
+    ScenePlotter(divided, print, pen, sink, monitor).draw();
 }
 
 }  // namespace sikku

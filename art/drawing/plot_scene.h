@@ -1,7 +1,8 @@
 // art/drawing/plot_scene.h: draws a scene in space with a pen, without hidden lines.
 #pragma once
 
-#include "art/plotter/plot.h"
+#include "art/plotter/shading.h"
+#include "art/print/print.h"
 #include "art/space/scene.h"
 
 namespace sikku {
@@ -19,7 +20,7 @@ namespace sikku {
 /// @param print  placed, in a style that draws lines
 /// Cost: 1 to 5 µs for each line and each surface in the plants measured; up to lines times surfaces where many large
 /// surfaces overlap. @throws Stopped
-void plot_scene(const Scene& scene, const Print& print, const PlotOptions& options, PathSink& sink,
+void plot_scene(const Scene& scene, const Print& print, const PlotPen& pen, PathSink& sink,
                 const Monitor& monitor = {});
 
 }  // namespace sikku

@@ -12,25 +12,26 @@
 
 namespace sikku {
 
-void make_one_copy(const DrawOptions& options, const std::function<void(const DrawOptions& one)>& make) {
-    if (!options.repeat) return make(options);
+void make_one_copy(const DrawingOptions& options, const Reading& reading,
+                   const std::function<void(const Reading& one)>& make) {
+    if (!options.repeat) return make(reading);
     // The number of copies that fill a page is known after placement; with a given step, it may reach the maximum.
     const bool has_step = options.placement.step || options.dot_spacing;
     const int copies = options.repeat->fills && has_step ? most_copies : options.repeat->copies();
-    DrawOptions one = options;
+    Reading one = reading;
     one.budget /= copies;
     try {
         make(one);
     } catch (const BudgetError& error) {
         if (copies == 1) throw;
         throw BudgetError(fmt::format("{}; the {} copies of 'repeat' share the budget of {:.0f} nodes", error.what(),
-                                      copies, options.budget));
+                                      copies, reading.budget));
     }
 }
 
-RepeatedDrawing::RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawOptions& options)
-    : Drawing(options), inner_(std::move(inner)) {
-    options_.placement.step = inner_->fixed_step();
+RepeatedDrawing::RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawingOptions& options,
+                                 const Reading& reading)
+    : DerivedDrawing(std::move(inner), options, reading) {
     const DrawnExtent& one = options_.may_be_empty ? inner_->seen() : inner_->extent();
     extent_.widest = one.widest;
     extent_.around = one.around;
@@ -91,7 +92,7 @@ void RepeatedDrawing::read(const Print& print, const Window& window, PathSink& s
 void RepeatedDrawing::read_copies(const std::vector<glm::dmat3x2>& copies, const Print& print, const Window& window,
                                   PathSink& sink) const {
     for (const glm::dmat3x2& copy : copies) {
-        options_.monitor.check();
+        reading_.monitor.check();
         MovedPath moved(sink, copy);
         inner_->read(print, window, moved);
     }
@@ -101,7 +102,7 @@ void RepeatedDrawing::read_filling(const Print& print, const Window& window, Pat
     constexpr double tolerance = 0.005;  // millimetres
     const double step = print.placement.step;
     const double pen = extent_.widest * (print.style.stroke.in_steps ? step : 1.0);
-    const bool is_plot = options_.plot || is_for_plotters(options_.format);
+    const bool is_plot = reading_.is_plot();
     // Beyond the trim and the bleed, where the ends of lines are invisible.
     const double around = window.clips ? 0.0 : is_plot ? -window.margin : print.press.bleed + pen;
     const glm::dvec2 low = glm::dvec2(window.left, window.top) - around;
@@ -115,7 +116,7 @@ void RepeatedDrawing::read_filling(const Print& print, const Window& window, Pat
     read_copies(copies, print, window, crop);
 }
 
-void RepeatedDrawing::report(DrawReport& report) const {
+void RepeatedDrawing::report(DrawingReport& report) const {
     inner_->report(report);
     report.dots *= drawn_;
     report.copies = drawn_;

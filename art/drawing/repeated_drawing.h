@@ -11,28 +11,25 @@
 
 namespace sikku {
 
-/// Calls `make` with the options of one copy: copies share the budget. Without a repeat, with the options themselves.
+/// Calls `make` with the reading of one copy: copies share the budget.
 /// @throws what `make` throws; a BudgetError of a repeat also names the number of copies
-void make_one_copy(const DrawOptions& options, const std::function<void(const DrawOptions& one)>& make);
+void make_one_copy(const DrawingOptions& options, const Reading& reading,
+                   const std::function<void(const Reading& one)>& make);
 
 /// Reads another drawing once for each copy. The step and the extent are those of all copies together, or of a row of
 /// cells if they fill the page: then read() covers its window, or, in a plot, the part within its margin, and cuts
 /// copies off there.
-class RepeatedDrawing : public Drawing {
+class RepeatedDrawing : public DerivedDrawing {
 public:
     /// Reads the drawing once, for its hull. The options' `repeat` is set.
     /// @throws BudgetError, WordError; std::runtime_error if nothing is drawn, unless it may be empty
-    RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawOptions& options);
+    RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawingOptions& options, const Reading& reading);
 
     const DrawnExtent& seen() override { return extent_; }
-    const Style& style() const override { return inner_->style(); }
-    double scale() const override { return inner_->scale(); }
-    double dot_distance() const override { return inner_->dot_distance(); }
     Balance balance() const override;
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;
-    std::vector<int> hatched_colours() const override { return inner_->hatched_colours(); }
-    void report(DrawReport& report) const override;
+    void report(DrawingReport& report) const override;
 
 private:
     void measure_cells(double ink);
@@ -40,7 +37,6 @@ private:
     void read_copies(const std::vector<glm::dmat3x2>& copies, const Print& print, const Window& window,
                      PathSink& sink) const;
 
-    std::unique_ptr<Drawing> inner_;
     std::vector<glm::dmat3x2> copies_;  ///< unless they fill the page
     std::optional<Wallpaper> filling_;
     mutable std::atomic<std::size_t> drawn_ = 0;  ///< number of copies

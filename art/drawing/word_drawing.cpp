@@ -27,11 +27,11 @@ namespace {
 /// A part of a scene takes the memory and time of about this many nodes.
 constexpr double nodes_of_kept_part = 10;
 
-DerivationOptions reading(const DrawOptions& options) {
+DerivationOptions interpreted(const ReadingLimits& limits) {
     DerivationOptions derivation;
     derivation.interpreted = true;
-    derivation.limit_whole_words(options.budget);
-    derivation.watch = options.watch;
+    derivation.limit_whole_words(limits.budget);
+    derivation.watch = limits.watch;
     return derivation;
 }
 
@@ -68,35 +68,35 @@ void require_room(const Grammar& grammar, double most) {
 
 }  // namespace
 
-Grammar resolved(const Grammar& given, const DrawOptions& options) {
+Grammar resolved(const Grammar& given, const ReadingLimits& limits) {
     DerivationOptions whole_words;
-    whole_words.limit_whole_words(options.budget);
-    whole_words.watch = options.watch;
+    whole_words.limit_whole_words(limits.budget);
+    whole_words.watch = limits.watch;
     return resolve_contexts(shorten(given), whole_words);
 }
 
-Scene read_scene(const Grammar& grammar, const Style& style, const DrawOptions& options, double nodes_of_part) {
-    const double most = options.budget / nodes_of_part;
+Scene read_scene(const Grammar& grammar, const Style& style, const ReadingLimits& limits, double nodes_of_part) {
+    const double most = limits.budget / nodes_of_part;
     require_room(grammar, most);
-    return Scene::of(grammar, style, reading(options), most);
+    return Scene::of(grammar, style, interpreted(limits), most);
 }
 
-void require_ink(const Box& box) {
-    if (box.empty()) throw NothingDrawn();
-}
-
-WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawOptions& options)
-    : Drawing(options), grammar_(resolved(grammar, options)), style_(style), spline_(style.line == Line::spline) {
-    require_affordable(grammar_, true, options.budget);
-    drawn_style_ = grammar_.is_spatial() && is_vector(options.format) && !is_plot() ? with_shades(style) : style;
-    if (grammar_.is_spatial() && spline_) {
+WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawingOptions& options,
+                         const Reading& reading)
+    : Drawing(options, reading),
+      grammar_(std::make_shared<const Grammar>(resolved(grammar, reading))),
+      style_(style),
+      spline_(style.line == Line::spline) {
+    require_affordable(*grammar_, true, reading.budget);
+    drawn_style_ = grammar_->is_spatial() && reading.is_vector && !reading.is_plot() ? with_shades(style) : style;
+    if (grammar_->is_spatial() && spline_) {
         throw std::runtime_error(
             "'line: spline' is for drawings in the plane; this one pitches, rolls, bends or has surfaces");
     }
-    const std::vector<char> reached = grammar_.reachable();
+    const std::vector<char> reached = grammar_->reachable();
     for (std::size_t i = 0; i < reached.size(); ++i) {
         if (!reached[i]) continue;
-        switch (grammar_.symbols()[i].command.action) {
+        switch (grammar_->symbols()[i].command.action) {
             case Action::push:
             case Action::pop:
                 has_brackets_ = true;
@@ -126,6 +126,10 @@ WordDrawing::WordDrawing(const Grammar& grammar, const Style& style, const DrawO
     }
 }
 
+double WordDrawing::scale() const {
+    return options_.placement.scale * grammar_->scale_percent() / 100;
+}
+
 std::optional<SpaceBounds> WordDrawing::bounds() const {
     if (!scene_ || scene_->empty()) return std::nullopt;
     return scene_->bounds();
@@ -139,7 +143,7 @@ const DrawnExtent& WordDrawing::seen() {
 }
 
 Balance WordDrawing::balance() const {
-    if (grammar_.is_spatial() || options_.window) return {};
+    if (grammar_->is_spatial() || options_.window) return {};
     InkShape shape(style_);
     read({}, {}, shape);
     return balance_of(shape.hull(), shape.centre());
@@ -151,10 +155,10 @@ bool WordDrawing::has_ink() {
 }
 
 DrawnExtent WordDrawing::measured() {
-    if (grammar_.is_spatial()) {
-        if (options_.begin) options_.begin(1);
-        scene_ = read_scene(grammar_, style_, options_, nodes_of_kept_part);
-        const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), options_.monitor);
+    if (grammar_->is_spatial()) {
+        if (reading_.begin) reading_.begin(1);
+        scene_ = std::make_shared<const Scene>(read_scene(*grammar_, style_, reading_, nodes_of_kept_part));
+        const SceneExtent found = extent_of(*scene_, style_, orientation(options_.placement), reading_.monitor);
         return {found.box, found.widest};
     }
     // The extent of straight lines that are all visible comes from the fold; a spline without brackets and lifts is
@@ -162,10 +166,10 @@ DrawnExtent WordDrawing::measured() {
     const bool folds_extent = !spline_ && !has_areas_ && !has_widths_ && !has_labels_ && all_lines_are_seen();
     std::optional<Fold> folded;
     const bool is_one_stroke = spline_ && !has_brackets_ && !has_edges_ && style_.moves_draw();
-    if (folds_extent || is_one_stroke) folded = fold(grammar_);
+    if (folds_extent || is_one_stroke) folded = fold(*grammar_);
     const bool takes_census = spline_ && !folded;
     const bool reads_extent = spline_ || !folded;
-    if (options_.begin) options_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
+    if (reading_.begin) reading_.begin(1 + (takes_census ? 1 : 0) + (reads_extent ? 1 : 0));
 
     if (takes_census) {
         StrokeCensus census;
@@ -187,30 +191,26 @@ DrawnExtent WordDrawing::measured() {
 
 void WordDrawing::read(const Print& print, const Window&, PathSink& sink) const {
     if (scene_) {
-        return is_plot() ? plot_scene(*scene_, print, options_.plot.value_or(PlotOptions{}), sink, options_.monitor)
-                         : draw_solids(*scene_, print, sink, options_.monitor);
+        return reading_.is_plot() ? plot_scene(*scene_, print, *reading_.pen, sink, reading_.monitor)
+                                  : draw_solids(*scene_, print, sink, reading_.monitor);
     }
     if (!spline_) return read_straight(sink);
     SplineSink spline(sink, closed_);
-    const auto turtle = Turtle::outlining(grammar_, spline, spline, style_.moves_draw());
-    derive(grammar_, *turtle, reading(options_));
+    const auto turtle = Turtle::outlining(*grammar_, spline, spline, style_.moves_draw());
+    derive(*grammar_, *turtle, interpreted(reading_));
 }
 
 void WordDrawing::read_straight(PathSink& sink) const {
-    const auto turtle = Turtle::drawing(grammar_, sink, style_.moves_draw());
-    derive(grammar_, *turtle, reading(options_));
+    const auto turtle = Turtle::drawing(*grammar_, sink, style_.moves_draw());
+    derive(*grammar_, *turtle, interpreted(reading_));
 }
 
 std::unique_ptr<Rendering> WordDrawing::rendering(const Print& print, const Window& window) const {
     return scene_ ? make_solid_raster(*scene_, print) : Drawing::rendering(print, window);
 }
 
-void WordDrawing::report(DrawReport& report) const {
+void WordDrawing::report(DrawingReport& report) const {
     report.is_empty = is_outside_;
-}
-
-bool WordDrawing::is_plot() const {
-    return options_.plot || is_for_plotters(options_.format);
 }
 
 /// True if lines are visible in every colour that may occur.

@@ -4,7 +4,7 @@
 #include "art/plotter/gcode.h"
 #include "art/plotter/hpgl.h"
 #include "art/plotter/pen_rules.h"
-#include "art/plotter/plot.h"
+#include "art/plotter/plot_options.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ struct Hatch {
     double spacing = 0.0;     ///< millimetres between lines; 0: the width of the pen
     double angle = 45.0;      ///< degrees on the page, anticlockwise from its lower edge
     bool is_crossed = false;  ///< hatched a second time, at right angles
+};
+
+/// The pen of a plot, and what it fills.
+struct PlotPen {
+    double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
+    std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only
+    bool leaves_tiles = false;        ///< polygons are not drawn: draw_plot() passes them to the writer of the file
 };
 
 /// The one or two directions of the lines, as unit vectors of the drawing that have the given angles on the page.

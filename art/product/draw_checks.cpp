@@ -1,4 +1,6 @@
 // art/product/draw_checks.cpp: which settings of a print can be combined with each other and with a format.
+#include "art/motion/growth.h"
+#include "art/print/tiles.h"
 #include "art/product/draw_settings.h"
 #include "art/raster/raster.h"
 
@@ -223,20 +225,6 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
     }
 }
 
-/// Depths within the base.
-void check_depths(const ReliefOptions& options) {
-    const auto check = [&](const char* option, const std::vector<double>& heights) {
-        for (const double height : heights) {
-            if (height < 0 && !(options.base + height > 0.0005)) {
-                refuse_option(option, fmt::format("{:g}mm", height),
-                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
-            }
-        }
-    };
-    check("relief", options.heights);
-    check("ridge", options.ridges);
-}
-
 void check_sizes(const S& settings, Format format) {
     const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.page.dpi), why); };
     const Page& page = settings.page.sheet;
@@ -249,7 +237,7 @@ void check_sizes(const S& settings, Format format) {
         refuse("a .gif has at most 65,535 pixels per side and 100 million in all; use a smaller size or dpi");
     }
     try {
-        if (settings.page.tile) tiling_of(page, tile_options(settings));
+        if (settings.page.tile) tiling_of(page, *tile_options(settings));
     } catch (const std::runtime_error& error) {
         refuse_option("tile", "", error.what());
     }
@@ -298,7 +286,7 @@ void check_generations(const S& settings, Format format) {
 
 void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     apply(relief_rules, settings, format);
-    if (is_relief(settings, format)) check_depths(relief_options(settings, format));
+    if (is_relief(settings, format)) relief_options(settings, format);  // checks depths
     if (when::model(settings, format)) return apply(model_rules, settings, format);
     apply(place_rules, settings, format);
     check_sizes(settings, format);

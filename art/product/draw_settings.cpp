@@ -1,6 +1,8 @@
 #include "art/product/draw_settings.h"
 
+#include "art/print/tiles.h"
 #include "art/raster/raster.h"
+#include "art/relief/relief_options.h"
 #include "art/style/length.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
@@ -932,10 +934,10 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
     return settings;
 }
 
-TileOptions tile_options(const DrawSettings& settings) {
+std::shared_ptr<const TileOptions> tile_options(const DrawSettings& settings) {
     TileOptions options{.sheet = *settings.page.tile};
     options.overlap = settings.page.overlap.value_or(options.overlap);
-    return options;
+    return std::make_shared<const TileOptions>(options);
 }
 
 DrawingOptions drawing_options(const DrawSettings& settings, const Document& document) {
@@ -956,7 +958,6 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
     options.repeat = settings.place.repeat;
     options.composes = settings.place.composes;
     options.kerf = settings.look.kerf;
-    options.budget = settings.work.budget;
     return options;
 }
 
@@ -968,7 +969,25 @@ bool is_model(const DrawSettings& settings, PrintFormat format) {
     return info(format).kind == FormatKind::model && !is_relief(settings, format);
 }
 
-ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format) {
+namespace {
+
+/// Depths within the base.
+void check_depths(const ReliefOptions& options) {
+    const auto check = [&](const char* option, const std::vector<double>& heights) {
+        for (const double height : heights) {
+            if (height < 0 && !(options.base + height > 0.0005)) {
+                refuse_option(option, fmt::format("{:g}mm", height),
+                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
+            }
+        }
+    };
+    check("relief", options.heights);
+    check("ridge", options.ridges);
+}
+
+}  // namespace
+
+std::shared_ptr<const ReliefOptions> relief_options(const DrawSettings& settings, PrintFormat format) {
     ReliefOptions options;
     if (settings.relief.heights && !settings.relief.heights->empty()) options.heights = *settings.relief.heights;
     options.ridges = settings.relief.ridges;
@@ -976,7 +995,8 @@ ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format) {
     options.beyond = settings.relief.beyond;
     options.groove = settings.relief.groove.value_or(options.groove);
     options.format = format;
-    return options;
+    check_depths(options);
+    return std::make_shared<const ReliefOptions>(options);
 }
 
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {

@@ -1,20 +1,17 @@
 // art/product/draw_settings.h: typed settings of a print, and the table of options that sets them.
 #pragma once
 
-#include "art/drawing/draw_options.h"
-#include "art/drawing/growth.h"
-#include "art/drawing/swatch.h"
-#include "art/drawing/view.h"
 #include "art/plotter/gcode.h"
 #include "art/plotter/hpgl.h"
-#include "art/plotter/plot.h"
+#include "art/plotter/plot_options.h"
 #include "art/plotter/profile.h"
 #include "art/print/format.h"
 #include "art/print/page.h"
 #include "art/print/press.h"
 #include "art/print/repeat.h"
-#include "art/print/tiles.h"
 #include "art/style/style.h"
+#include "art/writer/draw_options.h"
+#include "art/writer/swatch.h"
 #include "engine/base/option.h"
 #include "engine/language/document.h"
 
@@ -147,14 +144,14 @@ Style read_print_style(const Document& document, const DrawSettings& settings);
 DrawingOptions drawing_options(const DrawSettings& settings, const Document& document);
 
 /// The sheets that the print is cut into; `tile` must be set.
-TileOptions tile_options(const DrawSettings& settings);
+std::shared_ptr<const TileOptions> tile_options(const DrawSettings& settings);
 
 /// True if the print is a relief.
 bool is_relief(const DrawSettings& settings, PrintFormat format);
 /// True if it is another model.
 bool is_model(const DrawSettings& settings, PrintFormat format);
-/// The options of a relief. Call if is_relief().
-ReliefOptions relief_options(const DrawSettings& settings, PrintFormat format);
+/// The options of a relief. Call if is_relief(). @throws SettingError for depths that do not fit into the base
+std::shared_ptr<const ReliefOptions> relief_options(const DrawSettings& settings, PrintFormat format);
 
 /// Combines the settings with those of the plotter's profile. Empty if the print is not for a plotter.
 PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format);

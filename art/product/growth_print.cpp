@@ -1,9 +1,10 @@
 // art/product/growth_print.cpp: several derivation lengths, in an animation or in a file each, and tiles that divide.
-#include "art/drawing/division.h"
-#include "art/drawing/division_file.h"
-#include "art/drawing/drawing_cost.h"
-#include "art/drawing/growth.h"
+#include "art/motion/division.h"
+#include "art/motion/division_file.h"
+#include "art/motion/growth.h"
+#include "art/motion/motion_cost.h"
 #include "art/product/print_work.h"
+#include "art/writer/print_cost.h"
 #include "engine/derivation/forecast.h"
 
 #include <tuple>

@@ -1,12 +1,13 @@
 // art/product/lesson_print.cpp: drawing lessons, and generations side by side.
-#include "art/drawing/drawing_cost.h"
 #include "art/drawing/faint_inks.h"
-#include "art/drawing/lesson.h"
 #include "art/drawing/lesson_drawing.h"
 #include "art/image/image_file.h"
+#include "art/motion/lesson.h"
+#include "art/motion/motion_cost.h"
 #include "art/product/plot_remarks.h"
 #include "art/product/print_cell.h"
 #include "art/product/print_work.h"
+#include "art/writer/print_cost.h"
 #include "engine/derivation/forecast.h"
 
 #include <algorithm>

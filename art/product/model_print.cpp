@@ -1,10 +1,10 @@
 // art/product/model_print.cpp: models of drawings, OBJ and glTF.
-#include "art/drawing/draw.h"
-#include "art/drawing/drawing.h"
-#include "art/drawing/drawing_cost.h"
 #include "art/drawing/faint_inks.h"
 #include "art/drawing/word_drawing.h"
 #include "art/product/print_work.h"
+#include "art/writer/draw.h"
+#include "art/writer/make_drawing.h"
+#include "art/writer/print_cost.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 

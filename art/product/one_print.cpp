@@ -1,9 +1,10 @@
 // art/product/one_print.cpp: one drawing on a page: prints, plots, swatches, tiled prints and reliefs.
-#include "art/drawing/draw.h"
-#include "art/drawing/drawing_cost.h"
 #include "art/image/image_file.h"
 #include "art/product/plot_remarks.h"
 #include "art/product/print_work.h"
+#include "art/relief/relief_options.h"
+#include "art/writer/draw.h"
+#include "art/writer/print_cost.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lettering.h"

@@ -1,12 +1,12 @@
 // art/product/plot_remarks.h: the remarks about a finished drawing and its plot.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/plotter/hpgl.h"
-#include "art/plotter/plot.h"
+#include "art/plotter/plot_options.h"
 #include "art/print/page.h"
 #include "art/product/draw_settings.h"
 #include "art/style/style.h"
+#include "art/writer/draw_options.h"
 #include "engine/interpreter.h"
 
 #include <span>

@@ -57,6 +57,7 @@ void PrintWork::plan_drawing() {
     const bool is_solid = info(format_).kind == FormatKind::model;
     drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_solid ? PrintFormat::svg : format_;
     if (is_relief(settings_, format_)) drawing_.relief = relief_options(settings_, format_);
+    drawing_.budget = settings_.work.budget;
     drawing_.dot_spacing = settings_.place.dot_spacing;
     if (settings_.place.swatch_place) place_swatch(*settings_.place.swatch_place);
     drawing_.threads = settings_.work.threads;

@@ -1,11 +1,10 @@
 // art/product/print_work.h: planned products of a document: prints, models, reliefs, animations, lessons.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/print/print.h"
 #include "art/product/draw_settings.h"
 #include "art/product/unused_options.h"
-#include "art/raster/raster.h"
+#include "art/writer/draw_options.h"
 #include "engine/interpreter.h"
 
 #include <filesystem>

@@ -85,7 +85,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
         }
         list.push_back({"resume", plot.skipped <= 0, "the first line of the plot is longer"});
     }
-    list.push_back({"ridge", report.relief && report.relief->ridges.empty(), "no line is higher than the rest"});
+    list.push_back({"ridge", report.lacks_ridges, "no line is higher than the rest"});
     if (!report.contents) return list;
     const Contents& contents = *report.contents;
     const bool has_fills = contents.has_fills();

@@ -1,8 +1,8 @@
 // art/product/unused_options.h: options that a print accepts but that have no effect.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/product/draw_settings.h"
+#include "art/writer/draw_options.h"
 #include "engine/base/option.h"
 #include "engine/interpreter.h"
 #include "engine/language/grammar.h"

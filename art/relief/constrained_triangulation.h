@@ -2,7 +2,7 @@
 #pragma once
 
 #include "art/print/micrometres.h"
-#include "art/relief/relief_options.h"
+#include "art/relief/most_triangles.h"
 #include "art/relief/windings.h"
 #include "engine/base/monitor.h"
 

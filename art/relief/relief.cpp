@@ -1,5 +1,7 @@
 #include "art/relief/relief.h"
 
+#include "art/relief/most_triangles.h"
+
 #include "art/relief/outlines.h"
 #include "art/relief/relief_files.h"
 #include "art/relief/solid.h"

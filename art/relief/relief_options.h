@@ -23,9 +23,6 @@ struct ReliefOptions {
     PrintFormat format = PrintFormat::stl;
 };
 
-/// Maximum number of triangles of a relief: an STL of 400 MB.
-constexpr std::size_t most_relief_triangles = 8'000'000;
-
 struct ReliefReport {
     std::size_t triangles = 0;
     std::size_t materials = 0;

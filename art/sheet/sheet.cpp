@@ -1,15 +1,15 @@
 #include "art/sheet/sheet.h"
 
-#include "art/drawing/drawing.h"
 #include "art/drawing/faint_inks.h"
-#include "art/drawing/picture.h"
-#include "art/drawing/press_inks.h"
 #include "art/image/image_file.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet_cells.h"
 #include "art/sheet/sheet_pixels.h"
 #include "art/sheet/sheet_plot.h"
 #include "art/vector/vector_formats.h"
+#include "art/writer/make_drawing.h"
+#include "art/writer/picture.h"
+#include "art/writer/press_inks.h"
 #include "engine/base/option.h"
 #include "engine/base/output.h"
 #include "engine/base/text.h"
@@ -200,7 +200,8 @@ void Sheet::measure() {
             if (options_.watch) drawing.watch = [this](std::uint64_t symbols) { watch(symbols); };
             Subject& subject = subjects_[i];
             const Grammar grammar = shorten(*cell.grammar);
-            subject.cost = drawing_cost(grammar, cell_print(cell, options_, cells_.size()), drawing);
+            subject.cost =
+                drawing_cost(grammar, cell_print(cell, options_, cells_.size()), drawing, drawing.reading());
             subject.drawing = make_drawing(grammar, cell.style, drawing);
             subject.extent = cell.may_be_empty ? subject.drawing->seen() : subject.drawing->extent();
             if (subject.extent.box.empty()) subject.extent.box = {glm::dvec2(0.0), glm::dvec2(0.0)};
@@ -614,7 +615,7 @@ DrawReport Sheet::write_plot(Output& output) const {
     options.monitor = options_.monitor;
     const SheetDrawing all(
         std::move(drawings), print_, [this](PathSink& sink) { write_texts(0.0, options_.page.height, sink); },
-        options);
+        options, options.reading());
     Print print = print_;
     print.style = all.style();
     DrawReport report;

@@ -1,8 +1,8 @@
 // art/sheet/sheet.h: draws many prints on one sheet: a poster, rows of generations, a contact sheet.
 #pragma once
 
-#include "art/drawing/draw.h"
 #include "art/print/print.h"
+#include "art/writer/draw.h"
 #include "engine/base/cost.h"
 #include "engine/language/grammar.h"
 
@@ -23,11 +23,11 @@ namespace sikku {
 struct SheetCell : DrawingOptions {
     std::shared_ptr<const Grammar> grammar;
     Style style;
-    std::string title;                  ///< title of its layers
-    std::vector<std::string> caption;   ///< paragraphs, the first of them in larger letters
-    std::string heading;                ///< if not empty, begins a row under this heading
-    std::optional<Window> slot;         ///< place on the sheet, in millimetres; absent: in the rows of the sheet
-    std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
+    std::string title;                 ///< title of its layers
+    std::vector<std::string> caption;  ///< paragraphs, the first of them in larger letters
+    std::string heading;               ///< if not empty, begins a row under this heading
+    std::optional<Window> slot;        ///< place on the sheet, in millimetres; absent: in the rows of the sheet
+    double budget = 200e6;             ///< maximum number of derivation nodes visited in one pass
 };
 
 struct SheetOptions : PlotSetup {

@@ -1,7 +1,8 @@
 #include "art/sheet/sheet_cells.h"
 
-#include "art/drawing/drawing_cost.h"
 #include "art/raster/raster.h"
+#include "art/writer/make_drawing.h"
+#include "art/writer/print_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,8 @@ DrawOptions cell_options(const SheetCell& cell, const SheetOptions& options) {
     static_cast<DrawingOptions&>(drawing) = cell;
     drawing.format = options.format;
     drawing.monitor = options.monitor;
+    drawing.budget = cell.budget;
     drawing.placement.scale = 1.0;
-    drawing.dot_spacing = cell.dot_spacing;
     drawing.plot = options.plot;
     return drawing;
 }
@@ -32,8 +33,9 @@ double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& opt
     double most = 0, lines = 0, kept = 0;
     for (const SheetCell& cell : cells) {
         named_cell(cell, [&] {
+            const DrawOptions own = cell_options(cell, options);
             const DrawingCost cost =
-                drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), cell_options(cell, options));
+                drawing_cost(*cell.grammar, cell_print(cell, options, cells.size()), own, own.reading());
             most = std::max(most, cost.memory - cost.kept_memory);
             lines += cost.lines_memory;
             kept += cost.kept_memory;

@@ -1,9 +1,9 @@
 // art/sheet/sheet_cells.h: the drawings of a sheet one by one: their options, their prints, their errors.
 #pragma once
 
-#include "art/drawing/draw_options.h"
 #include "art/drawing/word_drawing.h"
 #include "art/sheet/sheet.h"
+#include "art/writer/draw_options.h"
 #include "engine/derivation/derivation.h"
 
 #include <fmt/format.h>

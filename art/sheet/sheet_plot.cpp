@@ -44,8 +44,9 @@ private:
 }  // namespace
 
 SheetDrawing::SheetDrawing(std::vector<PlacedDrawing> drawings, const Print& sheet,
-                           std::function<void(PathSink&)> texts, const DrawOptions& options)
-    : Drawing(options), drawings_(std::move(drawings)), texts_(std::move(texts)), style_(sheet.style) {
+                           std::function<void(PathSink&)> texts, const DrawingOptions& options,
+                           const Reading& reading)
+    : Drawing(options, reading), drawings_(std::move(drawings)), texts_(std::move(texts)), style_(sheet.style) {
     const auto index_of = [&](Colour colour) {
         const auto found = std::find(style_.palette.begin(), style_.palette.end(), colour);
         if (found == style_.palette.end()) {

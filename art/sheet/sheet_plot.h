@@ -20,7 +20,7 @@ class SheetDrawing : public Drawing {
 public:
     /// @param sheet  print of the sheet, whose pens are in millimetres @param texts  draws in its pens
     SheetDrawing(std::vector<PlacedDrawing> drawings, const Print& sheet, std::function<void(PathSink&)> texts,
-                 const DrawOptions& options);
+                 const DrawingOptions& options, const Reading& reading);
 
     const DrawnExtent& seen() override { return extent_; }
     const Style& style() const override { return style_; }

@@ -1,7 +1,7 @@
 // art/style/camera.h: the camera of drawings in space, and its projection.
 #pragma once
 
-#include "engine/geometry/space_turtle.h"
+#include "engine/geometry/space_bounds.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

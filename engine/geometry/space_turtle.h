@@ -3,6 +3,7 @@
 
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/path.h"
+#include "engine/geometry/space_bounds.h"
 
 #include <cstdint>
 #include <glm/mat4x3.hpp>
@@ -38,13 +39,6 @@ public:
     virtual void sphere(const glm::dvec3& centre, double radius, const Pen& pen) = 0;
     /// Writes a text whose middle is at `centre` and whose capital letters are `height` steps high.
     virtual void label(std::string_view text, const glm::dvec3& centre, double height, const Pen& pen) = 0;
-};
-
-/// An axis-parallel box in space, in turtle steps.
-struct SpaceBounds {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
-    bool operator==(const SpaceBounds&) const = default;
 };
 
 /// Measurements of a word that a turtle walks through, starting at 0 0 0; one step is 1.

@@ -1,5 +1,7 @@
 // Tests that hatching keeps clear of ink: random shapes by sampling, and the fields of kolams as plotted.
 #include "art/plotter/clear_hatch.h"
+#include "art/writer/draw_options.h"
+#include "art/writer/make_drawing.h"
 
 #include "art/drawing/drawing.h"
 #include "art/plotter/plot.h"

@@ -1,8 +1,9 @@
 // Tiles that divide: every division begins and ends with the pictures at rest, in pixels; the SVG holds the same
 // tiles as prints, and style sheets whose key frames begin and end at rest.
-#include "art/drawing/division_drawing.h"
-#include "art/drawing/division_file.h"
+#include "art/motion/division_drawing.h"
+#include "art/motion/division_file.h"
 #include "art/prints.h"
+#include "art/writer/draw_options.h"
 #include "tests/print_tools.h"
 
 #include <fmt/format.h>
@@ -47,12 +48,12 @@ public:
     Moments(const Document& document, std::int64_t first, std::int64_t last) {
         Diagnostics diagnostics;
         style_ = read_style(document.pattern(), 96, diagnostics);
-        division_ =
-            std::make_shared<const Division>(make_division(document.grammar(), style_, options_, first, last, 1e5));
+        division_ = std::make_shared<const Division>(
+            make_division(document.grammar(), style_, options_, options_.reading(), first, last, 1e5));
     }
     const Division& division() const { return *division_; }
     std::vector<std::uint8_t> pixels(const DivisionMoment& moment) const {
-        DivisionDrawing drawing(division_, moment, options_);
+        DivisionDrawing drawing(division_, moment, options_, options_.reading());
         Print print;
         print.page = {60, 60, 3};
         print.dpi = 100;

@@ -1,4 +1,4 @@
-#include "art/drawing/draw.h"
+#include "art/writer/draw.h"
 
 #include "tests/print_tools.h"
 

@@ -1,10 +1,11 @@
 // tests/art/hand_test.cpp: lines as a hand draws them: order, width, clearance, grain, outlines.
 #include "art/hand/hand.h"
-#include "art/drawing/draw.h"
 #include "art/drawing/drawing.h"
 #include "art/hand/hand_order.h"
 #include "art/prints.h"
 #include "art/raster/raster.h"
+#include "art/writer/draw.h"
+#include "art/writer/make_drawing.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
 #include "tests/print_tools.h"

@@ -1,9 +1,11 @@
 // tests/art/lesson_test.cpp: drawing lessons: their steps, pages, animations and pictures.
-#include "art/drawing/lesson.h"
+#include "art/motion/lesson.h"
 #include "art/drawing/drawing.h"
 #include "art/drawing/lesson_drawing.h"
 #include "art/hand/hand_order.h"
 #include "art/prints.h"
+#include "art/writer/draw_options.h"
+#include "art/writer/make_drawing.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
 #include "tests/print_tools.h"

@@ -1,7 +1,7 @@
 #include "art/drawing/line_bands.h"
 
-#include "art/drawing/draw.h"
 #include "art/prints.h"
+#include "art/writer/draw.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/language/document.h"
 #include "tests/files.h"

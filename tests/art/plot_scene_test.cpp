@@ -28,7 +28,7 @@ Print flat_print() {
     return print;
 }
 
-Recorder plotted(const std::string& axiom, const Print& print, const PlotOptions& options = {}) {
+Recorder plotted(const std::string& axiom, const Print& print, const PlotPen& options = {}) {
     DerivationOptions derivation;
     derivation.interpreted = true;
     const Scene scene =
@@ -87,7 +87,7 @@ TEST(PlotScene, AStemHidesTheLeafBehindItWhereItIsWide) {
 }
 
 TEST(PlotScene, HatchingIsHiddenToo) {
-    PlotOptions options;
+    PlotPen options;
     options.hatch = Hatch{2.0, 45.0, false};
     options.pen_width = 0.3;
     // A large square behind, a small one in front of its middle.
@@ -108,7 +108,7 @@ TEST(PlotScene, HatchingIsHiddenToo) {
 }
 
 TEST(PlotScene, WideStemsTakeSeveralPasses) {
-    PlotOptions options;
+    PlotPen options;
     options.pen_width = 0.3;
     Print print = flat_print();
     print.style.stroke.value = 4;

@@ -1,9 +1,9 @@
 #include "art/print/press.h"
 
-#include "art/drawing/draw.h"
 #include "art/raster/raster.h"
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
+#include "art/writer/draw.h"
 #include "tests/print_tools.h"
 
 #include <cmath>

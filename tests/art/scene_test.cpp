@@ -1,11 +1,11 @@
 // Drawings in space on paper: cameras, what hides what, light, and models.
 #include "art/space/scene.h"
-#include "art/drawing/draw.h"
 #include "art/space/model.h"
 #include "art/space/solid_raster.h"
 #include "art/space/solids.h"
 #include "art/space/triangles.h"
 #include "art/style/camera.h"
+#include "art/writer/draw.h"
 #include "engine/geometry/lettering.h"
 #include "tests/files.h"
 #include "tests/reference.h"

@@ -1,8 +1,9 @@
 // Swatches: three by three copies against the tiling drawn at once, in pixels; tiles that cross an edge against their
 // copies at the opposite one; neighbours against each other.
-#include "art/drawing/swatch.h"
-#include "art/drawing/draw.h"
+#include "art/writer/swatch.h"
 #include "art/prints.h"
+#include "art/raster/raster.h"
+#include "art/writer/draw.h"
 #include "tests/files.h"
 #include "tests/print_tools.h"
 
@@ -88,7 +89,7 @@ TEST(Swatch, ThreeByThreeCopiesAreTheTiling) {
     constexpr double dpi = 100;
     for (const Document& document : documents) {
         const std::string name = document.text("title");
-        const Swatch swatch = find_swatch(document.grammar(), style_of(document), {}, false);
+        const Swatch swatch = find_swatch(document.grammar(), style_of(document), {}, {}, false);
         const DrawnPixels one =
             draw_pixels(document, {{"swatch", ""}, {"step", "6mm"}, {"dpi", fmt::format("{}", dpi)}});
         const DrawnPixels all = drawn_at_once(document, swatch, one.width, one.height, dpi);
@@ -266,7 +267,7 @@ TEST(Swatch, IsMadeOfPeriodicTilingsAlone) {
         const std::string name = entry.path().stem().string();
         const Document document = load(name);
         try {
-            const Swatch swatch = find_swatch(document.grammar(), style_of(document), {}, false);
+            const Swatch swatch = find_swatch(document.grammar(), style_of(document), {}, {}, false);
             found.insert(name);
             EXPECT_TRUE(swatch.is_rectangle) << name;
             EXPECT_EQ(swatch.turn, 0) << name;
@@ -283,7 +284,7 @@ TEST(Swatch, IsTheSmallestRectangle) {
         const Document document = load(name);
         DrawOptions options;
         options.placement.rotate = rotate;
-        return find_swatch(document.grammar(), style_of(document), options, may_turn);
+        return find_swatch(document.grammar(), style_of(document), options, options, may_turn);
     };
     const auto size = [](const Swatch& swatch) { return swatch.frame.high - swatch.frame.low; };
     const Swatch hexagons = found("trihexagonal", false);

@@ -1,5 +1,5 @@
 // Decorations of tiles: against facts about Ammann bars, mirror curves and circles.
-#include "art/drawing/tile_decorator.h"
+#include "art/tiles/tile_decorator.h"
 #include "art/plotter/plot_join.h"
 #include "art/prints.h"
 #include "engine/base/diagnostic.h"

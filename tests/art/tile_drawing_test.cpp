@@ -1,8 +1,8 @@
 // Colours and edges of tiles: against sums over a grid, facts of the literature, and the SVG that is drawn.
-#include "art/drawing/border_cuts.h"
-#include "art/drawing/tile_colours.h"
-#include "art/drawing/united_lines.h"
 #include "art/prints.h"
+#include "art/tiles/border_cuts.h"
+#include "art/tiles/tile_colours.h"
+#include "art/tiles/united_lines.h"
 #include "engine/base/diagnostic.h"
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/polygon_classes.h"

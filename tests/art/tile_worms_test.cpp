@@ -1,5 +1,5 @@
 // Conway worms: against the vertex figures of certificates, and the order of their links.
-#include "art/drawing/tile_worms.h"
+#include "art/tiles/tile_worms.h"
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/turtle.h"

@@ -1,8 +1,8 @@
 // tests/art/view_test.cpp: visible parts of drawings too large to be read, edge for edge against another form of the
 // curve, and pixel for pixel against drawings read in full.
-#include "art/drawing/view.h"
+#include "art/deep/view.h"
 
-#include "art/drawing/spline_pieces.h"
+#include "art/deep/spline_pieces.h"
 #include "art/raster/raster.h"
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"

@@ -1,5 +1,7 @@
 // Windows into tilings: tile for tile against the whole word, and without gaps far out in words too long to be read.
-#include "art/drawing/window_drawing.h"
+#include "art/deep/window_drawing.h"
+#include "art/writer/draw_options.h"
+#include "art/writer/make_drawing.h"
 
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
@@ -81,7 +83,8 @@ DrawOptions window_options(const std::string& window) {
 Tiles shown(std::shared_ptr<const Grammar> grammar, const std::string& text) {
     std::string why;
     const DrawOptions options = window_options(text);
-    const auto drawing = WindowDrawing::make(std::move(grammar), plain_print().style, options, why);
+    const auto drawing =
+        WindowDrawing::make(std::move(grammar), plain_print().style, options, options.reading(), why);
     EXPECT_TRUE(drawing) << why;
     Print print = plain_print();
     drawing->place(print);
@@ -281,7 +284,7 @@ TEST(WindowDrawing, HasTheSameColoursEverywhere) {
 TEST(WindowDrawing, RefusesPlacesThatAreNotPrecise) {
     std::string why;
     EXPECT_FALSE(WindowDrawing::make(tiling("pinwheel", "40"), plain_print().style,
-                                     window_options("10000000,5,10000030,25"), why));
+                                     window_options("10000000,5,10000030,25"), Reading{}, why));
     EXPECT_NE(why.find("decimal lengths"), std::string::npos) << why;
     try {
         draw(load(bundled("tilings/pinwheel")), "svg", {{"derivation length", "40"}, {"window", "5,5,25,25"}});

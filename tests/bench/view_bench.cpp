@@ -1,6 +1,6 @@
 // tests/bench/view_bench.cpp: drawings of any order as what is seen of them, against drawings read in full: of the
 // order whose step is nearest the largest part that is replaced. 2048 x 2048 pixels, the same rasteriser, one thread.
-#include "art/drawing/view.h"
+#include "art/deep/view.h"
 #include "art/raster/raster.h"
 #include "engine/geometry/turtle.h"
 #include "engine/measure/fold.h"

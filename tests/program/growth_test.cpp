@@ -1,5 +1,5 @@
 // tests/program/growth_test.cpp: runs the program to make animations, views and models.
-#include "art/drawing/growth.h"
+#include "art/motion/growth.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 
