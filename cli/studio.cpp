@@ -107,7 +107,7 @@ bool has_display() {
 /// Starts xdg-open in its own session. Returns false if it cannot be started or fails at once; it may run as long as
 /// the browser does.
 bool open_in_browser(const std::string& address) {
-    constexpr auto patience = std::chrono::seconds(3);
+    constexpr auto most_time = std::chrono::seconds(3);
     constexpr auto pause = std::chrono::milliseconds(20);
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -126,7 +126,7 @@ bool open_in_browser(const std::string& address) {
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error != 0) return false;
-    for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;) {
+    for (const auto end = std::chrono::steady_clock::now() + most_time; std::chrono::steady_clock::now() < end;) {
         int status = 0;
         const pid_t ended = ::waitpid(process, &status, WNOHANG);
         if (ended == process) return WIFEXITED(status) && WEXITSTATUS(status) == 0;
