@@ -401,6 +401,7 @@ bool is_sheet_wide(std::string_view option) {
         case Scope::page:
         case Scope::file:
         case Scope::plot:
+        case Scope::strokes:
         case Scope::pens:
         case Scope::gcode:
         case Scope::hpgl:
@@ -408,6 +409,7 @@ bool is_sheet_wide(std::string_view option) {
         case Scope::press:
         case Scope::trim:
         case Scope::pixels:
+        case Scope::threads:
             return true;
         default:
             return false;

@@ -50,11 +50,11 @@ struct Options {
 OptionValues moved(OptionValues values, const std::filesystem::path& from, const std::filesystem::path& to) {
     if (from == to) return values;
     for (OptionValue& value : values) {
-        const bool is_file =
-            value.name == "keyboard" || (value.name == "scale" && lower_case(value.text).ends_with(".scl"));
+        const OptionInfo* row = find_option(scores().options(), value.name);
+        if (!row || !row->names_file || !row->names_file(value.text)) continue;
         std::error_code error;
         const auto path = std::filesystem::proximate(from / value.text, to.empty() ? "." : to, error);
-        if (is_file && !error) value.text = path.string();
+        if (!error) value.text = path.string();
     }
     return values;
 }

@@ -1,5 +1,6 @@
 #include "cli/link_argument.h"
 
+#include "art/prints.h"
 #include "engine/base/keys.h"
 #include "engine/language/pattern.h"
 
@@ -25,7 +26,8 @@ std::set<std::string> replaced_names(const PatternOptions& options) {
 
 /// True for options that set the scale of a drawing, of which only one can be given.
 bool sets_scale(const std::string& name) {
-    return name == "fit" || name == "step" || name == "dot-spacing";
+    const OptionInfo* row = find_option(prints().options(), name);
+    return row && row->sets_scale;
 }
 
 bool names_file(const Key& key) {

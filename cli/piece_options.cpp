@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace sikku {
@@ -29,14 +28,10 @@ double length_in(const char* option, const std::string& text, double least, doub
 
 /// Options of prints that apply to sheets of pieces.
 std::vector<const OptionInfo*> print_options() {
-    constexpr std::array<std::string_view, 3> pictures = {"dpi", "compression", "jobs"};
-    constexpr std::array<std::string_view, 2> of_fills = {"hatch", "split"};
     std::vector<const OptionInfo*> chosen;
     for (const OptionInfo* row : prints().options()) {
-        const auto is_in = [&](const auto& names) {
-            return std::find(names.begin(), names.end(), row->name) != names.end();
-        };
-        if (is_in(pictures) || (row->group == "Plotters" && !is_in(of_fills))) chosen.push_back(row);
+        const bool is_of_plots = row->group == "Plotters" && row->scope != Scope::strokes;
+        if (row->group == "Pictures" || is_of_plots) chosen.push_back(row);
     }
     return chosen;
 }

@@ -71,6 +71,9 @@ Json help_of(const Interpreter& interpreter) {
                            {"is_on", option->is_on},
                            {"is_key", option->is_key},
                            {"is_alone", option->is_alone},
+                           {"scope", scope_name(option->scope)},
+                           {"sets_scale", option->sets_scale},
+                           {"names_file", option->names_file != nullptr},
                            {"letter", option->letter ? std::string(1, option->letter) : std::string()}});
     }
     Json formats = Json::array();
@@ -86,12 +89,15 @@ Json help_of(const Interpreter& interpreter) {
 
 Json answer_help() {
     static constexpr std::array owners = {"engine", "art", "music"};
+    static constexpr std::array scopes = {"words", "maps", "all"};
     Json keys = Json::array();
     for (const KeyInfo& key : language_keys()) {
         keys.push_back({{"name", key.name},
                         {"owner", owners[static_cast<std::size_t>(key.owner)]},
                         {"values", key.values},
                         {"if_absent", key.if_absent},
+                        {"scope", scopes[static_cast<std::size_t>(key.scope)]},
+                        {"names_file", key.names_file != nullptr},
                         {"help", key.help}});
     }
     Json symbols = Json::array();

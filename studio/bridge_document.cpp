@@ -337,12 +337,25 @@ OptionValues shown_options(const OptionValues& all, bool is_page) {
     OptionValues shown;
     for (const OptionValue& value : all) {
         const OptionInfo* option = find_option(prints().options(), value.name);
-        const Scope scope = option ? option->scope : Scope::look;
-        const bool is_look =
-            scope == Scope::look || scope == Scope::space || scope == Scope::kolam || scope == Scope::cost;
-        const bool is_layout = scope == Scope::page || scope == Scope::place || scope == Scope::scale ||
-                               scope == Scope::extras || scope == Scope::copies;
-        if (is_look || (is_page && is_layout)) shown.push_back(value);
+        switch (option ? option->scope : Scope::look) {
+            case Scope::look:
+            case Scope::turn:
+            case Scope::space:
+            case Scope::kolam:
+            case Scope::cost:
+                shown.push_back(value);
+                break;
+            case Scope::page:
+            case Scope::framing:
+            case Scope::place:
+            case Scope::scale:
+            case Scope::extras:
+            case Scope::copies:
+                if (is_page) shown.push_back(value);
+                break;
+            default:
+                break;
+        }
     }
     return shown;
 }

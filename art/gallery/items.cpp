@@ -174,10 +174,6 @@ bool GalleryAxis::is_end(std::uint64_t index) const {
     return !part.range || within == 0 || within + 1 >= part.range->count;
 }
 
-void GalleryItem::drop(std::string_view key) {
-    std::erase_if(axes, [&](const Axis& axis) { return axis->key == key && !axis->in_set; });
-}
-
 void GalleryItem::take(Axis axis) {
     for (Axis& old : axes) {
         if (old->key == axis->key && old->in_set == axis->in_set) {

@@ -73,7 +73,6 @@ struct GalleryItem {
     std::string name_place;
     std::vector<Axis> axes;
 
-    void drop(std::string_view key);
     /// Replaces an axis of the same key.
     void take(Axis axis);
 };

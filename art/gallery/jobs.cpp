@@ -7,6 +7,7 @@
 #include "art/product/draw_settings.h"
 
 #include "engine/base/input_file.h"
+#include "engine/base/keys.h"
 #include "engine/base/numbers.h"
 #include "engine/base/text.h"
 
@@ -501,9 +502,17 @@ void take_request(const GalleryRequest& request, const GalleryKeys& keys, std::v
         value.text = text.substr(equals + 1);
         asked.take(std::make_shared<const GalleryAxis>(axis_of(text.substr(0, equals), value, nullptr)));
     }
+    const auto sets_scale = [&](const std::string& name) {
+        const GalleryKey* key = keys.find(name);
+        return key && key->sets_scale;
+    };
+    const bool is_scaled =
+        std::any_of(request.keys.begin(), request.keys.end(), [&](const auto& key) { return sets_scale(key.first); });
+    const auto sets_scale_otherwise = [&](const GalleryItem::Axis& axis) {
+        return !axis->in_set && sets_scale(axis->key) && !request.keys.contains(axis->key);
+    };
     for (GalleryItem& item : items) {
-        if (request.keys.contains("fit")) item.drop("step");
-        if (request.keys.contains("step")) item.drop("fit");
+        if (is_scaled) std::erase_if(item.axes, sets_scale_otherwise);
         if (!asked.formats.empty()) item.formats = asked.formats;
         if (asked.name) {
             item.name = asked.name;
@@ -553,6 +562,17 @@ void read_manifest_of(const GalleryRequest& request, const GalleryKeys& keys, co
         throw GalleryError(fmt::format("{}: {}", request.manifest, std::generic_category().message(errno)));
 }
 
+/// True for texts with keys that may name a file. Compiling them instead would take long for every job of a finished
+/// gallery.
+bool may_name_file(const std::string& text) {
+    const std::string whole = lower_case(text);
+    return std::any_of(language_keys().begin(), language_keys().end(), [&](const KeyInfo& key) {
+        // Scales are common, and most have names.
+        const std::string_view sign = key.name == "scale" ? ".scl" : key.name;
+        return key.names_file && whole.find(sign) != std::string::npos;
+    });
+}
+
 }  // namespace
 
 std::string GalleryJob::text() const {
@@ -580,27 +600,20 @@ std::string GalleryJob::hash() const {
         hash.add_piece(key);
         hash.add_piece(value);
     }
-    // The contents of the file may change.
-    if (keys.contains("cmyk")) hash.add_piece(works->digits_of(folder / keys.at("cmyk")));
-    if (const auto found = keys.find("profile"); found != keys.end() && is_profile_file(found->second)) {
-        hash.add_piece(works->digits_of(folder / found->second));
+    // The contents of the files may change.
+    for (const OptionValue& value : values()) {
+        const OptionInfo& info = *find_option(interpreter().options(), value.name);
+        if (info.is_key || !info.names_file || !info.names_file(value.text)) continue;
+        hash.add_piece(works->digits_of(folder / value.text));
     }
-    if (pattern->text) {
-        // Search for scales and key maps instead of compiling, which would take long for every job of a finished
-        // gallery.
-        const std::string whole = lower_case(text() + pattern->text->text);
-        const bool has_border = whole.find("border") != std::string::npos || keys.contains("border");
-        if (has_border || whole.find(".scl") != std::string::npos || whole.find("keyboard") != std::string::npos ||
-            whole.find("surface") != std::string::npos) {
-            try {
-                for (const auto& [file, held] : work()->read_files()) {
-                    hash.add_piece(file);
-                    hash.add_piece(held);
-                }
-            } catch (const std::exception&) {
-                // The job itself reports why.
-            }
+    if (!pattern->text || !may_name_file(text() + pattern->text->text)) return hash.digits();
+    try {
+        for (const auto& [file, held] : work()->read_files()) {
+            hash.add_piece(file);
+            hash.add_piece(held);
         }
+    } catch (const std::exception&) {
+        // The job itself reports why.
     }
     return hash.digits();
 }

@@ -38,7 +38,8 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters, PieceRead
                              .kind = info->kind,
                              .least = info->least,
                              .most = info->most,
-                             .has_optional_value = has_optional_value});
+                             .has_optional_value = has_optional_value,
+                             .sets_scale = info->sets_scale});
         }
     }
     keys_.push_back({.name = "angle",

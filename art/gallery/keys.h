@@ -24,6 +24,7 @@ struct GalleryKey {
     double most = 1e300;
     bool is_option = true;            ///< it is also an option of the command line
     bool has_optional_value = false;  ///< `true` stands for its default
+    bool sets_scale = false;          ///< excludes the other keys that do
 };
 
 /// The keys and formats that gallery files may contain.

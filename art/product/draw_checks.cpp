@@ -92,7 +92,7 @@ struct Options {
 /// A kind of print has none of these options.
 struct Rule {
     Kind kind;
-    std::array<Options, 16> refused;
+    std::array<Options, 18> refused;
     const char* reason;
 };
 
@@ -108,8 +108,8 @@ constexpr Rule model_rules[] = {
     {when::model, {{"rotate"}}, "a model can be rotated in the program that uses it"},
     {when::model, {{"mirror"}}, "a model can be mirrored in the program that uses it"},
     {when::model,
-     {{place, tiling, space, kolam, extras, copies, time, file, lesson, sheets, plot, pens, gcode, hpgl, press,
-       trim}},
+     {{framing, place, tiling, space, kolam, extras, copies, time, file, lesson, sheets, plot, strokes, pens, gcode,
+       hpgl, press, trim}},
      "a model has no page and no camera; this option applies only to prints"},
     {when::model, {{scale}}, "a model has one unit for each turtle step"},
 };
@@ -141,7 +141,7 @@ constexpr Rule plot_rules[] = {
     {when::pixels, {{"plotter"}}, drawn_formats},
     {when::without_travel, {{"travel"}}, "needs 'plotter', and SVG, PDF or EPS"},
     {when::no_plot, {{"split"}}, "needs 'plotter'"},
-    {when::no_plot, {{plot, "pen", "refill"}}, "needs 'plotter', HP-GL, G-code or DXF"},
+    {when::no_plot, {{plot, strokes, "pen", "refill"}}, "needs 'plotter', HP-GL, G-code or DXF"},
     {when::without_parking, {{"park"}}, "applies only to HP-GL and G-code"},
     {when::no_gcode, {{gcode}}, "applies only to G-code"},
     {when::no_hpgl, {{hpgl}}, "applies only to HP-GL"},
@@ -162,7 +162,7 @@ constexpr Rule product_rules[] = {
     {when::plot, {{"swatch"}}, "its edges would cut the strokes of a plot"},
     {when::gif, {{"swatch"}}, "a swatch is one picture, not an animation"},
     {when::swatch, {{"generations"}}, "a swatch determines its own derivation length"},
-    {when::swatch, {{place, "fill-page", copies, lesson, sheets}}, "a swatch has its own place and page"},
+    {when::swatch, {{framing, place, "fill-page", copies, lesson, sheets}}, "a swatch has its own place and page"},
     {when::swatch, {{"dot-spacing"}}, "the length of a step sets the size of a swatch"},
     {when::swatch, {{"animate", "divide"}}, "a swatch is one picture, not an animation"},
     {when::swatch, {{extras, trim}}, "a swatch is part of an endless tiling, with nothing around it"},

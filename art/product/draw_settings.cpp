@@ -320,9 +320,12 @@ const std::array own_rows = {
                   s.page.sheet.margin = length("margin", t, s.page.dpi);
                   if (s.page.sheet.margin < 0) refuse_option("margin", t, "expected 0 or more");
               }},
-    Option<S>{
-        {.name = "fit", .help = "fill the page within its margins (default)", .scope = Scope::place, .kind = flag},
-        [](S& s, Text t) { s.place.fit = is_true(t); }},
+    Option<S>{{.name = "fit",
+               .help = "fill the page within its margins (default)",
+               .scope = Scope::framing,
+               .kind = flag,
+               .sets_scale = true},
+              [](S& s, Text t) { s.place.fit = is_true(t); }},
     Option<S>{{.name = "compose",
                .help = "place the drawing by its shape and mass around the optical centre, with room to breathe, "
                        "instead of filling the margins",
@@ -332,7 +335,8 @@ const std::array own_rows = {
     Option<S>{{.name = "step",
                .help = "length of one turtle step on paper, instead of fitting the page",
                .value = "LENGTH",
-               .scope = Scope::scale},
+               .scope = Scope::scale,
+               .sets_scale = true},
               set_step},
     Option<S>{{.name = "fill-page",
                .help = "cover the whole page with a tiling, at the length of a step that 'step' sets (a 40th of the "
@@ -355,18 +359,18 @@ const std::array own_rows = {
                .help = "part of the drawing that fills the page, in turtle steps; for lines in one pen, at any "
                        "derivation length",
                .value = "X0,Y0,X1,Y1",
-               .scope = Scope::place},
+               .scope = Scope::framing},
               set_window},
     Option<S>{{.name = "rotate",
                .help = "rotation in degrees anticlockwise (0)",
                .value = "DEGREES",
-               .scope = Scope::look,
+               .scope = Scope::turn,
                .unit = "deg",
                .kind = number,
                .neutral = "0"},
               [](S& s, Text t) { s.place.rotate = to_number(t); }},
     Option<S>{
-        {.name = "mirror", .help = "mirror left and right, before rotating", .scope = Scope::look, .kind = flag},
+        {.name = "mirror", .help = "mirror left and right, before rotating", .scope = Scope::turn, .kind = flag},
         [](S& s, Text t) { s.place.mirror = is_true(t); }},
     Option<S>{{.name = "view",
                .help = "camera of drawings in space: degrees around and up, or front, side or top; then, for a "
@@ -398,7 +402,8 @@ const std::array own_rows = {
                .help = "distance between neighbouring dots of a kolam on paper, instead of fitting the page",
                .value = "LENGTH",
                .group = kolams,
-               .scope = Scope::kolam},
+               .scope = Scope::kolam,
+               .sets_scale = true},
               set_dot_spacing},
     Option<S>{
         {.name = "border",
@@ -587,7 +592,7 @@ const std::array own_rows = {
                .help = "maximum length of a stroke, for controllers that stutter",
                .value = "LENGTH",
                .group = plotters,
-               .scope = Scope::plot},
+               .scope = Scope::strokes},
               [](S& s, Text t) {
                   s.plot.split = length("split", t, s.page.dpi);
                   if (!(s.plot.split > 0)) refuse_option("split", t, "expected a length above 0");
@@ -603,7 +608,7 @@ const std::array own_rows = {
                        "0.5mm,cross",
                .value = "[SPACING[,ANGLE|cross]]",
                .group = plotters,
-               .scope = Scope::plot},
+               .scope = Scope::strokes},
               set_hatch},
     Option<S>{{.name = "pens",
                .help = "number of pens the plotter holds, 1 to 256; more colours are merged into the most similar "
@@ -822,7 +827,7 @@ const std::array own_rows = {
                .help = "threads for pictures; 0: one per core (0)",
                .value = "N",
                .group = pictures,
-               .scope = Scope::pixels,
+               .scope = Scope::threads,
                .kind = whole,
                .most = 1024,
                .is_alone = true,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <deque>
 #include <mutex>
@@ -48,6 +49,14 @@ double to_number(const std::string& text) {
     double value = 0;
     read_number(text, value);
     return value;
+}
+
+std::string_view scope_name(Scope scope) {
+    static constexpr std::array<std::string_view, 28> names = {
+        "other",  "page",   "framing", "place", "scale",  "tiling", "look",    "turn", "space",   "kolam",
+        "extras", "copies", "time",    "file",  "lesson", "sheets", "solid",   "plot", "strokes", "pens",
+        "gcode",  "hpgl",   "machine", "press", "trim",   "pixels", "threads", "cost"};
+    return names[static_cast<std::size_t>(scope)];
 }
 
 double read_budget(const std::string& text) {

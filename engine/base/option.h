@@ -20,10 +20,12 @@ enum class OptionKind : std::uint8_t { text, number, whole, flag };
 enum class Scope : std::uint8_t {
     other,
     page,     ///< the sheet of paper
+    framing,  ///< the part of the drawing that fills the page
     place,    ///< position of the drawing on the page
     scale,    ///< the length of a step
     tiling,   ///< part of a tiling that is drawn, and how it is cut
-    look,     ///< lines, colours, orientation
+    look,     ///< lines and colours
+    turn,     ///< rotation and reflection
     space,    ///< camera and light
     kolam,    ///< dots and strands
     extras,   ///< additions around the drawing
@@ -34,6 +36,7 @@ enum class Scope : std::uint8_t {
     sheets,   ///< a print that is cut into sheets
     solid,    ///< a relief
     plot,     ///< arrangement of lines for a pen
+    strokes,  ///< lines that replace filled areas, and their length
     pens,     ///< the plotter and its pens
     gcode,    ///< arcs of G-code
     hpgl,     ///< paper of HP-GL
@@ -41,8 +44,12 @@ enum class Scope : std::uint8_t {
     press,    ///< inks and bits of a print shop
     trim,     ///< bleed and marks outside of the trimmed sheet
     pixels,   ///< resolution and files of pictures
+    threads,  ///< use of the machine's cores
     cost      ///< limits of the work
 };
+
+/// The name of a scope, as in the enumeration.
+std::string_view scope_name(Scope scope);
 
 /// A row of the table, without its setter.
 struct OptionInfo {
@@ -57,11 +64,12 @@ struct OptionInfo {
     double most = 1e300;
     bool is_list = false;        ///< may be given several times
     std::string_view neutral{};  ///< value equivalent to an absent option: `0mm`; flags need none
-    bool is_alone = false;   ///< not available in galleries, where each job makes one file of one derivation length
-    bool is_on = false;      ///< a flag that is on by default
-    char letter = 0;         ///< short form on the command line; 0: none
-    bool sets_more = false;  ///< with `is_key`: accepts more values than the key
-    bool is_key = false;     ///< overrides the key of the same name
+    bool is_alone = false;    ///< not available in galleries, where each job makes one file of one derivation length
+    bool is_on = false;       ///< a flag that is on by default
+    char letter = 0;          ///< short form on the command line; 0: none
+    bool sets_more = false;   ///< with `is_key`: accepts more values than the key
+    bool is_key = false;      ///< overrides the key of the same name
+    bool sets_scale = false;  ///< sets the scale of a drawing; excludes the other options that do
     bool moves_machine = false;  ///< commands or places for a machine, beyond the lines of the drawing
     /// True for values that name files of this machine; null: no value does.
     bool (*names_file)(std::string_view value) = nullptr;

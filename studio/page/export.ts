@@ -8,6 +8,7 @@ import { button, element } from "./elements";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
+import { offered } from "./option_scopes";
 import { isAbort } from "./pictures";
 import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
 import { Refusal } from "./refusal";
@@ -241,7 +242,7 @@ class Export {
         };
         const isSpatial = this.application.opened?.facts.is_spatial ?? false;
         const made = optionGroups(
-            help[interpreter].options.filter((option) => isSpatial || option.name !== "view"),
+            offered(help, help[interpreter].options).filter((option) => isSpatial || option.name !== "view"),
             store.work[interpreter],
             act,
             interpreter === "draw" ? "Page" : "Passage",

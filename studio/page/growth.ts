@@ -2,12 +2,11 @@
 import { RequestFailed, type Engine, type Work } from "./context";
 import { readModel } from "./glb";
 import { isAbort } from "./pictures";
-import type { Made, PatternRequest } from "./protocol";
-import { optionOf } from "./sheet";
+import { modelOptions } from "./option_scopes";
+import type { Help, Made, PatternRequest } from "./protocol";
 import type { Stage, Staged } from "./space_stage";
 
 const mostBytes = 48 * 1024 * 1024;
-const modelSettings = ["line", "stroke", "fill", "palette", "budget"]; // options that a model depends on
 
 /// The model at a derivation length; `empty`: nothing is drawn.
 export type Grown = Staged | "empty";
@@ -18,23 +17,21 @@ export class Growth {
 
     constructor(
         private readonly engine: Engine,
+        private readonly help: Help,
         private readonly stage: Stage,
     ) {}
 
     /// Everything that models of the work depend on, except the derivation length.
-    static subject(work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
+    static subject(help: Help, work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
         const settings = work.pattern.settings.filter(([name]) => name !== "derivation length");
-        const options = modelSettings.flatMap((name): [string, string][] => {
-            const value = optionOf(work.draw, name);
-            return value === undefined ? [] : [[name, value]];
-        });
+        const options = modelOptions(help, work.draw);
         const pattern = { ...work.pattern, settings };
         return { pattern, options, name: JSON.stringify([pattern, options]) };
     }
 
     /// The cached model, if any.
     kept(work: Work, n: number): Grown | undefined {
-        const name = `${n} ${Growth.subject(work).name}`;
+        const name = `${n} ${Growth.subject(this.help, work).name}`;
         const model = this.models.get(name);
         if (model) {
             this.models.delete(name);
@@ -47,7 +44,7 @@ export class Growth {
     async make(work: Work, n: number, options: { key: string; isAhead?: boolean }): Promise<Grown> {
         const kept = this.kept(work, n);
         if (kept) return kept;
-        const { pattern, options: settings, name } = Growth.subject(work);
+        const { pattern, options: settings, name } = Growth.subject(this.help, work);
         const numbered = {
             ...pattern,
             settings: [...pattern.settings!, ["derivation length", String(n)] as [string, string]],

@@ -8,8 +8,9 @@ import { Motion } from "./map_motion";
 import { Painter, type Loupe, type Overview } from "./map_painter";
 import { Overviews } from "./overviews";
 import { colourOf, TileLoader, type Bitmap, type Colour, type Subject } from "./pictures";
+import { pageOptions, planeOptions } from "./option_scopes";
 import type { Opened } from "./protocol";
-import { cameraOfSheet, isComposed, laidOut, pageOptions, planeOptions, sheetOf, styleOf, type Laid } from "./sheet";
+import { cameraOfSheet, isComposed, laidOut, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
 import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
 import { isAnother } from "./versions";
@@ -113,8 +114,8 @@ export class MapView {
         const isOther = work.pattern !== before.pattern || work.draw !== before.draw;
         this.wasCurrent = this.isCurrent;
         if (isOther || this.pageName === "") {
-            this.pageName = this.subjects.nameOf("page", work.pattern, pageOptions(work.draw));
-            this.planeName = this.subjects.nameOf("plane", work.pattern, planeOptions(work.draw));
+            this.pageName = this.subjects.nameOf("page", work.pattern, pageOptions(this.studio.help, work.draw));
+            this.planeName = this.subjects.nameOf("plane", work.pattern, planeOptions(this.studio.help, work.draw));
         }
         if (isOther) this.change();
         if (isAnother(work.pattern, before.pattern)) {
@@ -282,7 +283,8 @@ export class MapView {
 
     private get pageCamera(): Camera | null {
         const facts = this.known;
-        return facts && cameraOfSheet(sheetOf(this.work.draw), this.laid, this.size, facts, this.work.draw);
+        const { laid, size, studio, work } = this;
+        return facts && cameraOfSheet(sheetOf(work.draw), laid, size, facts, studio.help, work.draw);
     }
 
     // Changes from the page to the plane; false if there is none, or if it does not match the page.
@@ -426,7 +428,7 @@ export class MapView {
                 width: pixels(laid.width),
                 height: pixels(laid.height),
                 ratio: used,
-                options: pageOptions(work.draw),
+                options: pageOptions(this.studio.help, work.draw),
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
@@ -459,7 +461,7 @@ export class MapView {
                 height: down,
                 window: windowOf(camera, size),
                 ratio,
-                options: planeOptions(work.draw),
+                options: planeOptions(this.studio.help, work.draw),
                 pattern: work.pattern,
             },
             Math.min(1, this.ratio),
@@ -509,7 +511,7 @@ export class MapView {
         const subject: Subject = {
             name: this.planeName,
             pattern: this.work.pattern,
-            options: planeOptions(this.work.draw),
+            options: planeOptions(this.studio.help, this.work.draw),
         };
         this.tiles.want(subject, seenTiles(this.camera, this.size, this.grid, scale), this.grid, this.ratio);
     }

@@ -3,18 +3,11 @@ import { element } from "./elements";
 import { capital } from "./numbers_shown";
 import type { OptionHelp, Options } from "./protocol";
 
-// Options that the page sets in other ways.
-const elsewhere = new Set(["fit", "steps", "set", "variant", "seed", "output", "window", "budget", "jobs", "help"]);
-
 export interface OptionAct {
     (name: string, value: string | null): void;
 }
 
 let last = 0;
-
-export function offered(options: OptionHelp[]): OptionHelp[] {
-    return options.filter((option) => !elsewhere.has(option.name) && option.group !== "Style"); // belongs to the text
-}
 
 // Help texts end with the default: `page size (A4)`.
 function defaultOf(option: OptionHelp): string {
@@ -110,7 +103,7 @@ export function optionField(option: OptionHelp, value: string | undefined, act: 
 /// All options in closed groups; the heading of a group shows how many of its options are set.
 export function optionGroups(options: OptionHelp[], values: Options, act: OptionAct, first = "Page"): HTMLElement[] {
     const groups = new Map<string, OptionHelp[]>();
-    for (const option of offered(options)) {
+    for (const option of options) {
         const group = option.group || first;
         groups.set(group, [...(groups.get(group) ?? []), option]);
     }

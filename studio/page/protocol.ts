@@ -76,12 +76,17 @@ export interface Failure {
 export interface PatternEntry { name: string; kind: string; title: string; source: string; text: string; is_melody: boolean; is_spatial: boolean }
 export interface Patterns { patterns: PatternEntry[] }
 
-export interface KeyHelp { name: string; owner: "engine" | "art" | "music"; values: string; if_absent: string; help: string }
+export interface KeyHelp {
+    name: string; owner: "engine" | "art" | "music"; values: string; if_absent: string; help: string;
+    scope: "words" | "maps" | "all"; names_file: boolean; // files: of some or all values
+}
 export interface SymbolHelp { symbol: string; help: string }
 export interface OptionHelp {
     name: string; help: string; value: string; group: string; unit: string;
     kind: "text" | "number" | "whole" | "flag"; least: number; most: number;
     is_list: boolean; is_on: boolean; is_key: boolean; is_alone: boolean; letter: string;
+    scope: string; // of engine/base/option.h
+    sets_scale: boolean; names_file: boolean;
 }
 export interface FormatHelp { extension: string; label: string; alias: string; is_several: boolean; is_text: boolean }
 export interface Help {

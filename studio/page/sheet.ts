@@ -1,5 +1,6 @@
 // The page of a print, as set by its options, and the position of the drawing on it.
-import type { Opened, Options } from "./protocol";
+import { hasScope } from "./option_scopes";
+import type { Help, Opened, Options } from "./protocol";
 import type { Camera, Size } from "./camera";
 import { exactOf, numberOf, readExact } from "./decimal";
 
@@ -130,9 +131,16 @@ const borderShare = 1.6 / 24; // share of the shorter side that a border takes b
 
 /// The camera that shows the endless plane exactly as the page shows the drawing; null if there is none: for drawings
 /// in space, rotated drawings, and several drawings on a page.
-export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opened, options: Options): Camera | null {
-    const turned = ["rotate", "mirror", "generations"].some((name) => optionOf(options, name) !== undefined);
-    if (turned || !facts.extent || facts.is_spatial) return null;
+export function cameraOfSheet(
+    sheet: Sheet,
+    laid: Laid,
+    size: Size,
+    facts: Opened,
+    help: Help,
+    options: Options,
+): Camera | null {
+    if (hasScope(help, options, "turn") || optionOf(options, "generations") !== undefined) return null;
+    if ( !facts.extent || facts.is_spatial) return null;
     const [x0, y0, x1, y1] = facts.extent.map(readExact);
     if (x0 == null || y0 == null || x1 == null || y1 == null) return null;
     const across = numberOf(x1 - x0);
@@ -157,13 +165,6 @@ export function cameraOfSheet(sheet: Sheet, laid: Laid, size: Size, facts: Opene
     return { x: (x0 + x1) / 2n - exactOf(right * scale), y: (y0 + y1) / 2n + exactOf(down * scale), scale };
 }
 
-/// Options of the page that also apply to a part of the plane.
-const ofPlane = new Set(["line", "stroke", "ground", "fill", "palette", "dots", "colour-by", "budget"]);
-
-export function planeOptions(options: Options): Options {
-    return options.filter(([name]) => ofPlane.has(name));
-}
-
 /// True if any part of the drawing requires the whole drawing to be read.
 export function isComposed(facts: Opened, options: Options): boolean {
     return (
@@ -171,43 +172,4 @@ export function isComposed(facts: Opened, options: Options): boolean {
         optionOf(options, "colour-by") !== undefined ||
         facts.keys.some((key) => key.name === "dots" && key.value !== "none")
     );
-}
-
-/// Options of pictures, without those of animations, plotters and the press, which pictures refuse.
-const notOfPictures = new Set([
-    "animate",
-    "divide",
-    "swatch",
-    "frames",
-    "frame-time",
-    "hold",
-    "tile",
-    "overlap",
-    "bleed",
-    "marks",
-    "registration",
-    "overprint",
-    "spot",
-    "cmyk",
-    "bits",
-    "screen",
-    "icc",
-    "compression",
-    "dpi",
-    "window",
-    "pens",
-    "hpgl-paper",
-    "profile",
-    "pen",
-    "park",
-    "refill",
-    "resume",
-    "arcs",
-    "min-arc",
-    "gcode-start",
-    "gcode-end",
-]);
-
-export function pageOptions(options: Options): Options {
-    return options.filter(([name]) => !notOfPictures.has(name));
 }

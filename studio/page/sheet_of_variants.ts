@@ -1,9 +1,10 @@
 // Finds valid variants and draws thumbnails of them. Variants that fail, draw nothing, cost too much or do not pass the
 // filters are left out.
 import { hashOf } from "./chance";
-import { RequestFailed, type Engine, type Work } from "./context";
+import { RequestFailed, type Engine } from "./context";
 import { isAbort } from "./pictures";
-import type { Options, Pixels } from "./protocol";
+import { thumbnailOptions } from "./option_scopes";
+import type { Help, Options, Pixels } from "./protocol";
 import type { Variant } from "./variants";
 
 export interface Filter {
@@ -43,6 +44,7 @@ export interface Search {
     readonly side: number; // pixels
     readonly ratio: number;
     readonly filters: ReadonlySet<string>;
+    readonly help: Help;
     readonly draw: Options;
     readonly isDistinct: boolean; // leave out duplicate pictures
     readonly signal: AbortSignal;
@@ -50,30 +52,13 @@ export interface Search {
     readonly onTried: (tried: number, found: number) => void;
 }
 
-const budget = "3000000"; // nodes: a sheet takes about a second
+// The budget in nodes: a sheet takes about a second.
+const page: Options = [["size", "100x100mm"], ["margin", "6mm"], ["budget", "3000000"]];
 const seconds = 2;
-
-export function thumbnailOptions(draw: Work["draw"]): Options {
-    const own = new Set([
-        "size",
-        "margin",
-        "landscape",
-        "fit",
-        "step",
-        "window",
-        "border",
-        "title-line",
-        "edition",
-        "budget",
-        "dot-spacing",
-        "generations",
-    ]);
-    return [...draw.filter(([name]) => !own.has(name)), ["size", "100x100mm"], ["margin", "6mm"], ["budget", budget]];
-}
 
 /// Returns the number of candidates tried, once enough are found or none is left.
 export async function searchVariants(engine: Engine, search: Search): Promise<number> {
-    const options = thumbnailOptions(search.draw);
+    const options = [...thumbnailOptions(search.help, search.draw), ...page];
     const seen = new Set<string>(); // pictures
     const known = new Set<number>(); // patterns
     const start = performance.now();

@@ -129,7 +129,7 @@ class SpaceView {
         private readonly canvas: HTMLCanvasElement,
         private readonly stage: Stage,
     ) {
-        this.growth = new Growth(studio.engine, stage);
+        this.growth = new Growth(studio.engine, studio.help, stage);
         this.refusal = new Refusal(studio, this.note);
         this.work = studio.store.work;
         this.play = button("Grow", () => this.grow(!this.isGrowing), { icon: icons.play });
@@ -287,7 +287,7 @@ class SpaceView {
     // The text or the values have changed: the last model stays until the next one is ready.
     private open(facts: Opened, work: Work): void {
         if (!this.isShown) return;
-        const { name } = Growth.subject(work);
+        const { name } = Growth.subject(this.studio.help, work);
         const isOther = this.opened === null || isAnother(work.pattern, this.work.pattern);
         const n = Number(facts.n);
         const isSame = name === this.subject && n === this.most;

@@ -299,6 +299,7 @@ class Variations {
         };
         try {
             tried = await searchVariants(this.studio.engine, {
+                help: this.studio.help,
                 candidates: plan.candidates,
                 count: plan.cells,
                 most: plan.isFixed ? plan.cells : mostTried[kind],

@@ -11,6 +11,24 @@ const { pointAt, cameraWith, pixelOf, fitting, windowOf, panned } = await load("
 const { flight } = await load("flight");
 const { tileGrid, seenTiles, tileBox, tileWindow, tileName, levelScale, PictureCache } = await load("tiles");
 const { sheetOf, laidOut, cameraOfSheet } = await load("sheet");
+const { pageOptions, planeOptions, modelOptions, thumbnailOptions, offered } = await load("option_scopes");
+const help = {
+    keys: [{ name: "seed", owner: "engine" }],
+    draw: {
+        options: [
+            { name: "size", scope: "page" },
+            { name: "fit", scope: "framing", sets_scale: true },
+            { name: "step", scope: "scale", sets_scale: true },
+            { name: "rotate", scope: "turn" },
+            { name: "dots", scope: "kolam" },
+            { name: "dot-spacing", scope: "kolam", sets_scale: true },
+            { name: "stroke", scope: "look", group: "Style" },
+            { name: "spot", scope: "press" },
+            { name: "seed", scope: "other" },
+            { name: "budget", scope: "cost" },
+        ],
+    },
+};
 
 test("decimal texts are read and written without loss", () => {
     for (const text of ["0", "1", "-1", "0.5", "-0.25", "1152921504606846975", "-123456789012345678901234567890.125"]) {
@@ -157,6 +175,22 @@ test("pages have the sizes of the program", () => {
     assert.equal(sheetOf([["size", "nonsense"]]).width, 210);
 });
 
+test("options are selected by their scopes", () => {
+    const names = (options) => options.map(([name]) => name);
+    const all = help.draw.options.map(({ name }) => [name, ""]);
+    all.push(["r", "0.5"]); // a define of the pattern
+    const selected = { page: pageOptions, plane: planeOptions, model: modelOptions, thumbnail: thumbnailOptions };
+    assert.deepEqual(Object.fromEntries(Object.entries(selected).map(([kind, of]) => [kind, names(of(help, all))])), {
+        page: ["size", "step", "rotate", "dots", "dot-spacing", "stroke", "budget", "r"],
+        plane: ["dots", "stroke", "budget", "r"],
+        model: ["stroke", "budget", "r"],
+        thumbnail: ["rotate", "dots", "stroke", "r"],
+    });
+    assert.deepEqual(offered(help, help.draw.options).map(({ name }) => name), [
+        "size", "step", "rotate", "dots", "dot-spacing", "spot",
+    ]);
+});
+
 test("the plane lies as the drawing does on the page", () => {
     const facts = {
         extent: ["0", "0", "31", "31"],
@@ -165,11 +199,11 @@ test("the plane lies as the drawing does on the page", () => {
     };
     const sheet = sheetOf([["size", "100x100mm"]]);
     const laid = laidOut(sheet, size);
-    const camera = cameraOfSheet(sheet, laid, size, facts, []);
+    const camera = cameraOfSheet(sheet, laid, size, facts, help, []);
     const low = pixelOf(camera, size, readExact("-0.5"), readExact("31.5"));
     assert.ok(Math.abs(low.left - (laid.left + laid.width / 10)) < 1e-9);
     assert.ok(Math.abs(low.top - (laid.top + laid.height / 10)) < 1e-9);
-    assert.equal(cameraOfSheet(sheet, laid, size, facts, [["rotate", "30"]]), null);
+    assert.equal(cameraOfSheet(sheet, laid, size, facts, help, [["rotate", "30"]]), null);
 });
 
 // Uses the libraries, if they have been built.

@@ -1,5 +1,6 @@
 // The options that change how the curve becomes notes.
-import { offered, optionField, type OptionAct } from "../option_fields";
+import { optionField, type OptionAct } from "../option_fields";
+import { offered } from "../option_scopes";
 import type { Help, Options } from "../protocol";
 
 const names = "scale tonic instrument unit meter mapping vertical runs velocity range transpose bars".split(" ");
@@ -7,7 +8,7 @@ const names = "scale tonic instrument unit meter mapping vertical runs velocity 
 /// Shows the fields, the most important first, unless one of them is being edited.
 export function showReading(place: HTMLElement, help: Help, options: Options, act: OptionAct): void {
     if (place.contains(document.activeElement)) return;
-    const rows = names.flatMap((name) => offered(help.play.options).filter((option) => option.name === name));
+    const rows = names.flatMap((name) => offered(help, help.play.options).filter((option) => option.name === name));
     const value = (name: string): string | undefined => options.find(([each]) => each === name)?.[1];
     place.replaceChildren(...rows.map((option) => optionField(option, value(option.name), act)));
 }
