@@ -3,6 +3,7 @@
 
 #include "art/style/style.h"
 #include "engine/derivation/derivation.h"
+#include "engine/derivation/exact_counts.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lattice.h"
 #include "engine/geometry/space_turtle.h"
