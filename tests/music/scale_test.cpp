@@ -2,7 +2,7 @@
 #include "music/scale/scale.h"
 
 #include "music/melody/melody.h"
-#include "tests/checks.h"
+#include "tests/program.h"
 #include "tests/files.h"
 
 #include <gtest/gtest.h>
