@@ -35,19 +35,11 @@ private:
     std::size_t largest_ = 0;
 };
 
-inline std::span<const std::uint8_t> midi_span(const std::string& bytes) {
-    return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
-}
-inline std::vector<MidiFault> check_midi(const std::string& bytes) {
-    return check_midi(midi_span(bytes));
-}
+std::span<const std::uint8_t> midi_span(const std::string& bytes);
+std::vector<MidiFault> check_midi(const std::string& bytes);
 
 /// What check_midi says, one line each.
-inline std::string midi_faults(const std::string& bytes) {
-    std::string text;
-    for (const MidiFault& fault : check_midi(bytes)) text += std::to_string(fault.at) + ": " + fault.what + "\n";
-    return text;
-}
+std::string midi_faults(const std::string& bytes);
 
 /// A score whole in memory.
 struct MidiScore {
@@ -57,101 +49,25 @@ struct MidiScore {
 };
 
 /// @param block  notes handed over at once
-inline std::string make_midi(const MidiScore& score, const MidiOptions& options = {}, std::size_t block = 4096) {
-    MidiMemory memory;
-    const auto writer = write_midi(score.head, memory, options);
-    for (std::size_t i = 0; i < score.notes.size(); i += block) {
-        writer->notes(std::span(score.notes).subspan(i, std::min(block, score.notes.size() - i)));
-    }
-    writer->finish(score.end);
-    return memory.bytes();
-}
+std::string make_midi(const MidiScore& score, const MidiOptions& options = {}, std::size_t block = 4096);
 
-inline ScoreHead midi_head(int voices = 1) {
-    ScoreHead head;
-    head.title = "A test";
-    head.pattern = "axiom: F\n";
-    head.made = "sikku 0.1.0, -n 4";
-    Part part;
-    part.name = "Flute";
-    part.program = 73;
-    part.voices = voices;
-    head.parts = {part};
-    return head;
-}
+ScoreHead midi_head(int voices = 1);
 
-inline Note midi_note(std::int64_t onset, std::int64_t duration, double key, int voice = 0, int velocity = 80) {
-    Note note;
-    note.onset = onset;
-    note.duration = duration;
-    note.key = key;
-    note.voice = static_cast<std::int16_t>(voice);
-    note.velocity = static_cast<std::uint8_t>(velocity);
-    return note;
-}
+Note midi_note(std::int64_t onset, std::int64_t duration, double key, int voice = 0, int velocity = 80);
 
 /// Notes by chance: rests or none, every size of delta, voices in turns of any length.
-inline MidiScore random_midi_score(std::mt19937& chance, int voices, int notes, bool microtonal) {
-    const auto pick = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(chance); };
-    const auto ticks = [&](int least) {
-        return pick(0, 9) == 0 ? pick(least, 3'000'000) : pick(least, pick(least, 500));
-    };
-    MidiScore score;
-    score.head = midi_head(voices);
-    score.head.tempo = pick(20, 300);
-    score.head.meter = {pick(1, 17), 1 << pick(0, 6)};
-    score.head.parts.front().key = KeySignature{pick(-7, 7), pick(0, 1) == 1};
-    std::vector<std::int64_t> now(static_cast<std::size_t>(voices), 0);
-    for (int left = notes; left > 0;) {
-        const int voice = pick(0, voices - 1);
-        auto& tick = now[static_cast<std::size_t>(voice)];
-        for (int run = pick(1, 8); run > 0 && left > 0; --run, --left) {
-            if (pick(0, 2) == 0) tick += ticks(0);
-            double key = pick(0, 127);
-            if (microtonal && pick(0, 2) > 0) key = std::clamp(key + pick(-50, 50) / 100.0, 0.0, 127.0);
-            score.notes.push_back(midi_note(tick, ticks(1), key, voice, pick(1, 127)));
-            tick += score.notes.back().duration;
-        }
-    }
-    score.end = *std::max_element(now.begin(), now.end()) + pick(0, 5000);
-    return score;
-}
+MidiScore random_midi_score(std::mt19937& chance, int voices, int notes, bool microtonal);
 
 /// The notes as a reader of the file should find them.
-inline std::vector<Note> by_onset(std::vector<Note> notes) {
-    std::sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) {
-        return std::tie(a.onset, a.voice, a.key) < std::tie(b.onset, b.voice, b.key);
-    });
-    return notes;
-}
+std::vector<Note> by_onset(std::vector<Note> notes);
 
 /// The channel of a voice where there are at most fifteen; channel 10 (9 from 0) is the drums'.
-inline int midi_channel(int voice) {
-    return voice < 9 ? voice : voice + 1;
-}
+int midi_channel(int voice);
 
 /// Bytes from hexadecimal digits; blanks between them do not matter.
-inline std::string hex_bytes(std::string_view digits) {
-    std::string bytes;
-    int half = -1;
-    for (const char digit : digits) {
-        if (digit == ' ' || digit == '\n') continue;
-        const int value = digit <= '9' ? digit - '0' : digit - 'A' + 10;
-        if (half < 0) {
-            half = value;
-        } else {
-            bytes += static_cast<char>(half * 16 + value);
-            half = -1;
-        }
-    }
-    return bytes;
-}
+std::string hex_bytes(std::string_view digits);
 
 /// A chunk with the length it has.
-inline std::string midi_chunk(std::string_view kind, const std::string& data) {
-    std::string bytes(kind);
-    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(data.size() >> shift & 0xFF);
-    return bytes + data;
-}
+std::string midi_chunk(std::string_view kind, const std::string& data);
 
 }  // namespace sikku

@@ -33,65 +33,19 @@ struct PixelGrid {
         return {byte(0), byte(1), byte(2), 255};
     }
 };
-inline PixelGrid read_ppm(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    PixelGrid pixels;
-    std::string magic;
-    int most = 0;
-    stream >> magic >> pixels.width >> pixels.height >> most;
-    stream.get();
-    std::ostringstream text;
-    text << stream.rdbuf();
-    pixels.bytes = text.str();
-    return pixels;
-}
+PixelGrid read_ppm(const std::filesystem::path& path);
 
 /// The first page of a PDF.
-inline PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi) {
-    const std::string stem = pdf.string() + ".page";
-    const ToolOutcome outcome =
-        run("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");
-    EXPECT_TRUE(outcome.ok) << outcome.text;
-    EXPECT_EQ(outcome.text, "");
-    return read_ppm(stem + ".ppm");
-}
+PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi);
 
 /// Channels differ by at most `tolerance`.
-inline ::testing::AssertionResult near(Colour actual, Colour expected, int tolerance = 6) {
-    const auto far = [&](int a, int b) { return std::abs(a - b) > tolerance; };
-    if (far(actual.red, expected.red) || far(actual.green, expected.green) || far(actual.blue, expected.blue)) {
-        return ::testing::AssertionFailure() << hex(actual) << " is not " << hex(expected);
-    }
-    return ::testing::AssertionSuccess();
-}
+::testing::AssertionResult near(Colour actual, Colour expected, int tolerance = 6);
 
 /// One turtle step is a millimetre and (0, 0) is the bottom left corner of a white page of 100 x 60 mm.
-inline Print plain_print() {
-    Print print;
-    print.page = {100.0, 60.0, 5.0};
-    print.style.stroke = {2.0, false};
-    print.style.ground = Colour{255, 255, 255, 255};
-    print.style.palette = {Colour{0, 0, 0, 255}, Colour{255, 0, 0, 255}, Colour{0, 0, 255, 255}};
-    Box box;
-    box.add({0.0, 0.0});
-    box.add({100.0, 60.0});
-    PlacementOptions options;
-    options.step = 1.0;
-    print.placement = place(box, print.page, options, 0.0, 0.0);
-    print.title = "A test";
-    print.pattern = "axiom: F\n";
-    print.made = "sikku 0.1.0, -n 4";
-    return print;
-}
+Print plain_print();
 
 /// What is read back from a file, or nothing if it is refused.
-inline std::optional<Provenance> provenance_of(const std::filesystem::path& file) {
-    try {
-        return read_provenance(file);
-    } catch (const std::runtime_error&) {
-        return std::nullopt;
-    }
-}
+std::optional<Provenance> provenance_of(const std::filesystem::path& file);
 
 /// Makes a file of `print` with write_svg or write_pdf.
 template <typename Make, typename Draw>
@@ -104,39 +58,9 @@ void write_print(const std::filesystem::path& path, const Print& print, Make&& m
 }
 
 /// Something of everything, in an order that is not the order of layers.
-inline void draw_sampler(PathSink& sink) {
-    using Points = std::vector<glm::dvec2>;
-    const Pen black;
-    Pen red;
-    red.colour = 1;
-    Pen blue;
-    blue.colour = 2;
-    sink.begin_stroke({10, 10}, red);
-    sink.lines(Points{{90, 10}});
-    sink.disc({50, 10}, 3.0, blue);
-    sink.change_pen(black);
-    sink.lines(Points{{90, 50}});
-    sink.end_stroke(false);
-    sink.polygon(Points{{20, 5}, {40, 5}, {40, 25}, {20, 25}}, blue);
-    sink.polygon(Points{{30, 15}, {50, 15}, {50, 35}, {30, 35}}, red);
-    sink.begin_stroke({60, 30}, blue);
-    sink.curves(Points{{60, 45}, {80, 45}, {80, 30}});
-    sink.curves(Points{{80, 15}, {60, 15}, {60, 30}});
-    sink.end_stroke(true);
-    sink.begin_stroke({10, 50}, black);
-    sink.lines(Points{{10, 50}});
-    sink.end_stroke(true);
-    sink.disc({20, 50}, 0.0, red);
-}
+void draw_sampler(PathSink& sink);
 
 /// A closed square with its first side in another pen than the others.
-inline void draw_square(PathSink& sink, const Pen& first, const Pen& others) {
-    using Points = std::vector<glm::dvec2>;
-    sink.begin_stroke({10, 10}, first);
-    sink.lines(Points{{10, 50}});
-    sink.change_pen(others);
-    sink.lines(Points{{50, 50}, {50, 10}, {10, 10}});
-    sink.end_stroke(true);
-}
+void draw_square(PathSink& sink, const Pen& first, const Pen& others);
 
 }  // namespace sikku

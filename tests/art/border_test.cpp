@@ -2,6 +2,7 @@
 #include "art/print/border.h"
 
 #include "art/prints.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/tools.h"
 
@@ -133,11 +134,6 @@ TEST(Borders, OfPatternFilesAreRepeatsOfTheirDrawing) {
     const ScratchFolder folder;
     std::ofstream(folder.file("tooth.lsys")) << "axiom: +F--F\nangle increment: 45\nstroke: 0.1 step navy\n";
     std::ofstream(folder.file("corner.lsys")) << "axiom: F+F+F+F\nangle increment: 90\nstroke: 0.1 step red\n";
-    const auto count = [](const std::string& text, const std::string& part) {
-        std::size_t found = 0;
-        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
-        return found;
-    };
     const auto made = [&](const std::string& key) {
         const Document document = parse(folder.file("a.lsys"), "axiom: F\n" + key);
         MemoryDestination memory;
@@ -145,22 +141,21 @@ TEST(Borders, OfPatternFilesAreRepeatsOfTheirDrawing) {
         return std::string(memory.outputs().at("a.svg"));
     };
     // Lines that the ground would hide get a colour that is seen.
-    EXPECT_NE(made("border: tooth.lsys\n").find("#000080"), std::string::npos);
-    EXPECT_EQ(made("border: tooth.lsys\nground: navy\nstroke: white\n").find("stroke=\"#000080\""),
-              std::string::npos);
+    EXPECT_TRUE(has(made("border: tooth.lsys\n"), "#000080"));
+    EXPECT_FALSE(has(made("border: tooth.lsys\nground: navy\nstroke: white\n"), "stroke=\"#000080\""));
     const std::string plain = made("");
     const std::string teeth = made("border: tooth.lsys\n");
     const std::string both = made("border: tooth.lsys, corner.lsys\n");
-    EXPECT_GT(count(teeth, "<path"), count(plain, "<path") + 20);
-    EXPECT_EQ(count(teeth, "<circle"), 4u);  // of corners without a pattern
-    EXPECT_EQ(count(both, "<circle"), 0u);
-    EXPECT_NE(both.find("#ff0000"), std::string::npos);
-    EXPECT_EQ(teeth.find("#ff0000"), std::string::npos);
+    EXPECT_GT(count_of(teeth, "<path"), count_of(plain, "<path") + 20);
+    EXPECT_EQ(count_of(teeth, "<circle"), 4u);  // of corners without a pattern
+    EXPECT_EQ(count_of(both, "<circle"), 0u);
+    EXPECT_TRUE(has(both, "#ff0000"));
+    EXPECT_FALSE(has(teeth, "#ff0000"));
     for (const char* bad : {"border: none.lsys\n", "border: no-such-pattern\n", "border: a b, c, d\n", "border:\n"}) {
         EXPECT_ANY_THROW(made(bad)) << bad;
     }
-    EXPECT_EQ(made("border: none\n").find("#b3452c"), std::string::npos);
-    EXPECT_EQ(count(made("border: none\n"), "<path"), count(plain, "<path"));
+    EXPECT_FALSE(has(made("border: none\n"), "#b3452c"));
+    EXPECT_EQ(count_of(made("border: none\n"), "<path"), count_of(plain, "<path"));
 }
 
 }  // namespace

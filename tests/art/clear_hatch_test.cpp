@@ -9,6 +9,7 @@
 #include "art/prints.h"
 #include "art/product/draw_settings.h"
 #include "engine/base/output.h"
+#include "tests/checks.h"
 #include "tests/plot_tools.h"
 
 #include <gtest/gtest.h>
@@ -288,8 +289,8 @@ TEST(ClearHatch, PensDrawInTheOrderOfFieldsLinesAndDots) {
     EXPECT_TRUE(labels[0] == "1 #c8324a" || labels[0] == "1 #305090") << labels[0];
     EXPECT_EQ(labels[1], "2 floralwhite");
     EXPECT_EQ(labels[2], "3 #123456");
-    EXPECT_EQ(svg.find("<rect"), std::string::npos) << "the ground is not drawn";
-    EXPECT_NE(svg.find("style=\"background:"), std::string::npos);
+    EXPECT_FALSE(has(svg, "<rect")) << "the ground is not drawn";
+    EXPECT_TRUE(has(svg, "style=\"background:"));
 }
 
 }  // namespace

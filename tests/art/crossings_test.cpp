@@ -2,7 +2,7 @@
 #include "art/relief/crossings.h"
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
-#include "tests/program.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 

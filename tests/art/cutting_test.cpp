@@ -3,6 +3,7 @@
 #include "art/cutting/piece_rows.h"
 #include "art/cutting/slide.h"
 #include "art/drawing/ink_shape.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -251,13 +252,8 @@ TEST(CuttingPlan, NeighboursKeepTheirGap) {
 TEST(CuttingPlan, RefusesPiecesThatDoNotFit) {
     CuttingOptions options;
     options.sheet = {100, 80, 10};
-    try {
-        plan_cutting(kinds_of("chair", "1", 45), options, {});
-        FAIL() << "90 x 90 mm do not fit into 80 x 60 mm";
-    } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(),
-                     "piece A needs 90.0 x 90.0 mm, but the sheets are 80 x 60 mm within their margins");
-    }
+    EXPECT_EQ(error_of<std::runtime_error>([&] { plan_cutting(kinds_of("chair", "1", 45), options, {}); }),
+              "piece A needs 90.0 x 90.0 mm, but the sheets are 80 x 60 mm within their margins");
     EXPECT_THROW(plan_cutting({}, options, {}), std::runtime_error);
     options.sheet = {10'000, 10'000, 0};
     std::vector<CutKind> many = kinds_of("chair", "1", 1);

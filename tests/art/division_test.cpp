@@ -4,6 +4,7 @@
 #include "art/motion/division_file.h"
 #include "art/prints.h"
 #include "art/writer/draw_options.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <fmt/format.h>
@@ -154,10 +155,10 @@ TEST(DivisionSvg, HoldsTheTilesOfAllGenerations) {
 TEST(DivisionSvg, HasKeyFramesThatBeginAndEndAtRest) {
     for (const char* name : {"chair", "penrose-rhombs", "hat"}) {
         const std::string text = svg(pattern(name, 2), {{"divide", "1"}, {"frame-time", "0.5"}, {"hold", "3"}});
-        EXPECT_EQ(text.find("<script"), std::string::npos);
-        EXPECT_NE(text.find("@media (prefers-reduced-motion: reduce)"), std::string::npos);
+        EXPECT_FALSE(has(text, "<script"));
+        EXPECT_TRUE(has(text, "@media (prefers-reduced-motion: reduce)"));
         // Rests, divisions, the last rest, the fade.
-        EXPECT_NE(text.find(fmt::format("animation: {}s", 2 * 0.5 + 2 * 1 + 3 + 0.8)), std::string::npos) << name;
+        EXPECT_TRUE(has(text, fmt::format("animation: {}s", 2 * 0.5 + 2 * 1 + 3 + 0.8))) << name;
         std::set<std::string> defined, used;
         const std::regex definition("@keyframes ([a-z0-9]+) \\{(.*) \\}"), use("animation-name: ([a-z0-9]+)");
         for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at) {
@@ -173,10 +174,10 @@ TEST(DivisionSvg, HasKeyFramesThatBeginAndEndAtRest) {
             }
             EXPECT_LE(last, 100);
             if ((*at)[1].str()[0] != 't') continue;
-            EXPECT_NE(values.front().find("fill:var(--p)"), std::string::npos) << "in the colour of the parent";
-            EXPECT_NE(values.back().find("scale:1;"), std::string::npos) << values.back();
-            EXPECT_NE(values.back().find("translate:calc(var(--u)*0px) calc(var(--v)*0px)"), std::string::npos);
-            EXPECT_NE(values.back().find("fill:inherit"), std::string::npos);
+            EXPECT_TRUE(has(values.front(), "fill:var(--p)")) << "in the colour of the parent";
+            EXPECT_TRUE(has(values.back(), "scale:1;"));
+            EXPECT_TRUE(has(values.back(), "translate:calc(var(--u)*0px) calc(var(--v)*0px)"));
+            EXPECT_TRUE(has(values.back(), "fill:inherit"));
         }
         for (std::sregex_iterator at(text.begin(), text.end(), use), end; at != end; ++at) used.insert((*at)[1]);
         EXPECT_EQ(defined, used);
@@ -192,7 +193,7 @@ TEST(DivisionSvg, HasLinesOfDecorationsAndFrames) {
         EXPECT_TRUE(document.select_node(fmt::format("//g[@class='g g{0}']//g[@class='l l{0}']", i).c_str()));
     }
     EXPECT_TRUE(document.select_node("//g[title='frame']//path"));
-    EXPECT_NE(text.find("@keyframes l2"), std::string::npos);
+    EXPECT_TRUE(has(text, "@keyframes l2"));
 }
 
 TEST(DivisionGif, HasFramesOfTheTimesThatWereAskedFor) {
@@ -227,9 +228,8 @@ TEST(Division, IsRefusedWithAReason) {
               "divide: tiles divide between generations; expected a derivation length above 0");
     EXPECT_EQ(refused("cell-layer"), "divide: a .gif of a map always shows how cells divide");
     EXPECT_EQ(refused("chair", 3, "png"), "divide: only a .gif and an animated SVG show how tiles divide");
-    EXPECT_NE(refused("penrose-rhombs", 12)
-                  .find("more than the limit of 20000; the largest derivation length that fits is 8"),
-              std::string::npos);
+    EXPECT_TRUE(has(refused("penrose-rhombs", 12),
+                    "more than the limit of 20000; the largest derivation length that fits is 8"));
     EXPECT_EQ(message(pattern("chair", 2), "svg", {{"divide", ""}, {"animate", ""}}),
               "animate: cannot be combined with 'divide', which has its own times");
 }

@@ -1,5 +1,6 @@
 #include "art/writer/draw.h"
 
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <pugixml.hpp>
@@ -115,12 +116,7 @@ TEST_F(Draw, WhereNothingIsSeenNothingIsWritten) {
          {"axiom: F\nstroke: none\n", "axiom: F\nstroke: transparent\n", "axiom: ;F\npalette: black transparent\n",
           "axiom: F\nstroke: none\nline: spline\n", "axiom: !(0)F\n", "axiom: {F+F+F}@O\nstroke: none\nfill: none\n",
           "axiom: !(0)@.\n", "axiom: f\n", "axiom: A\n"}) {
-        try {
-            draw(text);
-            ADD_FAILURE() << text;
-        } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string(error.what()).find("nothing to draw"), std::string::npos) << error.what();
-        }
+        EXPECT_TRUE(has(error_of<std::runtime_error>([&] { draw(text); }), "nothing to draw"));
     }
     EXPECT_TRUE(folder_.names().empty());
 }
@@ -133,12 +129,12 @@ TEST_F(Draw, FillsFollowTheSplineDrawnAlongThem) {
     EXPECT_NEAR(report.size.x, 10 * 11.0 / 12, 1e-9);
     const auto paths = found("//g[@fill='#ffd700']/path", "d");
     ASSERT_EQ(paths.size(), 1u);
-    EXPECT_NE(paths[0].find('c'), std::string::npos);
-    EXPECT_EQ(paths[0].find('l'), std::string::npos);
+    EXPECT_TRUE(has(paths[0], "c"));
+    EXPECT_FALSE(has(paths[0], "l"));
     EXPECT_TRUE(paths[0].ends_with("z"));
     // Straight lines keep their polygons.
     draw("axiom: {F+F+F+F}\nstroke: none\nfill: gold\n");
-    EXPECT_EQ(found("//g[@fill='#ffd700']/path", "d")[0].find('c'), std::string::npos);
+    EXPECT_FALSE(has(found("//g[@fill='#ffd700']/path", "d")[0], "c"));
     for (const char* name : {"print.pdf", "print.png", "print.hpgl"}) {
         EXPECT_NEAR(draw(square, name).size.x, 10 * 11.0 / 12, 1e-9) << name;
     }

@@ -1,6 +1,7 @@
 // EPS: structure, and the same picture as the PDF in an interpreter of PostScript.
 #include "art/prints.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/tools.h"
 
@@ -75,7 +76,7 @@ TEST_F(Eps, HasTheBoxOfThePage) {
     // The ground covers the page.
     const std::string box =
         run("gs -q -dNOPAUSE -dBATCH -sDEVICE=bbox " + (folder_.path() / "print.eps").string()).text;
-    EXPECT_NE(box.find("%%BoundingBox: 0 0 171 227\n"), std::string::npos) << box;
+    EXPECT_TRUE(has(box, "%%BoundingBox: 0 0 171 227\n"));
     EXPECT_EQ(eps, contents(file("eps", document, {})));
 }
 
@@ -87,7 +88,7 @@ TEST_F(Eps, MixesTranslucentColours) {
     const Made made = prints().plan(document, "eps", {})->make(memory, "print.eps", {});
     const std::string eps = memory.outputs().begin()->second;
     // Half of red and half of white.
-    EXPECT_NE(eps.find("\n1 0.498 0.498 k\n"), std::string::npos);
+    EXPECT_TRUE(has(eps, "\n1 0.498 0.498 k\n"));
     bool warns = false;
     for (const Remark& remark : made.remarks) warns = warns || remark.text.find("an EPS has no opacity") == 0;
     EXPECT_TRUE(warns);

@@ -3,6 +3,7 @@
 #include "art/sheets.h"
 #include "art/style/contrast.h"
 #include "engine/base/output.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -67,11 +68,9 @@ TEST(FaintInks, AreReportedInEveryOutput) {
     EXPECT_TRUE(is_told(with({{"tile", "50x50mm"}})));
     EXPECT_TRUE(is_told(with({{"repeat", "p1:2x2"}})));
     EXPECT_TRUE(is_told(with({{"generations", "0:1"}})));
-    EXPECT_NE(with({{"stroke", "0.2 step #804020"}, {"dots", "2mm #fefefe"}}).find("dots in #fefefe"),
-              std::string::npos);
-    EXPECT_NE(with({{"stroke", "0.2 step #804020"}, {"fields", "chessboard"}, {"powders", "#fff0f0 #fff0f0"}})
-                  .find("fields in #fff0f0"),
-              std::string::npos);
+    EXPECT_TRUE(has(with({{"stroke", "0.2 step #804020"}, {"dots", "2mm #fefefe"}}), "dots in #fefefe"));
+    EXPECT_TRUE(has(with({{"stroke", "0.2 step #804020"}, {"fields", "chessboard"}, {"powders", "#fff0f0 #fff0f0"}}),
+                    "fields in #fff0f0"));
     // Borders choose colours that can be seen.
     EXPECT_FALSE(is_told(with({{"stroke", "0.2 step #804020"}, {"border", "lotus"}, {"dots", ""}})));
     // Paper may have any colour.
@@ -86,8 +85,8 @@ TEST(FaintInks, SheetsNameTheDrawings) {
     const Made made = plan_sheet(items, "svg", {})->make(memory, "sheet.svg", {}, 1);
     std::string text;
     for (const Remark& remark : made.remarks) text += remark.text + "\n";
-    EXPECT_NE(text.find("'Unseen': lines in floralwhite"), std::string::npos) << text;
-    EXPECT_EQ(text.find("'Seen'"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "'Unseen': lines in floralwhite"));
+    EXPECT_FALSE(has(text, "'Seen'"));
 }
 
 TEST(FaintInks, PracticeDotsAreVisible) {

@@ -8,6 +8,7 @@
 #include "art/writer/make_drawing.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <gtest/gtest.h>
@@ -447,7 +448,7 @@ TEST_F(Hand, OutlinesAreValidAndCompact) {
     EXPECT_TRUE(run("xmllint --noout '" + file + "'").ok);
     EXPECT_TRUE(run("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
     const std::string svg = contents(file);
-    EXPECT_EQ(svg.find("stroke="), std::string::npos);
+    EXPECT_FALSE(has(svg, "stroke="));
     print.style.hand = 0;
     draw_file(snake, print, PrintFormat::svg, "plain.svg");
     EXPECT_LT(svg.size(), 12 * contents(folder_.file("plain.svg")).size());
@@ -458,7 +459,7 @@ TEST_F(Hand, PensDrawTheMiddleOfTheLines) {
     Print print = kolam_print(snake, 200, 0.5);
     draw_file(snake, print, PrintFormat::svg, "plot.svg", [](DrawOptions& options) { options.plot.emplace(); });
     const std::string svg = contents(folder_.file("plot.svg"));
-    EXPECT_NE(svg.find("stroke-width="), std::string::npos);
+    EXPECT_TRUE(has(svg, "stroke-width="));
     std::size_t paths = 0;
     for (std::size_t at = 0; (at = svg.find("<path", at)) != std::string::npos; ++at) ++paths;
     EXPECT_EQ(paths, 1u);
@@ -481,7 +482,7 @@ TEST_F(Hand, AppearsPieceByPieceInAnAnimation) {
         ++pieces;
     }
     EXPECT_GT(pieces, 20);
-    EXPECT_NE(svg.find("@keyframes fall"), std::string::npos);
+    EXPECT_TRUE(has(svg, "@keyframes fall"));
 }
 
 /// How a line thinner than 0.02 mm wavers cannot be seen, so that it takes no more points.

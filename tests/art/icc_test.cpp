@@ -1,4 +1,5 @@
 #include "art/image/image_file.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <zlib.h>
@@ -85,12 +86,7 @@ protected:
     }
     /// What is wrong with a profile of inks.
     static std::string complaint(const std::filesystem::path& profile) {
-        try {
-            check_cmyk_profile(profile);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return error_of<std::runtime_error>([&] { check_cmyk_profile(profile); });
     }
     /// The inks of a TIFF, 4 bytes a pixel, read by another program.
     Bytes inks(const std::filesystem::path& file) {
@@ -162,17 +158,17 @@ TEST_F(Icc, EveryPictureHoldsItUnlessItIsToldNotTo) {
         for (const std::string format : {"tif", "jpg"}) {
             const bool is_rgb = channels > 1;
             const std::string file = flat(format, channels);
-            EXPECT_NE(file.find(expected), std::string::npos) << format << channels;
-            EXPECT_EQ(file.find(is_rgb ? "GRAYXYZ " : "RGB XYZ "), std::string::npos);
+            EXPECT_TRUE(has(file, expected)) << format << channels;
+            EXPECT_FALSE(has(file, is_rgb ? "GRAYXYZ " : "RGB XYZ "));
         }
     }
     EXPECT_EQ(png_profile(flat("png", 3, false)), "");
     for (const std::string format : {"png", "tif", "jpg", "exr"}) {
-        EXPECT_EQ(flat(format, 3, false).find("acsp"), std::string::npos) << format;
+        EXPECT_FALSE(has(flat(format, 3, false), "acsp")) << format;
     }
-    EXPECT_EQ(flat("exr", 3).find("acsp"), std::string::npos);
+    EXPECT_FALSE(has(flat("exr", 3), "acsp"));
     EXPECT_EQ(flat("png", 3), flat("png", 3));
-    EXPECT_EQ(flat("png", 3).find("sRGB"), std::string::npos) << "what the profile says is not said twice";
+    EXPECT_FALSE(has(flat("png", 3), "sRGB")) << "what the profile says is not said twice";
 }
 
 TEST_F(Icc, OthersFindNoFault) {
@@ -181,7 +177,7 @@ TEST_F(Icc, OthersFindNoFault) {
         flat("png", channels);
         const ToolOutcome outcome = run("pngcheck -v '" + folder_.file("flat.png") + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
-        EXPECT_NE(outcome.text.find("chunk iCCP"), std::string::npos);
+        EXPECT_TRUE(has(outcome.text, "chunk iCCP"));
     }
     NEEDS("exiftool");
     for (const std::string format : {"png", "tif", "jpg"}) {
@@ -195,8 +191,8 @@ TEST_F(Icc, OthersFindNoFault) {
 TEST_F(Icc, WhatIsNoProfileOfInksIsRefusedByName) {
     const auto refused = [&](const std::filesystem::path& file, const std::string& why) {
         const std::string text = complaint(file);
-        EXPECT_NE(text.find("'" + file.string() + "'"), std::string::npos) << text;
-        EXPECT_NE(text.find(why), std::string::npos) << text;
+        EXPECT_TRUE(has(text, "'" + file.string() + "'"));
+        EXPECT_TRUE(has(text, why));
     };
     refused(folder_ / "none.icc", "no such file");
     refused(folder_.path(), "not a regular file");
@@ -237,7 +233,7 @@ TEST_F(Icc, PixelsBecomeInks) {
         }
     }
     const auto file = write("inks.tif", made, pixels);
-    EXPECT_NE(contents(file).find(contents(ink_profile())), std::string::npos) << "the profile is in the file";
+    EXPECT_TRUE(has(contents(file), contents(ink_profile()))) << "the profile is in the file";
     const Bytes found = inks(file);
     ASSERT_EQ(found.size(), 64u * 40 * 4);
     const auto at = [&](int x, int y) {
@@ -262,9 +258,9 @@ TEST_F(Icc, PixelsBecomeInks) {
     NEEDS("tiffinfo");
     const std::string told = run("tiffinfo '" + file.string() + "'").text;
     for (const std::string part : {"Photometric Interpretation: separated", "Samples/Pixel: 4", "Bits/Sample: 8"}) {
-        EXPECT_NE(told.find(part), std::string::npos) << told;
+        EXPECT_TRUE(has(told, part));
     }
-    EXPECT_EQ(told.find("Extra Samples"), std::string::npos) << told;
+    EXPECT_FALSE(has(told, "Extra Samples"));
 }
 
 TEST_F(Icc, GreyAndTranslucentPixelsBecomeTheSameInks) {
@@ -314,7 +310,7 @@ TEST_F(Icc, OneBitIsALuminanceOfAHalf) {
         for (int i = 0; i < 259 * 40; ++i) {
             ASSERT_EQ(found.at(i % 259, i / 259).red, i * 7 % 256 < 128 ? 0 : 255) << channels << ' ' << i;
         }
-        EXPECT_EQ(contents(path).find("acsp"), std::string::npos);
+        EXPECT_FALSE(has(contents(path), "acsp"));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "art/kolam/kolam.h"
 #include "art/kolam/radial_kolam.h"
 #include "art/style/style.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -37,7 +38,7 @@ TEST(KolamLibrary, IsCertified) {
         const std::string text = contents(file);
         const KolamExamination found = examined(text);
         const std::string lines = std::to_string(found.lines) + (found.lines == 1 ? " line" : " lines");
-        EXPECT_NE(behind(text, "description: ").find(lines), std::string::npos) << name;
+        EXPECT_TRUE(has(behind(text, "description: "), lines)) << name;
         EXPECT_EQ(found.open_lines + found.reused_edges, 0u) << name;
         if (name.starts_with("kolam-radial-")) {
             ++radial;

@@ -2,8 +2,8 @@
 
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
+#include "tests/checks.h"
 #include "tests/files.h"
-#include "tests/program.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -656,28 +656,6 @@ TEST(Kolam, BadInput) {
     KolamOptions stopped;
     stopped.watch = [](std::uint64_t) { throw std::runtime_error("stopped"); };
     EXPECT_THROW(examine_kolam(known("kolams/snake-kolam", "3").grammar, stopped), std::runtime_error);
-}
-
-// --- the command --------------------------------------------------------------------------------------------------
-
-TEST(KolamCommand, TellsInWordsAndAsJson) {
-    const Outcome snake = run({"kolam", "snake-kolam", "-n", "3"});
-    EXPECT_EQ(snake.status, 0) << snake.errors;
-    EXPECT_TRUE(has(snake.output, "yes: a single line (anthathi), 85 dots, all encircled"));
-    EXPECT_TRUE(has(snake.output, "D4: 4 rotations, 4 mirrors, about 7.5 7.5"));
-    const Outcome island = run({"kolam", "koch-island"});
-    EXPECT_EQ(island.status, 0) << island.errors;
-    EXPECT_TRUE(has(island.output, "no: 1 of 1 dot is not encircled"));
-    const Outcome json = run({"kolam", "anklets-of-krishna", "-n", "1", "--json"});
-    EXPECT_EQ(json.status, 0) << json.errors;
-    EXPECT_TRUE(has(json.output, "\"kolam\": true"));
-    EXPECT_TRUE(has(json.output, "\"dots\": [[-0.707107, 0]]}\n"));
-    const Outcome nothing = run({"kolam", "-"}, {.input = "axiom: X\n"});
-    EXPECT_EQ(nothing.status, 1);
-    EXPECT_TRUE(has(nothing.errors, "nothing to examine"));
-    const Outcome large = run({"kolam", "snake-kolam", "-n", "40"});
-    EXPECT_EQ(large.status, 1);
-    EXPECT_TRUE(has(large.errors, "budget"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "art/writer/make_drawing.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <gtest/gtest.h>
@@ -48,12 +49,6 @@ protected:
         std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
         return folder_.file(name);
     }
-    static std::size_t count(const std::string& text, const std::string& part) {
-        std::size_t found = 0;
-        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
-        return found;
-    }
-
     ScratchFolder folder_;
     mutable std::vector<Remark> remarks_;
 };
@@ -145,17 +140,17 @@ TEST_F(Lesson, SvgShowsOneStepAfterTheOther) {
     const std::string file = save("lesson.svg", svg);
     EXPECT_TRUE(run("xmllint --noout '" + file + "'").ok);
     EXPECT_TRUE(run("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
-    const std::size_t steps = count(svg, "class=\"s\"");
+    const std::size_t steps = count_of(svg, "class=\"s\"");
     EXPECT_GE(steps, 5u);
-    EXPECT_EQ(count(svg, "class=\"w\""), 1u);
-    EXPECT_EQ(count(svg, "class=\"n\""), steps - 1);  // all but the dots
-    EXPECT_NE(svg.find("--step: 3s; --drawing: 2s"), std::string::npos);
+    EXPECT_EQ(count_of(svg, "class=\"w\""), 1u);
+    EXPECT_EQ(count_of(svg, "class=\"n\""), steps - 1);  // all but the dots
+    EXPECT_TRUE(has(svg, "--step: 3s; --drawing: 2s"));
 }
 
 TEST_F(Lesson, GifAndPicturesHaveAllSteps) {
     const std::string gif = make(snake, "gif").at("lesson.gif");
     EXPECT_EQ(gif.substr(0, 4), "GIF8");
-    EXPECT_GT(count(gif, "\x21\xF9\x04"), 20u);
+    EXPECT_GT(count_of(gif, "\x21\xF9\x04"), 20u);
     const std::string png = make(snake, "png").at("lesson.png");
     EXPECT_GT(png.size(), 2000u);
     EXPECT_EQ(make(snake, "gif").at("lesson.gif"), gif);
@@ -166,7 +161,7 @@ TEST_F(Lesson, WithoutDotsItBeginsWithTheFirstStroke) {
     const std::string open = "title: Zigzag\naxiom: F+F-F+F-F\nangle factor: 4\n";
     const std::string svg = make(open, "svg").at("lesson.svg");
     ASSERT_EQ(remarks_.size(), 1u);
-    EXPECT_EQ(count(svg, "class=\"s\""), count(svg, "class=\"n\""));
+    EXPECT_EQ(count_of(svg, "class=\"s\""), count_of(svg, "class=\"n\""));
 }
 
 TEST_F(Lesson, NumbersAreUprightInAMirror) {
@@ -192,23 +187,17 @@ TEST_F(Lesson, NumbersAreUprightInAMirror) {
 
 TEST_F(Lesson, ByHandItIsTheSameLine) {
     const std::string svg = make(snake + "hand: 0.5\n", "svg").at("lesson.svg");
-    EXPECT_GT(count(svg, "class=\"n\""), 3u);
+    EXPECT_GT(count_of(svg, "class=\"n\""), 3u);
     EXPECT_NE(svg, make(snake, "svg").at("lesson.svg"));
 }
 
 TEST_F(Lesson, RefusesDrawingsThatAreTooLarge) {
     const auto error_of = [&](const std::string& pattern, OptionValues values) -> std::string {
-        try {
-            make(pattern, "pdf", std::move(values));
-        } catch (const BudgetError& error) {
-            return error.what();
-        }
-        return "";
+        return sikku::error_of<BudgetError>([&] { make(pattern, "pdf", std::move(values)); });
     };
-    EXPECT_NE(error_of(rings, {{"repeat", "p1:40x40"}}).find("a lesson has at most 1000 lines"), std::string::npos);
-    EXPECT_NE(error_of("axiom: F\nF --> F+F--F+F\nangle factor: 6\nderivation length: 8\n", {})
-                  .find("the lines of this lesson take more than 100000 points"),
-              std::string::npos);
+    EXPECT_TRUE(has(error_of(rings, {{"repeat", "p1:40x40"}}), "a lesson has at most 1000 lines"));
+    EXPECT_TRUE(has(error_of("axiom: F\nF --> F+F--F+F\nangle factor: 6\nderivation length: 8\n", {}),
+                    "the lines of this lesson take more than 100000 points"));
     EXPECT_EQ(error_of(rings, {{"repeat", "p1:3x3"}}), "");
 }
 
@@ -240,7 +229,7 @@ TEST_F(Lesson, JoinsStepsForPictures) {
 TEST_F(Lesson, FieldsComeWithTheWhole) {
     const std::string svg = make(rings, "svg", {{"fields", "kind"}, {"powders", "#123456"}}).at("lesson.svg");
     EXPECT_GT(svg.find("fill=\"#123456\""), svg.rfind("class=\"s\""));
-    EXPECT_NE(svg.find("fill=\"#123456\""), std::string::npos);
+    EXPECT_TRUE(has(svg, "fill=\"#123456\""));
 }
 
 TEST_F(Lesson, RefusesWhatHasNoSteps) {

@@ -3,6 +3,7 @@
 #include "art/print/page.h"
 #include "engine/geometry/tamil.h"
 #include "engine/language/pattern.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +127,7 @@ TEST(Lettering, LongTextsAreShortened) {
         const std::string less = shortened(text, 2.0, part * width);
         EXPECT_TRUE(less.ends_with("…")) << less;
         EXPECT_LE(text_width(less, 2.0), part * width);
-        EXPECT_EQ(less.find(" …"), std::string::npos);
+        EXPECT_FALSE(has(less, " …"));
     }
     EXPECT_EQ(shortened(text, 2.0, 0.1), "");
     // Never within a character, nor between a letter and its mark.

@@ -4,6 +4,7 @@
 #include "art/writer/draw.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/line_tools.h"
 
@@ -196,25 +197,19 @@ std::string svg_of(const std::vector<Setting>& settings, const OptionValues& val
     return draw(kolam_with(settings), "svg", values);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-}
-
 TEST(LineWork, FillsEveryFieldOnceInCurves) {
     const std::string plain = svg_of({});
     const std::string filled =
         svg_of({{"fields", "fields", "chessboard"}, {"powders", "powders", "#112233 #445566"}});
-    EXPECT_EQ(plain.find("#112233"), std::string::npos);
-    EXPECT_NE(filled.find("#112233"), std::string::npos);
-    EXPECT_NE(filled.find("#445566"), std::string::npos);
+    EXPECT_FALSE(has(plain, "#112233"));
+    EXPECT_TRUE(has(filled, "#112233"));
+    EXPECT_TRUE(has(filled, "#445566"));
     const Drawn kolam = drawn_pattern("kolams/kooja-kolam", "");
-    EXPECT_EQ(count(filled, "<path") - count(plain, "<path"), kolam.examination.crossings + 1);
+    EXPECT_EQ(count_of(filled, "<path") - count_of(plain, "<path"), kolam.examination.crossings + 1);
     // With none for those without a dot.
     const std::string dots_only =
         svg_of({{"fields", "fields", "chessboard"}, {"powders", "powders", "#112233 none"}});
-    EXPECT_EQ(dots_only.find("#445566"), std::string::npos);
+    EXPECT_FALSE(has(dots_only, "#445566"));
     EXPECT_LT(dots_only.size(), filled.size());
 }
 
@@ -244,20 +239,16 @@ TEST(LineWork, ReportsWhatHasNoEffectOrDoesNotFit) {
     const std::string ring = "axiom: F+F+F+F\nangle factor: 4\nstroke: 0.1 step black\n";
     const std::filesystem::path patterns = std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns";
     const std::string snake = contents(patterns / "kolams/snake-kolam.lsys");
-    EXPECT_NE(warnings_of(ring + "weave: yes\n").find("'weave' has no effect: the lines do not cross"),
-              std::string::npos);
-    EXPECT_NE(warnings_of(ring + "powders: lotus\n").find("'powders' has no effect"), std::string::npos);
+    EXPECT_TRUE(has(warnings_of(ring + "weave: yes\n"), "'weave' has no effect: the lines do not cross"));
+    EXPECT_TRUE(has(warnings_of(ring + "powders: lotus\n"), "'powders' has no effect"));
     EXPECT_EQ(warnings_of(ring + "powders: lotus\nfields: kind\n"), "");
     EXPECT_EQ(warnings_of(contents(patterns / "kolam-library/kolam-5x5-b1ahhk0r.lsys") + "\nweave: yes\n"), "");
     // Without a distance lines move closer as they have to; a distance that does not fit is reported.
     EXPECT_EQ(warnings_of(snake + "\nparallel: 3\n"), "");
-    EXPECT_NE(warnings_of(snake + "\nparallel: 3 9\n").find("do not fit"), std::string::npos);
-    try {
-        warnings_of("axiom: F+F+F+F\nangle factor: 4\nstroke: none\nfields: kind\n");
-        ADD_FAILURE();
-    } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("need lines, and 'stroke' is none"), std::string::npos);
-    }
+    EXPECT_TRUE(has(warnings_of(snake + "\nparallel: 3 9\n"), "do not fit"));
+    EXPECT_TRUE(has(error_of<std::runtime_error>(
+                        [&] { warnings_of("axiom: F+F+F+F\nangle factor: 4\nstroke: none\nfields: kind\n"); }),
+                    "need lines, and 'stroke' is none"));
 }
 
 }  // namespace

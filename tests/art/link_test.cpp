@@ -1,6 +1,7 @@
 // tests/art/link_test.cpp: works as links, and links with arbitrary bytes.
 #include "art/link/link.h"
 
+#include "tests/checks.h"
 #include "tests/fuzz/link_targets.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +28,7 @@ SharedWork rich_work() {
 }
 
 std::string message_of(std::string_view link) {
-    try {
-        read_link(link);
-    } catch (const LinkError& error) {
-        return error.what();
-    }
-    return "";
+    return error_of<LinkError>([&] { read_link(link); });
 }
 
 /// The fragment that contains this JSON, valid or not.

@@ -3,6 +3,7 @@
 #include "art/prints.h"
 #include "art/style/style.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/maps.h"
 
 #include <fmt/format.h>
@@ -172,7 +173,7 @@ TEST(MapDrawing, ReportsWhenTheOutlineCrossesItself) {
 /// Posters, sheets and generations hold maps as they hold other drawings.
 TEST(MapDrawing, StandsOnSheets) {
     const std::string series = draw(cell_layer(3), "svg", {{"generations", "0:3"}, {"size", "A4"}});
-    EXPECT_NE(series.find("n = 3"), std::string::npos);
+    EXPECT_TRUE(has(series, "n = 3"));
     EXPECT_NE(draw(cell_layer(3), "svg", {{"repeat", "p6m"}, {"size", "A4"}}), "");
     EXPECT_NE(draw(cell_layer(3), "pdf", {{"hand", "0.5"}, {"border", "rope"}, {"size", "A4"}}), "");
 }
@@ -187,15 +188,10 @@ TEST(MapDrawing, RefusesWhatExceedsTheBudget) {
 
 TEST(MapDrawing, RefusesWhatNeedsATurtle) {
     const auto error = [](const std::string& option, const std::string& value, const std::string& format) {
-        try {
-            draw(cell_layer(2), format, {{option, value}});
-        } catch (const std::exception& caught) {
-            return std::string(caught.what());
-        }
-        return std::string();
+        return error_of([&] { draw(cell_layer(2), format, {{option, value}}); });
     };
-    EXPECT_NE(error("dots", "", "svg").find("a map has none"), std::string::npos);
-    EXPECT_NE(error("size", "A5", "obj").find("a map has no turtle"), std::string::npos);
+    EXPECT_TRUE(has(error("dots", "", "svg"), "a map has none"));
+    EXPECT_TRUE(has(error("size", "A5", "obj"), "a map has no turtle"));
     EXPECT_EQ(error("size", "A5", "svg"), "");
 }
 

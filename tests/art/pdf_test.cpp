@@ -1,6 +1,7 @@
 #include "art/vector/pdf.h"
 
 #include "art/vector/svg.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <charconv>
@@ -57,7 +58,7 @@ TEST_F(Pdf, IsSoundAndHasItsBoxes) {
         EXPECT_TRUE(contents(path).starts_with("%PDF-1.6\n"));
         const std::string boxes = run("pdfinfo -box '" + path.string() + "'").text;
         for (const std::string name : {"MediaBox", "CropBox", "BleedBox", "TrimBox"}) {
-            EXPECT_NE(boxes.find(name), std::string::npos);
+            EXPECT_TRUE(has(boxes, name));
         }
         for (std::size_t at = boxes.find("Box:"); at != std::string::npos; at = boxes.find("Box:", at + 1)) {
             EXPECT_NE(boxes.find("0.00     0.00   595.28   841.89", at), std::string::npos) << boxes;
@@ -73,8 +74,8 @@ TEST_F(Pdf, SheetsBeyondTheLimitHaveALargerUnit) {
     const auto path = write(print, draw_sampler);
     EXPECT_EQ(complaints(path), "");
     const std::string text = contents(path);
-    EXPECT_NE(text.find("/UserUnit 3\n"), std::string::npos);
-    EXPECT_NE(text.find("/MediaBox [0 0 11338.5827 2834.6457]"), std::string::npos);
+    EXPECT_TRUE(has(text, "/UserUnit 3\n"));
+    EXPECT_TRUE(has(text, "/MediaBox [0 0 11338.5827 2834.6457]"));
 }
 
 TEST_F(Pdf, PositionsAreWholeMicrometres) {
@@ -122,7 +123,7 @@ TEST_F(Pdf, LayersAreNamedAndInOrder) {
     NEEDS("qpdf");
     const std::string text = plain_text(write(plain_print(), draw_sampler));
     for (const std::string name : {"ground", "fills", "1 black", "2 red", "3 blue", "discs red", "discs blue"}) {
-        EXPECT_NE(text.find("/Name (" + name + ")"), std::string::npos) << name;
+        EXPECT_TRUE(has(text, "/Name (" + name + ")")) << name;
     }
 }
 
@@ -174,7 +175,7 @@ TEST_F(Pdf, KindsOfTilesAreLayers) {
     EXPECT_EQ(order, (std::vector<std::size_t>{0, 0, 1, 0, 2, 3, 1}));
     // The picture is the same, and without the setting there are no such layers.
     print.names_tiles = false;
-    EXPECT_EQ(plain_text(write(print, draw, "plain-layers.pdf")).find("/Name (shape"), std::string::npos);
+    EXPECT_FALSE(has(plain_text(write(print, draw, "plain-layers.pdf")), "/Name (shape"));
 }
 
 TEST_F(Pdf, WhatIsHiddenOfAClosedStrokeStaysHidden) {
@@ -184,15 +185,15 @@ TEST_F(Pdf, WhatIsHiddenOfAClosedStrokeStaysHidden) {
     const Pen hidden;
     const Pen red{1.0, false, 1};
     const std::string three = plain_text(write(print, [&](PathSink& sink) { draw_square(sink, hidden, red); }));
-    EXPECT_NE(three.find("10000 10000 m\n50000 10000 l\n50000 50000 l\n10000 50000 l\nS"), std::string::npos);
+    EXPECT_TRUE(has(three, "10000 10000 m\n50000 10000 l\n50000 50000 l\n10000 50000 l\nS"));
     const std::string four = plain_text(write(print, [&](PathSink& sink) { draw_square(sink, red, red); }));
-    EXPECT_NE(four.find("10000 50000 l\nh\nS"), std::string::npos);
+    EXPECT_TRUE(has(four, "10000 50000 l\nh\nS"));
 }
 
 TEST_F(Pdf, TheSameDrawingIsTheSameBytes) {
     const std::string bytes = contents(write(plain_print(), draw_sampler));
     EXPECT_EQ(contents(write(plain_print(), draw_sampler)), bytes);
-    EXPECT_EQ(bytes.find("Date"), std::string::npos);
+    EXPECT_FALSE(has(bytes, "Date"));
 }
 
 TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
@@ -207,9 +208,9 @@ TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
         const auto path = write(print, draw_sampler);
         EXPECT_EQ(complaints(path), "");
         const std::string information = run("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
-        EXPECT_NE(information.find(title + "\n"), std::string::npos) << information;
-        EXPECT_NE(information.find(print.made + "\n"), std::string::npos) << information;
-        EXPECT_NE(information.find("Sikku"), std::string::npos);
+        EXPECT_TRUE(has(information, title + "\n"));
+        EXPECT_TRUE(has(information, print.made + "\n"));
+        EXPECT_TRUE(has(information, "Sikku"));
     }
     print.title = "\x01\x7F broken \xC3 \xED\xA0\x80 \xF8 \0."s;
     EXPECT_EQ(complaints(write(print, draw_sampler)), "");

@@ -1,6 +1,7 @@
 // tests/art/pdf_x_test.cpp: PDF/X-4 as independent readers see it: qpdf, poppler, Ghostscript, libxml2 and pugixml.
 #include "art/prints.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 #include "tests/tools.h"
 
@@ -71,17 +72,17 @@ TEST_F(PdfX, SaysWhatItIs) {
     EXPECT_TRUE(contents(path).starts_with("%PDF-1.6"));
     for (const char* part : {"/OutputIntents", "/GTS_PDFX", "/DestOutputProfile", "/OutputConditionIdentifier",
                              "/Trapped /False", "/TrimBox", "/BleedBox", "/Metadata", "/ID "}) {
-        EXPECT_NE(text.find(part), std::string::npos) << part;
+        EXPECT_TRUE(has(text, part)) << part;
     }
     // What the standard forbids or does not need.
     for (const char* part : {"/ArtBox", "/AS ", "/JavaScript", "/Annots", "/Encrypt", "/Font"}) {
-        EXPECT_EQ(text.find(part), std::string::npos) << part;
+        EXPECT_FALSE(has(text, part)) << part;
     }
     const ToolOutcome info = run("pdfinfo -box '" + path.string() + "'");
-    EXPECT_NE(info.text.find("PDF subtype:    PDF/X-4"), std::string::npos) << info.text;
+    EXPECT_TRUE(has(info.text, "PDF subtype:    PDF/X-4"));
     // 100 mm are 283.46 points; bleed and marks take 8 mm.
-    EXPECT_NE(info.text.find("TrimBox:            22.68    22.68   306.14   306.14"), std::string::npos) << info.text;
-    EXPECT_NE(info.text.find("BleedBox:           14.17    14.17   314.65   314.65"), std::string::npos) << info.text;
+    EXPECT_TRUE(has(info.text, "TrimBox:            22.68    22.68   306.14   306.14"));
+    EXPECT_TRUE(has(info.text, "BleedBox:           14.17    14.17   314.65   314.65"));
 }
 
 TEST_F(PdfX, MetadataAndInformationAgree) {
@@ -103,9 +104,9 @@ TEST_F(PdfX, MetadataAndInformationAgree) {
         EXPECT_EQ(value(date), "2010-01-01T00:00:00Z") << "the same on every day";
     }
     const std::string info = run("pdfinfo -isodates '" + path.string() + "'").text;
-    EXPECT_NE(info.find("Title:           A <kolam> & more"), std::string::npos) << info;
-    EXPECT_NE(info.find("CreationDate:    2010-01-01T00:00:00Z"), std::string::npos) << info;
-    EXPECT_NE(info.find("ModDate:         2010-01-01T00:00:00Z"), std::string::npos) << info;
+    EXPECT_TRUE(has(info, "Title:           A <kolam> & more"));
+    EXPECT_TRUE(has(info, "CreationDate:    2010-01-01T00:00:00Z"));
+    EXPECT_TRUE(has(info, "ModDate:         2010-01-01T00:00:00Z"));
     // Other drawings are other documents, equal ones are the same.
     EXPECT_EQ(contents(path), contents(write({}, kolam, "again.pdf")));
     const auto id = [&](const std::filesystem::path& file) {
@@ -144,12 +145,12 @@ TEST_F(PdfX, EveryColourIsAnInk) {
         write({{"plotter", "true"}, {"travel", "true"}}, kolam, "plot.pdf")};
     for (const auto& path : files) {
         const std::string text = plain_text(path);
-        EXPECT_EQ(text.find("DeviceRGB"), std::string::npos) << path;
+        EXPECT_FALSE(has(text, "DeviceRGB")) << path;
         static const std::regex rgb(R"([0-9.]+ [0-9.]+ [0-9.]+ (rg|RG)\b)");
         EXPECT_FALSE(std::regex_search(text, rgb)) << path;
         static const std::regex cmyk(R"([0-9.]+ [0-9.]+ [0-9.]+ [0-9.]+ [kK]\b)");
         EXPECT_TRUE(std::regex_search(text, cmyk)) << path;
-        EXPECT_NE(text.find("GTS_PDFX"), std::string::npos) << path;
+        EXPECT_TRUE(has(text, "GTS_PDFX")) << path;
         const auto provenance = provenance_of(path);
         EXPECT_TRUE(provenance && provenance->pattern.find("angle increment") != std::string::npos) << path;
     }
@@ -209,17 +210,12 @@ TEST_F(PdfX, OtherProfilesAreRefused) {
     const std::string text = contents(profile);
     const auto refused = [&](const std::string& bytes) -> std::string {
         const std::string file = folder_.write("other.icc", bytes);
-        try {
-            draw(parse("x.lsys", kolam), "pdf", {{"cmyk", file}});
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return error_of<std::runtime_error>([&] { draw(parse("x.lsys", kolam), "pdf", {{"cmyk", file}}); });
     };
-    EXPECT_NE(refused("nothing").find("not an ICC profile"), std::string::npos);
+    EXPECT_TRUE(has(refused("nothing"), "not an ICC profile"));
     std::string link = text;
     link.replace(12, 4, "spac");  // the class of the profile
-    EXPECT_NE(refused(link).find("not that of an output device"), std::string::npos);
+    EXPECT_TRUE(has(refused(link), "not that of an output device"));
     EXPECT_EQ(refused(text), "");
 }
 

@@ -5,6 +5,7 @@
 #include "art/product/print_cell.h"
 #include "art/reading/photograph.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 
 #include <fmt/format.h>
@@ -62,7 +63,7 @@ void expect_as_drawn(const PrintedKolam& kolam, const std::string& border, const
     EXPECT_EQ(read.kolam.states, kolam.states) << notes_of(read);
     EXPECT_TRUE(read.kolam.doubtful().empty());
     EXPECT_EQ(read.kolams, 1U) << notes_of(read);
-    EXPECT_EQ(notes_of(read).find("another kolam"), std::string::npos) << notes_of(read);
+    EXPECT_FALSE(has(notes_of(read), "another kolam"));
 }
 
 const std::vector<std::string> borders = {"kaavi", "padi", "lotus", "rope", "diamonds", "waves"};
@@ -128,7 +129,7 @@ TEST(PhotographPrints, AllKolamsOfASheetAreReadable) {
                 const Photograph read = read_photograph(folder.path() / "sheet.png", {.number = number});
                 EXPECT_EQ(read.kolams, count) << notes_of(read);
                 EXPECT_EQ(read.readable, count) << notes_of(read);
-                EXPECT_EQ(notes_of(read).find("border"), std::string::npos) << notes_of(read);
+                EXPECT_FALSE(has(notes_of(read), "border"));
                 EXPECT_EQ(read.kolam.grid.text(), kolam.dots.text());
                 EXPECT_EQ(read.kolam.states, kolam.states);
                 const glm::dvec2 corner = read.in_file(read.kolam.grid.dots().front());

@@ -4,10 +4,10 @@
 #include "art/decoder/bare_picture.h"
 #include "art/decoder/confinement.h"
 #include "art/image/image_file.h"
+#include "tests/checks.h"
 #include "tests/damaged_pictures.h"
 #include "tests/files.h"
 #include "tests/fuzz/picture_targets.h"
-#include "tests/program.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fcntl.h>
@@ -122,7 +122,7 @@ TEST(PictureProcess, TransparentPartsLieOnWhite) {
 TEST(PictureProcess, HeifIsNotLargerThanWhatItCodes) {
     for (const char* name : {"a.heic", "a.avif"}) {
         const std::string sound = coded(name, 64, 64);
-        ASSERT_NE(sound.find("ispe"), std::string::npos);
+        ASSERT_TRUE(has(sound, "ispe"));
         for (const auto& [width, height] : {std::pair(64U, 256U), {9000U, 9000U}, {65U, 64U}}) {
             const std::string answer = answer_to(with_stated_size(sound, width, height), name);
             EXPECT_TRUE(has(answer, "damaged")) << width << " x " << height;
@@ -346,8 +346,8 @@ TEST(PictureProcess, DamagedFilesEndInAPictureOrAMessage) {
         const auto& [name, bytes] = sound[static_cast<std::size_t>(i) % sound.size()];
         const std::string damaged = mutated(bytes, random);
         const std::string answer = answer_to(folder.write(name, damaged));
-        EXPECT_FALSE(has(answer, "does not start")) << answer;
-        EXPECT_EQ(answer.find('\n'), std::string::npos) << answer;
+        EXPECT_FALSE(has(answer, "does not start"));
+        EXPECT_FALSE(has(answer, "\n"));
         EXPECT_FALSE(answer.empty());
         ++answers[answer.find(" (signal ") == std::string::npos ? answer.substr(0, 50) : answer];
     }

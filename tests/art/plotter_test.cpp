@@ -6,6 +6,7 @@
 #include "art/plotter/hpgl.h"
 #include "engine/base/option.h"
 #include "engine/base/output.h"
+#include "tests/checks.h"
 #include "tests/plot_tools.h"
 
 #include <sys/stat.h>
@@ -188,12 +189,7 @@ TEST_F(Plotter, EveryProfileOfGcodeDrawsTheSame) {
 
 TEST_F(Plotter, ErrorsOfAProfileHaveTheirPlaces) {
     const auto errors = [](const std::string& text) -> std::string {
-        try {
-            parse_profile("my.plotter", text);
-        } catch (const PatternError& error) {
-            return error.what();
-        }
-        return "";
+        return error_of<PatternError>([&] { parse_profile("my.plotter", text); });
     };
     const std::string all = errors(
         "// mine\nlanguage: G-code\npen up M5\npen upp: M5\nspeed: fast\npen down: M3 S{power}\npaper: A4\nlift:\n"
@@ -205,10 +201,10 @@ TEST_F(Plotter, ErrorsOfAProfileHaveTheirPlaces) {
                              "my.plotter:7:1: 'paper' does not apply to a plotter that reads G-code",
                              "my.plotter:8:1: the value of 'lift'", "my.plotter:10:1: 'down' is set twice",
                              "my.plotter:11:6: unknown setting 'sped' of a pen; did you mean"}) {
-        EXPECT_NE(all.find(part), std::string::npos) << part << "\n" << all;
+        EXPECT_TRUE(has(all, part)) << part << "\n" << all;
     }
-    EXPECT_NE(errors("speed: 3\n").find("1:1: the language of the plotter is missing"), std::string::npos);
-    EXPECT_NE(errors("language: logo\n").find("expected G-code, HP-GL or SVG"), std::string::npos);
+    EXPECT_TRUE(has(errors("speed: 3\n"), "1:1: the language of the plotter is missing"));
+    EXPECT_TRUE(has(errors("language: logo\n"), "expected G-code, HP-GL or SVG"));
     EXPECT_EQ(errors("language: g-code\npen up: G0 Z{lift}\npen up: G4 P0.1\npen: 1 speed=3\npen: red down=2\n"), "");
     const ScratchFolder folder;
     EXPECT_THROW(read_profile(folder / "none.plotter"), std::runtime_error);
@@ -436,7 +432,7 @@ TEST_F(Plotter, HpglParksDipsAndSetsSpeeds) {
     output->commit();
     const std::string text = memory.outputs().at("plot.hpgl");
     EXPECT_TRUE(text.starts_with("IN;\nPU;SP1;\nVS4;\nPU200,40;PD;PU;\nPU")) << text.substr(0, 80);
-    EXPECT_NE(text.find("PU;PU0,2000;SP2;\nVS10.5;\nPU200,40;PD;PU;\n"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "PU;PU0,2000;SP2;\nVS10.5;\nPU200,40;PD;PU;\n"));
 }
 
 TEST_F(Plotter, LayersAreNamedForAxiDraw) {

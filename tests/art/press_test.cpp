@@ -4,6 +4,7 @@
 #include "art/vector/pdf.h"
 #include "art/vector/svg.h"
 #include "art/writer/draw.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <cmath>
@@ -18,27 +19,6 @@ namespace {
 using Points = std::vector<glm::dvec2>;
 
 constexpr Colour white{255, 255, 255, 255}, black{0, 0, 0, 255}, kaavi{0xb3, 0x45, 0x2c, 255};
-
-/// What is said about a failure, or nothing.
-std::string complaint(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-::testing::AssertionResult says(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "no '" << part << "' in '" << text << "'";
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
-}
 
 TEST(Spot, HasANameAndAColour) {
     const Spot spot = parse_spot(" Kaavi = #b3452c ");
@@ -69,11 +49,11 @@ TEST(Spot, SaysWhatIsWrong) {
         {"\xC3=red", "invalid UTF-8"},
     };
     for (const auto& [text, part] : cases) {
-        EXPECT_TRUE(says(complaint([&, &given = text] { parse_spot(given); }), part)) << text;
+        EXPECT_TRUE(has(error_of([&, &given = text] { parse_spot(given); }), part)) << text;
     }
-    const auto both = [](const std::vector<std::string>& texts) { return complaint([&] { parse_spots(texts); }); };
-    EXPECT_TRUE(says(both({"Kaavi=red", "Kaavi=blue"}), "two spot colours are named 'Kaavi'"));
-    EXPECT_TRUE(says(both({"Kaavi=red", "Rot=#f00"}), "'Kaavi' and 'Rot' are both red"));
+    const auto both = [](const std::vector<std::string>& texts) { return error_of([&] { parse_spots(texts); }); };
+    EXPECT_TRUE(has(both({"Kaavi=red", "Kaavi=blue"}), "two spot colours are named 'Kaavi'"));
+    EXPECT_TRUE(has(both({"Kaavi=red", "Rot=#f00"}), "'Kaavi' and 'Rot' are both red"));
     EXPECT_EQ(both({"Kaavi=red", "kaavi=blue"}), "");
 }
 
@@ -83,39 +63,39 @@ TEST(Spot, IsAColourOfTheDrawing) {
     style.ground = kaavi;
     style.fill = Colour{0, 0, 255, 255};
     const auto check = [&](const std::string& text) {
-        return complaint([&] { check_spots({.spots = {parse_spot(text)}}, style); });
+        return error_of([&] { check_spots({.spots = {parse_spot(text)}}, style); });
     };
     for (const std::string text : {"K=black", "R=red", "G=#b3452c", "B=blue"}) EXPECT_EQ(check(text), "");
-    EXPECT_TRUE(says(check("G=green"), "nothing is drawn in green; the colours are #b3452c, black, blue, red"));
+    EXPECT_TRUE(has(check("G=green"), "nothing is drawn in green; the colours are #b3452c, black, blue, red"));
 }
 
 TEST(Press, RefusesWhatAFormatDoesNotHave) {
     const auto check = [](const Press& press, PrintFormat format) {
-        return complaint([&] { check_press(press, format); });
+        return error_of([&] { check_press(press, format); });
     };
     for (const double bleed :
          {-1.0, 100.5, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_TRUE(says(check({.bleed = bleed}, PrintFormat::pdf), "0 to 100mm")) << bleed;
+        EXPECT_TRUE(has(check({.bleed = bleed}, PrintFormat::pdf), "0 to 100mm")) << bleed;
     }
     for (const int bits : {-1, 0, 2, 3, 16}) {
-        EXPECT_TRUE(says(check({.bits = bits}, PrintFormat::tiff), "expected 1 or 8")) << bits;
+        EXPECT_TRUE(has(check({.bits = bits}, PrintFormat::tiff), "expected 1 or 8")) << bits;
     }
     const Press spots{.spots = {{"Kaavi", kaavi}}};
     for (const PrintFormat format :
          {PrintFormat::svg, PrintFormat::png, PrintFormat::tiff, PrintFormat::jpeg, PrintFormat::exr}) {
         EXPECT_EQ(check({.bleed = 100.0}, format), "");
-        EXPECT_TRUE(says(check({.marks = true}, format), "only a PDF has crop marks"));
-        EXPECT_TRUE(says(check(spots, format), "only a PDF has spot colours"));
+        EXPECT_TRUE(has(check({.marks = true}, format), "only a PDF has crop marks"));
+        EXPECT_TRUE(has(check(spots, format), "only a PDF has spot colours"));
         if (format == PrintFormat::tiff) continue;
-        EXPECT_TRUE(says(check({.cmyk = "a.icc"}, format), "only TIFF and PDF"));
-        EXPECT_TRUE(says(check({.registration = true}, format), "only a PDF has registration marks"));
-        EXPECT_TRUE(says(check({.overprint = Overprint::black}, format), "only a PDF has inks"));
-        EXPECT_TRUE(says(check({.bits = 1}, format), "only TIFF"));
+        EXPECT_TRUE(has(check({.cmyk = "a.icc"}, format), "only TIFF and PDF"));
+        EXPECT_TRUE(has(check({.registration = true}, format), "only a PDF has registration marks"));
+        EXPECT_TRUE(has(check({.overprint = Overprint::black}, format), "only a PDF has inks"));
+        EXPECT_TRUE(has(check({.bits = 1}, format), "only TIFF"));
     }
     EXPECT_EQ(check({.cmyk = "a.icc"}, PrintFormat::pdf), "");
     EXPECT_EQ(check({.cmyk = "a.icc", .overprint = Overprint::all}, PrintFormat::pdf), "");
-    EXPECT_TRUE(says(check({.overprint = Overprint::black}, PrintFormat::pdf), "needs 'cmyk' or 'spot'"));
-    EXPECT_TRUE(says(check({.cmyk = "a.icc", .bits = 1}, PrintFormat::tiff), "8 bits"));
+    EXPECT_TRUE(has(check({.overprint = Overprint::black}, PrintFormat::pdf), "needs 'cmyk' or 'spot'"));
+    EXPECT_TRUE(has(check({.cmyk = "a.icc", .bits = 1}, PrintFormat::tiff), "8 bits"));
     EXPECT_EQ(check({.cmyk = "a.icc"}, PrintFormat::tiff), "");
     EXPECT_EQ(check({.bits = 1}, PrintFormat::tiff), "");
     EXPECT_EQ(check({.bleed = 3.0, .marks = true, .spots = spots.spots}, PrintFormat::pdf), "");
@@ -330,8 +310,8 @@ TEST_F(PressPdf, MarksLieOutsideOfTheTrimAndNothingElseDoes) {
         }
     }
     const std::string text = plain_text(path);
-    EXPECT_TRUE(says(text, "/Separation /All /DeviceGray"));
-    EXPECT_TRUE(says(text, "/Registration CS 1 SCN 0.25 w "));
+    EXPECT_TRUE(has(text, "/Separation /All /DeviceGray"));
+    EXPECT_TRUE(has(text, "/Registration CS 1 SCN 0.25 w "));
 }
 
 TEST_F(PressPdf, EveryColourGroundAndMarksAreALayerEach) {
@@ -340,13 +320,14 @@ TEST_F(PressPdf, EveryColourGroundAndMarksAreALayerEach) {
     const std::string before = plain_text(write(print, draw_sampler));
     print.press = {.bleed = 3.0, .marks = true, .spots = {{"Red ink", {255, 0, 0, 255}}}};
     const std::string text = plain_text(write(print, draw_sampler));
-    EXPECT_EQ(count(before, "/Type /OCG"), 7u);
-    EXPECT_EQ(count(text, "/Type /OCG"), 8u);
+    EXPECT_EQ(count_of(before, "/Type /OCG"), 7u);
+    EXPECT_EQ(count_of(text, "/Type /OCG"), 8u);
     for (const std::string name :
          {"ground", "fills", "1 black", "2 red", "3 blue", "discs red", "discs blue", "marks"}) {
-        EXPECT_EQ(count(text, "/Name (" + name + ")"), 1u) << name;
+        EXPECT_EQ(count_of(text, "/Name (" + name + ")"), 1u) << name;
     }
-    for (const std::string word : {"/Separation", "/ColorSpace", "marks"}) EXPECT_EQ(count(before, word), 0u) << word;
+    for (const std::string word : {"/Separation", "/ColorSpace", "marks"})
+        EXPECT_EQ(count_of(before, word), 0u) << word;
 }
 
 TEST_F(PressPdf, NamesOfSpotColoursAreEscaped) {
@@ -356,10 +337,10 @@ TEST_F(PressPdf, NamesOfSpotColoursAreEscaped) {
     const auto path = write(print, draw_sampler);
     static_cast<void>(plain_text(path));
     const std::string text = contents(path);
-    EXPECT_TRUE(says(text,
-                     "[/Separation /Rot#20#281#2F2#29#23 /DeviceRGB << /FunctionType 2 /Domain [0 1] "
-                     "/C0 [1 1 1] /C1 [1 0 0] /N 1 >>]"));
-    EXPECT_TRUE(says(text, "[/Separation /#E0#AE#95#E0#AE#BE#E0#AE#B5#E0#AE#BF /DeviceRGB"));
+    EXPECT_TRUE(has(text,
+                    "[/Separation /Rot#20#281#2F2#29#23 /DeviceRGB << /FunctionType 2 /Domain [0 1] "
+                    "/C0 [1 1 1] /C1 [1 0 0] /N 1 >>]"));
+    EXPECT_TRUE(has(text, "[/Separation /#E0#AE#95#E0#AE#BE#E0#AE#B5#E0#AE#BF /DeviceRGB"));
 }
 
 TEST_F(PressPdf, SpotColoursLookAsTheColoursTheyAre) {
@@ -432,8 +413,8 @@ TEST_F(PressPdf, PartsOfASheetLieInsideAndTheGroundOfTheSheetAround) {
         draw_sampler(writer);
     });
     const std::string text = plain_text(path);
-    EXPECT_EQ(count(text, "/Type /OCG"), 9u) << "two grounds, the marks, and six layers of the drawing";
-    EXPECT_EQ(count(text, "/Separation /Kaavi"), 1u);
+    EXPECT_EQ(count_of(text, "/Type /OCG"), 9u) << "two grounds, the marks, and six layers of the drawing";
+    EXPECT_EQ(count_of(text, "/Separation /Kaavi"), 1u);
     const PixelGrid pixels = render_pdf(path, 254);  // the sheet begins at 8 mm
     EXPECT_TRUE(near(pixels.at(52, 52), kaavi));
     EXPECT_TRUE(near(pixels.at(48, 48), white));
@@ -462,9 +443,9 @@ TEST_F(PressPdf, HugeSheetsKeepTheirMarksInTheirUnit) {
     const auto path = write(print, draw_sampler);
     static_cast<void>(plain_text(path));
     const std::string text = contents(path);
-    EXPECT_TRUE(says(text, "/UserUnit 3\n"));
+    EXPECT_TRUE(has(text, "/UserUnit 3\n"));
     EXPECT_NEAR(box(text, "/MediaBox ")[2], 10'210.0 * 72 / 25.4 / 3, 1e-4);
-    EXPECT_TRUE(says(text, "SCN 0.0833 w "));
+    EXPECT_TRUE(has(text, "SCN 0.0833 w "));
 }
 
 /// Whole drawings into files.
@@ -511,8 +492,8 @@ TEST_F(PressDraw, PicturesAndSvgShowTheBleed) {
         EXPECT_TRUE(near(bled.at(230, 130), white)) << name << ": the line is in the middle";
     }
     const std::string svg = contents(draw("a.svg", {.bleed = 3.0}));
-    EXPECT_TRUE(says(svg, "width=\"46mm\""));
-    EXPECT_TRUE(says(svg, "height=\"26mm\""));
+    EXPECT_TRUE(has(svg, "width=\"46mm\""));
+    EXPECT_TRUE(has(svg, "height=\"26mm\""));
 }
 
 TEST_F(PressDraw, OneBitIsBlackWhereHalfIsCovered) {
@@ -521,9 +502,9 @@ TEST_F(PressDraw, OneBitIsBlackWhereHalfIsCovered) {
     const std::string style = "ground: #ffe6b4\nstroke: 1.234mm #b3452c\n";
     const auto file = draw("a.tif", {.bits = 1}, style, 600.0);
     const std::string told = run("tiffinfo '" + file.string() + "'").text;
-    EXPECT_TRUE(says(told, "Bits/Sample: 1\n"));
-    EXPECT_TRUE(says(told, "Photometric Interpretation: min-is-black"));
-    EXPECT_TRUE(says(told, "600, 600 pixels/inch"));
+    EXPECT_TRUE(has(told, "Bits/Sample: 1\n"));
+    EXPECT_TRUE(has(told, "Photometric Interpretation: min-is-black"));
+    EXPECT_TRUE(has(told, "600, 600 pixels/inch"));
     const PixelGrid bits = pixels(file);
     const PixelGrid grey = pixels(draw("grey.tif", {}, "ground: white\nstroke: 1.234mm black\n", 600.0));
     ASSERT_EQ(bits.bytes.size(), grey.bytes.size());

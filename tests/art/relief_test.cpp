@@ -2,6 +2,7 @@
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/output.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/solid_reader.h"
 
@@ -261,8 +262,8 @@ TEST(Relief, ModelsHaveAMaterialForEachColour) {
     expect_closed(obj);
     EXPECT_EQ(obj.triangles, glb.triangles);
     EXPECT_EQ(std::set<std::size_t>(obj.materials.begin(), obj.materials.end()).size(), 3u);
-    EXPECT_NE(memory.outputs().at("r.mtl").find("newmtl relief-30a050"), std::string::npos);
-    EXPECT_EQ(memory.outputs().at("r.obj").find("vn "), std::string::npos);
+    EXPECT_TRUE(has(memory.outputs().at("r.mtl"), "newmtl relief-30a050"));
+    EXPECT_FALSE(has(memory.outputs().at("r.obj"), "vn "));
 }
 
 TEST(Relief, IsTheSameInEveryRun) {
@@ -284,14 +285,8 @@ TEST(Relief, FilesOtherThanStlContainTheirPattern) {
     }
     EXPECT_EQ(read_provenance(folder.file("r.glb"))->pattern, drawn.source().text());
     EXPECT_EQ(read_provenance(folder.file("r.obj"))->pattern, drawn.source().text());
-    try {
-        read_provenance(folder.file("r.stl"));
-        ADD_FAILURE();
-    } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("r.stl: this STL file has no room for the pattern"),
-                  std::string::npos)
-            << error.what();
-    }
+    EXPECT_TRUE(has(error_of<std::runtime_error>([&] { read_provenance(folder.file("r.stl")); }),
+                    "r.stl: this STL file has no room for the pattern"));
 }
 
 std::string refusal(const Document& drawn, const std::string& format, const OptionValues& values) {
@@ -307,7 +302,7 @@ std::string refusal(const Document& drawn, const std::string& format, const Opti
 TEST(Relief, SaysWhatItCannotDo) {
     const Document drawn = document("", square);
     const auto expect = [&](const std::string& format, const OptionValues& values, const char* text) {
-        EXPECT_NE(refusal(drawn, format, values).find(text), std::string::npos) << refusal(drawn, format, values);
+        EXPECT_TRUE(has(refusal(drawn, format, values), text));
     };
     expect("svg", {{"relief", "2mm"}}, "a relief is STL, OBJ or glTF");
     expect("svg", {{"groove", "1mm"}}, "needs 'relief' or STL");
@@ -325,10 +320,9 @@ TEST(Relief, SaysWhatItCannotDo) {
     expect("stl", {{"stroke", "none"}, {"fill", "none"}, {"palette", "#00000000"}}, "nothing");
     expect("stl", {{"view", "top"}}, "neither camera nor light");
     expect("stl", {{"generations", "0:2"}}, "'frames' makes one of each generation");
-    EXPECT_NE(refusal(load("bush-3d"), "stl", {}).find("only to drawings in the plane"), std::string::npos);
-    EXPECT_NE(refusal(load("hilbert", {"", {{"test", "derivation length", "11"}}}), "stl", {})
-                  .find("34 million triangles, more than the limit of 8 million"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal(load("bush-3d"), "stl", {}), "only to drawings in the plane"));
+    EXPECT_TRUE(has(refusal(load("hilbert", {"", {{"test", "derivation length", "11"}}}), "stl", {}),
+                    "34 million triangles, more than the limit of 8 million"));
 }
 
 TEST(Relief, MakesEachGeneration) {

@@ -5,6 +5,7 @@
 #include "art/prints.h"
 #include "engine/base/output.h"
 #include "engine/derivation/derivation.h"
+#include "tests/checks.h"
 #include "tests/tools.h"
 
 #include <gtest/gtest.h>
@@ -326,17 +327,12 @@ TEST(Repeat, WorksWithDotsColoursAndPlots) {
     const Document kolam = parse("kolam.lsys",
                                  "axiom: F+XF+F+XF\nX --> XF-F-F+XF+F+XF-F-F+X\nderivation length: 1\n"
                                  "angle increment: 90\nstroke: 0.2 step #f2b632\nground: #8c3b2a\n");
-    const auto count = [](const std::string& text, const std::string& part) {
-        std::size_t found = 0;
-        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
-        return found;
-    };
     const std::string one = draw(kolam, "svg", {{"dots", ""}});
     const std::string many = draw(kolam, "svg", {{"dots", ""}, {"repeat", "pmm:2x2"}, {"colour-by", "strand"}});
-    EXPECT_GT(count(one, "<circle"), 3u);
-    EXPECT_EQ(count(many, "<circle"), 16 * count(one, "<circle"));
+    EXPECT_GT(count_of(one, "<circle"), 3u);
+    EXPECT_EQ(count_of(many, "<circle"), 16 * count_of(one, "<circle"));
     const std::string plot = draw(kolam, "hpgl", {{"repeat", "ring:5"}});
-    EXPECT_EQ(count(plot, "PD"), 5 * count(draw(kolam, "hpgl", {}), "PD"));
+    EXPECT_EQ(count_of(plot, "PD"), 5 * count_of(draw(kolam, "hpgl", {}), "PD"));
 }
 
 /// A weave cuts a line into pieces, which are not lines of their own.
@@ -422,10 +418,10 @@ TEST(Repeat, CopiesInUnitsOfAnotherShapeAreReported) {
         return text;
     };
     for (const char* repeat : {"p4m:3x4", "p4m:fill", "p6m:2x2"}) {
-        EXPECT_NE(report(repeat).find("; p1 covers 86 %"), std::string::npos) << report(repeat);
+        EXPECT_TRUE(has(report(repeat), "; p1 covers 86 %"));
     }
     for (const char* repeat : {"p1:3x4", "pmm:2x2", "p4:2x2", "frieze:3", "ring:5"}) {
-        EXPECT_EQ(report(repeat).find("p1 covers"), std::string::npos) << report(repeat);
+        EXPECT_FALSE(has(report(repeat), "p1 covers"));
     }
     const std::vector<glm::dvec2> unit = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     Repeat repeat = *parse_repeat("p1:1x1,gap=0");
@@ -488,9 +484,7 @@ TEST(Repeat, RefusesTooMuch) {
     try {
         draw(large, "svg", {{"repeat", "ring:300"}, {"budget", "1e6"}});
     } catch (const BudgetError& error) {
-        EXPECT_NE(std::string(error.what()).find("; the 300 copies of 'repeat' share the budget of 1000000 nodes"),
-                  std::string::npos)
-            << error.what();
+        EXPECT_TRUE(has(error.what(), "; the 300 copies of 'repeat' share the budget of 1000000 nodes"));
     }
     const Document solid = parse("solid.lsys", "axiom: F&F\n");
     EXPECT_THROW(draw(solid, "svg", {{"repeat", "ring:3"}}), SettingError);

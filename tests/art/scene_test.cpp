@@ -7,6 +7,7 @@
 #include "art/style/camera.h"
 #include "art/writer/draw.h"
 #include "engine/geometry/lettering.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -242,12 +243,12 @@ TEST(Model, ColoursOfVerticesAreKept) {
     const Scene scene = scene_of(blend, print.style);
     write_model(scene, print, PrintFormat::obj, folder.file("c.obj"));
     const std::string obj = contents(folder.file("c.obj"));
-    EXPECT_NE(obj.find(" 1.0000 0.0000 0.0000\n"), std::string::npos);
-    EXPECT_NE(obj.find(" 0.0000 0.0000 1.0000\n"), std::string::npos);
-    EXPECT_NE(obj.find("usemtl fill-blend\n"), std::string::npos);
+    EXPECT_TRUE(has(obj, " 1.0000 0.0000 0.0000\n"));
+    EXPECT_TRUE(has(obj, " 0.0000 0.0000 1.0000\n"));
+    EXPECT_TRUE(has(obj, "usemtl fill-blend\n"));
     write_model(scene, print, PrintFormat::glb, folder.file("c.glb"));
     const std::string glb = contents(folder.file("c.glb"));
-    EXPECT_NE(glb.find("\"COLOR_0\":"), std::string::npos);
+    EXPECT_TRUE(has(glb, "\"COLOR_0\":"));
     EXPECT_EQ(glb.size() % 4, 0u);
 }
 
@@ -618,8 +619,7 @@ TEST(Model, GlbHoldsWhatObjHolds) {
     EXPECT_EQ(obj.faces.size(), obj_report.triangles);
     EXPECT_EQ(obj.materials.size(), 4u);
     const std::string materials = contents(folder.file("b.mtl"));
-    for (const std::string& name : obj.materials)
-        EXPECT_NE(materials.find("newmtl " + name + "\n"), std::string::npos);
+    for (const std::string& name : obj.materials) EXPECT_TRUE(has(materials, "newmtl " + name + "\n"));
 
     const std::string glb = contents(folder.file("b.glb"));
     const auto number = [&](std::size_t at) {
@@ -635,7 +635,7 @@ TEST(Model, GlbHoldsWhatObjHolds) {
     const std::size_t json = number(12), binary = 20 + json;
     EXPECT_EQ(glb.substr(binary + 4, 4), std::string("BIN\0", 4));
     EXPECT_EQ(number(binary), glb.size() - binary - 8);
-    EXPECT_NE(glb.substr(20, json).find("\"A \\\"plant\\\"\""), std::string::npos);
+    EXPECT_TRUE(has(glb.substr(20, json), "\"A \\\"plant\\\"\""));
     // The first floats are those of the first vertex.
     float first[3];
     std::memcpy(first, glb.data() + binary + 8, sizeof(first));

@@ -3,6 +3,7 @@
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/lettering.h"
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <algorithm>
@@ -287,7 +288,7 @@ TEST_F(Sheets, ATransparentSheetStaysSo) {
     options_.ground.reset();
     write(four(), "sheet.png");
     const ToolOutcome info = run("oiiotool --info '" + folder_.file("sheet.png") + "'");
-    EXPECT_NE(info.text.find("4 channel"), std::string::npos) << info.text;
+    EXPECT_TRUE(has(info.text, "4 channel"));
 }
 
 TEST_F(Sheets, PdfIsSound) {
@@ -315,7 +316,7 @@ TEST_F(Sheets, WhatIsLargerThanItsCellIsCutOff) {
             ASSERT_TRUE(near(pixels.at(at(x), at(window.top + window.height / 2)), *options_.ground)) << name << x;
         }
     }
-    EXPECT_NE(contents(folder_ / "sheet.svg").find("<clipPath id=\"window2\">"), std::string::npos);
+    EXPECT_TRUE(has(contents(folder_ / "sheet.svg"), "<clipPath id=\"window2\">"));
 }
 
 TEST_F(Sheets, GenerationsAreRowsWithHeadings) {
@@ -400,19 +401,14 @@ TEST_F(Sheets, CaptionsTellWhatAPatternIs) {
 
 TEST_F(Sheets, FailuresNameTheCellOrTheFile) {
     const auto message = [&](const std::vector<SheetCell>& cells, const std::string& name) -> std::string {
-        try {
-            write(cells, name);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "";
+        return error_of<std::runtime_error>([&] { write(cells, name); });
     };
     for (const std::string name : {"sheet.svg", "sheet.pdf", "sheet.png"}) {
-        EXPECT_NE(message(four(), "missing/" + name).find("missing/" + name), std::string::npos);
+        EXPECT_TRUE(has(message(four(), "missing/" + name), "missing/" + name));
         EXPECT_NE(message({}, name), "");
         EXPECT_TRUE(message({cell(kolam), cell("axiom: f\n", "Empty one")}, name).starts_with("'Empty one': "));
         options_.page = {20.0, 20.0, 8.0};
-        EXPECT_NE(message(four(), name).find("do not fit"), std::string::npos);
+        EXPECT_TRUE(has(message(four(), name), "do not fit"));
         options_.page = {120.0, 160.0, 8.0};
     }
     SheetCell endless = cell(kolam, "Endless");
@@ -430,7 +426,7 @@ TEST_F(Sheets, CellsAreSeenThroughWindowsAndAtAnyOrder) {
     for (const std::string name : {"sheet.svg", "sheet.pdf", "sheet.png"}) {
         EXPECT_NO_THROW(write({window, cell(tiles)}, name)) << name;
     }
-    EXPECT_NE(contents(folder_ / "sheet.svg").find("<clipPath id=\"window1\">"), std::string::npos);
+    EXPECT_TRUE(has(contents(folder_ / "sheet.svg"), "<clipPath id=\"window1\">"));
     write({large, cell(tiles)}, "large.png");
     EXPECT_THROW(write({large, cell(tiles)}, "large.svg"), BudgetError);
     options_.memory = 1e6;

@@ -1,6 +1,7 @@
 // Several documents on one sheet: places, options of each drawing, every format.
 #include "art/sheets.h"
 
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 #include "tests/tools.h"
 
@@ -29,12 +30,6 @@ std::string made(const std::vector<SheetItem>& items, const std::string& format,
     values.push_back({"dpi", "50"});
     plan_sheet(items, format, values)->make(memory, "sheet." + format, {});
     return memory.outputs().at("sheet." + format);
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
-    return found;
 }
 
 /// The grounds of the cells of an SVG, in millimetres.
@@ -92,14 +87,14 @@ TEST(SeveralDrawings, HaveOptionsOfTheirOwn) {
         return made({item(kolam, std::move(first)), item(kolam)}, "svg", std::move(all));
     };
     const std::string plain = made_with({}, {});
-    const std::size_t one = count(made_with({{"dots", ""}}, {}), "<circle");
-    EXPECT_EQ(count(plain, "<circle"), 0u);
+    const std::size_t one = count_of(made_with({{"dots", ""}}, {}), "<circle");
+    EXPECT_EQ(count_of(plain, "<circle"), 0u);
     EXPECT_GT(one, 0u);
-    EXPECT_EQ(count(made_with({}, {{"dots", ""}}), "<circle"), 2 * one);
+    EXPECT_EQ(count_of(made_with({}, {{"dots", ""}}), "<circle"), 2 * one);
     // A value of a drawing comes before that of all; keys of its pattern are values, too.
-    EXPECT_NE(made_with({{"stroke", "1mm lime"}}, {{"stroke", "1mm navy"}}).find("#00ff00"), std::string::npos);
+    EXPECT_TRUE(has(made_with({{"stroke", "1mm lime"}}, {{"stroke", "1mm navy"}}), "#00ff00"));
     EXPECT_NE(made_with({{"derivation length", "2"}}, {}), plain);
-    EXPECT_GT(count(made_with({{"repeat", "frieze:3"}}, {}), "<path"), count(plain, "<path"));
+    EXPECT_GT(count_of(made_with({{"repeat", "frieze:3"}}, {}), "<path"), count_of(plain, "<path"));
     EXPECT_NE(made_with({}, {{"titles", "title"}}), plain);
     EXPECT_NE(made_with({{"title", "Mine"}}, {}), plain);
     EXPECT_THROW(made_with({{"size", "A3"}}, {}), SettingError);
@@ -146,10 +141,10 @@ TEST(SeveralDrawings, ArePlottedInTheirPlaces) {
 TEST(SeveralDrawings, NameTheirTiles) {
     const std::string tile = "axiom: {F+F+F+F}\nangle increment: 90\nfill: #ff0000\n";
     const std::string svg = made({item(tile), item(tile)}, "svg", {{"name-tiles", "true"}});
-    EXPECT_EQ(count(svg, "id=\"t1\" class=\"shape-1 "), 1u) << svg;
-    EXPECT_EQ(count(svg, "id=\"t2\" class=\"shape-1 "), 1u) << svg;
+    EXPECT_EQ(count_of(svg, "id=\"t1\" class=\"shape-1 "), 1u) << svg;
+    EXPECT_EQ(count_of(svg, "id=\"t2\" class=\"shape-1 "), 1u) << svg;
     const std::string dxf = made({item(tile), item(tile)}, "dxf", {{"name-tiles", "true"}});
-    EXPECT_EQ(count(dxf, "POLYLINE\n8\nSHAPE-1-FF0000\n"), 2u) << dxf;
+    EXPECT_EQ(count_of(dxf, "POLYLINE\n8\nSHAPE-1-FF0000\n"), 2u) << dxf;
 }
 
 TEST(SeveralDrawings, LookTheSameInPicturesAndVectors) {
@@ -207,7 +202,7 @@ TEST(SeveralDrawings, ShareAScaleOrADotSpacing) {
     EXPECT_NE(steps({}), steps({{"same-scale", "true"}}));
     const std::string spaced = made({item(kolam), item(kolam, {{"derivation length", "2"}})}, "svg",
                                     {{"dot-spacing", "4mm"}, {"size", "A2"}});
-    EXPECT_GT(count(spaced, "<circle"), 20u);
+    EXPECT_GT(count_of(spaced, "<circle"), 20u);
 }
 
 }  // namespace

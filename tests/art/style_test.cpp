@@ -2,6 +2,7 @@
 
 #include "art/style/powders.h"
 #include "engine/base/keys.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -181,7 +182,7 @@ TEST_P(BadStyle, IsReportedAtItsPlace) {
     const auto [style, errors] = read("axiom: F\n" + GetParam().text + "\n");
     ASSERT_EQ(errors.size(), 1u);
     EXPECT_EQ(errors[0].where, (Place{2, GetParam().column})) << errors[0].text();
-    EXPECT_NE(errors[0].message.find(GetParam().message), std::string::npos) << errors[0].text();
+    EXPECT_TRUE(has(errors[0].message, GetParam().message)) << errors[0].text();
     EXPECT_FALSE(errors[0].warning);
 }
 
@@ -243,7 +244,7 @@ TEST(Style, SplinesMayLiftThePenWhereTheTurtleMoves) {
     for (const char* bad : {"spline with", "spline lifts", "spline with lifts too", "straight with lifts"}) {
         const auto [style, errors] = read(std::string("axiom: F\nline: ") + bad + "\n");
         ASSERT_EQ(errors.size(), 1u) << bad;
-        EXPECT_NE(errors[0].message.find("'spline with lifts'"), std::string::npos) << errors[0].message;
+        EXPECT_TRUE(has(errors[0].message, "'spline with lifts'"));
     }
 }
 
@@ -261,7 +262,7 @@ TEST(Style, ReadsFields) {
           std::pair("red", "by distance"), std::pair("kind red", "unexpected 'red'")}) {
         const auto [style, errors] = read(std::string("axiom: F\nfields: ") + bad + "\n");
         ASSERT_EQ(errors.size(), 1u) << bad;
-        EXPECT_NE(errors[0].message.find(essence), std::string::npos) << errors[0].message;
+        EXPECT_TRUE(has(errors[0].message, essence));
     }
 }
 
@@ -278,14 +279,14 @@ TEST(Style, ReadsPowders) {
                                        std::pair("red lotus", "did you mean"), std::pair("#12", "hexadecimal")}) {
         const auto [style, errors] = read(std::string("axiom: F\npowders: ") + bad + "\n");
         ASSERT_EQ(errors.size(), 1u) << bad;
-        EXPECT_NE(errors[0].message.find(essence), std::string::npos) << errors[0].message;
+        EXPECT_TRUE(has(errors[0].message, essence));
     }
 }
 
 TEST(Style, SetsOfPowdersAreListedAndTellApart) {
     const std::string listed(find_language_key("powders")->values);
     for (const std::string_view name : powder_names()) {
-        EXPECT_NE(listed.find(name), std::string::npos) << name;
+        EXPECT_TRUE(has(listed, name)) << name;
         const auto colours = *find_powders(name);
         EXPECT_GE(colours.size(), 6u);
         for (std::size_t i = 0; i < colours.size(); ++i) {

@@ -4,6 +4,7 @@
 #include "art/prints.h"
 #include "art/raster/raster.h"
 #include "art/writer/draw.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/print_tools.h"
 
@@ -325,8 +326,7 @@ TEST(Swatch, IsAParallelogramWhereThereIsNoRectangle) {
 
 TEST(Swatch, IsRefusedWithAReason) {
     // A patch proves nothing about the rest of a tiling.
-    EXPECT_NE(refusal(load("penrose-rhombs")).find("; its shapes tend to the ratio τ, which is irrational"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal(load("penrose-rhombs")), "; its shapes tend to the ratio τ, which is irrational"));
     for (const char* name :
          {"hat", "spectre", "pinwheel", "chair", "ammann-beenker", "half-hex", "sphinx", "penrose-rhombs"}) {
         const std::string reason = refusal(load(name));
@@ -336,8 +336,8 @@ TEST(Swatch, IsRefusedWithAReason) {
     for (const char* name : {"fibonacci-spiral", "padovan-spiral"}) {
         const std::string reason = refusal(load(name));
         EXPECT_EQ(reason.find("swatch: found no period in "), 0U) << reason;
-        EXPECT_NE(reason.find("; longer ones: positions of up to "), std::string::npos) << reason;
-        EXPECT_EQ(reason.find("overlap"), std::string::npos) << reason;
+        EXPECT_TRUE(has(reason, "; longer ones: positions of up to "));
+        EXPECT_FALSE(has(reason, "overlap"));
     }
     EXPECT_EQ(refusal(load("hilbert")),
               "swatch: this drawing has no tiles, which are closed polygons between { and }");

@@ -1,5 +1,6 @@
 // Lists of pieces and templates: against counts from the literature, areas of outlines, and an independent offset.
 #include "art/cutting/tile_templates.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -63,8 +64,8 @@ TEST(CutList, CountsPiecesByShapeHandAndColour) {
 TEST(CutList, TextAndJsonStateTheSums) {
     const TilingResult result = examined("penrose-rhombs", "3");
     const std::string text = cut_list_text("Penrose", 3, result, 40);
-    EXPECT_NE(text.find("65 pieces, 843.79 cm2"), std::string::npos) << text;
-    EXPECT_NE(cut_list_json("Penrose", 3, result, 40).find("\"pieces\": 65, \"violations\": 0, "), std::string::npos);
+    EXPECT_TRUE(has(text, "65 pieces, 843.79 cm2"));
+    EXPECT_TRUE(has(cut_list_json("Penrose", 3, result, 40), "\"pieces\": 65, \"violations\": 0, "));
 }
 
 TEST(TileTemplates, OutlinesKeepTheirDistance) {
@@ -112,8 +113,8 @@ TEST(TileTemplates, FilesContainOneOutlineForEachShapeAndHand) {
             ++outlines;
         }
         EXPECT_EQ(outlines, 2U);
-        EXPECT_NE(bytes.find("\nSEAM\n"), std::string::npos);
-        EXPECT_NE(bytes.find("\nLABEL\n"), std::string::npos);
+        EXPECT_TRUE(has(bytes, "\nSEAM\n"));
+        EXPECT_TRUE(has(bytes, "\nLABEL\n"));
     }
     MemoryDestination memory;
     EXPECT_THROW(write_templates({}, {}, writing, "a.svg", memory), std::runtime_error);

@@ -4,6 +4,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/tiling.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -105,8 +106,8 @@ TEST(TileWorms, InPenroseTilingsAreFibonacciWords) {
             link = next;
         }
         EXPECT_EQ(word.size(), meeting.front()->length);
-        EXPECT_EQ(word.find("SS"), std::string::npos) << word;
-        EXPECT_EQ(word.find("LLL"), std::string::npos) << word;
+        EXPECT_FALSE(has(word, "SS"));
+        EXPECT_FALSE(has(word, "LLL"));
         most = std::max(most, word.size());
     }
     EXPECT_EQ(seen.size(), links.size());

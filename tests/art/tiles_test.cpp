@@ -4,6 +4,7 @@
 #include "art/print/clip.h"
 #include "art/prints.h"
 #include "engine/base/output.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -152,7 +153,7 @@ TEST(Tiles, PdfHasAnOverviewAndAPageForEachSheet) {
     const Made made = prints().plan(document, "pdf", values)->make(memory, "kolam.pdf", {});
     ASSERT_EQ(memory.outputs().size(), 1u);
     const std::string pdf = memory.take("kolam.pdf");
-    EXPECT_NE(pdf.find("/Count 10 "), std::string::npos);
+    EXPECT_TRUE(has(pdf, "/Count 10 "));
     const auto count = [&](const std::string& text) {
         int found = 0;
         for (std::size_t at = 0; (at = pdf.find(text, at)) != std::string::npos; ++at) ++found;

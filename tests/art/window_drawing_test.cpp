@@ -6,6 +6,7 @@
 #include "art/prints.h"
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/turtle.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/print_tools.h"
 #include "tests/reference.h"
@@ -212,7 +213,7 @@ TEST(WindowDrawing, FillsPages) {
         EXPECT_NEAR(area, 34 * 24, 1e-5) << name << " at " << number(at.x0) << ' ' << number(at.y0);
     }
     EXPECT_FALSE(filled("chair", {3e4, 2e4}, why));
-    EXPECT_NE(why.find("square steps"), std::string::npos);
+    EXPECT_TRUE(has(why, "square steps"));
     // Unit squares in the places of chairs leave gaps.
     std::string squares = contents(bundled("tilings/chair"));
     for (std::size_t at; (at = squares.find("{FF+F+F-F+F+FF;")) != std::string::npos;) {
@@ -220,9 +221,7 @@ TEST(WindowDrawing, FillsPages) {
     }
     EXPECT_FALSE(
         find_filled_page(parse("squares.lsys", squares).grammar(), plain_print().style, {30, 20}, 2, {}, why));
-    EXPECT_NE(why.find("cover no place of this size up to a derivation length of 93; beyond it, at n = 103"),
-              std::string::npos)
-        << why;
+    EXPECT_TRUE(has(why, "cover no place of this size up to a derivation length of 93; beyond it, at n = 103"));
     for (const char* name : {"curves/hilbert", "kolams/snake-kolam"}) {
         const auto grammar = load(bundled(name)).grammar();
         EXPECT_FALSE(find_filled_page(grammar, plain_print().style, {30, 20}, 2, {}, why)) << name;
@@ -285,29 +284,22 @@ TEST(WindowDrawing, RefusesPlacesThatAreNotPrecise) {
     std::string why;
     EXPECT_FALSE(WindowDrawing::make(tiling("pinwheel", "40"), plain_print().style,
                                      window_options("10000000,5,10000030,25"), Reading{}, why));
-    EXPECT_NE(why.find("decimal lengths"), std::string::npos) << why;
-    try {
-        draw(load(bundled("tilings/pinwheel")), "svg", {{"derivation length", "40"}, {"window", "5,5,25,25"}});
-        FAIL();
-    } catch (const std::exception& error) {
-        EXPECT_NE(std::string(error.what()).find("a smaller derivation length"), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(has(why, "decimal lengths"));
+    EXPECT_TRUE(has(
+        error_of([&] {
+            draw(load(bundled("tilings/pinwheel")), "svg", {{"derivation length", "40"}, {"window", "5,5,25,25"}});
+        }),
+        "a smaller derivation length"));
 }
 
 TEST(WindowDrawing, SaysWhyPartsCannotBeFound) {
     const auto message = [](const std::string& text) {
-        try {
-            draw(parse("test.lsys", text), "svg", {{"window", "0,0,10,10"}});
-        } catch (const std::exception& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return error_of([&] { draw(parse("test.lsys", text), "svg", {{"window", "0,0,10,10"}}); });
     };
     const std::string square = "derivation length: 60\nangle increment: 90\n";
-    EXPECT_NE(message("axiom: {A}\nA --> AF+A\n" + square).find("10,000 symbols"), std::string::npos);
-    EXPECT_NE(message("axiom: A\nA --> A;A{F+F+F}\n" + square).find("10,000 symbols"), std::string::npos);
-    EXPECT_NE(message("axiom: A\nA --> A{F+F+F}A\nline: spline\n" + square).find("need the whole drawing"),
-              std::string::npos);
+    EXPECT_TRUE(has(message("axiom: {A}\nA --> AF+A\n" + square), "10,000 symbols"));
+    EXPECT_TRUE(has(message("axiom: A\nA --> A;A{F+F+F}\n" + square), "10,000 symbols"));
+    EXPECT_TRUE(has(message("axiom: A\nA --> A{F+F+F}A\nline: spline\n" + square), "need the whole drawing"));
     // Nothing is there.
     EXPECT_EQ(message("axiom: A\nA --> [{F+F+F}]fA\n" + square), "");
 }

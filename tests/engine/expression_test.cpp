@@ -1,4 +1,5 @@
 #include "engine/language/expression.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -43,7 +44,7 @@ void expect_mistake(const std::string& text, int column, const std::string& esse
     const auto compiled = compile(text);
     ASSERT_EQ(compiled.errors.size(), 1u) << text;
     EXPECT_EQ(compiled.errors[0].where, (Place{1, column})) << compiled.errors[0].text();
-    EXPECT_NE(compiled.errors[0].message.find(essence), std::string::npos) << compiled.errors[0].text();
+    EXPECT_TRUE(has(compiled.errors[0].message, essence)) << compiled.errors[0].text();
 }
 
 TEST(Expression, OperatorsBindAsTheLanguageSays) {

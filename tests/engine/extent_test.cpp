@@ -1,7 +1,6 @@
 #include "engine/measure/extent.h"
 
 #include "engine/base/integer.h"
-
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

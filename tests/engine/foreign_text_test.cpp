@@ -4,6 +4,7 @@
 
 #include "engine/language/foreign_line.h"
 #include "engine/language/grammar.h"
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +61,7 @@ TEST(ForeignLine, ArrowsOfOtherNotationsBecomeThatOfPatterns) {
                              "addRule('X', 'F+X');",
                              "setProduction(\"X\", \"F+X\")"}) {
         EXPECT_EQ(advice(line), std::vector<std::string>{"X --> F+X"}) << line;
-        EXPECT_NE(answer(line).find("write 'X --> F+X'"), std::string::npos) << line << '\n' << answer(line);
+        EXPECT_TRUE(has(answer(line), "write 'X --> F+X'")) << line << '\n' << answer(line);
     }
     EXPECT_EQ(answer("X → F+X"), "'→' is not the arrow of a production; write 'X --> F+X'\n");
     EXPECT_EQ(answer("X=F+X"), "expected 'key: value' or a production with '-->'; write 'X --> F+X'\n");
@@ -106,12 +107,12 @@ TEST(ForeignLine, KeysOfOtherPrograms) {
     };
     for (const auto& [line, expected] : rows) {
         EXPECT_EQ(advice(line), std::vector<std::string>{expected}) << line;
-        EXPECT_NE(answer(line).find("write '" + expected + "'"), std::string::npos) << answer(line);
+        EXPECT_TRUE(has(answer(line), "write '" + expected + "'"));
     }
     EXPECT_EQ(answer("iterations: 5"), "unknown key 'iterations'; write 'derivation length: 5'\n");
     EXPECT_EQ(answer("angle increment: 25°"), "degrees are a plain number; write 'angle increment: 25'\n");
     EXPECT_EQ(answer("heading: 90 degrees"), "degrees are a plain number; write 'heading: 90'\n");
-    EXPECT_NE(answer("angle increment: wide").find("expected degrees"), std::string::npos);
+    EXPECT_TRUE(has(answer("angle increment: wide"), "expected degrees"));
     // Advice does not repeat a value that is not understood.
     EXPECT_EQ(answer("angle: PI/6"), "unknown key 'angle'; did you mean 'angle increment'?\n");
     EXPECT_EQ(answer("angel: 25"), "unknown key 'angel'; did you mean 'angle increment'?\n");
@@ -136,7 +137,7 @@ TEST(ForeignLine, ListsAreSplit) {
 TEST(ForeignLine, NeedlessLinesAreLeftOut) {
     for (const char* line : {"variables: X F", "constants : + − [ ]", "alphabet: A, B",
                              "rules:", "config:", "step = 5", "rules = {", "production:"}) {
-        EXPECT_NE(answer(line).find("leave this line out"), std::string::npos) << line << '\n' << answer(line);
+        EXPECT_TRUE(has(answer(line), "leave this line out")) << line << '\n' << answer(line);
     }
 }
 
@@ -205,7 +206,7 @@ TEST(ForeignLine, NumbersOfItemsAreNotPartsOfProductions) {
     for (const char* line : {"1. X -> F+X", "2) X → F+X", "(3) X = F+X", "1. X --> F+X", "12. X: F+X", "1) X --> F+X",
                              "1: X --> F+X", "1: X -> F+X", "• X → F+X", "rule: 1. X → F+X"}) {
         const std::string message = answer(line);
-        EXPECT_NE(message.find("write 'X --> F+X'"), std::string::npos) << line << '\n' << message;
+        EXPECT_TRUE(has(message, "write 'X --> F+X'")) << line << '\n' << message;
     }
     expect_mistakes("axiom: F\n1. F --> F+F\n",
                     {{{2, 1}, "'1.' is not a predecessor: productions have no numbers; write 'F --> F+F'"}});
@@ -267,11 +268,11 @@ TEST(ForeignLine, WhatIsOfferedIsAccepted) {
         answer("F -> >F<"),
         "'->' is not the arrow of a production; '>' is not a symbol; branches stand in [ ], and a step takes its "
         "length as a parameter: F(1.36*x)\n");
-    EXPECT_EQ(answer("F = >F<").find("write"), std::string::npos);
-    EXPECT_EQ(answer("<img src=\"a.png\" width=\"2\">").find("write"), std::string::npos);
+    EXPECT_FALSE(has(answer("F = >F<"), "write"));
+    EXPECT_FALSE(has(answer("<img src=\"a.png\" width=\"2\">"), "write"));
     // The valid items of a list are offered; names that other lines may define are accepted.
     EXPECT_EQ(advice("rules: (F → >F<), (G → FF)"), std::vector<std::string>{"G --> FF"});
-    EXPECT_NE(answer("rules: (F → >F<), (G → FF)").find("'>' is not a symbol"), std::string::npos);
+    EXPECT_TRUE(has(answer("rules: (F → >F<), (G → FF)"), "'>' is not a symbol"));
     EXPECT_EQ(advice("A(x) : x > K → B(x/R)"), std::vector<std::string>{"A(x) : x > K --> B(x/R)"});
     // An axiom with errors is not missing, too.
     EXPECT_EQ(diagnostics_of("axiom = <F>\nF --> FF\n").size(), 1U);
@@ -310,7 +311,7 @@ TEST(LateRemark, OtherMarksOfCommentsAreWarnedOf) {
         ASSERT_EQ(found.size(), 1U) << line;
         EXPECT_TRUE(found[0].warning);
         EXPECT_EQ(found[0].where.column, 11) << line;
-        EXPECT_NE(found[0].message.find("does not begin a comment"), std::string::npos);
+        EXPECT_TRUE(has(found[0].message, "does not begin a comment"));
     }
     EXPECT_EQ(diagnostics_of("axiom: F # the beginning\n").size(), 1U);
     // The turtle's own signs.
@@ -327,7 +328,7 @@ TEST(LateRemark, MarksWithoutABlankAfterThem) {
         ASSERT_EQ(found.size(), 1U) << line;
         EXPECT_TRUE(found[0].warning);
         EXPECT_EQ(found[0].where.column, 11) << line;
-        EXPECT_NE(found[0].message.find("does not begin a comment"), std::string::npos);
+        EXPECT_TRUE(has(found[0].message, "does not begin a comment"));
     }
     EXPECT_EQ(diagnostics_of("axiom: F #start\n").size(), 1U);
     // Symbols of the turtle and of the system.

@@ -1,5 +1,6 @@
 #include "engine/language/grammar.h"
 
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -367,7 +368,7 @@ TEST(Defines, MistakesAreToldOnce) {
         const auto found = diagnostics_of("axiom: A\n" + std::string(cycle));
         ASSERT_FALSE(found.empty());
         for (const Diagnostic& diagnostic : found) {
-            EXPECT_NE(diagnostic.message.find("refers to itself"), std::string::npos) << diagnostic.text();
+            EXPECT_TRUE(has(diagnostic.message, "refers to itself")) << diagnostic.text();
             EXPECT_EQ(diagnostic.where.column, 8);
         }
     }

@@ -3,10 +3,11 @@
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"
+#include "tests/checks.h"
+#include "tests/files.h"
 #include "tests/fuzz/targets.h"
 #include "tests/import_tools.h"
 #include "tests/module_reference.h"
-#include "tests/program.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -65,8 +66,8 @@ TEST(ImportCpfg, RollsInWordsAreNoComments) {
     const ImportedSystem bush = cpfg(
         "Lsystem: 1 // figure 1.25\n// by hand\nderivation length: 2\nAxiom: A\n"
         "A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]\nF --> S/////F // grows\nS --> FL\nendlsystem\n");
-    EXPECT_TRUE(has(bush.pattern, "A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]\n")) << bush.pattern;
-    EXPECT_TRUE(has(bush.pattern, "F --> S/////F\n")) << bush.pattern;
+    EXPECT_TRUE(has(bush.pattern, "A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]\n"));
+    EXPECT_TRUE(has(bush.pattern, "F --> S/////F\n"));
 }
 
 TEST(ImportCpfg, ContextsAndCuts) {

@@ -3,10 +3,10 @@
 #include "engine/import/import.h"
 
 #include "engine/geometry/space_turtle.h"
+#include "tests/checks.h"
 #include "tests/fuzz/targets.h"
 #include "tests/import_tools.h"
 #include "tests/module_reference.h"
-#include "tests/program.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -302,7 +302,7 @@ TEST(ImportFractint, FactorsThatCancelLeaveNothing) {
           "A {\nangle 6\naxiom F\nF=F-@2F@3F-@I6F\n}\n", "A {\nangle 6\naxiom F\nF=F+@IQ3F@Q3-F\n}\n",
           "A {\nangle 4\naxiom F\nF=F@.6F@0.5F-@I.30F\n}\n"}) {
         const std::string pattern = imported(entry);
-        EXPECT_FALSE(has(pattern, "schedule:")) << pattern;
+        EXPECT_FALSE(has(pattern, "schedule:"));
         for (int order = 0; order < 5; ++order) expect_same_picture(entry, pattern, order);
         EXPECT_TRUE(grammar_of(pattern).with_steps(60));
     }

@@ -3,6 +3,7 @@
 #include "art/style/style.h"
 #include "engine/language/document.h"
 #include "music/melody/melody.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ TEST(Keys, AreTheRowsOfTheManual) {
     for (const KeyInfo& key : language_keys()) {
         const std::string row =
             fmt::format("\n| `{}` | {} | {} | {} |\n", key.name, key.values, key.if_absent, key.help);
-        EXPECT_NE(manual.find(row), std::string::npos) << "docs/language.md lacks this row:" << row;
+        EXPECT_TRUE(has(manual, row)) << "docs/language.md lacks this row:" << row;
     }
 }
 
@@ -80,12 +81,8 @@ TEST(Document, IsLoadedByNameOrPath) {
     ASSERT_NE(library.find("snake-kolam"), nullptr);
     EXPECT_EQ(library.find("snake-kolam")->kind, "kolams");
     EXPECT_EQ(load(library.find("hilbert")->file.string()).text("title"), "Hilbert curve");
-    try {
-        load("snake-kolan", {}, library);
-        FAIL();
-    } catch (const NotFound& error) {
-        EXPECT_STREQ(error.what(), "no file or pattern named 'snake-kolan'; did you mean 'snake-kolam'?");
-    }
+    EXPECT_EQ(error_of<NotFound>([&] { load("snake-kolan", {}, library); }),
+              "no file or pattern named 'snake-kolan'; did you mean 'snake-kolam'?");
 }
 
 }  // namespace

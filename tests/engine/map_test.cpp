@@ -4,6 +4,7 @@
 #include "engine/derivation/forecast.h"
 #include "engine/map/map_step.h"
 #include "engine/measure/fold.h"
+#include "tests/checks.h"
 #include "tests/maps.h"
 #include "tests/sha256.h"
 

@@ -2,6 +2,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/origins.h"
 #include "engine/language/document.h"
+#include "tests/checks.h"
 #include "tests/module_reference.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +63,8 @@ TEST(Mirror, LeavesStatedProductionsAlone) {
 TEST(Mirror, MakesTheChoicesOfThePartner) {
     const std::string text = "mirror: A a\nseed: 5\naxiom: AaAaAaAa\nA --> A+ : 0.5\nA --> -A : 0.5\n";
     const std::string found = word(text, 1);
-    EXPECT_NE(found.find("a-"), std::string::npos) << found;
-    EXPECT_NE(found.find("+a"), std::string::npos) << found;
+    EXPECT_TRUE(has(found, "a-"));
+    EXPECT_TRUE(has(found, "+a"));
 }
 
 /// The symbols of a mirrored production come from the text that it mirrors.

@@ -1,6 +1,7 @@
 // Parameters, chance, cuts and contexts with brackets: against a second algorithm, and as they are published.
 #include "engine/derivation/forecast.h"
 #include "engine/measure/extent.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 
@@ -539,12 +540,7 @@ TEST(ModuleMistakes, HostileFilesAreReadQuickly) {
 
 TEST(ModuleMistakes, WeightsAreToldWithTheSymbolsPosition) {
     const auto message = [](const std::string& text) -> std::string {
-        try {
-            derived_modules(text);
-        } catch (const WordError& error) {
-            return error.what();
-        }
-        return "";
+        return error_of<WordError>([&] { derived_modules(text); });
     };
     const std::string weights = "A(x) --> B : x\nA(x) --> C : 2*x\nderivation length: 1\naxiom: ";
     EXPECT_EQ(message(weights + "FA(1)A(0)F\n"),
@@ -604,12 +600,9 @@ TEST(ModuleTurtle, ParametersAreStepsAnglesWidthsAndColours) {
 
 TEST(ModuleTurtle, WhatIsNotFiniteIsToldWithItsPosition) {
     const auto message = [](const std::string& successor) -> std::string {
-        try {
+        return error_of<WordError>([&] {
             reference::survey_of(grammar_of("axiom: FA(0)\nderivation length: 1\nA(x) --> " + successor + "\n"));
-        } catch (const WordError& error) {
-            return error.what();
-        }
-        return "";
+        });
     };
     EXPECT_EQ(message("F(1)F(1/x)"), "symbol 3 of the word: its parameter is not finite");
     EXPECT_EQ(message("+(log(x))"), "symbol 2 of the word: its parameter is not finite");

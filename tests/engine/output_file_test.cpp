@@ -1,5 +1,6 @@
 #include "engine/base/output_file.h"
 
+#include "tests/checks.h"
 #include "tests/print_tools.h"
 
 #include <sys/mount.h>
@@ -22,18 +23,8 @@ mode_t mode_of(const fs::path& path) {
     return status.st_mode & 0777;
 }
 
-/// What it says when `action` fails, or "" if it does not.
-template <typename Action>
-std::string complaint(Action&& action) {
-    try {
-        action();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "";
-}
 std::string complaint_of_writing(const fs::path& path, std::size_t bytes = 10) {
-    return complaint([&] {
+    return error_of([&] {
         OutputFile file(path);
         file.write(std::string(bytes, 'x'));
         file.commit();
@@ -159,7 +150,7 @@ TEST(OutputFile, SymbolicLinksAreFollowed) {
         EXPECT_EQ(contents(folder / ("deep/" + name)), "xxxxxxxxxx");
     }
     fs::create_symlink("self", folder / "self");
-    EXPECT_NE(complaint_of_writing(folder / "self").find("symbolic links"), std::string::npos);
+    EXPECT_TRUE(has(complaint_of_writing(folder / "self"), "symbolic links"));
 }
 
 TEST(OutputFile, LinksThatAppearLaterAreNotFollowed) {
@@ -180,7 +171,7 @@ TEST(OutputFile, LinksThatAppearLaterAreNotFollowed) {
         const fs::path temporary = file.temporary();
         fs::remove(temporary);
         fs::create_symlink("precious", temporary);
-        EXPECT_NE(complaint([&] { file.commit(); }).find("symbolic links"), std::string::npos);
+        EXPECT_TRUE(has(error_of([&] { file.commit(); }), "symbolic links"));
     }
     EXPECT_EQ(contents(folder / "target"), "new");
     EXPECT_EQ(contents(folder / "precious"), "mine");
@@ -197,7 +188,7 @@ TEST(OutputFile, CommitSynchronisesTheDescriptorThatWasWritten) {
         // No further file can be opened.
         const rlimit none{0, 0};
         if (::setrlimit(RLIMIT_NOFILE, &none) != 0) ::_exit(3);
-        ::_exit(complaint([&] { file.commit(); }).empty() ? 0 : 4);
+        ::_exit(error_of([&] { file.commit(); }).empty() ? 0 : 4);
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -210,11 +201,11 @@ TEST(OutputFile, FailuresNameTheTargetAndTheCause) {
     std::ofstream(folder / "file") << "old";
     const std::string missing = (folder / "no/such/a.svg").string();
     EXPECT_EQ(complaint_of_writing(missing), "cannot write '" + missing + "': No such file or directory");
-    EXPECT_NE(complaint_of_writing(folder.path()).find("Is a directory"), std::string::npos);
-    EXPECT_NE(complaint_of_writing(folder / "new/").find("Is a directory"), std::string::npos);
-    EXPECT_NE(complaint_of_writing(folder / "file/a").find("Not a directory"), std::string::npos);
-    EXPECT_NE(complaint_of_writing(folder / std::string(300, 'n')).find("name too long"), std::string::npos);
-    EXPECT_NE(complaint_of_writing("").find("No such file"), std::string::npos);
+    EXPECT_TRUE(has(complaint_of_writing(folder.path()), "Is a directory"));
+    EXPECT_TRUE(has(complaint_of_writing(folder / "new/"), "Is a directory"));
+    EXPECT_TRUE(has(complaint_of_writing(folder / "file/a"), "Not a directory"));
+    EXPECT_TRUE(has(complaint_of_writing(folder / std::string(300, 'n')), "name too long"));
+    EXPECT_TRUE(has(complaint_of_writing(""), "No such file"));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"file"});
 }
 
@@ -255,11 +246,11 @@ TEST(OutputFile, WhatMayNotBeWrittenIsLeftAlone) {
     const ScratchFolder folder;
     std::ofstream(folder / "read_only") << "old";
     ASSERT_EQ(::chmod((folder / "read_only").c_str(), 0444), 0);
-    EXPECT_NE(complaint_of_writing(folder / "read_only").find("Permission denied"), std::string::npos);
+    EXPECT_TRUE(has(complaint_of_writing(folder / "read_only"), "Permission denied"));
     EXPECT_EQ(contents(folder / "read_only"), "old");
     fs::create_directory(folder / "closed");
     ASSERT_EQ(::chmod((folder / "closed").c_str(), 0555), 0);
-    EXPECT_NE(complaint_of_writing(folder / "closed/a").find("Permission denied"), std::string::npos);
+    EXPECT_TRUE(has(complaint_of_writing(folder / "closed/a"), "Permission denied"));
 }
 
 TEST(OutputFile, AFullDiskIsReportedAndLeavesNothing) {
@@ -272,12 +263,12 @@ TEST(OutputFile, AFullDiskIsReportedAndLeavesNothing) {
     EXPECT_EQ(complaint_of_writing(folder / "old", 5 << 20),
               "cannot write '" + (folder / "old").string() + "': No space left on device");
     EXPECT_EQ(contents(folder / "old"), "old");
-    EXPECT_NE(complaint([&] {
-                  OutputFile file(folder / "inserted");
-                  file.write(std::string(700'000, 'x'));
-                  file.insert(3, std::string(700'000, 'y'));
-              }).find("No space left"),
-              std::string::npos);
+    EXPECT_TRUE(has(error_of([&] {
+                        OutputFile file(folder / "inserted");
+                        file.write(std::string(700'000, 'x'));
+                        file.insert(3, std::string(700'000, 'y'));
+                    }),
+                    "No space left"));
     EXPECT_EQ(folder.names(), std::vector<std::string>{"old"});
     ::umount(folder.path().c_str());
 }
@@ -307,7 +298,7 @@ TEST(OutputFile, StandardOutputGoesOnWhereTheShellIs) {
     std::fputs(" after", opened);
     std::fclose(opened);
     EXPECT_EQ(contents(folder / "out"), "before xxxxxxxxxx after");
-    EXPECT_NE(complaint_of_writing("/dev/fd/987").find("Bad file descriptor"), std::string::npos);
+    EXPECT_TRUE(has(complaint_of_writing("/dev/fd/987"), "Bad file descriptor"));
     EXPECT_TRUE(fs::is_symlink("/dev/stdout") || !fs::exists("/dev/stdout"));
 }
 

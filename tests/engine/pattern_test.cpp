@@ -1,5 +1,6 @@
 #include "engine/language/pattern.h"
 
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -125,7 +126,7 @@ TEST(Pattern, LettersAfterLateSlashesAreWarnedOf) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_TRUE(found[0].warning);
     EXPECT_EQ(found[0].where, (Place{1, 10}));
-    EXPECT_NE(found[0].text().find("test.lsys:1:10: warning: "), std::string::npos);
+    EXPECT_TRUE(has(found[0].text(), "test.lsys:1:10: warning: "));
     EXPECT_TRUE(diagnostics_of("axiom: F // +F\n").empty());
     EXPECT_TRUE(diagnostics_of("axiom: F//F\n").empty());
     EXPECT_TRUE(diagnostics_of("title: F // draws\naxiom: F\n").empty());
@@ -240,7 +241,7 @@ TEST(Pattern, AnExceptionCarriesEveryMistake) {
         EXPECT_EQ(error.diagnostics().size(), 2u);
         const std::string text = error.what();
         EXPECT_EQ(text.find("koch.lsys:1:3: '->' is not the arrow"), 0u) << text;
-        EXPECT_NE(text.find("\nF -> G\n  ^\nkoch.lsys:3:2: "), std::string::npos) << text;
+        EXPECT_TRUE(has(text, "\nF -> G\n  ^\nkoch.lsys:3:2: "));
         EXPECT_TRUE(text.ends_with("\n F - F\n ^")) << text;  // a tab is shown as a blank
     }
     EXPECT_NO_THROW(Diagnostics().throw_if_errors());
@@ -264,7 +265,7 @@ TEST(Pattern, BeyondAHundredMistakesOnlyTheirNumberIsTold) {
     } catch (const PatternError& error) {
         const std::string text = error.what();
         const std::size_t shown = error.diagnostics().size();
-        EXPECT_NE(text.find(std::to_string(1000 - shown) + " more errors"), std::string::npos) << shown;
+        EXPECT_TRUE(has(text, std::to_string(1000 - shown) + " more errors")) << shown;
     }
 }
 
@@ -324,7 +325,7 @@ TEST(Pattern, BytesThatAreNoTextAreRefusedAtTheirPlace) {
             const auto found = diagnostics_of(text);
             ASSERT_EQ(found.size(), 1u);
             EXPECT_EQ(found[0].where, (Place{1, 9})) << found[0].text();
-            EXPECT_NE(found[0].message.find("UTF-8"), std::string::npos);
+            EXPECT_TRUE(has(found[0].message, "UTF-8"));
             EXPECT_TRUE(reference::is_utf8(found[0].text()));
         }
     }
@@ -345,7 +346,7 @@ TEST(Pattern, FilesOver64MegabytesAreRefusedAtThatByte) {
     parse_pattern("a", head + std::string(most - head.size() + 1, 'x'), large);
     ASSERT_EQ(large.list().size(), 1u);
     EXPECT_EQ(large.list()[0].where, (Place{2, static_cast<int>(most) - 9 + 1}));
-    EXPECT_NE(large.list()[0].message.find("64 MB"), std::string::npos);
+    EXPECT_TRUE(has(large.list()[0].message, "64 MB"));
     EXPECT_TRUE(large.is_unreadable());
     EXPECT_LT(large.list()[0].text().size(), 300u);
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));

@@ -1,5 +1,6 @@
 // tests/engine/placement_test.cpp: positions of the vertices of maps: straight, by gravity, by pressure.
 #include "engine/map/placement.h"
+#include "tests/checks.h"
 #include "tests/maps.h"
 
 #include <gtest/gtest.h>
@@ -143,12 +144,7 @@ TEST(Placement, CheckersAreEqualRectangles) {
 
 TEST(Placement, WhatCannotBePlacedIsRefused) {
     const auto error_of = [](const std::string& text, std::int64_t steps) -> std::string {
-        try {
-            const Placed placed("map: clockwise\n" + text, steps, {});
-        } catch (const PlacementError& error) {
-            return error.what();
-        }
-        return "";
+        return sikku::error_of<PlacementError>([&] { const Placed placed("map: clockwise\n" + text, steps, {}); });
     };
     EXPECT_EQ(error_of("axiom: ab\n", 0),
               "a map is drawn from a polygon, and this axiom has 2 edges; expected 3 or more");

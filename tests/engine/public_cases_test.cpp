@@ -1,6 +1,7 @@
 // tests/engine/public_cases_test.cpp: faults and requests that users of other programs reported, restated.
 #include "engine/derivation/forecast.h"
 #include "engine/measure/extent.h"
+#include "tests/checks.h"
 #include "tests/module_reference.h"
 #include "tests/reference.h"
 
@@ -39,7 +40,7 @@ TEST(PublicCases, SequencesOfDigits) {
 TEST(PublicCases, WeightsBeforeTheArrow) {
     const auto warned = diagnostics_of("axiom: F\nF : 0.33 --> FF\nF : 0.67 --> F\n");
     ASSERT_FALSE(warned.empty());
-    EXPECT_NE(warned[0].message.find("a weight follows the successor: --> … : 0.33"), std::string::npos);
+    EXPECT_TRUE(has(warned[0].message, "a weight follows the successor: --> … : 0.33"));
     reference::expect_mistakes("axiom: F\nF 0.33 --> FF\n", {{{2, 3}, "write 'F --> FF : 0.33'"}});
     EXPECT_TRUE(diagnostics_of("axiom: F1\nF 1 --> F\n").empty());
     // Several productions without weights cannot all apply.
@@ -51,8 +52,8 @@ TEST(PublicCases, WeightsBesideTheWord) {
          {"F --> 0.33 F+F", "F --> F+F 0.33", "F --> 0.33 : F+F", "F --> F+F, 0.33", "F --> .33  F+F"}) {
         const auto found = diagnostics_of("axiom: F\n" + std::string(line) + "\n");
         ASSERT_EQ(found.size(), 1U) << line;
-        EXPECT_NE(found[0].message.find("a weight follows the successor; write 'F --> F+F : "), std::string::npos);
-        EXPECT_NE(found[0].message.find(".33'"), std::string::npos) << found[0].message;
+        EXPECT_TRUE(has(found[0].message, "a weight follows the successor; write 'F --> F+F : "));
+        EXPECT_TRUE(has(found[0].message, ".33'"));
     }
     reference::expect_mistakes("axiom: F\nF --> 33% F\nF --> 67% FF\n",
                                {{{2, 7}, "write 'F --> F : 33'"}, {{3, 7}, "write 'F --> FF : 67'"}});

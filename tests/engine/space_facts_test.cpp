@@ -1,5 +1,6 @@
 // Plants in space: their measures, which a plain walk through the derived word found, and their words as published.
 #include "engine/measure/extent.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 
@@ -183,10 +184,8 @@ std::string word_of(const Grammar& grammar) {
     return to_text(grammar, collector.word);
 }
 
-std::ptrdiff_t count(const std::string& text, const std::string& part) {
-    std::ptrdiff_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
+std::ptrdiff_t count(const std::string& text, std::string_view part) {
+    return static_cast<std::ptrdiff_t>(count_of(text, part));
 }
 
 /// Without turns and what stands in parentheses.

@@ -3,6 +3,7 @@
 #include "engine/geometry/lettering.h"
 #include "engine/geometry/turtle.h"
 #include "engine/language/surface.h"
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -301,12 +302,7 @@ TEST(SpaceTurtle, PolygonsAndSpheres) {
 }
 
 std::string word_error(const std::string& axiom) {
-    try {
-        drawn("axiom: " + axiom + "\n");
-    } catch (const WordError& error) {
-        return error.what();
-    }
-    return "";
+    return error_of<WordError>([&] { drawn("axiom: " + axiom + "\n"); });
 }
 
 TEST(SpaceTurtle, TellsThePlaceOfWhatItCannotRead) {

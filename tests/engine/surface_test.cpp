@@ -2,6 +2,7 @@
 #include "engine/language/surface.h"
 
 #include "engine/geometry/space_turtle.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -72,8 +73,7 @@ TEST(Surface, EachFaultHasItsPlace) {
         surface_of(faulty, diagnostics);
         ASSERT_EQ(diagnostics.list().size(), 1u) << fault.to;
         EXPECT_EQ(diagnostics.list()[0].where, fault.where) << fault.to;
-        EXPECT_NE(diagnostics.list()[0].message.find(fault.essence), std::string::npos)
-            << diagnostics.list()[0].message;
+        EXPECT_TRUE(has(diagnostics.list()[0].message, fault.essence));
         EXPECT_EQ(diagnostics.list()[0].file, "leaf.s");
     }
     for (std::size_t length = 0; length + 100 < text.size(); length += 7) {

@@ -5,6 +5,7 @@
 #include "engine/tiling/polygon_place.h"
 #include "engine/tiling/tile_family.h"
 #include "engine/tiling/tile_growth.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -93,8 +94,7 @@ TEST(TileGenerations, AreRefusedWhereTheyDoNotFollowEachOther) {
         FAIL();
     } catch (const BudgetError& error) {
         // 1 + 4 + 16 + 64 + 256 are 341, and 1024 more are too many.
-        EXPECT_NE(std::string(error.what()).find("the largest derivation length that fits is 4"), std::string::npos)
-            << error.what();
+        EXPECT_TRUE(has(error.what(), "the largest derivation length that fits is 4"));
     }
 }
 

@@ -3,6 +3,7 @@
 #include "engine/tiling/tile_growth.h"
 #include "engine/tiling/tiling.h"
 #include "engine/tiling/tiling_text.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 
@@ -145,7 +146,7 @@ TEST(TileGrowth, FindsSharesOfHandsAndColours) {
     // The second spectre of a pair has a colour of its own.
     ASSERT_FALSE(spectres.colours.empty());
     EXPECT_NEAR(spectres.colours.back().second, (5 - std::sqrt(15.0)) / 10, 1e-9);
-    EXPECT_NE(tile_counts_text("", 3, spectres).find("shares of kinds do not settle"), std::string::npos);
+    EXPECT_TRUE(has(tile_counts_text("", 3, spectres), "shares of kinds do not settle"));
 }
 
 TileGrowth growth_of_text(const std::string& text) {
@@ -160,7 +161,7 @@ TEST(TileGrowth, ClaimsNoLimitIfSharesAlternate) {
     EXPECT_NEAR(growth.tiles.value_or(0), std::sqrt(2.0), 1e-9);
     EXPECT_TRUE(growth.is_average);
     EXPECT_TRUE(growth.frequencies.empty());
-    EXPECT_NE(tile_counts_text("", 4, growth).find("times as many tiles a step on average"), std::string::npos);
+    EXPECT_TRUE(has(tile_counts_text("", 4, growth), "times as many tiles a step on average"));
     // The colour of a tile that sets none follows from those around it.
     const TileGrowth unknown = growth_of_text("axiom: A\nA --> ;(2)A;(3)A\ninterpret:\nA --> [{F+F+F+F}]\n");
     ASSERT_EQ(unknown.counts.size(), 1U);

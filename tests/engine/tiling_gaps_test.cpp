@@ -3,6 +3,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/tiling.h"
 #include "engine/tiling/tiling_text.h"
+#include "tests/checks.h"
 #include "tests/module_reference.h"
 
 #include <gtest/gtest.h>
@@ -199,8 +200,7 @@ Patch squares(const std::vector<Cell>& cells) {
 TEST(TilingGaps, AreFoundWhereTilesTouchAtCornersOnly) {
     const std::vector<Cell> four = {{1, 0}, {0, 1}, {2, 1}, {1, 2}};
     expect_gaps(squares(four), 1, 1);
-    EXPECT_NE(tiling_text("", 0, on_a_lattice(squares(four)), {}).find("gap        of area 1 around 1.5 1.5"),
-              std::string::npos);
+    EXPECT_TRUE(has(tiling_text("", 0, on_a_lattice(squares(four)), {}), "gap        of area 1 around 1.5 1.5"));
     // A ring of eight squares that touch at corners only, and one around it.
     const std::vector<Cell> diamond = {{2, 0}, {3, 1}, {4, 2}, {3, 3}, {2, 4}, {1, 3}, {0, 2}, {1, 1}};
     expect_gaps(squares(diamond), 1, 1);

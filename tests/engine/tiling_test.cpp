@@ -4,6 +4,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/tile_growth.h"
 #include "engine/tiling/tiling_text.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/module_reference.h"
 
@@ -318,7 +319,7 @@ TEST(TilingExamination, CountsRegionsThatTouchInACornerAsTwo) {
     EXPECT_EQ(t.regions, 2U);
     EXPECT_EQ(t.components, 1U);
     EXPECT_EQ(t.loops, 1U) << "around both";
-    EXPECT_NE(report("", 0, t).find("yes: 2 tiles, 2 regions joined at corners, no gap"), std::string::npos);
+    EXPECT_TRUE(has(report("", 0, t), "yes: 2 tiles, 2 regions joined at corners, no gap"));
     EXPECT_EQ(t.vertices, 7U);
     EXPECT_EQ(t.neighbours, 0U);
     EXPECT_TRUE(t.euler_agrees);
@@ -343,7 +344,7 @@ TEST(TilingExamination, FindsGaps) {
     EXPECT_EQ(t.regions, 1U);
     EXPECT_TRUE(t.euler_agrees);
     EXPECT_TRUE(t.areas_agree);
-    EXPECT_NE(report("", 0, t).find("of area 1 around 1.5 1.5"), std::string::npos);
+    EXPECT_TRUE(has(report("", 0, t), "of area 1 around 1.5 1.5"));
     // A small square in the gap: a region within a gap within a region.
     const TilingExamination island = word(squares(ring) + "[f(1.25)+f(1.25)-{F(0.5)+F(0.5)+F(0.5)+F(0.5)}]");
     EXPECT_TRUE(island.is_exact);
@@ -476,7 +477,7 @@ TEST(TilingExamination, HasNothingToExamineWithoutPolygons) {
     const TilingExamination t = word("F+F+F+F");
     EXPECT_FALSE(t.is_tiling());
     EXPECT_EQ(t.polygons, 0U);
-    EXPECT_NE(report("", 0, t).find("no: the word contains no polygon"), std::string::npos);
+    EXPECT_TRUE(has(report("", 0, t), "no: the word contains no polygon"));
 }
 
 TEST(TilingExamination, RefusesTooManyTilesBeforeDeriving) {

@@ -2,6 +2,7 @@
 
 #include "engine/measure/extent.h"
 
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -442,12 +443,12 @@ TEST(Turtle, LongStrokesArriveWhole) {
 }
 
 TEST(TurtleErrors, NameThePositionInTheWord) {
-    EXPECT_NE(word_error("F]F").find("symbol 2 of the word: ']' without '['"), std::string::npos);
-    EXPECT_NE(word_error("F[+F[-F]F").find("symbol 2 of the word: this '[' is not closed"), std::string::npos);
-    EXPECT_NE(word_error("F[+F[-F").find("symbol 5 of the word: this '[' is not closed"), std::string::npos);
-    EXPECT_NE(word_error("F}").find("symbol 2 of the word: '}' without '{'"), std::string::npos);
-    EXPECT_NE(word_error("F{{F}").find("symbol 2 of the word: this '{' is not closed"), std::string::npos);
-    EXPECT_NE(word_error("FF+(10^400)").find("symbol 3 of the word"), std::string::npos);
+    EXPECT_TRUE(has(word_error("F]F"), "symbol 2 of the word: ']' without '['"));
+    EXPECT_TRUE(has(word_error("F[+F[-F]F"), "symbol 2 of the word: this '[' is not closed"));
+    EXPECT_TRUE(has(word_error("F[+F[-F"), "symbol 5 of the word: this '[' is not closed"));
+    EXPECT_TRUE(has(word_error("F}"), "symbol 2 of the word: '}' without '{'"));
+    EXPECT_TRUE(has(word_error("F{{F}"), "symbol 2 of the word: this '{' is not closed"));
+    EXPECT_TRUE(has(word_error("FF+(10^400)"), "symbol 3 of the word"));
     EXPECT_EQ(word_error("F[+F[-F]F]"), "");
     EXPECT_EQ(word_error("{[}]"), "");  // they need not nest in one another
 }

@@ -3,7 +3,7 @@
 #include "engine/language/undrawn.h"
 
 #include "engine/language/grammar.h"
-#include "tests/program.h"
+#include "tests/checks.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ const std::vector<System> node_systems = {
 
 TEST(Undrawn, LettersThatCanOnlyBeMeantToDrawAreFound) {
     for (const auto& [expected, text] : edge_systems) {
-        EXPECT_NE(warned(text).find(expected), std::string::npos) << text << warned(text);
+        EXPECT_TRUE(has(warned(text), expected)) << text << warned(text);
     }
     EXPECT_EQ(warned(edge_systems[0].text).rfind("test.lsys:4:1: warning: 'G' draws nothing; 'forward: F G'", 0), 0U);
     // Following the advice fixes the pattern.
@@ -121,8 +121,8 @@ TEST(Undrawn, NoBundledPatternIsWarnedOf) {
         ++patterns;
         EXPECT_EQ(warned(text.str()), "") << entry.path();
         for (const Diagnostic& one : diagnostics_of(text.str())) {
-            EXPECT_EQ(one.message.find("does not begin a comment"), std::string::npos) << entry.path();
-            EXPECT_EQ(one.message.find("a weight follows"), std::string::npos) << entry.path();
+            EXPECT_FALSE(has(one.message, "does not begin a comment")) << entry.path();
+            EXPECT_FALSE(has(one.message, "a weight follows")) << entry.path();
         }
         Diagnostics diagnostics;
         for (const Variant& variant : parse_pattern("a", text.str(), diagnostics).variants) {
@@ -148,15 +148,12 @@ TEST(Undrawn, AWordWithoutInkNamesItsLetters) {
 const char* const moved_plant = "derivation length: 4\nangle increment: 25\naxiom: +X\nX --> f-[X]+fX\nf --> ff\n";
 
 TEST(Undrawn, WhereNothingDrawsMovesAreNamed) {
-    EXPECT_NE(warned(moved_plant)
-                  .find("test.lsys:5:1: warning: 'f' moves without drawing; 'forward: f' makes it a step, F draws"),
-              std::string::npos)
-        << warned(moved_plant);
+    EXPECT_TRUE(has(warned(moved_plant),
+                    "test.lsys:5:1: warning: 'f' moves without drawing; 'forward: f' makes it a step, F draws"));
     EXPECT_EQ(undrawn_hint(grammar_of(moved_plant)),
               "; 'f' moves without drawing; 'forward: f' makes it a step, F draws");
-    EXPECT_NE(warned("axiom: A\nmove: A F\nA --> F+A\n")
-                  .find("'A' and 'F' move without drawing; 'forward: A F' makes them steps"),
-              std::string::npos);
+    EXPECT_TRUE(has(warned("axiom: A\nmove: A F\nA --> F+A\n"),
+                    "'A' and 'F' move without drawing; 'forward: A F' makes them steps"));
     EXPECT_EQ(warned(std::string(moved_plant) + "forward: f\n"), "");
     // Something draws, or moves are points of a spline or rests.
     for (const char* more : {"X --> X\ntable t:\nX --> @O\n", "interpret:\nf --> F\n", "line: spline\n",

@@ -3,6 +3,7 @@
 #include "music/arrangement.h"
 
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -222,19 +223,12 @@ TEST(Arrangement, FormsAreMadeOfSubCurves) {
     EXPECT_THROW(notes_of(track("form = \"AZ\"\n", "hilbert")), ScoreError);
     // Order 3 of n = 4 has 4 sub-curves, of n = 5 has 16; the largest are 4 at any n, but at n = 1 there is only one.
     const auto refusal = [](const std::string& text) -> std::string {
-        try {
-            notes_of(track(text, "hilbert"));
-        } catch (const ScoreError& error) {
-            return error.what();
-        }
-        return "none";
+        return sikku::error_of<ScoreError>([&] { notes_of(track(text, "hilbert")); }, "none");
     };
-    EXPECT_NE(refusal("form = \"ABCDE order 3\"\n").find("has 4 sub-curves of order 3; n = 5 has enough, and"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal("form = \"ABCDE order 3\"\n"), "has 4 sub-curves of order 3; n = 5 has enough, and"));
     EXPECT_EQ(refusal("n = 5\nform = \"ABCDE order 3\"\n"), "none");
-    EXPECT_NE(refusal("form = \"ABCDE\"\n").find("has 4 sub-curves of order 3; a lower order"), std::string::npos);
-    EXPECT_NE(refusal("n = 1\nform = \"AB\"\n").find("has 1 sub-curve of order 1; n = 2 has enough"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal("form = \"ABCDE\"\n"), "has 4 sub-curves of order 3; a lower order"));
+    EXPECT_TRUE(has(refusal("n = 1\nform = \"AB\"\n"), "has 1 sub-curve of order 1; n = 2 has enough"));
     EXPECT_EQ(refusal("n = 2\nform = \"AB\"\n"), "none");
     EXPECT_NO_THROW(notes_of(track("form = \"AZ order 1\"\n", "hilbert")));
 }
@@ -294,16 +288,13 @@ TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
         "1/4\n\"\"\"\n";
     const std::string head = "scale = \"dorian\"\ntonic = \"D4\"\n";
     const std::string told = facts(head + drone + track("", "drone") + track("start = 2\n", "drone"));
-    EXPECT_NE(told.find("'drone' states scale, tonic itself, but the values above the tracks apply"),
-              std::string::npos)
-        << told;
+    EXPECT_TRUE(has(told, "'drone' states scale, tonic itself, but the values above the tracks apply"));
     EXPECT_EQ(told.find("'drone'"), told.rfind("'drone'")) << "once";
     // The track sets the key itself, or the piece sets the same value.
-    EXPECT_EQ(facts(head + drone + track("scale = \"minor\"\ntonic = \"C3\"\n", "drone")).find("'drone'"),
-              std::string::npos);
-    EXPECT_EQ(facts("scale = \"major\"\n" + drone + track("", "drone")).find("'drone'"), std::string::npos);
+    EXPECT_FALSE(has(facts(head + drone + track("scale = \"minor\"\ntonic = \"C3\"\n", "drone")), "'drone'"));
+    EXPECT_FALSE(has(facts("scale = \"major\"\n" + drone + track("", "drone")), "'drone'"));
     // Patterns of other files are meant to be played in the key of the piece.
-    EXPECT_EQ(facts(head + track("")).find("itself"), std::string::npos);
+    EXPECT_FALSE(has(facts(head + track("")), "itself"));
     EXPECT_TRUE(describe_score(read(head + drone + track("", "drone")), {}, {}).starts_with("drone, n = 0\n"));
 }
 
@@ -363,12 +354,7 @@ TEST(Arrangement, TooManyVoicesAreCountedWithTheirCause) {
     const auto error_of = [](const std::string& keys, int tracks, const std::string& pattern = "steps") {
         std::string text;
         for (int i = 0; i < tracks; ++i) text += track(keys, pattern);
-        try {
-            remarks_of(text);
-        } catch (const std::exception& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return sikku::error_of([&] { remarks_of(text); });
     };
     const std::string end = " need a MIDI channel for each voice; there are 15 besides drums";
     EXPECT_EQ(error_of("gamaka = \"meend all\"\n", 15), "");
@@ -517,7 +503,7 @@ TEST(Arrangement, TheTextContainsEveryPattern) {
     const auto nothing = [](const std::string&) -> NamedPattern { throw std::runtime_error("not needed"); };
     const Arrangement second = read_arrangement("b.toml", first.text, nothing);
     EXPECT_EQ(second.text, first.text);
-    EXPECT_NE(first.text.find("# a remark"), std::string::npos);
+    EXPECT_TRUE(has(first.text, "# a remark"));
     EXPECT_EQ(told(list_notes(first, {}, {})), told(list_notes(second, {}, {})));
     // Patterns with any letters.
     for (const std::string& odd : {std::string("axiom: F\n// '''\n"), std::string("axiom: F\r\n"),
@@ -533,12 +519,7 @@ TEST(Arrangement, TheTextContainsEveryPattern) {
 
 TEST(Arrangement, MistakesHavePlaces) {
     const auto refused = [](const std::string& text, std::string_view message) {
-        try {
-            notes_of(text);
-            ADD_FAILURE() << text;
-        } catch (const std::runtime_error& error) {
-            EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
-        }
+        EXPECT_TRUE(has(error_of<std::runtime_error>([&] { notes_of(text); }), message));
     };
     refused("", "a.toml: an arrangement has at least one [[track]]");
     refused("format = \"mid\"\n[[item]]\npattern = \"steps\"\n", "a.toml:2:3: a gallery file has [[item]]");

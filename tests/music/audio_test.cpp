@@ -1,5 +1,6 @@
 #include "music/score/audio.h"
 
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/print_tools.h"
 
@@ -278,11 +279,6 @@ std::string failure(const ScratchFolder& folder, const std::string& midi_name = 
     return "";
 }
 
-::testing::AssertionResult has(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << "no '" << part << "' in: " << text;
-}
-
 TEST(Audio, TellsWhatToInstall) {
     const ScratchFolder folder;
     folder.write("x.mid", midi({60}, 480));
@@ -353,24 +349,18 @@ TEST(Audio, FailuresNameTheOutput) {
     NEEDS_FLUIDSYNTH;
     const ScratchFolder folder;
     folder.write("x.mid", midi({60}, 480));
-    try {
-        render_audio(folder / "x.mid", "/dev/full", AudioFormat::wav, {}, "my music.wav");
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-        EXPECT_TRUE(has(error.what(), "cannot write 'my music.wav': "));
-    }
+    EXPECT_TRUE(has(error_of<std::runtime_error>(
+                        [&] { render_audio(folder / "x.mid", "/dev/full", AudioFormat::wav, {}, "my music.wav"); }),
+                    "cannot write 'my music.wav': "));
 }
 
 TEST(Audio, IsWrittenWholeOrTheFailureIsTold) {
     NEEDS_FLUIDSYNTH;
     const ScratchFolder folder;
     folder.write("x.mid", midi({60}, 480));
-    try {
-        render_audio(folder / "x.mid", "/dev/full", AudioFormat::wav);
-        ADD_FAILURE() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-        EXPECT_TRUE(has(error.what(), "/dev/full"));
-    }
+    EXPECT_TRUE(
+        has(error_of<std::runtime_error>([&] { render_audio(folder / "x.mid", "/dev/full", AudioFormat::wav); }),
+            "/dev/full"));
 }
 
 }  // namespace

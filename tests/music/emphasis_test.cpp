@@ -1,5 +1,6 @@
 // tests/music/emphasis_test.cpp: dynamics that patterns state and accents of rhythms, in print and in MIDI.
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 #include "tests/notation_tools.h"
 
@@ -61,12 +62,6 @@ std::string accents_of(const std::string& text, const OptionValues& values) {
     return accents;
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
-    std::size_t number = 0;
-    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++number;
-    return number;
-}
-
 std::vector<int> velocities(const std::string& text, const OptionValues& values) {
     std::vector<int> all;
     for (const MidiNote& note : read_midi(printed(text, "mid", values)).notes) all.push_back(note.velocity);
@@ -77,10 +72,9 @@ TEST(Emphasis, StatedDynamicsStandAtTheirNotes) {
     EXPECT_EQ(dynamics_of(table + "axiom: AABBAACC\n"), "0 mf, 2 p, 4 mf, 6 ff");
     EXPECT_EQ(dynamics_of(table + "axiom: ACAAACAA\n"), "0 mf, 1 ff, 2 mf, 5 ff, 6 mf");
     const std::string abc = printed(table + "axiom: AABBAACC\n", "abc");
-    EXPECT_NE(abc.find("!mf!C2 C2 !p!C2 C2 | !mf!C2 C2 !ff!C2 C2 |]"), std::string::npos) << abc;
+    EXPECT_TRUE(has(abc, "!mf!C2 C2 !p!C2 C2 | !mf!C2 C2 !ff!C2 C2 |]"));
     const std::string lilypond = printed(table + "axiom: AABBAACC\n", "ly");
-    EXPECT_NE(lilypond.find("c'4\\mf c'4 c'4\\p c'4 | % 1\n        c'4\\mf c'4 c'4\\ff c'4 \\bar"), std::string::npos)
-        << lilypond;
+    EXPECT_TRUE(has(lilypond, "c'4\\mf c'4 c'4\\p c'4 | % 1\n        c'4\\mf c'4 c'4\\ff c'4 \\bar"));
 }
 
 TEST(Emphasis, ChangesStateDynamicsToo) {
@@ -106,19 +100,19 @@ TEST(Emphasis, HandsShareDynamicsUnlessTheirOwnAreFewer) {
         "mapping: symbols\nnote A: C5 1/4 mf\nnote B: C3 1/4 f\nnote C: C3 1/4 mf\nrest r: 1/4\n";
     const std::string own = hands + "axiom: [ArAr][rBrB]\n";
     const std::string abc = printed(own, "abc");
-    EXPECT_NE(abc.find("!mf!c2 z2 c2 z2"), std::string::npos) << abc;
-    EXPECT_NE(abc.find("z2 !f!C,2 z2 C,2"), std::string::npos) << abc;
+    EXPECT_TRUE(has(abc, "!mf!c2 z2 c2 z2"));
+    EXPECT_TRUE(has(abc, "z2 !f!C,2 z2 C,2"));
     const std::string lilypond = printed(own, "ly");
-    EXPECT_NE(lilypond.find("c''4\\mf r4 c''4 r4"), std::string::npos) << lilypond;
-    EXPECT_NE(lilypond.find("r4 c4\\f r4 c4"), std::string::npos) << lilypond;
+    EXPECT_TRUE(has(lilypond, "c''4\\mf r4 c''4 r4"));
+    EXPECT_TRUE(has(lilypond, "r4 c4\\f r4 c4"));
     EXPECT_EQ(dynamics_of(own), "0 mf, 1 f");
     const std::string shared = hands + "axiom: [rrAA][CCrr]\n";
     EXPECT_EQ(dynamics_of(shared), "0 mf");
-    EXPECT_EQ(count(printed(shared, "ly"), "\\mf"), 1u);
+    EXPECT_EQ(count_of(printed(shared, "ly"), "\\mf"), 1u);
     // The first note may be that of the other hand.
     const std::string late = printed(shared, "abc");
-    EXPECT_EQ(count(late, "!mf!"), 1u);
-    EXPECT_NE(late.find("!mf!C,2 C,2"), std::string::npos) << late;
+    EXPECT_EQ(count_of(late, "!mf!"), 1u);
+    EXPECT_TRUE(has(late, "!mf!C,2 C,2"));
 }
 
 TEST(Emphasis, DynamicsOfSeveralDrumsAreTheirBalance) {
@@ -135,8 +129,8 @@ TEST(Emphasis, RhythmsAccentTheirNotes) {
     EXPECT_EQ(accents_of(steps, {{"rhythm", "xxxx"}}), "........");
     EXPECT_EQ(accents_of(table + "axiom: ABAB\n", {{"rhythm", "Xx"}, {"unit", "1/4"}}), ">.>.");
     const OptionValues values = {{"rhythm", "xxXx"}};
-    EXPECT_EQ(count(printed(steps, "ly", values), "->"), 2u);
-    EXPECT_EQ(count(printed(steps, "abc", values), "!accent!"), 2u);
+    EXPECT_EQ(count_of(printed(steps, "ly", values), "->"), 2u);
+    EXPECT_EQ(count_of(printed(steps, "abc", values), "!accent!"), 2u);
     // The dynamic is that of the other notes.
     EXPECT_EQ(dynamics_of(steps + "rhythm: adi\n"), "0 mf");
 }

@@ -2,6 +2,7 @@
 // them.
 #include "music/score/curves.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -263,15 +264,13 @@ TEST(Expression, SlidesMeetTheirNeighbours) {
     EXPECT_NEAR((out.end() - 2)->value, 7, 0.4);
     EXPECT_EQ(out.back(), (Point{960, 0}));
     // In print a line leads from note to note, from the last of those that are tied.
-    EXPECT_NE(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly").find("c'2\\glissando\\mf g'2"),
-              std::string::npos);
+    EXPECT_TRUE(has(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly"), "c'2\\glissando\\mf g'2"));
     pugi::xml_document xml;
     const std::string tied = "mapping: symbols\nnote A: C4 3/4\nnote B: G4 3/4\naxiom: AB\ngamaka: jaru all\n";
     ASSERT_TRUE(xml.load_string(play(parse("e.lsys", tied), "musicxml").c_str()));
     // There is room for the line.
-    EXPECT_NE(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly").find("Glissando.minimum-length"),
-              std::string::npos);
-    EXPECT_EQ(play(parse("e.lsys", text), "ly").find("Glissando"), std::string::npos);
+    EXPECT_TRUE(has(play(parse("e.lsys", text + "gamaka: meend all\n"), "ly"), "Glissando.minimum-length"));
+    EXPECT_FALSE(has(play(parse("e.lsys", text), "ly"), "Glissando"));
     std::vector<std::string> slides;
     for (const auto& note : xml.select_nodes("//note[pitch]")) {
         const pugi::xml_node slide = note.node().child("notations").child("slide");
@@ -279,7 +278,7 @@ TEST(Expression, SlidesMeetTheirNeighbours) {
                          slide.attribute("type").value());
     }
     EXPECT_EQ(slides, (std::vector<std::string>{"Cstart", "Gstop", "G"}));
-    EXPECT_EQ(play(parse("e.lsys", text + "gamaka: kampita all\n"), "ly").find("gliss"), std::string::npos);
+    EXPECT_FALSE(has(play(parse("e.lsys", text + "gamaka: kampita all\n"), "ly"), "gliss"));
 }
 
 TEST(Expression, AllFormsOfMidiHaveTheCurves) {

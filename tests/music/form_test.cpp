@@ -3,6 +3,7 @@
 
 #include "engine/check.h"
 #include "music/arrangement.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -163,8 +164,8 @@ TEST(Excerpts, OfCurvesWithoutEnd) {
                     report.find(fmt::format("bars      {}\n", bars)) != std::string::npos)
             << more << report;
         if (std::string(more).find("canon") != std::string::npos) continue;
-        EXPECT_NE(report.find(fmt::format("notes     {}\n", list.notes.size())), std::string::npos) << more << report;
-        EXPECT_EQ(report.find("together"), std::string::npos) << more;
+        EXPECT_TRUE(has(report, fmt::format("notes     {}\n", list.notes.size()))) << more << report;
+        EXPECT_FALSE(has(report, "together")) << more;
     }
 }
 
@@ -302,15 +303,10 @@ TEST(Forms, EndingsOfSectionsKeepBranches) {
 
 TEST(Forms, MessagesNameOrders) {
     const auto refusal = [](const std::string& text) -> std::string {
-        try {
-            notes_of(hilbert_4 + text);
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "none";
+        return error_of<std::runtime_error>([&] { notes_of(hilbert_4 + text); }, "none");
     };
     const auto expect = [&](const std::string& text, const char* expected) {
-        EXPECT_NE(refusal(text).find(expected), std::string::npos) << text << ": " << refusal(text);
+        EXPECT_TRUE(has(refusal(text), expected)) << text << ": " << refusal(text);
     };
     expect("phrases: 2\nform: AABA order 3\n", "the orders must agree: 'phrases:' has 2 and the form 3");
     expect("form: Q order 3\n", "`form: A B order 2`");
@@ -331,15 +327,15 @@ TEST(Forms, CheckReportsWhatCannotBePlayed) {
     const std::string grown = "title: T\nderivation length: 3\naxiom: A(1)\nA(x) --> FA(x+1)\n";
     EXPECT_EQ(check(grown), "");
     EXPECT_EQ(check(grown + "cadence: tonic\n"), "");
-    EXPECT_NE(check(grown + "cadence: tonic\nphrases: 2\n").find("f.lsys:6:1: "), std::string::npos);
-    EXPECT_NE(check(grown + "form: AABA\n").find("f.lsys:5:1: "), std::string::npos);
-    EXPECT_NE(check(grown + "velocity: by level\n").find("f.lsys:5:1: "), std::string::npos);
+    EXPECT_TRUE(has(check(grown + "cadence: tonic\nphrases: 2\n"), "f.lsys:6:1: "));
+    EXPECT_TRUE(has(check(grown + "form: AABA\n"), "f.lsys:5:1: "));
+    EXPECT_TRUE(has(check(grown + "velocity: by level\n"), "f.lsys:5:1: "));
     // No sub-curve has that order.
     EXPECT_EQ(check(grown + "phrases: 4\n"), "");
     EXPECT_NO_THROW(notes_of(grown + "heading: 0\nphrases: 4\n"));
     EXPECT_EQ(check(hilbert_4 + "phrases: 2\nform: AABA\nvelocity: by level\n"), "");
     const std::string plant = "title: P\nderivation length: 2\naxiom: F\nF --> F[+F]F\n";
-    EXPECT_NE(check(plant + "cadence: tonic\n").find("f.lsys:5:1: "), std::string::npos);
+    EXPECT_TRUE(has(check(plant + "cadence: tonic\n"), "f.lsys:5:1: "));
     EXPECT_EQ(check(plant + "cadence: tonic\nbrackets: sequence\n"), "");
 }
 

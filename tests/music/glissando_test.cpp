@@ -3,6 +3,7 @@
 #include "music/note_stream.h"
 #include "music/score/glides.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -229,11 +230,11 @@ TEST(Glissando, VoicesSlideOnTheirOwnChannels) {
 
 TEST(Glissando, PrintHasLines) {
     const std::string lily = play(parse("g.lsys", steps), "ly");
-    EXPECT_NE(lily.find("c'1\\glissando"), std::string::npos) << lily;
-    EXPECT_EQ(lily.find("bendAfter"), std::string::npos);
+    EXPECT_TRUE(has(lily, "c'1\\glissando"));
+    EXPECT_FALSE(has(lily, "bendAfter"));
     const std::string leaving = head + "F+FF\n";
-    EXPECT_NE(play(parse("g.lsys", leaving), "ly").find("\\bendAfter #+4"), std::string::npos);
-    EXPECT_NE(play(parse("g.lsys", head + "F-FF\n"), "ly").find("\\bendAfter #-4"), std::string::npos);
+    EXPECT_TRUE(has(play(parse("g.lsys", leaving), "ly"), "\\bendAfter #+4"));
+    EXPECT_TRUE(has(play(parse("g.lsys", head + "F-FF\n"), "ly"), "\\bendAfter #-4"));
     pugi::xml_document xml;
     ASSERT_TRUE(xml.load_string(play(parse("g.lsys", steps), "musicxml").c_str()));
     Strings slides;
@@ -243,17 +244,17 @@ TEST(Glissando, PrintHasLines) {
     EXPECT_TRUE(xml.select_nodes("//slide").empty());
     EXPECT_EQ(xml.select_nodes("//articulations/doit").size(), 1u);
     const std::string abc = play(parse("g.lsys", steps), "abc");
-    EXPECT_NE(abc.find("!~(!C8"), std::string::npos) << abc;
-    EXPECT_NE(abc.find("!~)!"), std::string::npos);
-    EXPECT_NE(play(parse("g.lsys", leaving), "abc").find("\"^gliss.\"C6"), std::string::npos);
+    EXPECT_TRUE(has(abc, "!~(!C8"));
+    EXPECT_TRUE(has(abc, "!~)!"));
+    EXPECT_TRUE(has(play(parse("g.lsys", leaving), "abc"), "\"^gliss.\"C6"));
 }
 
 TEST(Glissando, CsoundAndPagesSlide) {
     const std::string score = play(parse("g.lsys", steps), "csd");
     // C4 for four quarters, to F4, from a quarter of it on.
-    EXPECT_NE(score.find("i 1 0 4 261.625565 0.629921 1 0.503937 349.228231 0.25\n"), std::string::npos) << score;
-    EXPECT_NE(score.find("kpitch"), std::string::npos);
-    EXPECT_EQ(play(parse("g.lsys", steps), "csd", {{"vertical", "extend"}}).find("kpitch"), std::string::npos);
+    EXPECT_TRUE(has(score, "i 1 0 4 261.625565 0.629921 1 0.503937 349.228231 0.25\n"));
+    EXPECT_TRUE(has(score, "kpitch"));
+    EXPECT_FALSE(has(play(parse("g.lsys", steps), "csd", {{"vertical", "extend"}}), "kpitch"));
     const std::string page = play(parse("g.lsys", steps), "html");
     const std::size_t begin = page.find("id=\"score\">") + 11;
     const auto data = nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));

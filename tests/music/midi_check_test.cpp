@@ -48,7 +48,7 @@ void expect_faults(const Case& expected) {
     EXPECT_EQ(faults.size(), expected.faults.size()) << expected.name << "\n" << midi_faults(expected.bytes);
     for (std::size_t i = 0; i < std::min(faults.size(), expected.faults.size()); ++i) {
         EXPECT_EQ(faults[i].at, expected.faults[i].first) << expected.name << ": " << faults[i].what;
-        EXPECT_NE(faults[i].what.find(expected.faults[i].second), std::string::npos)
+        EXPECT_TRUE(has(faults[i].what, expected.faults[i].second))
             << expected.name << ": " << faults[i].what << "\nexpected: " << expected.faults[i].second;
     }
 }

@@ -1,5 +1,6 @@
 #include "music/score/midi.h"
 
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/midi_tools.h"
 #include "tests/music/midi_size.h"
@@ -30,7 +31,7 @@ void expect_refused(Work&& work, const std::string& part) {
         work();
         ADD_FAILURE() << "nothing is refused; expected: " << part;
     } catch (const ScoreError& error) {
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        EXPECT_TRUE(has(error.what(), part));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "music/score/mpe.h"
 
 #include "music/score/midi.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/midi_tools.h"
 #include "tests/music/midi_size.h"
@@ -60,7 +61,7 @@ TEST(Mpe, TheFirstTrackConfiguresTheZone) {
     const std::string voice = "00C149 00E15540 00913C50 8360813C40 00FF2F00";
     for (const int format : {0, 1}) {
         const std::string bytes = make_midi(score, mpe(format));
-        EXPECT_NE(bytes.find(hex_bytes(digits)), std::string::npos) << format;
+        EXPECT_TRUE(has(bytes, hex_bytes(digits))) << format;
         EXPECT_EQ(bytes.find(hex_bytes("00B06500 00B06406")), bytes.rfind(hex_bytes("00B06500 00B06406")));
         EXPECT_EQ(midi_faults(bytes), "");
     }
@@ -82,12 +83,7 @@ TEST(Mpe, FourteenNotesSoundAtOnce) {
     score.notes.push_back(midi_note(480, 480, 90, 14));
     EXPECT_EQ(midi_faults(make_midi(score, mpe())), "");
     score.notes.back().onset = 479;
-    try {
-        make_midi(score, mpe());
-        ADD_FAILURE() << "fifteen notes at once";
-    } catch (const ScoreError& error) {
-        EXPECT_NE(std::string(error.what()).find("more than 14 notes at the same time"), std::string::npos);
-    }
+    EXPECT_TRUE(has(error_of<ScoreError>([&] { make_midi(score, mpe()); }), "more than 14 notes at the same time"));
 }
 
 /// The release of a note is not bent with the next one.

@@ -1,5 +1,6 @@
 #include "music/score/music_page.h"
 
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/print_tools.h"
 
@@ -74,12 +75,6 @@ std::vector<pugi::xml_node> children(const pugi::xml_node& parent, const char* n
     return {range.begin(), range.end()};
 }
 
-std::size_t occurrences(std::string_view text, std::string_view part) {
-    std::size_t count = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
-    return count;
-}
-
 /// How light a colour is to the eye, 0 to 1: relative luminance.
 double luminance(const std::string& colour) {
     const auto linear = [&](std::size_t at) {
@@ -101,8 +96,8 @@ TEST(NoteCollector, KeepsAllUpToALimit) {
         collector.notes(std::vector<Note>(1));
         ADD_FAILURE() << "nothing was thrown";
     } catch (const ScoreError& error) {
-        EXPECT_NE(std::string(error.what()).find("limit the bars"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("4 notes"), std::string::npos);
+        EXPECT_TRUE(has(error.what(), "limit the bars"));
+        EXPECT_TRUE(has(error.what(), "4 notes"));
     }
     EXPECT_EQ(collector.notes().size(), 4U);
     NoteCollector usual;
@@ -248,8 +243,8 @@ TEST(MusicSvg, WithoutACurveHasTheRollAlone) {
         const std::string text = svg(head(), {note(0, 480, 60, {0, 0}, to)}, 480);
         ASSERT_TRUE(document.load_string(text.c_str()));
         EXPECT_EQ(children(group(document, "curve"), "line").size(), 1U);
-        EXPECT_EQ(text.find("nan"), std::string::npos);
-        EXPECT_EQ(text.find("inf\""), std::string::npos);
+        EXPECT_FALSE(has(text, "nan"));
+        EXPECT_FALSE(has(text, "inf\""));
     }
 }
 
@@ -326,12 +321,12 @@ TEST(MusicPage, HoldsTheNotesExactly) {
 
 TEST(MusicPage, NeedsNothingFromElsewhere) {
     const std::string text = page(head(), hilbert(), 1920);
-    EXPECT_EQ(text.find("://"), std::string::npos);
+    EXPECT_FALSE(has(text, "://"));
     for (const char* word :
          {"src=", "@import", "url(", "fetch(", "XMLHttpRequest", "import(", "Date", "localStorage"}) {
-        EXPECT_EQ(text.find(word), std::string::npos) << word;
+        EXPECT_FALSE(has(text, word)) << word;
     }
-    EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
+    EXPECT_TRUE(has(text, "default-src 'none'"));
 }
 
 /// The page with what is in its scripts and its style left out.
@@ -386,9 +381,9 @@ TEST(MusicPage, TextsAreTexts) {
     about.made = evil;
     about.pattern = "\n" + std::string(evil);
     const std::string text = page(about, hilbert(), 1920);
-    EXPECT_EQ(occurrences(text, "<script"), occurrences(page(head(), hilbert(), 1920), "<script"));
-    EXPECT_EQ(occurrences(text, "</script"), 2U);
-    EXPECT_EQ(occurrences(text, "</title"), 1U);
+    EXPECT_EQ(count_of(text, "<script"), count_of(page(head(), hilbert(), 1920), "<script"));
+    EXPECT_EQ(count_of(text, "</script"), 2U);
+    EXPECT_EQ(count_of(text, "</title"), 1U);
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(markup(text).c_str(), pugi::parse_default | pugi::parse_ws_pcdata));
     const std::string expected =
@@ -433,7 +428,7 @@ TEST(MusicPage, IsTheSameWhateverTheOrderAndTheLocale) {
 TEST(MusicPage, WithoutNotesIsAPage) {
     const std::string text = page(head(), {}, 0);
     EXPECT_TRUE(page_notes(text).empty());
-    EXPECT_NE(text.find("\"end\":1,"), std::string::npos);
+    EXPECT_TRUE(has(text, "\"end\":1,"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "music/score/musicxml.h"
 
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/notation_tools.h"
 
@@ -391,12 +392,8 @@ TEST(MusicXml, HasNoOctaveBelowZero) {
     TestScore score = line({4, 4}, {480, 480, 960, 480}, 12);
     EXPECT_NO_THROW(xml_of(score));
     score.notes.back().key = 11;
-    try {
-        xml_of(score);
-        FAIL();
-    } catch (const ScoreError& error) {
-        EXPECT_EQ(std::string(error.what()), "bar 2 has a note below C0, the lowest that MusicXML can tell");
-    }
+    EXPECT_EQ(error_of<ScoreError>([&] { xml_of(score); }),
+              "bar 2 has a note below C0, the lowest that MusicXML can tell");
     score.notes.back().key = 127;
     EXPECT_NO_THROW(xml_of(score));
 }
@@ -410,7 +407,7 @@ TEST(MusicXml, IsTheSameInAnyLocale) {
         EXPECT_EQ(xml_of(score), before);
     }
     std::setlocale(LC_ALL, "C");
-    EXPECT_EQ(before.find("1,234"), std::string::npos);
+    EXPECT_FALSE(has(before, "1,234"));
 }
 
 }  // namespace

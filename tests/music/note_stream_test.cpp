@@ -1,6 +1,7 @@
 #include "music/note_stream.h"
 
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 #include "tests/reference.h"
 
@@ -313,14 +314,10 @@ TEST(NoteStream, SaysWhyItHasToBeReadFirst) {
     const Document document = document_of(
         "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 40\n"
         "velocity: by level\n");
-    try {
-        stream_notes({&document, 1}, {});
-        FAIL();
-    } catch (const BudgetError& error) {
-        EXPECT_NE(std::string(error.what()).find("curves of expression need the least and greatest value"),
-                  std::string::npos)
-            << error.what();
-    }
+    EXPECT_TRUE(has(error_of<BudgetError>([&] {
+                        stream_notes({&document, 1}, {});
+                    }),
+                    "curves of expression need the least and greatest value"));
     EXPECT_GT(collect(*stream_notes({&document, 1}, {{"bars", "4"}})).size(), 20u);
 }
 

@@ -3,6 +3,7 @@
 
 #include "music/melody/melody.h"
 #include "tests/program.h"
+#include "tests/files.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "music/score/mxl.h"
 #include "music/score/strudel.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/notation_tools.h"
 #include "tests/tools.h"
@@ -165,7 +166,7 @@ TEST(Abc, TellsWhatTheScoreIs) {
     EXPECT_TRUE(text.starts_with("%abc-2.1\n\n% sikku 0.1.0, -n 2\n% axiom: X\n%\n% X --> F\n\nX:1\n")) << text;
     for (const char* row : {"T:100\\% \\\\ title K:x\n", "C:Peano\n", "M:(3+2+2)/8\n", "K:Cmin\n",
                             "%%MIDI program 40\n", "V:1 clef=treble name=\"Voice\"\n"}) {
-        EXPECT_NE(text.find(row), std::string::npos) << row << text;
+        EXPECT_TRUE(has(text, row)) << row << text;
     }
 }
 
@@ -184,19 +185,19 @@ TEST(Abc, LinesOf8vaStandBetweenNotes) {
     TestScore score = line({4, 4}, std::vector<std::int64_t>(24, 480));
     for (std::size_t i = 8; i < 16; ++i) score.notes[i].key = 96;
     const std::string once = abc_of(score);
-    EXPECT_NE(once.find("c2 | !8va(!y0 c''2 c''2"), std::string::npos) << once;
-    EXPECT_NE(once.find("c''2 |\n!8va)!y0 c2"), std::string::npos) << once;
+    EXPECT_TRUE(has(once, "c2 | !8va(!y0 c''2 c''2"));
+    EXPECT_TRUE(has(once, "c''2 |\n!8va)!y0 c2"));
     // Two octaves are a line of one.
     for (std::size_t i = 8; i < 16; ++i) score.notes[i].key = 115;
     const std::string twice = abc_of(score);
-    EXPECT_NE(twice.find("!8va(!y0 "), std::string::npos) << twice;
-    EXPECT_EQ(twice.find("15ma"), std::string::npos) << twice;
+    EXPECT_TRUE(has(twice, "!8va(!y0 "));
+    EXPECT_FALSE(has(twice, "15ma"));
 }
 
 TEST(Abc, EndsWithAFermata) {
     const std::string text = abc_of(held_score({4, 4}));
-    EXPECT_NE(text.find("c8 | c8 | \"^rit.\"c2 c6- | !fermata!c8 |]"), std::string::npos) << text;
-    EXPECT_NE(text.find("!fermata!z8 |]"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "c8 | c8 | \"^rit.\"c2 c6- | !fermata!c8 |]"));
+    EXPECT_TRUE(has(text, "!fermata!z8 |]"));
 }
 
 TEST(Csound, StatementsAreTheNotes) {
@@ -233,8 +234,8 @@ TEST(Csound, PlaysTheFile) {
     const auto outcome =
         run("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
-    EXPECT_NE(outcome.text.find("0 errors in performance"), std::string::npos) << outcome.text;
-    EXPECT_EQ(outcome.text.find("WARNING"), std::string::npos) << outcome.text;
+    EXPECT_TRUE(has(outcome.text, "0 errors in performance"));
+    EXPECT_FALSE(has(outcome.text, "WARNING"));
     EXPECT_TRUE(std::regex_search(outcome.text, std::regex("overall samples out of range:\\D+0\\D+0\\D")))
         << outcome.text;
 }
@@ -243,9 +244,7 @@ TEST(Strudel, WeightsAreDurations) {
     const TestScore score = line({4, 4}, {480, 240, -240, 960, 480});
     MemorySink sink;
     write_strudel(score.head, score.notes, score.end, sink);
-    EXPECT_NE(sink.text.find("setcpm(120 / 4)\n$: note(`c5@2 c5 ~ c5@4 c5@2 ~@6`)\n  .slow(2).sound(\"piano\")\n"),
-              std::string::npos)
-        << sink.text;
+    EXPECT_TRUE(has(sink.text, "setcpm(120 / 4)\n$: note(`c5@2 c5 ~ c5@4 c5@2 ~@6`)\n  .slow(2).sound(\"piano\")\n"));
     EXPECT_TRUE(sink.text.starts_with("// https://strudel.cc/#"));
     // RFC 4648, section 10, with the signs that links reserve escaped.
     EXPECT_EQ(strudel_link("foobar"), "https://strudel.cc/#Zm9vYmFy");

@@ -2,6 +2,7 @@
 // and MusicXML see it.
 #include "music/arrangement.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 #include "tests/midi_tools.h"
 
 #include <fmt/format.h>
@@ -225,12 +226,11 @@ TEST(SymbolTable, ChordsArePrintedAsChords) {
     const Document document = parse("d.lsys", head +
                                                   "chord T: I 1/4\nnote A: C5 1/4\ndrum b: 36 + 49 1/4\n"
                                                   "chord U: C4 Eb4 1/4\naxiom: TAUb\n");
-    EXPECT_NE(play(document, "ly").find("<c' e' g'>4\\mf c''4 <c' ees'>4"), std::string::npos)
-        << play(document, "ly");
+    EXPECT_TRUE(has(play(document, "ly"), "<c' e' g'>4\\mf c''4 <c' ees'>4"));
     // Hands and feet have lines of their own.
-    EXPECT_NE(play(document, "ly").find("crashcymbala4"), std::string::npos);
-    EXPECT_NE(play(document, "ly").find("bassdrum4"), std::string::npos);
-    EXPECT_NE(play(document, "abc").find("[CEG]2 c2 [C_E]2"), std::string::npos);
+    EXPECT_TRUE(has(play(document, "ly"), "crashcymbala4"));
+    EXPECT_TRUE(has(play(document, "ly"), "bassdrum4"));
+    EXPECT_TRUE(has(play(document, "abc"), "[CEG]2 c2 [C_E]2"));
     pugi::xml_document xml;
     ASSERT_TRUE(xml.load_string(play(document, "musicxml").c_str()));
     std::vector<std::string> steps;
@@ -245,15 +245,15 @@ TEST(SymbolTable, ChordsArePrintedAsChords) {
 TEST(SymbolTable, OtherFormatsNameTheDrums) {
     const Document document = parse("d.lsys", head + "drum k: bass drum\ndrum s: snare drum\naxiom: ksks\n");
     const std::string lilypond = play(document, "ly");
-    EXPECT_NE(lilypond.find("\\drummode"), std::string::npos);
-    EXPECT_NE(lilypond.find("bassdrum4 bassdrum4 r2"), std::string::npos);
-    EXPECT_NE(lilypond.find("r8 acousticsnare8 r8 acousticsnare8 r2"), std::string::npos);
+    EXPECT_TRUE(has(lilypond, "\\drummode"));
+    EXPECT_TRUE(has(lilypond, "bassdrum4 bassdrum4 r2"));
+    EXPECT_TRUE(has(lilypond, "r8 acousticsnare8 r8 acousticsnare8 r2"));
     const std::string abc = play(document, "abc");
-    EXPECT_NE(abc.find("clef=perc"), std::string::npos);
-    EXPECT_NE(abc.find("%%MIDI drummap =F 36\n%%MIDI drummap =c 38"), std::string::npos);
-    EXPECT_NE(play(document, "strudel").find("sound(`bd sd bd sd ~@4`)"), std::string::npos);
-    EXPECT_NE(play(document, "csd").find("i 1 0.5 0.5 38 0.629921 1"), std::string::npos);
-    EXPECT_NE(play(document, "html").find("\"drums\":[0]"), std::string::npos);
+    EXPECT_TRUE(has(abc, "clef=perc"));
+    EXPECT_TRUE(has(abc, "%%MIDI drummap =F 36\n%%MIDI drummap =c 38"));
+    EXPECT_TRUE(has(play(document, "strudel"), "sound(`bd sd bd sd ~@4`)"));
+    EXPECT_TRUE(has(play(document, "csd"), "i 1 0.5 0.5 38 0.629921 1"));
+    EXPECT_TRUE(has(play(document, "html"), "\"drums\":[0]"));
 }
 
 TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
@@ -266,7 +266,7 @@ TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
     ASSERT_EQ(texts.size(), 3u);
     EXPECT_EQ(texts[1], "skipped: 5 Y, 2 X");
     EXPECT_EQ(texts[2], "the pattern does not contain the symbol 'Q' of the table");
-    EXPECT_NE(describe_score(std::span(&document, 1), {}, {}).find("skipped   5 Y, 2 X\n"), std::string::npos);
+    EXPECT_TRUE(has(describe_score(std::span(&document, 1), {}, {}), "skipped   5 Y, 2 X\n"));
 }
 
 TEST(SymbolTable, SkippedSymbolsAreReportedWithoutATable) {
@@ -325,10 +325,9 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
               "symbol 1 of the word: its duration is 0; expected steps above 0, up to 1000000, of 'N'");
     EXPECT_EQ(error_of("note N:\naxiom: N(0,1,300)\n"),
               "symbol 1 of the word: its velocity is 300; expected 1 to 127, of 'N'");
-    EXPECT_NE(error_of("note N:\nrange: refuse\naxiom: N(-100)\n").find("beyond the keys 0 to 127"),
-              std::string::npos);
+    EXPECT_TRUE(has(error_of("note N:\nrange: refuse\naxiom: N(-100)\n"), "beyond the keys 0 to 127"));
     EXPECT_EQ(error_of("note N:\naxiom: N(-100)\n"), "none");  // folded
-    EXPECT_NE(error_of("note A: C4\naxiom: X\n").find("no symbol of the word sounds"), std::string::npos);
+    EXPECT_TRUE(has(error_of("note A: C4\naxiom: X\n"), "no symbol of the word sounds"));
 }
 
 }  // namespace

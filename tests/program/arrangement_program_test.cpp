@@ -31,7 +31,7 @@ TEST(ArrangementProgram, EveryScoreContainsTheArrangement) {
         const std::string score = folder.file(std::string("x.") + ending);
         const Outcome played = run(Arguments{"play", file, "-o", score});
         ASSERT_EQ(played.status, 0) << ending << played.errors;
-        EXPECT_NE(played.errors.find("counterpoint: "), std::string::npos) << played.errors;
+        EXPECT_TRUE(has(played.errors, "counterpoint: "));
         const Outcome shown = run(Arguments{"-q", "show", score});
         EXPECT_TRUE(shown.output.starts_with(piece)) << ending;
         if (first.empty()) first = shown.output;
@@ -54,9 +54,9 @@ TEST(ArrangementProgram, PartsOfTheCommandLineAreRecovered) {
     const Outcome shown = run(Arguments{"show", folder.file("x.mid")});
     for (const char* text : {"loop = \"2\"", "speed = \"3:2\"", "retrograde = \"yes\"", "n = \"3\"",
                              "unit = \"1/16\"", "name = \"dragon", "Hilbert in C major"}) {
-        EXPECT_NE(shown.output.find(text), std::string::npos) << text << "\n" << shown.output;
+        EXPECT_TRUE(has(shown.output, text)) << text << "\n" << shown.output;
     }
-    EXPECT_NE(shown.errors.find("--tempo '90'"), std::string::npos) << shown.errors;
+    EXPECT_TRUE(has(shown.errors, "--tempo '90'"));
     const std::string again = folder.write("again.toml", shown.output);
     const Outcome replayed = run(Arguments{"play", again, "--tempo", "90", "-o", folder.file("y.mid")});
     ASSERT_EQ(replayed.status, 0) << replayed.errors;
@@ -69,7 +69,7 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
         const std::string file = folder.write("bad.toml", text);
         const Outcome outcome = run(Arguments{"play", file, "-o", folder.file("x.mid")});
         EXPECT_EQ(outcome.status, 2) << outcome.errors;
-        EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, message));
         EXPECT_FALSE(std::filesystem::exists(folder.file("x.mid")));
         EXPECT_EQ(run(Arguments{"check", file}).status, 2);
     };
@@ -79,18 +79,17 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     refused("tempo = 0\n[[track]]\npattern = \"hilbert\"\n", "bad.toml:1:1: tempo: expected quarter notes");
     const Outcome two = run(Arguments{"play", "invention", "hilbert"});
     EXPECT_EQ(two.status, 2);
-    EXPECT_NE(two.errors.find("played alone"), std::string::npos) << two.errors;
+    EXPECT_TRUE(has(two.errors, "played alone"));
     EXPECT_EQ(run(Arguments{"play", "hilbert", "invention"}).status, 2);
     EXPECT_EQ(run(Arguments{"play", "invention", "-n", "3"}).status, 2);
     EXPECT_EQ(run(Arguments{"play", "missing.toml"}).status, 2);
     for (const char* command : {"measure", "derive"}) {
         const Outcome other = run(Arguments{command, "canon"});
         EXPECT_EQ(other.status, 2);
-        EXPECT_NE(other.errors.find("canon: this is an arrangement; `sikku play` plays it"), std::string::npos);
+        EXPECT_TRUE(has(other.errors, "canon: this is an arrangement; `sikku play` plays it"));
     }
     refused("[[track]]\npattern = \"canon\"\n", "canon: a track plays a pattern, not another arrangement");
-    EXPECT_NE(run(Arguments{"patterns", "arrangement"}).errors.find("did you mean 'arrangements'?"),
-              std::string::npos);
+    EXPECT_TRUE(has(run(Arguments{"patterns", "arrangement"}).errors, "did you mean 'arrangements'?"));
     // `transpose` is another name of `transposition`.
     const std::string one = folder.file("one.mid");
     const std::string two_names = folder.file("two.mid");
@@ -123,7 +122,7 @@ TEST(ArrangementProgram, ExtremeValuesAreRefusedWithTheirPlaces) {
              {Arguments{"play", file, "-o", folder.file("x.mid")}, Arguments{"play", file, "--port", "/dev/null"}}) {
             const Outcome outcome = run(arguments);
             EXPECT_EQ(outcome.status, 2) << outcome.errors;
-            EXPECT_NE(outcome.errors.find(message), std::string::npos) << outcome.errors.substr(0, 500);
+            EXPECT_TRUE(has(outcome.errors, message));
             EXPECT_LT(outcome.peak, sanitized ? 2'000'000 : 200 * 1024) << text.substr(0, 100);
         }
         EXPECT_FALSE(std::filesystem::exists(folder.file("x.mid")));
@@ -160,7 +159,7 @@ TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
         const std::string score = folder.file(std::string(name) + ".mid");
         const Outcome played = run(Arguments{"play", name, "-o", score});
         EXPECT_EQ(played.status, 0) << played.errors;
-        EXPECT_NE(played.errors.find("s, 1 min "), std::string::npos) << played.errors;
+        EXPECT_TRUE(has(played.errors, "s, 1 min "));
         EXPECT_EQ(run(Arguments{"check", score, name}).output, "");
         EXPECT_EQ(run(Arguments{"play", name, "-o", folder.file("x.ly")}).status, 0);
     }

@@ -805,7 +805,7 @@ TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     EXPECT_LT(contents(folder.file("w.svg")).size(), 30'000u);
     const Outcome bad = drawn({"--window", "1,2,3"}, "bad.svg");
     EXPECT_EQ(bad.status, 2);
-    EXPECT_NE(bad.errors.find("X0,Y0,X1,Y1"), std::string::npos) << bad.errors;
+    EXPECT_TRUE(has(bad.errors, "X0,Y0,X1,Y1"));
     const Outcome spline =
         run({"draw", "snake-kolam", "-n", "30", "--window", "0,0,9,9", "-o", folder.file("spline.svg")});
     EXPECT_EQ(spline.status, 0) << spline.errors;

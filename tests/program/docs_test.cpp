@@ -62,7 +62,7 @@ TEST(Docs, EachRoomIsDescribed) {
         for (const auto& entry : std::filesystem::directory_iterator(root / floor)) {
             if (!entry.is_directory()) continue;
             const std::string room = std::string(floor) + '/' + entry.path().filename().string();
-            EXPECT_NE(text.find("| `" + room + "` |"), std::string::npos) << room;
+            EXPECT_TRUE(has(text, "| `" + room + "` |")) << room;
         }
     }
 }
@@ -155,7 +155,7 @@ TEST(Docs, TheReadmeListsAllPages) {
     for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
         if (entry.path().extension() != ".md") continue;
         const std::string name = entry.path().filename().string();
-        EXPECT_NE(text.find("](docs/" + name + ")"), std::string::npos) << name;
+        EXPECT_TRUE(has(text, "](docs/" + name + ")")) << name;
     }
 }
 

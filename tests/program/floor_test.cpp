@@ -42,7 +42,7 @@ TEST(Floor, PrintsAndScoresInMemoryEqualThoseOfTheProgram) {
 TEST(Floor, KeysAndDefinesOfThePatternMayStandAmongTheOptions) {
     const Document document = parse("koch", koch);
     const std::string navy = draw(document, "svg", {{"size", "A6"}, {"stroke", "0.3mm navy"}});
-    EXPECT_NE(navy.find("#000080"), std::string::npos);
+    EXPECT_TRUE(has(navy, "#000080"));
     EXPECT_NE(navy, draw(document, "svg", {{"size", "A6"}}));
     EXPECT_THROW(draw(document, "svg", {{"strokes", "0.3mm navy"}}), SettingError);
 }
@@ -164,8 +164,8 @@ TEST(Floor, NoMessageOfALibraryNamesTheCommandLine) {
             ADD_FAILURE() << format << " " << (values.empty() ? "" : values.front().name) << " is accepted";
         } catch (const SettingError& error) {
             const std::string message = error.what();
-            EXPECT_EQ(message.find("--"), std::string::npos) << message;
-            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            EXPECT_FALSE(has(message, "--"));
+            EXPECT_FALSE(has(message, "\n"));
             EXPECT_FALSE(message.empty());
         }
     }
@@ -219,7 +219,7 @@ TEST(Floor, AnOptionInTheTableIsAKeyOfGalleryFilesAndOfManifests) {
     json.manifest = "jobs.jsonl";
     json.manifest_text = jobs.front().text() + "\n";
     EXPECT_EQ(gallery_jobs(json, keys).front().text(), jobs.front().text());
-    EXPECT_NE(jobs.front().text().find("\"paper-colour\":\"wheat\""), std::string::npos);
+    EXPECT_TRUE(has(jobs.front().text(), "\"paper-colour\":\"wheat\""));
     GalleryRequest unknown = toml;
     EXPECT_THROW(gallery_jobs(unknown, GalleryKeys({&prints(), &scores()})), GalleryError);
 }
@@ -247,14 +247,14 @@ TEST(Floor, EveryOptionOfTheTablesIsInTheHelp) {
          {std::pair<const char*, const Interpreter*>("draw", &prints()), {"play", &scores()}}) {
         const std::string help = run({command, "--help"}).output;
         for (const OptionInfo* option : interpreter->options()) {
-            EXPECT_NE(help.find("--" + std::string(option->name)), std::string::npos) << option->name;
+            EXPECT_TRUE(has(help, "--" + std::string(option->name))) << option->name;
         }
     }
     const std::string help = run({"gallery", "--help"}).output;
     const GalleryKeys keys({&prints(), &scores()});
     for (const GalleryKey& key : keys.list()) {
         if (!key.is_option) continue;
-        EXPECT_NE(help.find("--" + (key.name == "n" ? "generations" : key.name)), std::string::npos) << key.name;
+        EXPECT_TRUE(has(help, "--" + (key.name == "n" ? "generations" : key.name))) << key.name;
     }
 }
 

@@ -4,6 +4,7 @@
 #include "art/prints.h"
 #include "engine/base/output.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +28,7 @@ std::vector<GalleryJob> jobs(const std::string& text) {
     return gallery_jobs(request, keys());
 }
 std::string refusal(const std::string& text) {
-    try {
-        jobs(text);
-    } catch (const GalleryError& error) {
-        return error.what();
-    }
-    return "none";
+    return error_of<GalleryError>([&] { jobs(text); }, "none");
 }
 
 TEST(GalleryKeys, AreTheOptionsOfSingleFiles) {
@@ -48,10 +44,8 @@ TEST(GalleryKeys, AreTheOptionsOfSingleFiles) {
     EXPECT_EQ(refusal("frames = true\npattern = \"square\"\n"),
               "gallery.toml:1:1: 'frames' is an option of single works, not a key of galleries: each job makes one "
               "file of one derivation length; 'n' lists derivation lengths");
-    EXPECT_NE(refusal("fit-frames = true\npattern = \"square\"\n").find("'n' lists derivation lengths"),
-              std::string::npos);
-    EXPECT_NE(refusal("fil-page = true\npattern = \"square\"\n").find("did you mean 'fill-page'?"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal("fit-frames = true\npattern = \"square\"\n"), "'n' lists derivation lengths"));
+    EXPECT_TRUE(has(refusal("fil-page = true\npattern = \"square\"\n"), "did you mean 'fill-page'?"));
 }
 
 /// `true` stands for the default of a value that may be left out.
@@ -68,8 +62,7 @@ TEST(GalleryKeys, HaveDefaults) {
     EXPECT_EQ(made("swatch = true\n"), Values{""});
     EXPECT_EQ(made("swatch = false\n"), Values{"absent"});
     EXPECT_EQ(made("swatch = \"turn\"\n"), Values{"turn"});
-    EXPECT_NE(refusal("pattern = \"honeycomb\"\nswatch = \"around\"\n").find("expected turn, or no value"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal("pattern = \"honeycomb\"\nswatch = \"around\"\n"), "expected turn, or no value"));
 }
 
 /// Each makes one file.
@@ -88,9 +81,8 @@ TEST(GalleryKeys, MakeWhatTheySay) {
         ASSERT_EQ(files.outputs().size(), 1U) << more;
         EXPECT_FALSE(files.outputs().begin()->second.empty()) << more;
     }
-    EXPECT_NE(refusal("pattern = \"hilbert\"\nformat = \"png\"\ntile = \"A4\"\n")
-                  .find("tile: sheets as png are several files, and each job of a gallery makes one"),
-              std::string::npos);
+    EXPECT_TRUE(has(refusal("pattern = \"hilbert\"\nformat = \"png\"\ntile = \"A4\"\n"),
+                    "tile: sheets as png are several files, and each job of a gallery makes one"));
 }
 
 }  // namespace

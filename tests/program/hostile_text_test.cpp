@@ -25,11 +25,6 @@ protected:
         EXPECT_EQ(outcome.status, 0) << outcome.errors;
         return contents(folder_ / name);
     }
-    static std::size_t count(const std::string& text, std::string_view part) {
-        std::size_t found = 0;
-        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
-        return found;
-    }
     /// Nothing that a terminal obeys, and nothing that changes the order of what it shows.
     static void expect_for_terminals(const std::string& text) {
         for (const char byte : text) {
@@ -37,7 +32,7 @@ protected:
             ASSERT_TRUE((code >= 0x20 && code != 0x7F) || byte == '\n' || byte == '\t') << static_cast<int>(code);
         }
         for (const char* mark : {"\u009B", "\u0085", "\u202E", "\u202C", "\u2066", "\u2069"}) {
-            EXPECT_EQ(count(text, mark), 0u) << mark;
+            EXPECT_EQ(count_of(text, mark), 0u) << mark;
         }
     }
 
@@ -78,7 +73,7 @@ TEST_F(HostileTitle, InHpglIsNowhere) {
 TEST_F(HostileTitle, InLilyPondIsOneString) {
     const std::string score = made("play", "x.ly");
     for (const char* mark : {"\u2028", "\u2029", "\u202E", "\u2066", "\u0085", "\u009B", "\x1b", "\x07"}) {
-        EXPECT_EQ(count(score, mark), 0u);
+        EXPECT_EQ(count_of(score, mark), 0u);
     }
     std::istringstream lines(score);
     bool has_title = false;
@@ -100,8 +95,8 @@ TEST_F(HostileTitle, InLilyPondIsOneString) {
             }
         }
         EXPECT_FALSE(in_text) << line;
-        EXPECT_EQ(count(code, "#("), line.starts_with("#(set-global-staff-size ") ? 1u : 0u) << line;
-        EXPECT_EQ(count(code, "system"), line.find("system-system") == std::string::npos ? 0u : 2u) << line;
+        EXPECT_EQ(count_of(code, "#("), line.starts_with("#(set-global-staff-size ") ? 1u : 0u) << line;
+        EXPECT_EQ(count_of(code, "system"), line.find("system-system") == std::string::npos ? 0u : 2u) << line;
         static const std::regex title(R"(  title = (\\markup \\center-column \{ *\\vspace #0\.2 \})?)");
         has_title = has_title || std::regex_match(code, title);
     }
@@ -149,22 +144,22 @@ TEST_F(HostileTitle, InXmlIsText) {
         pugi::xml_document document;
         const auto parsed = document.load_buffer(text.data(), text.size());
         EXPECT_TRUE(parsed) << parsed.description();
-        EXPECT_EQ(count(text, "<script>alert"), 0u);
-        EXPECT_EQ(count(text, "<svg onload"), 0u);
+        EXPECT_EQ(count_of(text, "<script>alert"), 0u);
+        EXPECT_EQ(count_of(text, "<svg onload"), 0u);
         EXPECT_TRUE(document.select_nodes("//*[@onload]").empty());
     }
 }
 
 TEST_F(HostileTitle, InPagesIsText) {
     const std::string page = made("play", "x.html");
-    EXPECT_EQ(count(page, "<script>alert"), 0u);
-    EXPECT_EQ(count(page, "<svg onload"), 0u);
-    EXPECT_EQ(count(page, "<script"), count(page, "</script>"));
+    EXPECT_EQ(count_of(page, "<script>alert"), 0u);
+    EXPECT_EQ(count_of(page, "<svg onload"), 0u);
+    EXPECT_EQ(count_of(page, "<script"), count_of(page, "</script>"));
     const Outcome gallery = run({"gallery", pattern, "-f", "svg,mid", "-o", "out"}, {.folder = folder_.path()});
     EXPECT_EQ(gallery.status, 0) << gallery.errors;
     const std::string index = contents(folder_ / "out/index.html");
-    EXPECT_EQ(count(index, "<script>alert"), 0u);
-    EXPECT_EQ(count(index, "<script"), count(index, "</script>"));
+    EXPECT_EQ(count_of(index, "<script>alert"), 0u);
+    EXPECT_EQ(count_of(index, "<script"), count_of(index, "</script>"));
 }
 
 TEST_F(HostileTitle, InMidiAndModelsIsAText) {

@@ -83,17 +83,17 @@ TEST_F(KolamGrid, TheUsualSymmetryIsTheLargestThatIsPossible) {
 TEST_F(KolamGrid, ASingleLineOnALargeGridTakesSeconds) {
     const Outcome outcome = kolam({"--grid", "400x400", "--single-line", "-o", "large.lsys"});
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_TRUE(has(outcome.errors, "160000 dots")) << outcome.errors;
-    EXPECT_TRUE(has(outcome.errors, ", 1 line; ")) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "160000 dots"));
+    EXPECT_TRUE(has(outcome.errors, ", 1 line; "));
     EXPECT_LT(outcome.seconds, sanitized ? 120 : 15);
 }
 
 TEST_F(KolamGrid, JoinedGapsAreMadeReadAndListed) {
     const Outcome made = kolam({"--grid", "5x5", "--density", "0.5", "--joined", "0.6", "-o", "a.lsys"});
     ASSERT_EQ(made.status, 0);
-    EXPECT_TRUE(has(made.errors, " joined, ")) << made.errors;
+    EXPECT_TRUE(has(made.errors, " joined, "));
     const Outcome given = kolam({"--grid", "1x3", "--crossings", "12", "--json", "-o", "a.lsys"});
-    EXPECT_TRUE(has(given.output, "\"crossed\": 1, \"joined\": 1, \"lines\": 1")) << given.output;
+    EXPECT_TRUE(has(given.output, "\"crossed\": 1, \"joined\": 1, \"lines\": 1"));
     EXPECT_TRUE(
         has(kolam({"--grid", "2x2", "--enumerate", "--joined", "1"}).output, "81 states, 40 with a single line"));
 }
@@ -101,7 +101,7 @@ TEST_F(KolamGrid, JoinedGapsAreMadeReadAndListed) {
 TEST_F(KolamGrid, RadialKolamsHaveAsManyLinesAsTheGreatestCommonDivisor) {
     for (const auto& [size, lines] : {std::pair{"8x5", "\"lines\": 1,"}, std::pair{"8x6", "\"lines\": 2,"}}) {
         const Outcome made = kolam({"--radial", size, "--dots", "--json", "-o", "a.lsys"});
-        EXPECT_TRUE(has(made.output, lines)) << made.output;
+        EXPECT_TRUE(has(made.output, lines));
         EXPECT_TRUE(has(kolam({"a.lsys", "--json"}).output, lines));
     }
 }
@@ -167,9 +167,29 @@ TEST_F(KolamGrid, RefusesWithTheReason) {
                             {{"snake-kolam", "--dots"}, 2, "need --grid or --radial"}}) {
         const Outcome refused = kolam(bad.arguments);
         EXPECT_EQ(refused.status, bad.status) << bad.message << refused.errors;
-        EXPECT_TRUE(has(refused.errors, bad.message)) << refused.errors;
+        EXPECT_TRUE(has(refused.errors, bad.message));
     }
     EXPECT_EQ(folder_.names().size(), 1U);  // the mask
+}
+
+TEST(KolamCommand, TellsInWordsAndAsJson) {
+    const Outcome snake = run({"kolam", "snake-kolam", "-n", "3"});
+    EXPECT_EQ(snake.status, 0) << snake.errors;
+    EXPECT_TRUE(has(snake.output, "yes: a single line (anthathi), 85 dots, all encircled"));
+    EXPECT_TRUE(has(snake.output, "D4: 4 rotations, 4 mirrors, about 7.5 7.5"));
+    const Outcome island = run(std::vector<std::string>{"kolam", "koch-island"});
+    EXPECT_EQ(island.status, 0) << island.errors;
+    EXPECT_TRUE(has(island.output, "no: 1 of 1 dot is not encircled"));
+    const Outcome json = run({"kolam", "anklets-of-krishna", "-n", "1", "--json"});
+    EXPECT_EQ(json.status, 0) << json.errors;
+    EXPECT_TRUE(has(json.output, "\"kolam\": true"));
+    EXPECT_TRUE(has(json.output, "\"dots\": [[-0.707107, 0]]}\n"));
+    const Outcome nothing = run({"kolam", "-"}, {.input = "axiom: X\n"});
+    EXPECT_EQ(nothing.status, 1);
+    EXPECT_TRUE(has(nothing.errors, "nothing to examine"));
+    const Outcome large = run({"kolam", "snake-kolam", "-n", "40"});
+    EXPECT_EQ(large.status, 1);
+    EXPECT_TRUE(has(large.errors, "budget"));
 }
 
 }  // namespace

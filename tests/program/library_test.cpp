@@ -2,6 +2,7 @@
 #include "art/prints.h"
 #include "art/sheets.h"
 #include "music/scores.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -16,40 +17,30 @@ Document curve() {
 
 TEST(Library, DrawsAndPlaysInMemory) {
     const std::string svg = draw(curve(), "svg", {{"size", "A3"}, {"stroke", "0.3mm navy"}});
-    EXPECT_NE(svg.find("width=\"297mm\""), std::string::npos);
-    EXPECT_NE(svg.find("#000080"), std::string::npos);
+    EXPECT_TRUE(has(svg, "width=\"297mm\""));
+    EXPECT_TRUE(has(svg, "#000080"));
     EXPECT_TRUE(play(curve(), "mid", {{"scale", "dorian"}, {"bars", "2"}}).starts_with("MThd"));
     EXPECT_TRUE(draw(curve(), "pdf", {{"derivation length", "2"}, {"width", "3"}}).starts_with("%PDF"));
 }
 
 TEST(Library, UnknownNamesAreSettingErrors) {
-    const auto error = [](const std::function<void()>& work) {
-        try {
-            work();
-        } catch (const SettingError& caught) {
-            return std::string(caught.what());
-        }
-        return std::string("no error");
-    };
-    EXPECT_EQ(error([] {
+    EXPECT_EQ(error_of<SettingError>([] {
                   draw(curve(), "svg", {{"siz", "A3"}});
               }),
               "siz: unknown option or key; did you mean 'size'?");
-    EXPECT_EQ(error([] {
+    EXPECT_EQ(error_of<SettingError>([] {
                   draw(curve(), "svg", {{"widht", "2"}});
               }),
               "widht: unknown option or key; did you mean 'width'?");
-    EXPECT_EQ(error([] { play(curve(), "mid", {{"qqqqqqqq", "2"}}); }), "qqqqqqqq: unknown option or key");
+    EXPECT_EQ(error_of<SettingError>([] {
+                  play(curve(), "mid", {{"qqqqqqqq", "2"}});
+              }),
+              "qqqqqqqq: unknown option or key");
 }
 
 TEST(Library, AnErrorNamesTheOptionAndItsValueWhoeverCatchesIt) {
     const auto what = [](std::string_view format, const OptionValues& values) -> std::string {
-        try {
-            draw(curve(), format, values);
-        } catch (const std::exception& caught) {
-            return caught.what();
-        }
-        return "no error";
+        return error_of([&] { draw(curve(), format, values); }, "no error");
     };
     EXPECT_EQ(what("sgv", {}), "format sgv: unknown format");
     EXPECT_EQ(what("svg", {{"sise", "A3"}}), "sise: unknown option or key; did you mean 'size'?");

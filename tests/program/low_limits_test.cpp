@@ -42,7 +42,7 @@ protected:
             EXPECT_FALSE(outcome.errors.empty());
         }
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
-            EXPECT_EQ(entry.path().filename().string().find(".tmp"), std::string::npos) << entry.path();
+            EXPECT_FALSE(has(entry.path().filename().string(), ".tmp")) << entry.path();
         }
         EXPECT_EQ(std::filesystem::exists(folder_ / file), outcome.status == 0) << outcome.errors;
         std::filesystem::remove_all(folder_ / file);

@@ -31,7 +31,7 @@ TEST(MapCommands, MeasureCounts) {
               "sides    2 with 4\n");
     const Outcome refused = run({"measure", file, "-n", "60", "--budget", "10000"});
     EXPECT_EQ(refused.status, 1);
-    EXPECT_NE(refused.errors.find("the largest derivation length that fits is"), std::string::npos) << refused.errors;
+    EXPECT_TRUE(has(refused.errors, "the largest derivation length that fits is"));
 }
 
 TEST(MapCommands, WhatNeedsATurtleRefusesInOneLine) {
@@ -41,12 +41,11 @@ TEST(MapCommands, WhatNeedsATurtleRefusesInOneLine) {
          {std::vector<std::string>{"play", file}, {"play", file, "-o", folder.file("a.mid")}}) {
         const Outcome outcome = run(command);
         EXPECT_EQ(outcome.status, 2);
-        EXPECT_NE(outcome.errors.find("1:1: a map has no turtle, so it has no melody"), std::string::npos)
-            << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, "1:1: a map has no turtle, so it has no melody"));
     }
     const Outcome kolam = run({"kolam", file});
     EXPECT_EQ(kolam.status, 2);
-    EXPECT_NE(kolam.errors.find("a map has no turtle, so it is not a kolam"), std::string::npos) << kolam.errors;
+    EXPECT_TRUE(has(kolam.errors, "a map has no turtle, so it is not a kolam"));
     const Outcome tempo = run({"play", file, "--tempo", "90", "-o", folder.file("a.mid")});
     EXPECT_EQ(tempo.status, 2);
     EXPECT_EQ(run({"draw", file, "-o", folder.file("a.obj")}).status, 2);
@@ -71,7 +70,7 @@ TEST(MapCommands, CheckReportsEveryError) {
     EXPECT_EQ(outcome.status, 2);
     for (const char* place : {":2:1:", ":3:8:", ":4:9:", ":5:9:", ":6:9:", ":7:7:", ":8:5:", ":9:12:", ":10:8:",
                               ":11:11:", ":12:8:", ":13:8:"}) {
-        EXPECT_NE(outcome.output.find(place), std::string::npos) << place << "\n" << outcome.output;
+        EXPECT_TRUE(has(outcome.output, place)) << place << "\n" << outcome.output;
     }
     EXPECT_EQ(run({"check", SIKKU_SOURCE_DIR "/tests/corpus/good/map.lsys"}).status, 0);
 }

@@ -179,7 +179,7 @@ TEST_F(Mistakes, OfPatterns) {
     // Errors of the file, of its variants, and those that several variants share.
     const std::string all =
         said("axiom: F\nstroke: rd\nvariant a: tempo = x\nvariant b: tempo = y\nvariant c: tempo = 60\n");
-    for (const char* place : {"bad.lsys:2:9: ", "bad.lsys:3:", "bad.lsys:4:"}) EXPECT_TRUE(has(all, place)) << all;
+    for (const char* place : {"bad.lsys:2:9: ", "bad.lsys:3:", "bad.lsys:4:"}) EXPECT_TRUE(has(all, place));
     EXPECT_EQ(all.find("'rd'"), all.rfind("'rd' is")) << all;
 }
 

@@ -239,7 +239,7 @@ TEST_F(PrintOptions, PlotsDrawNothingTwice) {
     EXPECT_TRUE(has(z, "F1500"));
     EXPECT_TRUE(has(z, "G28\n"));
     EXPECT_TRUE(z.ends_with("M84\n"));
-    EXPECT_EQ(z.find("M3"), std::string::npos);
+    EXPECT_FALSE(has(z, "M3"));
 }
 
 TEST_F(PrintOptions, MistakesAreToldBeforeAnythingIsWritten) {
@@ -310,6 +310,64 @@ TEST_F(PrintOptions, KolamsAreMadeAndExamined) {
     EXPECT_EQ(run(std::vector<std::string>{"kolam"}).status, 2);
     EXPECT_EQ(run({"kolam", "snake-kolam", "--grid", "3x3"}).status, 2);
     EXPECT_EQ(run({"kolam", "--grid", "3x4", "--symmetry", "C4"}).status, 2);
+}
+
+TEST(ScreenedPrint, IsTheSameOnEveryNumberOfThreads) {
+    ScratchFolder folder;
+    const auto draw = [&](std::vector<std::string> more, const std::string& file) {
+        more.insert(more.begin(), {"--quiet", "draw", "flowering-plant", "--size", "60x60mm", "--dpi", "300"});
+        more.insert(more.end(), {"-o", folder.file(file)});
+        return run(more);
+    };
+    for (const char* screen : {"threshold", "diffusion", "halftone,60"}) {
+        ASSERT_EQ(draw({"--bits", "1", "--screen", screen, "-j", "1"}, "a.tif").status, 0) << screen;
+        ASSERT_EQ(draw({"--bits", "1", "--screen", screen, "-j", "4"}, "b.tif").status, 0) << screen;
+        EXPECT_EQ(contents(folder / "a.tif"), contents(folder / "b.tif")) << screen;
+    }
+    ASSERT_EQ(draw({"--bits", "1"}, "plain.tif").status, 0);
+    ASSERT_EQ(draw({"--bits", "1", "--screen", "threshold"}, "a.tif").status, 0);
+    EXPECT_EQ(contents(folder / "plain.tif"), contents(folder / "a.tif"));
+    EXPECT_NE(contents(folder / "plain.tif"), contents(folder / "b.tif"));
+    EXPECT_EQ(draw({"--screen", "diffusion"}, "x.tif").status, 2);
+    EXPECT_EQ(draw({"--bits", "1", "--screen", "mist"}, "x.tif").status, 2);
+    EXPECT_EQ(draw({"--bits", "1", "--screen", "halftone,200"}, "x.tif").status, 2);
+    folder.write("g.toml",
+                 "format = \"tif\"\nsize = \"60x60mm\"\ndpi = 300\n[[item]]\n"
+                 "pattern = \"flowering-plant\"\nbits = 1\nscreen = \"halftone,60\"\n");
+    const Outcome gallery = run({"-q", "gallery", "--file", folder.file("g.toml"), "-o", folder.file("g")});
+    EXPECT_EQ(gallery.status, 0) << gallery.errors;
+    EXPECT_EQ(contents(folder / "g/flowering-plant.tif"), contents(folder / "b.tif"));
+}
+
+TEST(BlankPicture, IsReportedWithItsRemedy) {
+    ScratchFolder folder;
+    const auto draw = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), "draw");
+        more.insert(more.end(), {"--dpi", "40", "-o", folder.file("b.png")});
+        const Outcome outcome = run(more);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return outcome.errors;
+    };
+    for (const std::string& errors : {draw({"koch-island", "-n", "25"}), draw({"koch-island", "-n", "8"})}) {
+        EXPECT_TRUE(has(errors, "the picture looks empty"));
+        EXPECT_TRUE(has(errors, "(stroke: 0.3mm)"));
+        EXPECT_FALSE(has(errors, "window"));
+    }
+    EXPECT_EQ(draw({"koch-island", "-n", "25", "--set", "stroke=0.3mm"}), "");
+    EXPECT_EQ(draw({"koch-island", "-n", "3"}), "");
+    EXPECT_EQ(draw({"bush-3d", "-n", "3"}), "");
+    EXPECT_TRUE(has(draw({"hilbert", "-n", "60", "--window", "500,500,600,600"}), "contains no part of the drawing"));
+    EXPECT_EQ(draw({"hat", "-n", "60", "--window", "0,0,20,20"}), "");
+    const Outcome far = run({"draw", "hat", "-n", "120", "--window", "0,0,20,20", "-o", folder.file("far.png")});
+    EXPECT_EQ(far.status, 1);
+    EXPECT_TRUE(has(far.errors, "at n = 120 the rounding errors of places add up to more than 0.001 steps"));
+    // The example of the help shows something.
+    const std::string help = run(std::vector<std::string>{"draw", "--help"}).output;
+    const std::size_t at = help.find("hilbert -n 60 --window ");
+    ASSERT_NE(at, std::string::npos);
+    const std::size_t begin = at + std::string_view("hilbert -n 60 --window ").size();
+    const std::string window = help.substr(begin, help.find_first_of(" \n", begin) - begin);
+    EXPECT_EQ(draw({"hilbert", "-n", "60", "--window", window}), "");
 }
 
 }  // namespace

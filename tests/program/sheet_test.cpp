@@ -25,7 +25,7 @@ protected:
     void expect_mistake(const std::vector<std::string>& arguments, const std::string& part) {
         const Outcome outcome = sheet(arguments);
         EXPECT_EQ(outcome.status, 2) << outcome.errors;
-        EXPECT_TRUE(has(outcome.errors, part)) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, part));
         EXPECT_FALSE(std::filesystem::exists(folder_ / "x.svg"));
     }
     ScratchFolder folder_;
@@ -79,12 +79,12 @@ TEST_F(SheetProgram, ReportsWhatDrawReportsOnceWithTheNamesOfTheDrawings) {
     folder_.write("line.lsys", "title: Line\naxiom: FF\n");
     const Outcome dots = sheet({"line.lsys", "snake-kolam", "line.lsys@title=Second", "--dots", "-o", "x.svg"});
     EXPECT_EQ(dots.status, 0) << dots.errors;
-    EXPECT_TRUE(has(dots.errors, "'Line', 'Second': no dots were drawn")) << dots.errors;
+    EXPECT_TRUE(has(dots.errors, "'Line', 'Second': no dots were drawn"));
     const Outcome plot = sheet({"line.lsys", "snake-kolam@fields=kind", "a.lsys@fields=kind", "-o", "x.gcode"});
-    EXPECT_TRUE(has(plot.errors, "plots fill fields only by hatching")) << plot.errors;
+    EXPECT_TRUE(has(plot.errors, "plots fill fields only by hatching"));
     const Outcome pale = sheet({"line.lsys@fields=kind", "a.lsys", "--hatch=1mm", "-o", "x.hpgl"});
-    EXPECT_TRUE(has(pale.errors, "'Line': no fields were filled")) << pale.errors;
-    EXPECT_TRUE(has(pale.errors, "--hatch has no effect")) << pale.errors;
+    EXPECT_TRUE(has(pale.errors, "'Line': no fields were filled"));
+    EXPECT_TRUE(has(pale.errors, "--hatch has no effect"));
     EXPECT_TRUE(has(sheet({"a.lsys", "--compression", "9", "-o", "x.svg"}).errors, "--compression has no effect"));
 }
 
@@ -104,7 +104,7 @@ TEST_F(SheetProgram, PlacesThatAreMissingOrOverlapAreMistakesOfUse) {
     EXPECT_EQ(overlap.status, 2) << overlap.errors;
     expect_mistake({"a.lsys", "with@sign.lsys@width=3mm", "-o", "x.svg"}, "(drawing 'with@sign.lsys')");
     const Outcome gif = sheet({"a.lsys", "-o", "x.gif"});
-    EXPECT_FALSE(has(gif.errors, "--format")) << gif.errors;
+    EXPECT_FALSE(has(gif.errors, "--format"));
 }
 
 TEST_F(SheetProgram, BordersOfPatternsThatAreNotDrawnAreReported) {

@@ -57,7 +57,7 @@ protected:
         const std::string text = contents(file);
         EXPECT_TRUE(text.starts_with(before) && text.ends_with(after)) << text;
         const std::string json = text.substr(before.size(), text.size() - before.size() - after.size());
-        EXPECT_EQ(json.find('<'), std::string::npos);
+        EXPECT_FALSE(has(json, "<"));
         return Json::parse(json);
     }
 

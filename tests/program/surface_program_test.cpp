@@ -70,10 +70,9 @@ TEST(SurfaceProgram, WhatSpaceLacksIsRefused) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         const Outcome outcome = run(arguments, {.input = text});
         EXPECT_EQ(outcome.status, 2) << options[0];
-        EXPECT_NE(outcome.errors.find("this one pitches, rolls, bends or has surfaces"), std::string::npos)
-            << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, "this one pitches, rolls, bends or has surfaces"));
     }
-    EXPECT_NE(run({"kolam", "-"}, {.input = text}).errors.find("or has surfaces"), std::string::npos);
+    EXPECT_TRUE(has(run({"kolam", "-"}, {.input = text}).errors, "or has surfaces"));
 }
 
 TEST(SurfaceProgram, FilesAreFoundBesideThePattern) {
@@ -97,8 +96,7 @@ TEST(SurfaceProgram, FilesAreFoundBesideThePattern) {
     EXPECT_EQ(contents(sub / "d.svg"), contents(sub / "c.svg"));
     const Outcome outcome = run({"-q", "draw", link, "--trust-link", "-o", "e.svg"}, {.folder = folder.path()});
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.errors.find("leafy.lsys:5:17: 'leaf.s' cannot be read: No such file"), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "leafy.lsys:5:17: 'leaf.s' cannot be read: No such file"));
     // Patches of the pattern itself travel with it.
     work.text = run({"show", "generic-plant"}).output;
     EXPECT_EQ(run({"-q", "draw", "#" + link_of(work), "-o", "f.svg"}, {.folder = folder.path()}).status, 0);
@@ -114,13 +112,13 @@ TEST(SurfaceProgram, GalleriesAreMadeAgainWhenAFileChanges) {
         EXPECT_EQ(outcome.status, 0) << outcome.errors;
         return outcome.output + outcome.errors;
     };
-    EXPECT_NE(made().find("2 made"), std::string::npos);
+    EXPECT_TRUE(has(made(), "2 made"));
     const std::string before = contents(folder / "out/leafy-big.svg");
-    EXPECT_EQ(made().find("made ("), std::string::npos);
+    EXPECT_FALSE(has(made(), "made ("));
     std::string text = contents(folder / "leaf.s");
     text.replace(text.find("SIZE: 302.0"), 11, "SIZE: 151.0");
     folder.write("leaf.s", text);
-    EXPECT_NE(made().find("2 made"), std::string::npos);
+    EXPECT_TRUE(has(made(), "2 made"));
     EXPECT_NE(contents(folder / "out/leafy-big.svg"), before);
 }
 

@@ -50,11 +50,11 @@ TEST(TilingCommand, ReportsTheCertificate) {
           "symmetry   C5 about 0 0\n",
           "growth     1.618034 a step in length, τ; in the limit 0.381966 rhombs 36 144; 0.618034 rhombs 72 108",
           "exact      yes\n"}) {
-        EXPECT_NE(outcome.output.find(line), std::string::npos) << line << "is not in\n" << outcome.output;
+        EXPECT_TRUE(has(outcome.output, line)) << line << "is not in\n" << outcome.output;
     }
     const Outcome no = run({"tiling", "koch-island", "-n", "1"});
     EXPECT_EQ(no.status, 0);
-    EXPECT_NE(no.output.find("tiling     no: "), std::string::npos) << no.output;
+    EXPECT_TRUE(has(no.output, "tiling     no: "));
 }
 
 /// Reads the tiles back: corners from their whole coordinates, areas, and neighbours from the edges that tiles share.
@@ -133,12 +133,10 @@ TEST(TilingCommand, WritesViolationsAsJson) {
     EXPECT_EQ(json["violation_list"][1]["tile"], 2);
     EXPECT_EQ(json["violation_list"][1]["other"], 1);
     const Outcome text = run({"tiling", file});
-    EXPECT_NE(text.output.find("violation  tiles 1 and 2 overlap at "), std::string::npos) << text.output;
-    EXPECT_NE(text.output.find(", drawn by 5:21 and 5:40\n"), std::string::npos) << text.output;
-    EXPECT_NE(
-        text.output.find("violation  polygon 3 is open: it does not end where it began; it ends at 5 1, drawn by "),
-        std::string::npos)
-        << text.output;
+    EXPECT_TRUE(has(text.output, "violation  tiles 1 and 2 overlap at "));
+    EXPECT_TRUE(has(text.output, ", drawn by 5:21 and 5:40\n"));
+    EXPECT_TRUE(
+        has(text.output, "violation  polygon 3 is open: it does not end where it began; it ends at 5 1, drawn by "));
 }
 
 /// Overlapping tiles are reported with their paths from the axiom, as are all tiles in JSON.
@@ -149,10 +147,9 @@ TEST(TilingCommand, ReportsWhereTilesAreDerived) {
                                           "A --> A[fA]B\nB --> [ffB]A\nf --> ff\n"
                                           "interpret:\nA --> [{F+F+F+F}]\nB --> [{F+F+F+F}]\n");
     const Outcome text = run({"tiling", file});
-    EXPECT_NE(text.output.find("violation  tile 8 duplicates tile 1 at 0 0, drawn by 10:16 (A 1, A 1, A 1) and 10:16 "
-                               "(A 1, B 6, A 6)\n"),
-              std::string::npos)
-        << text.output;
+    EXPECT_TRUE(has(text.output,
+                    "violation  tile 8 duplicates tile 1 at 0 0, drawn by 10:16 (A 1, A 1, A 1) and 10:16 "
+                    "(A 1, B 6, A 6)\n"));
     const Json json = tiling({file});
     EXPECT_EQ(json["list"][0]["path"], "A 1, A 1, A 1");
     EXPECT_EQ(json["list"][1]["path"], "A 1, A 1, A 4");
@@ -165,8 +162,7 @@ TEST(TilingCommand, ReportsWhereTilesAreDerived) {
 TEST(TilingCommand, CountsWithoutDeriving) {
     const Outcome outcome = run({"tiling", "chair", "-n", "60", "--counts"});
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_NE(outcome.output.find("tiles      1329227995784915872903807060280344576\n"), std::string::npos)
-        << outcome.output;
+    EXPECT_TRUE(has(outcome.output, "tiles      1329227995784915872903807060280344576\n"));
     const Json json = tiling({"chair", "-n", "60", "--counts"});
     // By heading, each with its colour: 4^59 of two, 2^59 more of the first one, and fewer of its opposite.
     std::multiset<std::string> counts;
@@ -214,9 +210,9 @@ TEST(TilingCommand, CertifiesItsOwnPicturesAndLists) {
         }
     }
     const Outcome text = run({"tiling", picture});
-    EXPECT_EQ(text.output.find("growth"), std::string::npos) << text.output;
-    EXPECT_NE(text.output.find("exact      no: corners within 0.0"), std::string::npos) << text.output;
-    EXPECT_NE(text.errors.find("1 ground left out\n"), std::string::npos) << text.errors;
+    EXPECT_FALSE(has(text.output, "growth"));
+    EXPECT_TRUE(has(text.output, "exact      no: corners within 0.0"));
+    EXPECT_TRUE(has(text.errors, "1 ground left out\n"));
 }
 
 /// Colours of neighbours are those of prints, also where four are needed.
@@ -291,8 +287,8 @@ TEST(TilingCommand, NamesOfTilesNeedTiles) {
     // An empty window says nothing about the drawing.
     const Outcome empty = run({"draw", "spectre", "-n", "40", "--window", "1000000,3,1000040,43", "--name-tiles",
                                "-o", folder.file("x.svg")});
-    EXPECT_NE(empty.errors.find("the window contains no part of the drawing"), std::string::npos) << empty.errors;
-    EXPECT_EQ(empty.errors.find(warning), std::string::npos) << empty.errors;
+    EXPECT_TRUE(has(empty.errors, "the window contains no part of the drawing"));
+    EXPECT_FALSE(has(empty.errors, warning));
 }
 
 /// Pieces of files are those of the pattern that wrote them, at the length of a unit.
@@ -328,7 +324,7 @@ TEST(TilingCommand, CutsPiecesOfFiles) {
         EXPECT_EQ(laid.status, 0) << laid.errors;
         for (int i = 1; i <= 4; ++i) {  // one for each colour
             const std::string name = "sheet-" + std::to_string(i) + ".svg";
-            EXPECT_NE(laid.output.find(name), std::string::npos) << laid.output;
+            EXPECT_TRUE(has(laid.output, name));
             EXPECT_TRUE(std::filesystem::remove(folder / name)) << name;
         }
         EXPECT_TRUE(std::filesystem::remove(folder / "t.svg"));
@@ -336,7 +332,7 @@ TEST(TilingCommand, CutsPiecesOfFiles) {
         const Outcome small =
             run({"tiling", file, "--cutting-sheet", "25x25mm", "--step", step, "-o", folder.file("small.svg")});
         EXPECT_EQ(small.status, 1);
-        EXPECT_NE(small.errors.find(" mm within their margins\n"), std::string::npos) << small.errors;
+        EXPECT_TRUE(has(small.errors, " mm within their margins\n"));
     }
     EXPECT_EQ(folder.names().size(), 2U);
 }
@@ -346,9 +342,7 @@ TEST(TilingCommand, RefusesDamagedFilesOfPolygons) {
     const std::string bad = folder.write("bad.json", "[[[0,0],[1,0],\n[0]]]");
     const Outcome outcome = run({"tiling", bad});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_NE(outcome.errors.find("bad.json: polygon 1: corner 3: expected [x, y], not 1 number\n"),
-              std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "bad.json: polygon 1: corner 3: expected [x, y], not 1 number\n"));
     EXPECT_EQ(run({"tiling", folder.write("none.json", "[]")}).status, 1);
     EXPECT_EQ(run({"tiling", "no-such-file.svg"}).status, 1);
     EXPECT_EQ(run({"tiling", bad, "-n", "3"}).status, 2);
@@ -360,15 +354,14 @@ TEST(TilingCommand, RefusesDamagedFilesOfPolygons) {
 TEST(TilingCommand, RefusesInOneLine) {
     const Outcome many = run({"tiling", "chair", "-n", "40"});
     EXPECT_EQ(many.status, 1);
-    EXPECT_NE(many.errors.find("n = 40 makes about 1.21e+24 tiles; at most 10000000 are examined"), std::string::npos)
-        << many.errors;
-    EXPECT_NE(many.errors.find("--counts"), std::string::npos) << many.errors;
+    EXPECT_TRUE(has(many.errors, "n = 40 makes about 1.21e+24 tiles; at most 10000000 are examined"));
+    EXPECT_TRUE(has(many.errors, "--counts"));
     EXPECT_EQ(run({"tiling", "penrose-rhombs", "--budget", "100"}).status, 1);
     const ScratchFolder folder;
     const Outcome map = run({"tiling", folder.write("layer.lsys", maps::layer)});
     EXPECT_EQ(map.status, 2);
-    EXPECT_NE(map.errors.find("a map has no turtle, so it draws no tiles"), std::string::npos) << map.errors;
-    EXPECT_NE(run({"tiling", "bush-3d"}).errors.find("a tiling lies in the plane"), std::string::npos);
+    EXPECT_TRUE(has(map.errors, "a map has no turtle, so it draws no tiles"));
+    EXPECT_TRUE(has(run({"tiling", "bush-3d"}).errors, "a tiling lies in the plane"));
     EXPECT_EQ(run({"tiling"}).status, 2);
     EXPECT_EQ(run({"tiling", "no-such-pattern"}).status, 2);
 }

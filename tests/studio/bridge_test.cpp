@@ -1,4 +1,5 @@
 #include "studio/bridge.h"
+#include "tests/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -250,9 +251,9 @@ TEST(Bridge, MakesKolamsOfThreeStates) {
     EXPECT_EQ(made["gaps"], "1 02 2");
     EXPECT_EQ(made["lines"], made["strands"].size());
     const std::string text = made["text"];
-    EXPECT_NE(text.find("title: Kolam on 2x2 dots\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("4 dots, 1 of 4 gaps crossed and 2 joined"), std::string::npos) << text;
-    EXPECT_NE(text.find("// grid: 2x2\n// gaps: 1 02 2\n"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, "title: Kolam on 2x2 dots\n"));
+    EXPECT_TRUE(has(text, "4 dots, 1 of 4 gaps crossed and 2 joined"));
+    EXPECT_TRUE(has(text, "// grid: 2x2\n// gaps: 1 02 2\n"));
     const Json random = asked({{"do", "grid"}, {"grid", "7-4"}, {"joined", 1.0}, {"density", 0.0}});
     EXPECT_EQ(random["gaps"].get<std::string>().find_first_of("01"), std::string::npos);
     const Json single = asked({{"do", "grid"}, {"grid", "7-4"}, {"symmetry", "C6"}, {"single_line", true}});
@@ -267,8 +268,7 @@ TEST(Bridge, FilesWithoutPatternsAreRefused) {
               "x.svg: this SVG file contains no pattern");
     EXPECT_EQ(kind_of_failure({{"do", "import"}, {"name", "x.l"}}, "no system"), "other");
     const Json lpfg = asked({{"do", "import"}, {"name", "x.l"}}, "#include <lpfgall.h>\nmodule A();\nAxiom: A();\n");
-    EXPECT_NE(lpfg["error"]["message"].get<std::string>().find("an L+C file of lpfg, which is C++"),
-              std::string::npos);
+    EXPECT_TRUE(has(lpfg["error"]["message"].get<std::string>(), "an L+C file of lpfg, which is C++"));
     const Reply svg = request(
         Json({{"do", "make"}, {"interpreter", "draw"}, {"format", "svg"}, {"pattern", pattern(koch)}}).dump(), {});
     EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, svg.bytes)["text"], koch);
@@ -277,10 +277,10 @@ TEST(Bridge, FilesWithoutPatternsAreRefused) {
 TEST(Bridge, WarnsOfLettersThatDrawNothing) {
     const Json opened =
         asked({{"do", "open"}, {"pattern", pattern("axiom: F\nderivation length: 2\nF --> F+G\nG --> F-G\n")}});
-    EXPECT_NE(opened.dump().find("'G' draws nothing; 'forward: F G' makes it a step"), std::string::npos);
+    EXPECT_TRUE(has(opened.dump(), "'G' draws nothing; 'forward: F G' makes it a step"));
     // The error about pasted text shows the line in the pattern language.
     const Json pasted = asked({{"do", "open"}, {"pattern", pattern("axiom: F\nF = F+F\n")}});
-    EXPECT_NE(pasted.dump().find("write 'F --> F+F'"), std::string::npos) << pasted.dump();
+    EXPECT_TRUE(has(pasted.dump(), "write 'F --> F+F'"));
 }
 
 }  // namespace
