@@ -340,11 +340,12 @@ void Expression::find_shape() {
 
 namespace {
 
-/// The exact sum of two numbers, the larger one first.
+/// A number with twice the digits of a double: the sum of both members.
 struct TwoDoubles {
     double high = 0, low = 0;
 };
 
+/// @param small  not larger than `large` in size
 TwoDoubles exact_sum(double large, double small) {
     const double high = large + small;
     return {high, small - (high - large)};
@@ -367,8 +368,8 @@ TwoDoubles product(TwoDoubles a, TwoDoubles b) {
     return exact_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-/// a^b. Whole exponents, of which patterns make lengths, give the same bits on every machine: pow() of the system
-/// depends on its fused multiply-add.
+/// Returns a^b. Whole exponents give the same bits on every machine; the last bit of pow() differs between C
+/// libraries, and between processors with and without fused multiply-add.
 double power(double a, double b) {
     constexpr double most = 1024;
     if (!(std::fabs(b) <= most) || b != std::floor(b)) return std::pow(a, b);
@@ -377,7 +378,7 @@ double power(double a, double b) {
         if (rest % 2 == 1) result = product(result, square);
         if (rest > 1) square = product(square, square);
     }
-    // Beyond, parts of products are no longer exact.
+    // Products of much larger or smaller numbers overflow or underflow, and are not exact.
     const double size = std::fabs(result.high);
     if (!(size > 1e-140 && size < 1e140)) return std::pow(a, b);
     if (b >= 0) return result.high + result.low;
