@@ -359,6 +359,8 @@ void GalleryRecord::append(const std::string& line, bool durable) {
 void GalleryRecord::claim(const std::string& file) {
     const std::lock_guard guard(mutex_);
     append(claim_line(file), false);
+    // A run whose record was damaged since may have left unfinished parts under the same name.
+    left_.insert(file);
 }
 
 void GalleryRecord::add(const FinishedJob& job) {
@@ -408,10 +410,12 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
     const std::vector<Left> shards = sole ? take_over_shards() : std::vector<Left>();
     remove_left();
     std::vector<FinishedJob> jobs = order;
-    std::set<std::string> claims(begun.begin(), begun.end());
-    claims.insert(left_.begin(), left_.end());
     std::set<std::string> written;
     for (const FinishedJob& job : order) written.insert(job.file);
+    std::set<std::string> claims(begun.begin(), begun.end());
+    for (const std::string& file : left_) {
+        if (!written.contains(file)) claims.insert(file);
+    }
     // Files of other jobs that still exist, finished or not: they belong to this gallery.
     for (const auto& [file, known] : known_) {
         if (written.contains(file) || !known.kept || !folder_.status(file)) continue;

@@ -496,6 +496,27 @@ TEST_F(GalleryTest, ClaimsOfKilledRunsAreKept) {
     EXPECT_FALSE(has(contents(folder / "out/gallery.jsonl"), "claim"));
 }
 
+TEST_F(GalleryTest, UnfinishedPartsOfLostRecordsAreRemoved) {
+    std::filesystem::create_directories(folder / "out");
+    // As of a killed run whose record lost lines: nothing names the part, or the file itself.
+    folder.write("out/.hilbert.svg.abcdef.tmp", "torn");
+    folder.write("out/.dragon.svg.abcdef.tmp", "torn");
+    folder.write("out/.koch-curve.svg.abcdef.tmp", "mine");
+    folder.write("out/dragon.svg", "torn");
+    folder.write("out/gallery.jsonl", "{\"claim\":\"koch.svg\"}\n{\"file\":\"dragon.svg\",\"ha\x01\n");
+    EXPECT_EQ(gallery({"hilbert", "dragon", "-o", "out"}).status, 1);
+    EXPECT_EQ(contents(folder / "out/dragon.svg"), "torn");
+    const Outcome forced = gallery({"hilbert", "dragon", "-o", "out", "--force"});
+    EXPECT_EQ(forced.status, 0) << forced.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/.hilbert.svg.abcdef.tmp"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/.dragon.svg.abcdef.tmp"));
+    EXPECT_EQ(contents(folder / "out/.koch-curve.svg.abcdef.tmp"), "mine");
+    const std::string record = contents(folder / "out/gallery.jsonl");
+    EXPECT_EQ(record.find("\"claim\":\"dragon.svg\""), std::string::npos) << record;
+    EXPECT_EQ(gallery({"hilbert", "dragon", "-o", "out"}).status, 0);
+    EXPECT_EQ(contents(folder / "out/gallery.jsonl"), record);
+}
+
 TEST_F(GalleryTest, RecordsOfOthersStay) {
     const auto hold = [&](const std::string& name, const std::string& text, std::vector<std::string> more,
                           int status) {
