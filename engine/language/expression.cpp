@@ -46,11 +46,12 @@ constexpr Function functions[] = {{"sin", 1, [](double a, double) { return std::
                                   {"mod", 2, [](double a, double b) { return std::fmod(a, b); }},
                                   {"random", 2, nullptr}};
 
-/// The exact sum of two numbers, the larger one first.
+/// A number with twice the digits of a double: the sum of both members.
 struct TwoDoubles {
     double high = 0, low = 0;
 };
 
+/// @param small  not larger than `large` in size
 TwoDoubles exact_sum(double large, double small) {
     const double high = large + small;
     return {high, small - (high - large)};
@@ -73,8 +74,8 @@ TwoDoubles product(TwoDoubles a, TwoDoubles b) {
     return exact_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-/// a^b. Whole exponents, of which patterns make lengths, give the same bits on every machine: pow() of the system
-/// depends on its fused multiply-add.
+/// Returns a^b. Whole exponents give the same bits on every machine; the last bit of pow() differs between C
+/// libraries, and between processors with and without fused multiply-add.
 double power(double a, double b) {
     constexpr double most = 1024;
     if (!(std::fabs(b) <= most) || b != std::floor(b)) return std::pow(a, b);
@@ -83,7 +84,7 @@ double power(double a, double b) {
         if (rest % 2 == 1) result = product(result, square);
         if (rest > 1) square = product(square, square);
     }
-    // Beyond, parts of products are no longer exact.
+    // Products of much larger or smaller numbers overflow or underflow, and are not exact.
     const double size = std::fabs(result.high);
     if (!(size > 1e-140 && size < 1e140)) return std::pow(a, b);
     if (b >= 0) return result.high + result.low;
@@ -320,57 +321,6 @@ void Expression::find_shape() {
     }
     if (shape_ != Shape::steps) steps_ = {};
 }
-
-namespace {
-
-/// A number with twice the digits of a double: the sum of both members.
-struct TwoDoubles {
-    double high = 0, low = 0;
-};
-
-/// @param small  not larger than `large` in size
-TwoDoubles exact_sum(double large, double small) {
-    const double high = large + small;
-    return {high, small - (high - large)};
-}
-
-/// Source: Dekker, A floating-point technique for extending the available precision, 1971.
-TwoDoubles exact_product(double a, double b) {
-    constexpr double splitter = 0x1p27 + 1;
-    const auto split = [](double value) {
-        const double high = splitter * value - (splitter * value - value);
-        return TwoDoubles{high, value - high};
-    };
-    const TwoDoubles x = split(a), y = split(b);
-    const double high = a * b;
-    return {high, ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
-}
-
-TwoDoubles product(TwoDoubles a, TwoDoubles b) {
-    const TwoDoubles high = exact_product(a.high, b.high);
-    return exact_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
-}
-
-/// Returns a^b. Whole exponents give the same bits on every machine; the last bit of pow() differs between C
-/// libraries, and between processors with and without fused multiply-add.
-double power(double a, double b) {
-    constexpr double most = 1024;
-    if (!(std::fabs(b) <= most) || b != std::floor(b)) return std::pow(a, b);
-    TwoDoubles result{1, 0}, square{a, 0};
-    for (auto rest = static_cast<unsigned>(std::fabs(b)); rest > 0; rest /= 2) {
-        if (rest % 2 == 1) result = product(result, square);
-        if (rest > 1) square = product(square, square);
-    }
-    // Products of much larger or smaller numbers overflow or underflow, and are not exact.
-    const double size = std::fabs(result.high);
-    if (!(size > 1e-140 && size < 1e140)) return std::pow(a, b);
-    if (b >= 0) return result.high + result.low;
-    const double inverse = 1 / result.high;
-    const TwoDoubles one = exact_product(inverse, result.high);
-    return inverse + inverse * ((1 - one.high) - one.low - inverse * result.low);
-}
-
-}  // namespace
 
 double Expression::apply(const Step& step, double a, double b) {
     switch (step.operation) {
