@@ -193,10 +193,10 @@ constexpr Rule map_rules[] = {
     {when::always, {{kolam, lesson}}, "applies to the lines of a turtle, and a map has none"},
     {when::always, {{"divide"}}, "a .gif of a map always shows how cells divide"},
 };
+constexpr const char* no_plane =
+    "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces";
 constexpr Rule space_rules[] = {
-    {when::always,
-     {{solid, "window", kolam, extras, copies, lesson, "animate", "divide"}},
-     "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces"},
+    {when::always, {{solid, "window", kolam, extras, copies, lesson, "animate", "divide"}}, no_plane},
     {when::pixels, {{sheets}}, "drawings in space can be cut into sheets only as SVG, PDF or EPS"},
     {when::no_plot, {{"spot"}}, "drawings in space have more shades of light than there are inks"},
 };
@@ -308,6 +308,7 @@ void check_map_settings(const DrawSettings& settings) {
 }
 
 void check_space_settings(const DrawSettings& settings, PrintFormat format) {
+    if (is_relief(settings, format)) refuse_option("relief", "", no_plane);
     apply(space_rules, settings, format);
 }
 

@@ -1,6 +1,7 @@
 #include "art/reading/kolam_lines.h"
 
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -197,7 +198,7 @@ private:
 class OddCells {
 public:
     OddCells(const std::vector<ClosedLine>& lines, const Monitor& monitor) {
-        PointBox box;
+        Box box;
         for (const ClosedLine& line : lines) {
             for (const glm::dvec2 point : line) box.add(point);
         }

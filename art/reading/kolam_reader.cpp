@@ -3,6 +3,7 @@
 #include "art/reading/dot_symmetry.h"
 #include "art/reading/ink_pieces.h"
 #include "art/reading/kolam_edge.h"
+#include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
 
@@ -38,7 +39,7 @@ class LineWork {
 public:
     LineWork(const GreyPicture& smooth, FoundGrid found, const GapReader& reader)
         : ink_(smooth), found_(std::move(found)), reader_(reader), level_(line_level(smooth, found_)) {
-        PointBox box;
+        Box box;
         for (const GridDot dot : grid().dots()) {
             dots_.insert(dot);
             box.add(found_.at(dot), 2 * found_.spacing);
@@ -508,7 +509,7 @@ private:
         const DotLattice lattice = dots.lattice();
         const auto back = reading.grid.map.perspective().inverse();
         if (!back) return 0;
-        PointBox box;
+        Box box;
         for (const GridDot dot : dots.dots()) {
             box.add(reading.grid.at(dot), reading.grid.map.spacing(lattice_point(lattice, dot)));
         }

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -30,19 +29,6 @@ public:
 
 private:
     std::array<double, 9> m_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-};
-
-/// The box around some points.
-struct PointBox {
-    glm::dvec2 low{1e300}, high{-1e300};
-    void add(glm::dvec2 point, double reach = 0) {
-        low = glm::min(low, point - reach);
-        high = glm::max(high, point + reach);
-    }
-    /// True if all points of another box lie within this one, off its sides.
-    bool surrounds(const PointBox& other) const {
-        return low.x < other.low.x && low.y < other.low.y && high.x > other.high.x && high.y > other.high.y;
-    }
 };
 
 /// The middle one of values, or the upper of the two; 0 if there are none.

@@ -3,6 +3,7 @@
 #include "art/reading/photograph.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

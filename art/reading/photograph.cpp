@@ -265,7 +265,7 @@ public:
         return false;
     }
     /// The box around the dots.
-    const PointBox& box() const { return box_; }
+    const Box& box() const { return box_; }
     /// The pixels of that box.
     double pixels() const {
         const glm::dvec2 size = box_.high - box_.low;
@@ -276,7 +276,7 @@ private:
     DotGrid grid_;
     LatticeMap map_;
     std::optional<Homography> back_;
-    PointBox box_;
+    Box box_;
 };
 
 bool is_in(const std::vector<Area>& areas, glm::dvec2 pixel) {
@@ -569,8 +569,7 @@ struct StrayDots {
 
 /// True if points lie along the four sides of a box that contains some areas.
 bool lie_around(const std::vector<glm::dvec2>& points, const std::vector<Area>& areas) {
-    PointBox box;
-    for (const glm::dvec2 point : points) box.add(point);
+    const Box box = box_of(points);
     if (!std::all_of(areas.begin(), areas.end(), [&](const Area& area) { return box.surrounds(area.box()); })) {
         return false;
     }

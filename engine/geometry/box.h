@@ -17,8 +17,17 @@ struct Box {
         low = {point.x < low.x ? point.x : low.x, point.y < low.y ? point.y : low.y};
         high = {point.x > high.x ? point.x : high.x, point.y > high.y ? point.y : high.y};
     }
+    /// Adds the square around a point. @param reach  half its side
+    void add(glm::dvec2 point, double reach) {
+        add(point - reach);
+        add(point + reach);
+    }
     bool contains(glm::dvec2 point) const {
         return point.x >= low.x && point.y >= low.y && point.x <= high.x && point.y <= high.y;
+    }
+    /// True if all points of another box lie within this one, off its sides.
+    bool surrounds(const Box& other) const {
+        return low.x < other.low.x && low.y < other.low.y && high.x > other.high.x && high.y > other.high.y;
     }
     glm::dvec2 size() const { return high - low; }
     /// The longer side.
