@@ -2,14 +2,9 @@
 
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
-#include "music/score/abc.h"
 #include "music/score/audio.h"
-#include "music/score/csound.h"
 #include "music/score/engraving.h"
-#include "music/score/lilypond.h"
-#include "music/score/musicxml.h"
-#include "music/score/mxl.h"
-#include "music/score/strudel.h"
+#include "music/score/score_formats.h"
 
 #include <fmt/format.h>
 

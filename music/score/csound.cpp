@@ -1,4 +1,4 @@
-#include "music/score/csound.h"
+#include "music/score/score_formats.h"
 
 #include "music/score/comments.h"
 #include "music/score/glides.h"

@@ -1,4 +1,4 @@
-#include "music/score/lilypond.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/diagnostic.h"
 #include "music/score/comments.h"
@@ -69,8 +69,6 @@ std::string meter_name(const Meter& meter) {
 }
 
 std::string key_name(const KeySignature& key) {
-    static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
-                                                              "minor",  "phrygian", "locrian"};
     // Along the fifths, from the tonic of seven flats in lydian on.
     constexpr std::string_view letters = "fcgdaeb";
     const int from_f = std::clamp(key.fifths, -7, 7) + static_cast<int>(key.mode);
@@ -80,7 +78,7 @@ std::string key_name(const KeySignature& key) {
                        sharps < 0   ? "es"
                        : sharps > 0 ? "is"
                                     : "",
-                       modes[static_cast<std::size_t>(key.mode)]);
+                       mode_name(key.mode));
 }
 
 class Writer : private TextWriter {

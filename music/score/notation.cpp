@@ -311,6 +311,18 @@ std::string cents_text(int cents) {
     return fmt::format("{}{}", cents < 0 ? "\u2212" : "+", std::abs(cents));
 }
 
+const ClefForm& form_of(Clef clef) {
+    static constexpr std::array<ClefForm, 8> forms = {
+        {{'G', 2, 0}, {'F', 4, 0}, {'C', 3, 0}, {'C', 4, 0}, {'G', 2, -1}, {'F', 4, -1}, {'G', 2, 1}, {'G', 2, 0}}};
+    return forms[static_cast<std::size_t>(clef)];
+}
+
+std::string_view mode_name(Mode mode) {
+    static constexpr std::array<std::string_view, 7> names = {"lydian", "major",    "mixolydian", "dorian",
+                                                              "minor",  "phrygian", "locrian"};
+    return names[static_cast<std::size_t>(mode)];
+}
+
 std::optional<KeySignature> printed_key(const Part& part) {
     return part.signature ? part.signature : part.key;
 }

@@ -1,4 +1,4 @@
-#include "music/score/strudel.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/base64.h"
 #include "music/score/comments.h"

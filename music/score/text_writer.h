@@ -13,7 +13,7 @@ namespace sikku {
 
 /// Formats text into an output, in blocks.
 class TextWriter {
-protected:
+public:
     explicit TextWriter(Output& out) : out_(out) {}
 
     template <typename... Arguments>
@@ -33,10 +33,7 @@ private:
     fmt::memory_buffer text_;
 };
 
-/// Appends a number with at most `places` decimals, without trailing zeros or -0.
-void put_number(std::string& text, double value, int places);
-
-/// Formats such a number.
+/// Formats a number with at most `places` decimals, without trailing zeros or -0.
 std::string number(double value, int places = 3);
 
 }  // namespace sikku
