@@ -2,6 +2,7 @@
 
 #include "art/prints.h"
 #include "art/style/style.h"
+#include "engine/derivation/derivation.h"
 #include "engine/language/document.h"
 #include "tests/checks.h"
 #include "tests/maps.h"
@@ -52,7 +53,7 @@ Recorder drawn(const Document& document, const std::shared_ptr<const MapFrame>& 
     Diagnostics diagnostics;
     const Style style = read_style(document.pattern(), 96, diagnostics);
     MapFrames frames(document.grammar(), 1e9, {}, KeptFrames::all);
-    MapDrawing drawing(frame ? frame : frames.after(document.grammar().steps()), style, {}, 100);
+    MapDrawing drawing(frame ? frame : frames.after(document.grammar().steps()), style, {}, {}, 100);
     drawing.seen();
     Recorder recorder;
     drawing.read({}, recorder);

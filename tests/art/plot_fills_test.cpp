@@ -202,7 +202,7 @@ TEST(Passes, CoverAStrokeAndNothingElse) {
                                        sink.end_stroke(line.front() == line.back());
                                    }
                                },
-                               {.pen_width = pen});
+                               {{.pen_width = pen}});
     // Back and forth along the open stroke, rings along the closed one.
     EXPECT_EQ(pass_offsets(3.0, pen).size(), 8u);
     EXPECT_EQ(plan->report().after.lifts, 1u + 8u);
@@ -228,7 +228,7 @@ TEST(Passes, FollowCurves) {
                                    sink.curves(std::span(curve).subspan(1));
                                    sink.end_stroke(false);
                                },
-                               {.pen_width = pen});
+                               {{.pen_width = pen}});
     Samples middle(0.05);
     middle.start(curve[0]);
     for (std::size_t i = 1; i + 2 < curve.size(); i += 3) middle.curve(curve[i], curve[i + 1], curve[i + 2]);
@@ -288,7 +288,7 @@ TEST(Fills, AreasAreHatchedInTheAngleOfThePage) {
     const Points outline = {{10, 10}, {20, 10}, {30, 10}, {40, 10}, {40, 20}, {40, 30}, {40, 40}};
     for (const bool is_crossed : {false, true}) {
         const auto plan = arranged(print, [&](PathSink& sink) { sink.area(outline, Pen{}); },
-                                   {.pen_width = 0.3, .hatch = Hatch{1.0, 30.0, is_crossed}});
+                                   {{.pen_width = 0.3, .hatch = Hatch{1.0, 30.0, is_crossed}}});
         Recorder recorder;
         plan->draw(recorder);
         std::map<long, double> lengths;
@@ -339,15 +339,18 @@ TEST(Pens, AreMergedIntoTheNearest) {
 TEST(Pens, APlanMergesAndReports) {
     Print print = plain_print();
     print.style.palette.push_back({30, 0, 0, 255});
-    const auto plan = arranged(print,
-                               [](PathSink& sink) {
-                                   for (int i = 0; i < 4; ++i) {
-                                       sink.begin_stroke({10.0 + i, 10}, Pen{.colour = i});
-                                       sink.lines(Points{{10.0 + i, 20.0 + i}});
-                                       sink.end_stroke(false);
-                                   }
-                               },
-                               {.pens = 3});
+    PlotOptions three;
+    three.pens = 3;
+    const auto plan = arranged(
+        print,
+        [](PathSink& sink) {
+            for (int i = 0; i < 4; ++i) {
+                sink.begin_stroke({10.0 + i, 10}, Pen{.colour = i});
+                sink.lines(Points{{10.0 + i, 20.0 + i}});
+                sink.end_stroke(false);
+            }
+        },
+        three);
     ASSERT_EQ(plan->report().merged.size(), 1u);
     EXPECT_EQ(plan->report().colours, 4u);
     const MergedPen& merged = plan->report().merged[0];
@@ -370,13 +373,16 @@ TEST(Home, IsPartOfTheTravel) {
         sink.end_stroke(false);
     };
     EXPECT_NEAR(arranged(print, stroke)->report().after.travelled, 5, 1e-9);
-    const auto plan = arranged(print, stroke, {.home = glm::dvec2(0, 0)});
+    PlotOptions returning;
+    returning.home = glm::dvec2(0, 0);
+    const auto plan = arranged(print, stroke, returning);
     EXPECT_NEAR(plan->report().after.travelled, 55, 1e-9);
     EXPECT_NEAR(plan->report().before.travelled, 55, 1e-9);
     EXPECT_EQ(plan->travels().size(), 2u);
     EXPECT_TRUE(plan->report().returns);
-    // Starts from another corner.
-    EXPECT_NEAR(arranged(print, stroke, {.start = {0, 60}})->report().after.travelled,
+    PlotOptions from_another_corner;
+    from_another_corner.start = {0, 60};
+    EXPECT_NEAR(arranged(print, stroke, from_another_corner)->report().after.travelled,
                 glm::distance({30., 40.}, glm::dvec2(0, 60)), 1e-9);
 }
 

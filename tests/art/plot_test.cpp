@@ -364,7 +364,7 @@ TEST(Plot, PointsThatAddUpDifferentlyAreOne) {
     const Grammar grammar = compile_grammar(pattern, diagnostics);
     diagnostics.throw_if_errors();
     Print print = large_print();
-    WordDrawing drawing(grammar, print.style, {});
+    WordDrawing drawing(grammar, print.style, {}, {});
     drawing.place(print);
     Recorder recorder;
     drawing.read(print, recorder);
@@ -486,7 +486,9 @@ TEST(Plot, LongStrokesAreSplit) {
     const Points points = hilbert_points(16);
     const auto draw_it = [&](PathSink& sink) { stroke(sink, points); };
     for (const double split : {0.5, 1.0, 10.0, 10.5, 254.0, 255.0, 1000.0}) {
-        const auto plan = arranged(print, draw_it, {.split = split});
+        PlotOptions options;
+        options.split = split;
+        const auto plan = arranged(print, draw_it, options);
         const auto lines = drawn(*plan);
         const double each = std::max(1.0, std::floor(split));
         EXPECT_EQ(lines.size(), static_cast<std::size_t>(std::ceil(255 / each))) << split;
@@ -500,8 +502,11 @@ TEST(Plot, LongStrokesAreSplit) {
         EXPECT_EQ(plan->report().after.lifts, lines.size());
         EXPECT_LE(plan->travels().size(), 1u);
     }
-    EXPECT_THROW(PlotPlan(print, {.split = -1}), std::runtime_error);
-    EXPECT_THROW(PlotPlan(print, {.split = std::nan("")}), std::runtime_error);
+    for (const double split : {-1.0, std::nan("")}) {
+        PlotOptions options;
+        options.split = split;
+        EXPECT_THROW(PlotPlan(print, options), std::runtime_error) << split;
+    }
 }
 
 TEST(Plot, ManyLinesMeetInOnePoint) {

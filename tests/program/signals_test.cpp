@@ -69,7 +69,9 @@ void draw_strokes(PathSink& sink, int count) {
 TEST(Signals, APlotAsksWhereverItIs) {
     Print print = plain_print();
     const auto work = [&](StopAfter& stop) {
-        PlotPlan plan(print, {.monitor = stop.monitor()});
+        PlotOptions options;
+        options.monitor = stop.monitor();
+        PlotPlan plan(print, options);
         draw_strokes(plan, 20'000);
         plan.arrange();
         reference::Recorder sink;
