@@ -12,7 +12,6 @@
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -37,12 +36,7 @@ public:
         moved_.assign(notes.begin(), notes.end());
         for (Note& note : moved_) {
             note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
-            const std::int64_t end = ratio_.of(note.onset + note.duration);
-            if (note.glide.ticks > 0) {
-                note.glide.ticks = end - ratio_.of(note.onset + note.duration - note.glide.ticks);
-            }
-            note.onset = ratio_.of(note.onset);
-            note.duration = std::max<std::int64_t>(1, end - note.onset);
+            scale_times(note, ratio_);
             note.onset += later_;
         }
         sink_.notes(moved_);

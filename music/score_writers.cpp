@@ -121,8 +121,10 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .pattern = PatternForm::comments,
      .write = write_notes<write_strudel>},
     {.name = {.extension = "notes.svg", .label = "the notes", .alias = "svg", .is_text = true},
+     .medium = view,
      .write = write_notes<write_music_svg>},
     {.name = {.extension = "html", .label = "play", .is_text = true},
+     .medium = view,
      .pattern = PatternForm::xml,
      .write = write_notes<write_music_page>},
 }};

@@ -449,33 +449,25 @@ private:
         }
         const std::string wanted = lower_case(text);
         std::vector<std::string> folded;
-        std::vector<std::string_view> names;
         for (const std::string_view name : instrument_names()) folded.push_back(lower_case(name));
-        for (std::size_t i = 0; i < folded.size(); ++i) {
-            if (folded[i] == wanted) {
-                melody_.program = static_cast<int>(i);
-                return;
-            }
-            names.push_back(folded[i]);
+        if (const auto same = std::find(folded.begin(), folded.end(), wanted); same != folded.end()) {
+            melody_.program = static_cast<int>(same - folded.begin());
+            return;
         }
         if (wanted == "piano") return;  // the first of all, and the default
         // Part of a name is enough: `guitar`, `strings`.
         if (wanted.size() >= 4 && choose_by_word(*key, wanted, folded)) return;
         // The nearest name, or the one with the nearest word.
-        std::string_view near = nearest(wanted, names);
+        std::string_view near = nearest(wanted, {folded.begin(), folded.end()});
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
-            for (std::size_t at = 0; at < folded[i].size();) {
-                const std::size_t blank = std::min(folded[i].find(' ', at), folded[i].size());
-                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, blank - at)}).empty()) near = folded[i];
-                at = blank + 1;
+            for (const std::string_view word : split_words(folded[i])) {
+                if (!nearest(wanted, {word}).empty()) near = folded[i];
             }
         }
-        const std::string problem =
-            text.empty() ? "expected" : fmt::format("unknown instrument '{}'; expected", text);
-        diagnostics_.error(text.empty() ? key->name_at : key->value,
-                           near.empty() || text.empty()
-                               ? problem + " a General MIDI name such as flute or sitar, or a number from 1 to 128"
-                               : fmt::format("unknown instrument '{}'; did you mean '{}'?", text, near));
+        const std::string problem = text.empty() ? "" : fmt::format("unknown instrument '{}'; ", text);
+        fail(*key, near.empty() || text.empty()
+                       ? problem + "expected a General MIDI name such as flute or sitar, or a number from 1 to 128"
+                       : fmt::format("{}did you mean '{}'?", problem, near));
     }
 
     /// Selects the first name that contains the text, preferably as a whole word, and reports it.

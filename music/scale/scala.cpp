@@ -8,8 +8,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace sikku {
 namespace {

@@ -1,6 +1,7 @@
 #include "music/scale/scale.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/edit_distance.h"
 #include "engine/base/text.h"
 
 #include <embedded/scales.h>
@@ -114,26 +115,6 @@ std::string loosely_folded(std::string_view key) {
     }
     if (result.size() > 3 && result.ends_with("am")) result.pop_back();
     return result;
-}
-
-/// Edit distance: the fewest substitutions, deletions, insertions and swaps of neighbours that turn `a` into `b`.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> earlier(b.size() + 1);
-    std::vector<std::size_t> above(b.size() + 1);
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        earlier.swap(above);
-        above.swap(row);
-        row[0] = i;
-        for (std::size_t j = 1; j < row.size(); ++j) {
-            row[j] = std::min({above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                row[j] = std::min(row[j], earlier[j - 2] + 1);
-            }
-        }
-    }
-    return row.back();
 }
 
 // --- the data file ----------------------------------------------------------------------------------------------
@@ -501,7 +482,7 @@ std::vector<std::string> similar_scales(std::string_view name) {
         const auto compare = [&](const std::string& word) {
             const std::string other = folded(word);
             if (other.size() > key.size() + enough || key.size() > other.size() + enough) return;
-            const std::size_t slips = distance(key, other);
+            const std::size_t slips = edit_distance(key, other);
             if (slips >= nearest_distance) return;
             nearest_distance = slips;
             nearest_word = &word;

@@ -24,19 +24,6 @@ namespace {
 
 constexpr std::string_view rit = "\\markup \\normal-text \\italic \"rit.\" ";
 
-}  // namespace
-
-std::string lilypond_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char byte : single_line(text)) {
-        if (byte == '"' || byte == '\\') result += '\\';
-        result += byte;
-    }
-    return result + '"';
-}
-
-namespace {
-
 /// The name of a pitch: c d e … b, a sign (also for quarter tones), the octave: c' is middle C.
 std::string pitch_name(const Pitch& pitch) {
     static constexpr std::array<std::string_view, 9> signs = {"eses", "eseh", "es",   "eh",  "",
@@ -376,17 +363,9 @@ private:
     }
 
     static std::string mark_text(const DynamicMark& mark) {
-        switch (mark.kind) {
-            case DynamicMark::Kind::crescendo:
-                return "\\<";
-            case DynamicMark::Kind::diminuendo:
-                return "\\>";
-            case DynamicMark::Kind::end:
-                return "\\!";
-            case DynamicMark::Kind::level:
-                break;
-        }
-        return fmt::format("\\{}", dynamic_name(mark.level));
+        using enum DynamicMark::Kind;
+        if (mark.kind == level) return fmt::format("\\{}", dynamic_name(mark.level));
+        return mark.kind == crescendo ? "\\<" : mark.kind == diminuendo ? "\\>" : "\\!";
     }
 
     /// Writes a clef or a line of 8va that begins with a symbol; the first clef is written already.
@@ -515,6 +494,15 @@ private:
 };
 
 }  // namespace
+
+std::string lilypond_string(std::string_view text) {
+    std::string result = "\"";
+    for (const char byte : single_line(text)) {
+        if (byte == '"' || byte == '\\') result += '\\';
+        result += byte;
+    }
+    return result + '"';
+}
 
 void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink) {
     Writer(notation, head, sink).write();

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -17,7 +18,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -25,23 +25,11 @@ namespace {
 
 constexpr int voices_per_staff = 4;
 
+/// Name of a note value. @param divisor  a power of two
 std::string_view type_name(int divisor) {
-    switch (divisor) {
-        case 1:
-            return "whole";
-        case 2:
-            return "half";
-        case 4:
-            return "quarter";
-        case 8:
-            return "eighth";
-        case 16:
-            return "16th";
-        case 32:
-            return "32nd";
-        default:
-            return "64th";
-    }
+    static constexpr std::array<std::string_view, 7> names = {"whole", "half", "quarter", "eighth",
+                                                              "16th",  "32nd", "64th"};
+    return names[static_cast<std::size_t>(std::min(std::countr_zero(static_cast<unsigned>(divisor)), 6))];
 }
 
 std::string_view accidental_name(int quarters) {
