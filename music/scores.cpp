@@ -15,7 +15,6 @@
 #include "music/score_head.h"
 #include "music/score_remarks.h"
 #include "music/score_writers.h"
-#include "music/shared_channels.h"
 
 #include <fmt/format.h>
 
@@ -251,14 +250,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     const bool is_limited = writer_.has_channels() && midi_.microtonal && !is_mpe;
     const ScoreHead head = make_head(playing, is_limited ? most_channels : most_voices);
     midi_.share_channels = !midi_.microtonal && !is_mpe && pitched_voices(head) > most_channels;
-    if (writer_.has_channels() && !is_mpe) {
-        const auto names = parts_controlled_together(ensemble_, head, midi_.share_channels);
-        if (!names.empty()) {
-            made.warn(fmt::format("voices of {} share MIDI channels, and with them pan and controllers{}",
-                                  fmt::join(names, ", "),
-                                  midi_.share_channels ? "; 'tuning' mpe gives each note a channel" : ""));
-        }
-    }
+    if (writer_.has_channels() && !is_mpe) report_shared_channels(ensemble_, head, midi_.share_channels, made);
     Rendition rendition{ensemble_, playing, head, use(), human(), midi_, monitor, name, {}, {}, {}};
     const auto output = destination.open(name);
     if (output->can_insert()) {

@@ -1,4 +1,4 @@
-#include "music/live/device_port.h"
+#include "music/live/ports.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -14,8 +15,9 @@ namespace sikku::midi {
 
 constexpr int channels = 16;
 constexpr int drum_channel = 9;  ///< General MIDI, counted from 0
-constexpr int centre = 8192;     ///< value without pitch bend
-constexpr int release = 64;      ///< the velocity of a note-off that does not matter
+constexpr std::size_t most_pitched_channels = channels - 1;
+constexpr int centre = 8192;  ///< value without pitch bend
+constexpr int release = 64;   ///< the velocity of a note-off that does not matter
 /// Half a cent, which is inaudible, and a margin, as cents are not exact in binary.
 constexpr double least_fraction = 0.005 + 1e-9;
 

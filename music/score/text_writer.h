@@ -34,6 +34,11 @@ private:
 };
 
 /// Formats a number with at most `places` decimals, without trailing zeros or -0.
-std::string number(double value, int places = 3);
+inline std::string number(double value, int places = 3) {
+    std::string text = fmt::format("{:.{}f}", value, places);
+    if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text == "-0" ? "0" : text;
+}
 
 }  // namespace sikku
