@@ -1,6 +1,5 @@
 #include "engine/interpreter.h"
 
-#include "engine/base/keys.h"
 #include "engine/base/text.h"
 
 #include <algorithm>

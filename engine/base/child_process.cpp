@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <new>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): not every C library declares it
 

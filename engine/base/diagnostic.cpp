@@ -3,6 +3,7 @@
 #include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 #include "engine/base/edit_distance.h"
+#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
@@ -182,12 +183,8 @@ Span Span::part(std::size_t begin, std::size_t count) const {
 }
 
 Span Span::trimmed() const {
-    const std::string_view text = view();
-    std::size_t begin = 0;
-    std::size_t end = text.size();
-    while (begin < end && is_blank(text[begin])) ++begin;
-    while (end > begin && is_blank(text[end - 1])) --end;
-    return part(begin, end - begin);
+    const std::string_view text = view(), inner = sikku::trimmed(text);
+    return part(static_cast<std::size_t>(inner.data() - text.data()), inner.size());
 }
 
 std::string Diagnostic::text() const {

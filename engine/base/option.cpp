@@ -9,10 +9,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <deque>
 #include <mutex>
-#include <system_error>
 
 namespace sikku {
 namespace {

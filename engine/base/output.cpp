@@ -34,9 +34,6 @@ private:
 
 }  // namespace
 
-MemoryOutput::MemoryOutput() = default;
-MemoryOutput::~MemoryOutput() = default;
-
 void MemoryOutput::insert(std::uint64_t position, std::string_view bytes) {
     bytes_.insert(static_cast<std::size_t>(position), bytes);
 }

@@ -48,8 +48,6 @@ Destination& file_system();
 /// An output in memory.
 class MemoryOutput : public Output {
 public:
-    MemoryOutput();
-    ~MemoryOutput() override;
     void write(std::string_view bytes) override { bytes_ += bytes; }
     std::uint64_t size() const override { return bytes_.size(); }
     bool can_insert() const override { return true; }

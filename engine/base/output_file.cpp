@@ -17,7 +17,6 @@
 #include <cstring>
 #include <map>
 #include <new>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>

@@ -124,6 +124,13 @@ void append_utf8(std::uint32_t code, std::string& text) {
     for (unsigned i = tail; i-- > 0;) text += static_cast<char>(0x80 | (code >> (6 * i) & 0x3F));
 }
 
+std::uint32_t code_point(std::string_view character) {
+    const auto lead = static_cast<unsigned char>(character.front());
+    std::uint32_t code = character.size() == 1 ? lead : lead & (0x7FU >> character.size());
+    for (const char byte : character.substr(1)) code = code << 6 | (static_cast<unsigned char>(byte) & 0x3FU);
+    return code;
+}
+
 std::string plain_json(std::string_view json) {
     std::string result;
     result.reserve(json.size());
@@ -157,11 +164,7 @@ std::string json_string(std::string_view text) {
 }
 
 std::string counted(std::string_view digits, std::string_view what) {
-    std::string text(digits);
-    text += ' ';
-    text += what;
-    if (digits != "1") text += 's';
-    return text;
+    return fmt::format("{} {}{}", digits, what, digits == "1" ? "" : "s");
 }
 
 std::string readable(std::string digits) {

@@ -36,6 +36,8 @@ std::string json_string(std::string_view text);
 
 /// Appends a code point (up to U+10FFFF) in UTF-8.
 void append_utf8(std::uint32_t code, std::string& text);
+/// The code point of a character in valid UTF-8.
+std::uint32_t code_point(std::string_view character);
 
 /// `; did you mean 'a', 'b' or 'c'?`, or empty without names.
 std::string did_you_mean(std::span<const std::string_view> names);

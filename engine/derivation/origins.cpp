@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace sikku {
@@ -23,15 +24,6 @@ std::vector<Span> symbol_spans(const SymbolNames& names, const Span& word) {
     for_each_symbol(names, word,
                     [&](std::string_view, const std::vector<Span>&, const Span& where) { spans.push_back(where); });
     return spans;
-}
-
-/// The texts of a table's productions, in the order of Table::productions().
-std::vector<const ProductionText*> texts_of(const Pattern& pattern, const TableText* table) {
-    std::vector<const ProductionText*> texts;
-    for (const ProductionText& text : pattern.common) texts.push_back(&text);
-    if (!table) return texts;
-    for (const ProductionText& text : table->productions) texts.push_back(&text);
-    return texts;
 }
 
 }  // namespace
@@ -57,13 +49,10 @@ public:
             throw std::runtime_error("origins of symbols are available up to 10,000 steps");
         }
         for (std::size_t i = 0; i < tables.size(); ++i) {
-            add_table(tables[i], texts_of(pattern_, pattern_.tables.empty() ? nullptr : &pattern_.tables[i]));
+            const bool has_own = !pattern_.tables.empty();
+            add_table(tables[i], pattern_.common, has_own ? std::span(pattern_.tables[i].productions) : Texts());
         }
-        if (grammar_.interpretation()) {
-            std::vector<const ProductionText*> texts;
-            for (const ProductionText& text : pattern_.interpret) texts.push_back(&text);
-            add_table(*grammar_.interpretation(), texts);
-        }
+        if (grammar_.interpretation()) add_table(*grammar_.interpretation(), {}, pattern_.interpret);
         const Key* axiom = pattern_.find("axiom");
         if (axiom) axiom_ = symbol_spans(names_, axiom->value);
         lengths_.assign(symbols_, 1);
@@ -102,7 +91,7 @@ public:
             const Word* successor = nullptr;
             while (level > 0 && !(successor = levels_.table(level).successor(symbol))) --level;
             if (!successor) return true;
-            const Made& made = made_.at(tables_index(levels_.table(level)))[symbol];
+            const Made& made = made_.at(&levels_.table(level))[symbol];
             word = successor;
             spans = &made.spans;
             production = made.production;
@@ -117,20 +106,20 @@ private:
         std::vector<Span> spans;
     };
 
-    void add_table(const Table& table, const std::vector<const ProductionText*>& texts) {
-        std::vector<Made> made(symbols_);
+    using Texts = std::span<const ProductionText>;
+
+    /// @param shared, own  texts of the table's productions
+    void add_table(const Table& table, Texts shared, Texts own) {
+        std::vector<Made>& made = made_[&table];
+        made.resize(symbols_);
         // The first production of a symbol applies.
         for (std::size_t i = table.productions().size(); i > 0; --i) {
             const Production& production = table.productions()[i - 1];
-            if (production.text >= texts.size() || production.predecessor.size() != 1) continue;
-            const ProductionText& text = *texts[production.text];
+            if (production.text >= shared.size() + own.size() || production.predecessor.size() != 1) continue;
+            const std::size_t number = production.text;
+            const ProductionText& text = number < shared.size() ? shared[number] : own[number - shared.size()];
             made[production.predecessor.front()] = {text.whole, symbol_spans(names_, text.successor)};
         }
-        known_.push_back(&table);
-        made_.push_back(std::move(made));
-    }
-    std::size_t tables_index(const Table& table) const {
-        return static_cast<std::size_t>(std::find(known_.begin(), known_.end(), &table) - known_.begin());
     }
     std::uint64_t length(Symbol symbol, std::int64_t level) const {
         return lengths_[static_cast<std::size_t>(level) * symbols_ + symbol];
@@ -143,8 +132,7 @@ private:
     SymbolNames names_;
     std::size_t symbols_;
     std::vector<Span> axiom_;
-    std::vector<const Table*> known_;
-    std::vector<std::vector<Made>> made_;
+    std::map<const Table*, std::vector<Made>> made_;
     std::vector<std::uint64_t> lengths_;  // of the expansion of each symbol at each level
 };
 

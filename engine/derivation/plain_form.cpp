@@ -29,13 +29,12 @@ public:
             next += arity;
         }
         std::vector<Symbol> reached = parts_.axiom;
-        std::vector<char> is_reached;
-        tidy(reached, is_reached);
+        tidy(reached);
         for (const ScheduleRun& run : grammar_.schedule()) {
             for (std::int64_t step = 0; step < run.steps; ++step) {
                 std::vector<Symbol> after =
                     rewritten(grammar_.tables()[run.table], reached, written_[run.table], parts_.tables[run.table]);
-                tidy(after, is_reached);
+                tidy(after);
                 if (is_too_much_) return std::nullopt;
                 // Nothing changes any more under this table.
                 if (after == reached) break;
@@ -71,15 +70,18 @@ private:
     }
 
     /// Sorts numbers and removes duplicates.
-    void tidy(std::vector<Symbol>& numbers, std::vector<char>& is_reached) {
-        work_ += numbers.size();
-        is_reached.assign(modules_.size(), 0);
-        for (const Symbol number : numbers) is_reached[number] = 1;
+    void tidy(std::vector<Symbol>& numbers) {
+        add_work(numbers.size() + modules_.size());
+        is_reached_.assign(modules_.size(), 0);
+        for (const Symbol number : numbers) is_reached_[number] = 1;
         numbers.clear();
-        for (Symbol number = 0; number < is_reached.size(); ++number) {
-            if (is_reached[number]) numbers.push_back(number);
+        for (Symbol number = 0; number < is_reached_.size(); ++number) {
+            if (is_reached_[number]) numbers.push_back(number);
         }
-        work_ += is_reached.size();
+    }
+
+    void add_work(std::size_t more) {
+        work_ += more;
         if (work_ > most_work) is_too_much_ = true;
     }
 
@@ -124,8 +126,7 @@ private:
             }
             word.push_back(number(symbol, values));
         }
-        work_ += word.size();
-        if (work_ > most_work) is_too_much_ = true;
+        add_work(word.size());
         return word;
     }
 
@@ -134,6 +135,7 @@ private:
     std::vector<Module> modules_;  ///< by number
     std::unordered_map<std::string, Symbol> numbers_;
     std::vector<std::vector<std::int32_t>> written_;  ///< for each table
+    std::vector<char> is_reached_;                    ///< scratch of tidy()
     std::size_t work_ = 0;
     bool is_too_much_ = false;
 };

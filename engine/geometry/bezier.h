@@ -26,17 +26,24 @@ inline Bezier straight_curve(glm::dvec2 from, glm::dvec2 to) {
     return {from, from + (to - from) / 3.0, from + (to - from) * (2.0 / 3.0), to};
 }
 
+/// A value of the blossom of a cubic, by de Boor's algorithm. @param share  returns the share of point i + 1 in the
+/// point that replaces i and i + 1
+template <class Share>
+glm::dvec2 de_boor(Bezier points, const Share& share) {
+    for (std::size_t level = 0; level < 3; ++level) {
+        for (std::size_t i = 0; i < 3 - level; ++i) {
+            const double next = share(level, i);
+            points[i] = (1 - next) * points[i] + next * points[i + 1];
+        }
+    }
+    return points[0];
+}
+
 /// The piece between two parameters, 0 <= from <= to <= 1, by its blossom.
 inline Bezier part_of(const Bezier& whole, double from, double to) {
     const auto blossom = [&](double u, double v, double w) {
-        Bezier points = whole;
         const std::array<double, 3> at = {u, v, w};
-        for (std::size_t level = 0; level < 3; ++level) {
-            for (std::size_t i = 0; i < 3 - level; ++i) {
-                points[i] = (1 - at[level]) * points[i] + at[level] * points[i + 1];
-            }
-        }
-        return points[0];
+        return de_boor(whole, [&](std::size_t level, std::size_t) { return at[level]; });
     };
     return {blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)};
 }

@@ -7,11 +7,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <map>
-#include <span>
 #include <utility>
 
 namespace sikku {
@@ -69,11 +66,7 @@ constexpr int capital = '[' - 'F';  // units of a capital letter's height
 constexpr int small = '[' - 'M';    // and of a small one's
 constexpr double mark_gap = 3.0;
 
-struct NamedGlyph {
-    char32_t code;
-    std::string_view glyph;
-};
-constexpr NamedGlyph further_glyphs[] = {
+constexpr std::pair<char32_t, std::string_view> further_glyphs[] = {
     {U'–', "H\\KRYR"},
     {U'—', "D`ER_R"},
     {U'−', "E_IR[R"},
@@ -265,7 +258,7 @@ const std::map<char32_t, Glyph>& font() {
         for (std::size_t i = 0; i < ascii_glyphs.size(); ++i) {
             glyphs[static_cast<char32_t>(' ' + i)] = glyph_of(ascii_glyphs[i]);
         }
-        for (const NamedGlyph& further : further_glyphs) glyphs[further.code] = glyph_of(further.glyph);
+        for (const auto& [code, glyph] : further_glyphs) glyphs[code] = glyph_of(glyph);
         for (const Mark& mark : marks) {
             for (std::size_t i = 0; i < mark.bases.size(); ++i) {
                 const char base = mark.bases[i];
@@ -305,12 +298,8 @@ const Mark* combining_mark(char32_t code) {
 /// The first character and its number of bytes; U+FFFD for an invalid byte.
 std::pair<char32_t, std::size_t> first_character(std::string_view text) {
     const std::size_t length = utf8_length(text);
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     if (length == 0) return {0xFFFD, 1};
-    if (length == 1) return {byte(0), 1};
-    char32_t code = byte(0) & (0x7Fu >> length);
-    for (std::size_t i = 1; i < length; ++i) code = code << 6 | (byte(i) & 0x3Fu);
-    return {code, length};
+    return {code_point(text.substr(0, length)), length};
 }
 
 /// The glyph of the Tamil syllable at the beginning of a text, and its length in bytes; 0 if there is none.

@@ -5,7 +5,6 @@
 #include "engine/geometry/space_turtle.h"
 #include "engine/geometry/turtle.h"
 
-#include <algorithm>
 #include <string>
 
 namespace sikku {
@@ -60,7 +59,7 @@ private:
     bool is_open_ = false;
 };
 
-class PlaneKeeper : public PathSink {
+class PlaneKeeper : public PolygonSink {
 public:
     explicit PlaneKeeper(const TraceOptions& options) : kept(options.draws) {}
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
@@ -68,11 +67,8 @@ public:
         kept.begin(start);
     }
     void lines(std::span<const glm::dvec2> ends) override { kept.add(ends); }
-    void curves(std::span<const glm::dvec2>) override {}
     void change_pen(const Pen& pen) override { kept.set_pen(pen); }
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
     void label(std::string_view, glm::dvec2, double, const Pen&) override {}
 
     Keeper<glm::dvec2> kept;

@@ -32,37 +32,34 @@ inline bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point) {
     return is_inside;
 }
 
-/// True if two sides of a polygon cross at inner points. Cost: quadratic.
-inline bool crosses_itself(std::span<const glm::dvec2> corners) {
+/// True if `meet(a, b, c, d)` is for two sides of a polygon that are not neighbours. Cost: quadratic.
+template <class Meet>
+bool any_sides_meet(std::span<const glm::dvec2> corners, const Meet& meet) {
     const std::size_t count = corners.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
-        for (std::size_t j = i + 2; j < count; ++j) {
-            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
-            if (side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0) return true;
+        for (std::size_t j = i + 2; j < count - (i == 0 ? 1 : 0); ++j) {
+            if (meet(corners[i], corners[i + 1], corners[j], corners[(j + 1) % count])) return true;
         }
     }
     return false;
 }
 
+/// True if two sides of a polygon cross at inner points. Cost: quadratic.
+inline bool crosses_itself(std::span<const glm::dvec2> corners) {
+    return any_sides_meet(corners, [](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+        return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
+    });
+}
+
 /// True if sides of a polygon that are not neighbours have points in common. Cost: quadratic.
 inline bool touches_itself(std::span<const glm::dvec2> corners) {
-    const std::size_t count = corners.size();
     const auto overlap = [](double a, double b, double c, double d) {
         return std::min(a, b) <= std::max(c, d) && std::min(c, d) <= std::max(a, b);
     };
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 a = corners[i], b = corners[(i + 1) % count];
-        for (std::size_t j = i + 2; j < count; ++j) {
-            const glm::dvec2 c = corners[j], d = corners[(j + 1) % count];
-            if (i == 0 && j + 1 == count) continue;
-            if (overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y) &&
-                side_of(a, b, c) * side_of(a, b, d) <= 0 && side_of(c, d, a) * side_of(c, d, b) <= 0) {
-                return true;
-            }
-        }
-    }
-    return false;
+    return any_sides_meet(corners, [&](glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
+        return overlap(a.x, b.x, c.x, d.x) && overlap(a.y, b.y, c.y, d.y) &&
+               side_of(a, b, c) * side_of(a, b, d) <= 0 && side_of(c, d, a) * side_of(c, d, b) <= 0;
+    });
 }
 
 }  // namespace sikku

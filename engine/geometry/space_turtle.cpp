@@ -43,12 +43,8 @@ glm::dquat rotation(Action action, double degrees) {
     }
 }
 
-/// Source: splitmix64, Steele, Lea and Flood 2014.
 std::uint64_t mixed(std::uint64_t number) {
-    number += 0x9e3779b97f4a7c15U;
-    number = (number ^ number >> 30) * 0xbf58476d1ce4e5b9U;
-    number = (number ^ number >> 27) * 0x94d049bb133111ebU;
-    return number ^ number >> 31;
+    return scrambled(number + 0x9e3779b97f4a7c15U);
 }
 
 void widen(SpaceBounds& bounds, const glm::dvec3& point) {
@@ -296,10 +292,7 @@ private:
     }
 
     void write_label(const LabelText& label, std::span<const double> arguments) {
-        for (std::uint32_t i = 0; i < label.parameters(); ++i) {
-            if (!std::isfinite(arguments[i])) throw_at(position_, "its parameter is not finite");
-        }
-        const std::string text = label.text(arguments);
+        const std::string text = text_at(label, arguments, position_);
         const glm::dvec3 half(text_width(text, letter_height_) / 2, letter_height_ / 2, 0);
         note_ink(state_.place.at - half);
         widen(*survey_.ink, state_.place.at + half);

@@ -26,26 +26,6 @@ void SplineSink::curves(std::span<const glm::dvec2> controls) {
     for (std::size_t i = 2; i < controls.size(); i += 3) lines(controls.subspan(i, 1));
 }
 
-void SplineSink::change_pen(const Pen& pen) {
-    pen_ = pen;
-}
-
-void SplineSink::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
-    sink_.polygon(vertices, pen);
-}
-
-void SplineSink::area(std::span<const glm::dvec2> outline, const Pen& pen) {
-    sink_.area(outline, pen);
-}
-
-void SplineSink::disc(glm::dvec2 centre, double radius, const Pen& pen) {
-    sink_.disc(centre, radius, pen);
-}
-
-void SplineSink::label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) {
-    sink_.label(text, centre, height, pen);
-}
-
 /// Passes a piece of the curve on as soon as no later point can change it.
 void SplineSink::add(glm::dvec2 point) {
     recent_[count_ % recent_.size()] = {point, pen_};
@@ -108,18 +88,12 @@ Bezier SplineSink::clamped(std::size_t span, std::size_t segments) const {
     };
     const std::size_t j = span + 3;
     const auto blossom = [&](double u, double v, double w) {
-        std::array<glm::dvec2, 4> points = {recent(span).at, recent(span + 1).at, recent(span + 2).at,
-                                            recent(span + 3).at};
         const std::array<double, 3> arguments = {u, v, w};
-        for (std::size_t level = 0; level < 3; ++level) {
-            for (std::size_t i = 0; i < 3 - level; ++i) {
-                const double low = knot(j - 2 + level + i);
-                const double high = knot(j + 1 + i);
-                const double share = (arguments[level] - low) / (high - low);
-                points[i] = (1 - share) * points[i] + share * points[i + 1];
-            }
-        }
-        return points[0];
+        return de_boor({recent(span).at, recent(span + 1).at, recent(span + 2).at, recent(span + 3).at},
+                       [&](std::size_t level, std::size_t i) {
+                           const double low = knot(j - 2 + level + i);
+                           return (arguments[level] - low) / (knot(j + 1 + i) - low);
+                       });
     };
     const double a = knot(j);
     const double b = knot(j + 1);

@@ -21,20 +21,21 @@ namespace sikku {
 /// that.
 /// Memory: O(1) beside SplineOutlines. Source: Prusinkiewicz & Hanan 1989, section 2.2 (figures 2.10 and 2.11); de
 /// Boor's knot insertion.
-class SplineSink : public PathSink, public OutlineSink {
+class SplineSink : public PathFilter, public OutlineSink {
 public:
     /// @param closed  for each stroke, in order, true if it is closed; kept by reference
-    SplineSink(PathSink& sink, const std::vector<bool>& closed) : sink_(sink), closed_(closed), outlines_(sink) {}
+    SplineSink(PathSink& sink, const std::vector<bool>& closed)
+        : Forwarding(sink), closed_(closed), outlines_(sink) {}
 
     void begin_stroke(glm::dvec2 start, const Pen& pen) override;
     void lines(std::span<const glm::dvec2> ends) override;
     void curves(std::span<const glm::dvec2> controls) override;
-    void change_pen(const Pen& pen) override;
+    void change_pen(const Pen& pen) override { pen_ = pen; }
     void end_stroke(bool closed) override;
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
-    void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
-    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override;
+    void label(std::string_view text, glm::dvec2 centre, double height, const Pen& pen) override {
+        sink_.label(text, centre, height, pen);
+    }
+    void mark() override {}
 
     void begin_outline(glm::dvec2 at) override { outlines_.begin(at); }
     void outline_vertex(glm::dvec2 at) override { outlines_.vertex(at); }
@@ -54,7 +55,6 @@ private:
     void emit_short();
     void flush();
 
-    PathSink& sink_;
     const std::vector<bool>& closed_;
     SplineOutlines outlines_;
     std::size_t stroke_ = 0;  // strokes begun

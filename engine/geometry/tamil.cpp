@@ -432,20 +432,21 @@ std::pair<char32_t, std::size_t> composed_character(std::u32string_view text) {
 std::optional<TamilSyllable> tamil_syllable(std::u32string_view text) {
     constexpr double bearing = 2.8;  // space beside the ink of each part
     TamilSyllable syllable;
+    const auto place = [&](const Shape& shape, double x) {
+        const glm::dvec2 by(x, 0.0);
+        for (LetterStroke stroke : shape.strokes) {
+            stroke.start += by;
+            for (LetterStroke::Piece& piece : stroke.pieces) {
+                for (glm::dvec2* point : {&piece.first, &piece.second, &piece.end}) *point += by;
+            }
+            syllable.strokes.push_back(std::move(stroke));
+        }
+    };
     const auto add = [&](std::u32string_view name) {
         const auto found = shapes().find(name);
         if (found == shapes().end()) return false;
         const Shape& shape = found->second;
-        const glm::dvec2 by(syllable.width + bearing - shape.low, 0.0);
-        for (LetterStroke stroke : shape.strokes) {
-            stroke.start += by;
-            for (LetterStroke::Piece& piece : stroke.pieces) {
-                piece.first += by;
-                piece.second += by;
-                piece.end += by;
-            }
-            syllable.strokes.push_back(std::move(stroke));
-        }
+        place(shape, syllable.width + bearing - shape.low);
         syllable.width += shape.high - shape.low + 2 * bearing;
         return true;
     };
@@ -482,14 +483,7 @@ std::optional<TamilSyllable> tamil_syllable(std::u32string_view text) {
     } else if (sign == pulli) {
         add(base);
         const Shape& letter = shapes().at(base);
-        for (LetterStroke dot : shapes().at(U"்").strokes) {
-            const double middle = bearing + (letter.high - letter.low) / 2;
-            dot.start.x += middle;
-            for (LetterStroke::Piece& piece : dot.pieces) {
-                for (glm::dvec2* point : {&piece.first, &piece.second, &piece.end}) point->x += middle;
-            }
-            syllable.strokes.push_back(std::move(dot));
-        }
+        place(shapes().at(U"்"), bearing + (letter.high - letter.low) / 2);
         ++syllable.characters;
     } else if (shapes().contains(base + sign)) {
         add(base + sign);

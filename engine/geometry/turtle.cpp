@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -372,10 +371,7 @@ private:
     void write_label(Symbol symbol) {
         const auto& [label, own] = labels_.at(symbol);
         const std::span<const double> arguments = arguments_.empty() ? std::span(own) : arguments_;
-        for (std::uint32_t i = 0; i < label.parameters(); ++i) {
-            if (!std::isfinite(arguments[i])) throw_at(position_, "its parameter is not finite");
-        }
-        Waiting waiting{label.text(arguments), walker_.point(state_.place), state_.pen};
+        Waiting waiting{text_at(label, arguments, position_), walker_.point(state_.place), state_.pen};
         if constexpr (Surveying) {
             const glm::dvec2 half(text_width(waiting.text, letter_height_) / 2, letter_height_ / 2);
             note_ink(waiting.at - half);

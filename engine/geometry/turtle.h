@@ -37,7 +37,7 @@ public:
     virtual ~PlaceSink() = default;
     /// Receives Lattice::rank coordinates for each point of the PathSink's next call of begin_stroke() or lines();
     /// empty if the rank is 0. The span is valid until that call returns.
-    virtual void places(std::span<const std::int64_t> coordinates) = 0;
+    virtual void places(std::span<const std::int64_t> /*coordinates*/) {}
     /// The same for the vertices of the next polygon between `{` and `}` that the PathSink receives.
     /// @param position  of the `}` in the word, from 1
     /// @param is_closed  true if the outline ended where it began; marked vertices always close

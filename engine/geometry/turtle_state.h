@@ -37,6 +37,15 @@ inline void change_pen(Pen& pen, Action action, double value) {
     }
 }
 
+/// The text that a label shows. @throws WordError for a parameter that is not finite
+inline std::string text_at(const LabelText& label, std::span<const double> arguments, std::uint64_t position) {
+    const auto shown = arguments.first(label.parameters());
+    if (!std::all_of(shown.begin(), shown.end(), [](double value) { return std::isfinite(value); })) {
+        throw_at(position, "its parameter is not finite");
+    }
+    return label.text(arguments);
+}
+
 /// Refuses a parameter of `{` other than 0, which is the type of a cylinder in cpfg.
 inline void refuse_cylinder(std::uint64_t position, double type) {
     if (type == 0) return;

@@ -1,6 +1,5 @@
 #include "engine/import/fractint_entry.h"
 
-#include "engine/base/characters.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 

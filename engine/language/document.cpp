@@ -7,10 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace sikku {
 Document Document::compile(std::string name, std::string text, const Overrides& overrides, Diagnostics& diagnostics) {

@@ -376,13 +376,10 @@ private:
             return is_predecessor(without_quotes(parts[0])) && production_is_read(parts[0], parts[1]);
         }
         if (parts.size() == 2 && named_pair_is_read(parts[0], parts[1])) return true;
-        std::size_t read = 0;
-        for (const std::string_view part : parts) {
-            if (part.empty()) continue;
-            if (!line_is_read(part, level)) return false;
-            ++read;
-        }
-        return read > 0;
+        const auto is_empty = [](std::string_view part) { return part.empty(); };
+        return !std::all_of(parts.begin(), parts.end(), is_empty) &&
+               std::all_of(parts.begin(), parts.end(),
+                           [&](std::string_view part) { return part.empty() || line_is_read(part, level); });
     }
 
     /// {a: "F", b: "FF"}
@@ -400,11 +397,8 @@ private:
         left = trimmed(left);
         right = trimmed(right);
         if (const std::size_t colon = left.find(':'); colon != nothing) {
-            if (is_label(trimmed(left.substr(0, colon)), trimmed(left.substr(colon + 1)))) {
-                left = trimmed(left.substr(colon + 1));
-            } else if (contains(rule_names, folded(left.substr(0, colon)))) {
-                left = trimmed(left.substr(colon + 1));
-            }
+            const std::string_view name = left.substr(0, colon), rest = trimmed(left.substr(colon + 1));
+            if (is_label(trimmed(name), rest) || contains(rule_names, folded(name))) left = rest;
         }
         left = without_quotes(left);
         left.remove_prefix(item_number_length(left));
@@ -419,9 +413,7 @@ private:
         }
         if (left.empty()) return false;
         const std::string name = folded(left);
-        if (name == "axiom" || key_of_other_name(name) == "axiom") {
-            if (!(left.size() == 1)) return axiom_is_read(right);
-        }
+        if (left.size() != 1 && (name == "axiom" || key_of_other_name(name) == "axiom")) return axiom_is_read(right);
         has_symbol_ = has_symbol_ || utf8_length(left) == left.size();
         advice_.lines.push_back(fmt::format("{} --> {}", trimmed(plain(left)), word(right)));
         return true;
@@ -482,8 +474,7 @@ private:
             advice_.lines.push_back(fmt::format("{}: {}", key, value));
             return true;
         }
-        if (is_label(left, right)) return line_is_read(right, level + 1);
-        return false;
+        return is_label(left, right) && line_is_read(right, level + 1);
     }
 
     /// setAxiom("F"), setProduction('F', 'F+F')

@@ -138,14 +138,14 @@ std::optional<Grammar> Grammar::with_marks(std::int64_t order, const std::vector
     bool is_placed = false;
     const auto marking = static_cast<std::uint32_t>(tables_.size());
     for (const ScheduleRun& run : schedule_) {
-        const std::int64_t first = is_placed ? run.steps : std::min(run.steps, before);
+        const std::int64_t first = std::min(run.steps, before);
         if (first > 0) schedule.push_back({run.table, first});
-        before -= is_placed ? 0 : first;
-        if (is_placed || (before == 0 && first == run.steps && &run != &schedule_.back())) continue;
-        if (before > 0) continue;
-        next = run.table;
-        schedule.push_back({marking, 1});
-        is_placed = true;
+        before -= first;
+        if (!is_placed && before == 0 && (first < run.steps || &run == &schedule_.back())) {
+            next = run.table;
+            schedule.push_back({marking, 1});
+            is_placed = true;
+        }
         if (first < run.steps) schedule.push_back({run.table, run.steps - first});
     }
     const auto mark = static_cast<Symbol>(symbols_.size());

@@ -138,10 +138,15 @@ private:
 
     bool wrong(const Span& where, const std::string& message) { return diagnostics_.refuse(where, message); }
 
-    /// Reads the label after a `~`. @param token  the token after it
-    bool read_label(const Token& token, MapPart& part) {
+    /// Reads a label, or `~` and a label. @param token  the first of them
+    /// @param expected  the error if it is neither
+    bool read_part(MapScanner& scanner, Token token, const char* expected, MapPart& part) {
+        part.is_reversed = token.kind == TokenKind::reversal;
+        if (part.is_reversed) token = scanner.next();
         if (token.kind == TokenKind::error) return false;
-        if (token.kind != TokenKind::label) return wrong(token.where, "expected a label after '~'");
+        if (token.kind != TokenKind::label) {
+            return wrong(token.where, part.is_reversed ? "expected a label after '~'" : expected);
+        }
         const auto label = label_of(token.where);
         if (label) part.label = *label;
         return label.has_value();
@@ -156,15 +161,11 @@ private:
         MapScanner scanner(names_, key->value, diagnostics_);
         for (Token token = scanner.next(); token.kind != TokenKind::end; token = scanner.next()) {
             MapPart part;
-            part.is_reversed = token.kind == TokenKind::reversal;
-            if (part.is_reversed) {
-                token = scanner.next();
-            } else if (token.kind != TokenKind::label && token.kind != TokenKind::error) {
-                return diagnostics_.error(token.where,
-                                          "the axiom of a map consists of labels, with '~' before "
-                                          "those directed against the walk");
+            if (!read_part(scanner, token,
+                           "the axiom of a map consists of labels, with '~' before those directed against the walk",
+                           part)) {
+                return;
             }
-            if (!read_label(token, part)) return;
             system_.axiom.push_back(part);
         }
     }
@@ -179,24 +180,14 @@ private:
             return wrong(token.where, "a branch begins with '+' (left of the edge) or '-' (right of it)");
         }
         auto& side = token.kind == TokenKind::left ? production.left : production.right;
-        MapBranch branch;
-        branch.position = static_cast<std::uint32_t>(production.parts.size());
-        token = scanner.next();
-        branch.is_towards = token.kind == TokenKind::reversal;
         MapPart part;
-        if (branch.is_towards) {
-            token = scanner.next();
-        } else if (token.kind != TokenKind::label && token.kind != TokenKind::error) {
-            return wrong(token.where, "expected the label of the branch");
-        }
-        if (!read_label(token, part)) return false;
-        branch.label = part.label;
+        if (!read_part(scanner, scanner.next(), "expected the label of the branch", part)) return false;
         token = scanner.next();
         if (token.kind == TokenKind::error) return false;
         if (token.kind == TokenKind::open) return wrong(token.where, "branches of a map do not nest");
         if (token.kind == TokenKind::end) return wrong(open, "this '[' is not closed");
         if (token.kind != TokenKind::close) return wrong(token.where, "a branch has one label: expected ']'");
-        side.push_back(branch);
+        side.push_back({static_cast<std::uint32_t>(production.parts.size()), part.label, part.is_reversed});
         return true;
     }
 
@@ -215,15 +206,10 @@ private:
                 case TokenKind::left:
                 case TokenKind::right:
                     return wrong(token.where, "'+' and '-' stand only at the beginning of a branch: '[+a]'");
-                case TokenKind::reversal:
-                    part.is_reversed = true;
-                    token = scanner.next();
-                    break;
                 default:
-                    break;
+                    if (!read_part(scanner, token, "", part)) return false;
+                    production.parts.push_back(part);
             }
-            if (!read_label(token, part)) return false;
-            production.parts.push_back(part);
         }
         std::reverse(production.left.begin(), production.left.end());
         return true;

@@ -72,21 +72,19 @@ std::size_t find_outside(std::string_view text, std::string_view wanted, std::si
     return std::string_view::npos;
 }
 
-std::size_t rfind_outside(std::string_view text, char wanted) {
-    int depth = 0;
-    std::size_t found = std::string_view::npos;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '(') ++depth;
-        if (text[i] == ')' && depth > 0) --depth;
-        if (depth == 0 && text[i] == wanted) found = i;
+std::size_t rfind_outside(std::string_view text, std::string_view wanted) {
+    std::size_t last = std::string_view::npos;
+    for (std::size_t at = find_outside(text, wanted); at != std::string_view::npos;
+         at = find_outside(text, wanted, at + 1)) {
+        last = at;
     }
-    return found;
+    return last;
 }
 
 class Parser {
 public:
     Parser(Pattern& pattern, Diagnostics& diagnostics)
-        : pattern_(pattern), diagnostics_(diagnostics), before_(diagnostics) {}
+        : pattern_(pattern), diagnostics_(diagnostics), before_(diagnostics), section_(&pattern.common) {}
 
     void run() {
         const std::string_view text = pattern_.source->cleaned();
@@ -107,8 +105,6 @@ public:
     }
 
 private:
-    enum class Section { common, table, interpret };
-
     /// Reports the lines that are neither in the pattern language nor in another notation; in one message if the
     /// text contains nothing else.
     void finish() {
@@ -375,10 +371,7 @@ private:
             const std::string_view line = trimmed(take_line(text));
             const std::size_t colon = line.find(':');
             if (colon > most_key_bytes || folded(line.substr(0, colon)) != "symbols") continue;
-            std::string_view names = line.substr(colon + 1);
-            for (std::string_view name = take_word(names); !name.empty(); name = take_word(names)) {
-                listed_symbols_->emplace(name);
-            }
+            for (const std::string_view name : split_words(line.substr(colon + 1))) listed_symbols_->emplace(name);
             return;
         }
     }
@@ -434,14 +427,13 @@ private:
         if (!table_names_.insert(std::string(name.view())).second) {
             diagnostics_.error(name, fmt::format("the table '{}' is defined twice", name.view()));
         }
-        section_ = Section::table;
-        pattern_.tables.push_back({name, {}});
+        section_ = &pattern_.tables.emplace_back(TableText{name, {}}).productions;
     }
 
     void interpret(const Span& whole, std::size_t colon) {
         if (interpret_seen_) return diagnostics_.error(whole, "'interpret:' is given twice");
         interpret_seen_ = true;
-        section_ = Section::interpret;
+        section_ = &pattern_.interpret;
         const Span rest = whole.part(colon + 1).trimmed();
         if (!rest.empty()) diagnostics_.error(rest, "the productions of 'interpret:' stand on the lines after it");
     }
@@ -541,29 +533,19 @@ private:
         }
         result.predecessor = left_side.part(begin, end - begin).trimmed();
         result.successor = right_side;
-        if (const std::size_t colon = rfind_outside(right_side.view(), ':'); colon != std::string_view::npos) {
+        if (const std::size_t colon = rfind_outside(right_side.view(), ":"); colon != std::string_view::npos) {
             result.weight = right_side.part(colon + 1).trimmed();
             result.successor = right_side.part(0, colon).trimmed();
         }
         if (result.predecessor.empty()) return diagnostics_.error(whole, "expected a predecessor before '-->'");
         if (!has_room(whole, productions_++, most_productions, "productions")) return;
-        switch (section_) {
-            case Section::common:
-                pattern_.common.push_back(result);
-                break;
-            case Section::table:
-                pattern_.tables.back().productions.push_back(result);
-                break;
-            case Section::interpret:
-                pattern_.interpret.push_back(result);
-                break;
-        }
+        section_->push_back(result);
     }
 
     Pattern& pattern_;
     Diagnostics& diagnostics_;
-    const Diagnostics before_;  // diagnostics before this text
-    Section section_ = Section::common;
+    const Diagnostics before_;              // diagnostics before this text
+    std::vector<ProductionText>* section_;  // that the next production belongs to
     bool interpret_seen_ = false;
     bool is_in_patch_ = false;
     std::size_t productions_ = 0;
@@ -637,10 +619,8 @@ void check_scope(const Key& key, const KeyInfo& known, bool is_map, Diagnostics&
 }  // namespace
 
 const Key* Pattern::find(std::string_view name) const {
-    for (const Key& key : keys) {
-        if (key.name == name) return &key;
-    }
-    return nullptr;
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.name == name; });
+    return found == keys.end() ? nullptr : &*found;
 }
 
 std::string Pattern::text(std::string_view name) const {
@@ -684,17 +664,14 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
                                          [&](const Variant& other) { return other.name.view() == variant; });
         if (chosen == pattern.variants.end()) {
             std::vector<std::string_view> known;
-            std::string list;
-            for (const Variant& other : pattern.variants) {
-                known.push_back(other.name.view());
-                list += fmt::format("{}{}", list.empty() ? "" : ", ", other.name.view());
-            }
+            for (const Variant& other : pattern.variants) known.push_back(other.name.view());
             const auto source =
                 std::make_shared<const Source>("variant " + std::string(variant), std::string(variant), true);
             pattern.overrides.push_back(source);
             diagnostics.error({source, 0, variant.size()},
-                              known.empty() ? "this pattern has no variants"
-                                            : fmt::format("unknown variant; the pattern has {}", list));
+                              known.empty()
+                                  ? "this pattern has no variants"
+                                  : fmt::format("unknown variant; the pattern has {}", fmt::join(known, ", ")));
         } else {
             for (const Key& setting : chosen->settings) overrides.set(setting.name, setting.name_at, setting.value);
         }

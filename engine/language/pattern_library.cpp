@@ -3,7 +3,6 @@
 #include "engine/language/arrangement_library.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/installation.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -172,15 +173,14 @@ private:
         std::map<std::string_view, std::size_t> known;
         for (std::size_t i = 0; i < patch_names_.size(); ++i) known.emplace(patch_names_[i].view(), i);
         for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+            std::set<std::size_t> around;
             for (const Span& name : neighbours_[i]) {
                 if (name.view() == "~") continue;
                 const auto found = known.find(name.view());
                 if (found == known.end()) return fail(name, "no patch has this name");
-                surface_.patches[i].neighbours.push_back(found->second);
+                around.insert(found->second);
             }
-            std::vector<std::size_t>& around = surface_.patches[i].neighbours;
-            std::sort(around.begin(), around.end());
-            around.erase(std::unique(around.begin(), around.end()), around.end());
+            surface_.patches[i].neighbours.assign(around.begin(), around.end());
         }
     }
 
@@ -323,14 +323,12 @@ std::vector<std::shared_ptr<const Surface>> read_surfaces(const Pattern& pattern
 }
 
 std::vector<std::string> surface_names(const Pattern& pattern) {
-    std::vector<std::string> names;
-    for (const FileEntry& entry : file_entries(pattern, nullptr)) names.emplace_back(entry.name.view());
+    std::set<std::string> names;
+    for (const FileEntry& entry : file_entries(pattern, nullptr)) names.emplace(entry.name.view());
     for (const PatchText& text : pattern.patches) {
-        if (is_name(text.name.view())) names.emplace_back(text.name.view());
+        if (is_name(text.name.view())) names.emplace(text.name.view());
     }
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
+    return {names.begin(), names.end()};
 }
 
 }  // namespace sikku

@@ -7,20 +7,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace sikku {
 namespace {
 
 constexpr std::size_t longest_allowed_name = 64;
 constexpr std::size_t most_arguments = std::size_t{1} << 16;  // of any module
-
-/// The code point of two or three bytes of valid UTF-8.
-std::uint32_t code_point(std::string_view point) {
-    std::uint32_t code = static_cast<unsigned char>(point[0]) & (point.size() == 2 ? 0x1FU : 0x0FU);
-    for (const char byte : point.substr(1)) code = code << 6U | (static_cast<unsigned char>(byte) & 0x3FU);
-    return code;
-}
 
 std::size_t code_point_length(char lead) {
     const auto byte = static_cast<unsigned char>(lead);

@@ -1,5 +1,6 @@
 #include "engine/map/placement.h"
 
+#include "engine/geometry/box.h"
 #include "engine/map/conjugate_gradients.h"
 
 #include <fmt/format.h>
@@ -79,12 +80,8 @@ glm::dvec2 centroid_of_outline(const Map& map, const std::vector<glm::dvec2>& ve
 std::vector<glm::dvec2> upright(const Map& map, std::vector<glm::dvec2> vertices, const glm::dvec2& first) {
     const glm::dvec2 centre = centroid_of_outline(map, vertices);
     const glm::dvec2 now = glm::normalize(vertices.front() - centre);
-    const double cosine = glm::dot(now, first);
-    const double sine = now.x * first.y - now.y * first.x;
-    for (glm::dvec2& vertex : vertices) {
-        const glm::dvec2 p = vertex - centre;
-        vertex = {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
-    }
+    const glm::dvec2 turn(glm::dot(now, first), determinant(now, first));
+    for (glm::dvec2& vertex : vertices) vertex = complex_product(turn, vertex - centre);
     return vertices;
 }
 
@@ -116,9 +113,7 @@ std::vector<glm::dvec2> outline_on_circle(const Map& map, const glm::dvec2& firs
     for (std::size_t i = 0; i < wall.size(); ++i) {
         const HalfEdge half = wall[(static_cast<std::size_t>(start) + i) % wall.size()];
         const double angle = step * static_cast<double>(i);
-        const double cosine = std::cos(angle);
-        const double sine = std::sin(angle);
-        vertices[map.start(half)] = {cosine * first.x - sine * first.y, sine * first.x + cosine * first.y};
+        vertices[map.start(half)] = complex_product({std::cos(angle), std::sin(angle)}, first);
     }
     return vertices;
 }

@@ -199,7 +199,7 @@ public:
                 basis_[static_cast<std::size_t>(i)] = fixed_unit_vector(sum, bits());
             }
         }
-        FixedVector fixed(const Point& point) const {
+        FixedVector placed(const Point& point) const {
             FixedVector sum{0, 0};
             for (std::size_t i = 0; i < Rank; ++i) {
                 sum.x += basis_[i].x * Integer(point[i]);
@@ -207,29 +207,12 @@ public:
             }
             return sum;
         }
-        std::array<Quantity, 2> point(const Point& at) const {
-            const FixedVector sum = fixed(at);
-            return {quantity(sum.x, bits(), denominator()), quantity(sum.y, bits(), denominator())};
-        }
-        std::array<Quantity, 4> box(const std::vector<Vertex>& hull) const {
-            FixedVector low = fixed(hull.front().at);
-            FixedVector high = low;
-            for (const Vertex& vertex : hull) {
-                const FixedVector at = fixed(vertex.at);
-                low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-                high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-            }
-            return {quantity(low.x, bits(), denominator()), quantity(low.y, bits(), denominator()),
-                    quantity(high.x, bits(), denominator()), quantity(high.y, bits(), denominator())};
-        }
-        glm::dvec2 approximate(const Point& at) const {
-            const auto exact = point(at);
-            return {exact[0].value, exact[1].value};
+        Quantity quantity(const Integer& fixed) const {
+            return sikku::quantity(fixed, bits(), std::llround(1.0 / space_.lattice_.unit));
         }
 
     private:
         unsigned bits() const { return wide ? space_.fraction_bits() : 128; }
-        std::int64_t denominator() const { return std::llround(1.0 / space_.lattice_.unit); }
         const LatticeSpace& space_;
         std::array<FixedVector, Rank> basis_;
     };
@@ -290,24 +273,11 @@ public:
     class Embedding {
     public:
         explicit Embedding(const PlaneSpace& space) : space_(space) {}
-        glm::dvec2 approximate(const Point& at) const {
+        glm::dvec2 placed(const Point& at) const {
             const glm::dvec2 unit = unit_vector(space_.lattice_.first_heading);
             return {unit.x * at.x - unit.y * at.y, unit.y * at.x + unit.x * at.y};
         }
-        std::array<Quantity, 2> point(const Point& at) const {
-            const glm::dvec2 turned = approximate(at);
-            return {Quantity::of(turned.x), Quantity::of(turned.y)};
-        }
-        std::array<Quantity, 4> box(const std::vector<Vertex>& hull) const {
-            glm::dvec2 low = approximate(hull.front().at);
-            glm::dvec2 high = low;
-            for (const Vertex& vertex : hull) {
-                const glm::dvec2 at = approximate(vertex.at);
-                low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-                high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-            }
-            return {Quantity::of(low.x), Quantity::of(low.y), Quantity::of(high.x), Quantity::of(high.y)};
-        }
+        Quantity quantity(double coordinate) const { return Quantity::of(coordinate); }
 
     private:
         const PlaneSpace& space_;
@@ -317,6 +287,35 @@ private:
     const Lattice& lattice_;
     const Grammar& grammar_;
 };
+
+template <class Embedding, class Point>
+std::array<Quantity, 2> position(const Embedding& embedding, const Point& point) {
+    const auto at = embedding.placed(point);
+    return {embedding.quantity(at.x), embedding.quantity(at.y)};
+}
+
+template <class Embedding, class Vertex>
+std::array<Quantity, 4> box_of(const Embedding& embedding, const std::vector<Vertex>& hull) {
+    auto low = embedding.placed(hull.front().at), high = low;
+    for (const Vertex& vertex : hull) {
+        const auto at = embedding.placed(vertex.at);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+    }
+    return {embedding.quantity(low.x), embedding.quantity(low.y), embedding.quantity(high.x),
+            embedding.quantity(high.y)};
+}
+
+/// The corners of a hull, in doubles.
+template <class Embedding, class Vertex>
+std::vector<glm::dvec2> corners_of(const Embedding& embedding, const std::vector<Vertex>& hull) {
+    std::vector<glm::dvec2> corners;
+    for (const Vertex& vertex : hull) {
+        const auto [x, y] = position(embedding, vertex.at);
+        corners.emplace_back(x.value, y.value);
+    }
+    return corners;
+}
 
 // --- composition ---------------------------------------------------------------------------------------------------
 
@@ -564,19 +563,19 @@ private:
         const typename Space::Embedding embedding(space_);
         const Frame& frame = whole.frames.front();
         Fold fold;
-        fold.box = embedding.box(frame.box.corners);
+        fold.box = box_of(embedding, frame.box.corners);
         if constexpr (std::is_same_v<Space, PlaneSpace>) {
             for (const Quantity& side : fold.box) {
                 if (!std::isfinite(side.value)) throw TooMuch();
             }
         }
-        for (const Vertex& vertex : frame.box.corners) fold.box_hull.push_back(embedding.approximate(vertex.at));
+        fold.box_hull = corners_of(embedding, frame.box.corners);
         if (whole.draws) {
             const auto& ink = has_moves_ ? frame.ink.corners : frame.box.corners;
-            fold.ink = embedding.box(ink);
-            for (const Vertex& vertex : ink) fold.ink_hull.push_back(embedding.approximate(vertex.at));
+            fold.ink = box_of(embedding, ink);
+            fold.ink_hull = corners_of(embedding, ink);
         }
-        fold.end = embedding.point(whole.end.at);
+        fold.end = position(embedding, whole.end.at);
         fold.heading = std::fmod(space_.heading_degrees(whole.end.heading), 360.0);
         if (fold.heading < 0) fold.heading += 360.0;
         if (fold.heading >= 360.0) fold.heading = 0.0;

@@ -208,7 +208,11 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
 
     parts.place_symbols(grammar, lattice, reached, moves_draw);
 
-    std::vector<std::pair<DrawnPart<Number>, std::uint32_t>> saved;  // only x, y and headings are used
+    struct Saved {
+        Number x, y;
+        std::uint32_t heading;
+    };
+    std::vector<Saved> saved;
     /// False if brackets do not balance or numbers are not finite.
     const auto compose = [&](const Word& word, int level, std::uint32_t heading, DrawnPart<Number>& part) {
         const std::uint32_t first = heading;
@@ -216,16 +220,14 @@ std::optional<Parts<Number>> Parts<Number>::make(const Grammar& grammar, bool mo
         for (const Symbol child : word) {
             const Action action = grammar.symbols()[child].command.action;
             if (action == Action::push) {
-                saved.emplace_back(DrawnPart<Number>{}, heading);
-                saved.back().first.x = part.x;
-                saved.back().first.y = part.y;
+                saved.push_back({part.x, part.y, heading});
                 continue;
             }
             if (action == Action::pop) {
                 if (saved.empty()) return false;
-                part.x = saved.back().first.x;
-                part.y = saved.back().first.y;
-                heading = saved.back().second;
+                part.x = saved.back().x;
+                part.y = saved.back().y;
+                heading = saved.back().heading;
                 saved.pop_back();
                 continue;
             }

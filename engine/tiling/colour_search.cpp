@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <limits>
-#include <optional>
 
 namespace sikku {
 namespace {
@@ -102,7 +101,7 @@ public:
         for (Variable v = 0; v < value_.size(); ++v) {
             if (!is_removed_[v / 3]) push(v);
         }
-        if (!fix_first_tiles()) return Colourable::no;
+        fix_first_tiles();
         std::uint64_t conflicts = 0, since_restart = 0, restart = 100;
         while (true) {
             pulse_();
@@ -148,6 +147,9 @@ private:
     bool is_true(Literal literal) const { return value_[literal / 2] == static_cast<std::int8_t>(1 - literal % 2); }
     bool is_false(Literal literal) const { return value_[literal / 2] == static_cast<std::int8_t>(literal % 2); }
 
+    /// The literal that is false while a variable keeps its value.
+    Literal excluded(Variable v) const { return 2 * v + (value_[v] == 1 ? 1U : 0U); }
+
     void assign(Variable v, std::int8_t value, Reason reason) {
         value_[v] = value;
         reason_[v] = reason;
@@ -156,20 +158,17 @@ private:
         ++steps_;
     }
     /// Two neighbours with most neighbours get the first two colours: names of colours do not matter.
-    bool fix_first_tiles() {
+    void fix_first_tiles() {
         Tile best = none;
         for (Tile tile = 0; tile < neighbours_.tiles(); ++tile) {
             if (is_removed_[tile]) continue;
             if (best == none || neighbours_.of(tile).size() > neighbours_.of(best).size()) best = tile;
         }
-        if (best == none) return true;
+        if (best == none) return;
         assign(3 * best, 1, {});
         for (const Tile other : neighbours_.of(best)) {
-            if (is_removed_[other]) continue;
-            assign(3 * other + 1, 1, {});
-            break;
+            if (!is_removed_[other]) return assign(3 * other + 1, 1, {});
         }
-        return true;
     }
 
     /// Sets a variable; true if that is a conflict, whose literals are then in `conflict_`.
@@ -208,7 +207,7 @@ private:
         while (next_ < trail_.size()) {
             pulse_();
             const Variable v = trail_[next_++];
-            if (propagate_colours(v) || propagate_clauses(2 * v + (value_[v] == 1 ? 1U : 0U))) return true;
+            if (propagate_colours(v) || propagate_clauses(excluded(v))) return true;
         }
         return false;
     }
@@ -224,20 +223,15 @@ private:
             }
             return false;
         }
-        int excluded = 0;
+        int possible = 0;
         Variable left = none;
         for (Variable other = first; other < first + 3; ++other) {
-            if (value_[other] == 0) {
-                ++excluded;
-            } else {
-                left = other;
-            }
+            if (value_[other] == 0) continue;
+            ++possible;
+            left = other;
         }
-        if (excluded == 3) {
-            conflict_ = {first, first + 1, first + 2};
-            return true;
-        }
-        return excluded == 2 && imply(left, 1, {Reason::Kind::siblings, 0});
+        if (possible == 0) conflict_ = {first, first + 1, first + 2};
+        return possible == 0 || (possible == 1 && imply(left, 1, {Reason::Kind::siblings, 0}));
     }
     /// Propagates through the clauses that watch a literal which became false.
     bool propagate_clauses(Literal literal) {
@@ -288,7 +282,7 @@ private:
                 if (level_[v] == level()) {
                     ++open;
                 } else {
-                    clause.push_back(2 * v + (value_[v] == 1 ? 1U : 0U));
+                    clause.push_back(excluded(v));
                 }
             }
             do {
@@ -297,7 +291,7 @@ private:
             } while (!seen_[trail_[at]]);
             const Variable v = trail_[at];
             if (--open == 0) {
-                clause[0] = 2 * v + (value_[v] == 1 ? 1U : 0U);
+                clause[0] = excluded(v);
                 break;
             }
             causes.clear();
@@ -350,10 +344,8 @@ private:
             for (double& each : activity_) each *= 1e-100;
             increment_ *= 1e-100;
         }
-        if (waits)
-            push(v);
-        else if (place_[v] != none)
-            rise(place_[v]);
+        if (waits) return push(v);
+        if (place_[v] != none) rise(place_[v]);
     }
     void put(std::size_t at, Variable v) {
         heap_[at] = v;

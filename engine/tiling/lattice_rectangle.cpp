@@ -2,7 +2,6 @@
 
 #include "engine/geometry/box.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

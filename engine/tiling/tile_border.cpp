@@ -237,15 +237,11 @@ private:
             std::fabs(height) > 1e-9 * (1 + scalar_product(b - a, b - a) + scalar_product(middle - a, middle - a))) {
             return height > 0 ? 1 : height < 0 ? -1 : 0;
         }
-        const Cyclotomic::Number from = plane_.coordinates(pieces_.from[side]),
-                                 to = plane_.coordinates(pieces_.to(side)),
-                                 first = plane_.coordinates(pieces_.from[own]),
-                                 second = plane_.coordinates(pieces_.to(own));
-        Cyclotomic::Number along{}, twice{};
-        for (std::size_t i = 0; i < along.size(); ++i) {
-            along[i] = to[i] - from[i];
-            twice[i] = first[i] + second[i] - 2 * from[i];
-        }
+        const std::uint32_t from = pieces_.from[side];
+        const Cyclotomic::Number along = plane_.way(from, pieces_.to(side)),
+                                 second = plane_.way(from, pieces_.to(own));
+        Cyclotomic::Number twice = plane_.way(from, pieces_.from[own]);
+        for (std::size_t i = 0; i < twice.size(); ++i) twice[i] += second[i];
         return plane_.numbers().sign_imaginary(plane_.numbers().conjugate_product(along, twice));
     }
     /// A tile of another loop that contains a point of the border, or no_number.

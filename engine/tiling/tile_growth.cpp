@@ -106,6 +106,7 @@ public:
 
 private:
     using Kind = ShapeReader::Kind;
+    using Rows = std::vector<std::map<std::size_t, double>>;
 
     /// Finds the symbols of words before `interpret:`.
     void find_reachable() {
@@ -236,8 +237,8 @@ private:
         }
         std::map<Symbol, std::size_t> index;
         for (std::size_t i = 0; i < tiles.size(); ++i) index[tiles[i]] = i;
-        // Rows: successors of symbols.
-        std::vector<std::map<std::size_t, double>> rows(tiles.size());
+        // Successors of symbols.
+        Rows rows(tiles.size());
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Word* successor = grammar_.tables().front().successor(tiles[i]);
             if (!successor) {
@@ -249,11 +250,7 @@ private:
                 if (found != index.end()) ++rows[i][found->second];
             }
         }
-        std::vector<double> counts(tiles.size(), 0), next;
-        for (const Symbol symbol : grammar_.axiom()) {
-            const auto found = index.find(symbol);
-            if (found != index.end()) ++counts[found->second];
-        }
+        std::vector<double> counts = counts_in_axiom(index), next;
         // The matrix plus 1 has the same eigenvectors, and one eigenvalue of largest size.
         double factor = 0;
         bool converges = false;
@@ -284,7 +281,14 @@ private:
         find_shares(rows, index, counts);
     }
 
-    using Rows = std::vector<std::map<std::size_t, double>>;
+    std::vector<double> counts_in_axiom(const std::map<Symbol, std::size_t>& index) const {
+        std::vector<double> counts(index.size(), 0);
+        for (const Symbol symbol : grammar_.axiom()) {
+            const auto found = index.find(symbol);
+            if (found != index.end()) ++counts[found->second];
+        }
+        return counts;
+    }
 
     /// Groups of kinds whose shares are computed: shapes, reflected tiles of a shape, colours, and each kind.
     struct Groups {
@@ -336,11 +340,7 @@ private:
         const std::vector<double> limit = shares(all, index, counts, tiles);
         std::vector<int> steady(all.count + 1,
                                 0);  // steps for which each share, and the factor, was that of the limit
-        std::vector<double> now(rows.size(), 0), next;
-        for (const Symbol symbol : grammar_.axiom()) {
-            const auto found = index.find(symbol);
-            if (found != index.end()) ++now[found->second];
-        }
+        std::vector<double> now = counts_in_axiom(index), next;
         for (int step = 0; step < longest; ++step) {
             const auto count = [&](std::size_t group, bool is_near) {
                 steady[group] = is_near ? steady[group] + 1 : 0;
@@ -365,14 +365,12 @@ private:
                      int enough) {
         const std::size_t shapes = result_.shapes.size();
         const auto settles = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (steady[i] < enough) return false;
-            }
-            return true;
+            const auto part = std::span(steady).subspan(begin, end - begin);
+            return std::all_of(part.begin(), part.end(), [&](int steps) { return steps >= enough; });
         };
         const auto part = [&](std::size_t begin, std::size_t end) {
-            return std::vector<double>(limit.begin() + static_cast<std::ptrdiff_t>(begin),
-                                       limit.begin() + static_cast<std::ptrdiff_t>(end));
+            const auto shares = std::span(limit).subspan(begin, end - begin);
+            return std::vector<double>(shares.begin(), shares.end());
         };
         result_.is_average = steady[all.count] < enough;
         if (settles(0, shapes)) result_.frequencies = part(0, shapes);
@@ -394,7 +392,7 @@ private:
     }
 
     /// Numbers of steps on the shortest paths from the first symbol to the others; empty if one is not reached.
-    static std::vector<std::size_t> steps_from_first(const std::vector<std::map<std::size_t, double>>& rows) {
+    static std::vector<std::size_t> steps_from_first(const Rows& rows) {
         constexpr std::size_t unknown = ~std::size_t{0};
         std::vector<std::size_t> steps(rows.size(), unknown), reached = {0};
         steps[0] = 0;
@@ -410,9 +408,9 @@ private:
     }
 
     /// Greatest common divisor of the lengths of the cycles of an irreducible matrix (Denardo 1977); else 0.
-    static std::size_t period_of(const std::vector<std::map<std::size_t, double>>& rows) {
+    static std::size_t period_of(const Rows& rows) {
         if (rows.empty()) return 0;
-        std::vector<std::map<std::size_t, double>> back(rows.size());
+        Rows back(rows.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
             for (const auto& [to, times] : rows[i]) back[to][i] = times;
         }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -27,7 +26,6 @@ public:
     PolygonReader(TileGeneration& generation, const std::vector<std::uint32_t>& makers)
         : generation_(generation), makers_(makers) {}
 
-    void places(std::span<const std::int64_t>) override {}
     void vertices(std::span<const std::int64_t>, std::uint64_t position, bool) override { position_ = position; }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         // Inserted edges bound blades, not tiles.

@@ -18,7 +18,6 @@ constexpr std::size_t most_told = 24;  // maximum number of steps of a path in a
 class PositionReader : public PolygonSink, public PlaceSink {
 public:
     explicit PositionReader(std::vector<std::uint64_t>& positions) : positions_(positions) {}
-    void places(std::span<const std::int64_t>) override {}
     void vertices(std::span<const std::int64_t>, std::uint64_t position, bool) override { position_ = position; }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {
         if (position_ == 0) return;  // the polygon was not drawn between braces

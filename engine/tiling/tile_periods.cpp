@@ -105,10 +105,7 @@ private:
     }
 
     Cyclotomic::Number exact_way(std::uint32_t tile) const {
-        Cyclotomic::Number way = plane_.coordinates(anchor(tile));
-        const Cyclotomic::Number from = plane_.coordinates(anchor(result_.middle));
-        for (std::size_t i = 0; i < way.size(); ++i) way[i] -= from[i];
-        return way;
+        return plane_.way(anchor(result_.middle), anchor(tile));
     }
 
     /// The tile that a translation maps a tile onto, or no_number.

@@ -1,9 +1,7 @@
 #include "engine/tiling/tile_plane.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 namespace sikku {
 namespace {
@@ -68,12 +66,11 @@ std::uint32_t TilePlane::find_vector(const Cyclotomic::Number& coordinates, glm:
 }
 std::uint32_t TilePlane::find_in(const PlaceTable<std::int32_t>& table, const Cyclotomic::Number& coordinates,
                                  glm::dvec2 place) const {
-    std::array<std::int32_t, 8> small{};
-    for (std::size_t i = 0; i < rank_; ++i) {
-        if (coordinates[i] > largest_coordinate || coordinates[i] < -largest_coordinate) return no_number;
-        small[i] = static_cast<std::int32_t>(coordinates[i]);
+    try {
+        return table.find(small(coordinates).data(), place);
+    } catch (const OutOfRange&) {
+        return no_number;
     }
-    return table.find(small.data(), place);
 }
 
 Cyclotomic::Number TilePlane::number(const std::int32_t* coordinates) const {
@@ -83,6 +80,12 @@ Cyclotomic::Number TilePlane::number(const std::int32_t* coordinates) const {
 }
 Cyclotomic::Number TilePlane::coordinates(std::uint32_t point) const {
     return number(points_.coordinates(point));
+}
+Cyclotomic::Number TilePlane::way(std::uint32_t from, std::uint32_t to) const {
+    const std::int32_t *begin = points_.coordinates(from), *end = points_.coordinates(to);
+    Cyclotomic::Number result{};
+    for (std::size_t i = 0; i < rank_; ++i) result[i] = end[i] - begin[i];
+    return result;
 }
 Cyclotomic::Number TilePlane::vector_coordinates(std::uint32_t vector) const {
     return number(vectors_.coordinates(vector));
@@ -98,12 +101,10 @@ glm::dvec2 TilePlane::place(const Cyclotomic::Number& coordinates) const {
 
 std::uint32_t TilePlane::vector(std::uint32_t from, std::uint32_t to) {
     if (!is_exact()) return vectors_.add(nullptr, at(to) - at(from));
-    std::array<std::int32_t, 8> difference{};
-    const std::int32_t* begin = points_.coordinates(from);
-    const std::int32_t* end = points_.coordinates(to);
-    Cyclotomic::Number whole{};
-    for (std::size_t i = 0; i < rank_; ++i) whole[i] = difference[i] = end[i] - begin[i];
-    return vectors_.add(difference.data(), place(whole));
+    const Cyclotomic::Number difference = way(from, to);
+    Coordinates narrow{};
+    for (std::size_t i = 0; i < rank_; ++i) narrow[i] = static_cast<std::int32_t>(difference[i]);
+    return vectors_.add(narrow.data(), place(difference));
 }
 
 int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to) const {
@@ -113,13 +114,7 @@ int TilePlane::side(std::uint32_t origin, std::uint32_t along, std::uint32_t to)
     if (!is_exact()) return height > tolerance_ ? 1 : height < -tolerance_ ? -1 : 0;
     const double size = length + std::sqrt(scalar_product(b, b));
     if (std::fabs(height) > certain * (1 + size)) return height > 0 ? 1 : -1;
-    Cyclotomic::Number first{}, second{};
-    const std::int32_t* from = points_.coordinates(origin);
-    for (std::size_t i = 0; i < rank_; ++i) {
-        first[i] = points_.coordinates(along)[i] - from[i];
-        second[i] = points_.coordinates(to)[i] - from[i];
-    }
-    return numbers_->sign_imaginary(numbers_->conjugate_product(first, second));
+    return numbers_->sign_imaginary(numbers_->conjugate_product(way(origin, along), way(origin, to)));
 }
 
 int TilePlane::turn(std::uint32_t first, std::uint32_t second) const {

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,6 +52,8 @@ public:
     std::size_t points() const { return points_.size(); }
     glm::dvec2 at(std::uint32_t point) const { return points_.at(point); }
     Cyclotomic::Number coordinates(std::uint32_t point) const;
+    /// The coordinates of a point relative to another.
+    Cyclotomic::Number way(std::uint32_t from, std::uint32_t to) const;
 
     /// The number of the vector between two points; equal vectors have one number.
     std::uint32_t vector(std::uint32_t from, std::uint32_t to);

@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -386,7 +385,6 @@ public:
           rank_(plane.is_exact() ? static_cast<std::size_t>(plane.lattice().rank) : 0),
           scale_(scale) {}
 
-    void places(std::span<const std::int64_t>) override {}
     void vertices(std::span<const std::int64_t> coordinates, std::uint64_t, bool is_closed) override {
         coordinates_ = coordinates;
         is_closed_ = is_closed;

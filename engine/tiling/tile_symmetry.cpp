@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <set>
-#include <unordered_map>
 
 namespace sikku {
 namespace {

@@ -8,7 +8,6 @@
 #include "engine/tiling/tile_symmetry.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

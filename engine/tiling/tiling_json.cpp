@@ -28,22 +28,10 @@ JsonText json(const Integer& value) {
     return value < (Integer(1) << 53) ? JsonText::raw(value.str()) : value.str();
 }
 
-std::string fault_name(TileFault fault) {
-    switch (fault) {
-        case TileFault::open:
-            return "open";
-        case TileFault::empty:
-            return "empty";
-        case TileFault::too_fine:
-            return "too fine";
-        case TileFault::crossing:
-            return "crossing";
-        case TileFault::duplicate:
-            return "duplicate";
-        case TileFault::overlap:
-            break;
-    }
-    return "overlap";
+std::string_view fault_name(TileFault fault) {
+    constexpr std::array<std::string_view, 6> names = {"open",     "empty",     "too fine",
+                                                       "crossing", "duplicate", "overlap"};
+    return names[static_cast<std::size_t>(fault)];
 }
 
 JsonText shape_json(const TileShape& shape) {

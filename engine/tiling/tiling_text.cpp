@@ -11,10 +11,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <span>
-#include <string_view>
 
 namespace sikku {
 namespace {
@@ -121,26 +119,21 @@ std::string violation_text(const TileViolation& violation) {
         where += fmt::format("{}{}:{}{}", i == 0 ? ", drawn by " : " and ", origin.line, origin.column,
                              origin.path.empty() ? "" : " (" + origin.path + ")");
     }
-    switch (violation.fault) {
-        case TileFault::open:
-            return fmt::format("polygon {} is open: it does not end where it began; it ends{}", violation.tile,
-                               where);
-        case TileFault::empty:
-            return fmt::format("polygon {} has no area{}", violation.tile, where);
-        case TileFault::too_fine:
-            return fmt::format(
-                "polygon {} loses too many corners that lie almost on a line with their neighbours{}; use a "
-                "smaller tolerance",
-                violation.tile, where);
-        case TileFault::crossing:
-            return fmt::format("polygon {} crosses or touches itself{}", violation.tile, where);
-        case TileFault::duplicate:
-            return fmt::format("tile {} duplicates tile {}{}", violation.tile, violation.other, where);
-        case TileFault::overlap:
-            break;
-    }
-    return violation.other == 0 ? fmt::format("tile {} overlaps another one{}", violation.tile, where)
-                                : fmt::format("tiles {} and {} overlap{}", violation.other, violation.tile, where);
+    const auto text = [&](std::string_view form) {
+        return fmt::format(fmt::runtime(form), fmt::arg("tile", violation.tile), fmt::arg("other", violation.other),
+                           fmt::arg("at", where));
+    };
+    constexpr std::array<std::string_view, 6> forms = {
+        "polygon {tile} is open: it does not end where it began; it ends{at}",
+        "polygon {tile} has no area{at}",
+        "polygon {tile} loses too many corners that lie almost on a line with their neighbours{at}; use a smaller "
+        "tolerance",
+        "polygon {tile} crosses or touches itself{at}",
+        "tile {tile} duplicates tile {other}{at}",
+        "tiles {other} and {tile} overlap{at}"};
+    if (violation.fault == TileFault::overlap && violation.other == 0)
+        return text("tile {tile} overlaps another one{at}");
+    return text(forms[static_cast<std::size_t>(violation.fault)]);
 }
 
 std::string figure_text(const VertexFigure& figure, bool with_shapes) {
