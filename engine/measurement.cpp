@@ -6,7 +6,6 @@
 #include "engine/map/map_measurement.h"
 #include "engine/map/map_step.h"
 #include "engine/measure/extent.h"
-#include "engine/measure/measurement_text.h"
 
 namespace sikku {
 namespace {

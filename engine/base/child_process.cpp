@@ -36,8 +36,7 @@ Process::Process(ProcessStart start) {
     if (posix_spawn_file_actions_init(&actions) != 0 || posix_spawnattr_init(&attributes) != 0) {
         throw std::bad_alloc();
     }
-    sigset_t none;
-    sigset_t defaults;
+    sigset_t none, defaults;
     sigemptyset(&none);
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);

@@ -86,8 +86,7 @@ std::string excerpt(const std::string& text, std::size_t at) {
         if (!is_continuation(text[begin])) ++before;
     }
     while (begin < at && is_continuation(text[begin])) ++begin;
-    std::string line;
-    std::string caret;
+    std::string line, caret;
     int columns = 0;
     if (begin == 0 && text.starts_with("\xEF\xBB\xBF")) begin = 3;
     for (std::size_t i = begin; i < text.size() && text[i] != '\n' && columns < 80;) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace sikku {
 
@@ -75,6 +76,14 @@ struct DerivationOptions {
     /// may throw to stop the derivation.
     std::function<void(std::uint64_t symbols)> watch;
 
+    /// Options for the word after `interpret:`, within a budget of nodes.
+    static DerivationOptions within(double nodes, std::function<void(std::uint64_t symbols)> watch = {}) {
+        DerivationOptions options;
+        options.interpreted = true;
+        options.watch = std::move(watch);
+        options.limit_whole_words(nodes);
+        return options;
+    }
     /// Limits words kept whole, and systems that cannot be forecast, to a budget of nodes. Keeping a symbol takes the
     /// memory and time of about 40 nodes, comparing two symbols that of about 4.
     void limit_whole_words(double nodes) {

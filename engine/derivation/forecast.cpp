@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 
 namespace sikku {
@@ -33,14 +34,9 @@ struct Sparse {
             has.push_back(successor ? 1 : 0);
             length.push_back(successor ? static_cast<std::uint32_t>(successor->size()) : 1);
             if (successor) {
-                Word sorted = *successor;
-                std::sort(sorted.begin(), sorted.end());
-                for (std::size_t i = 0; i < sorted.size();) {
-                    std::size_t end = i;
-                    while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
-                    terms.push_back({sorted[i], static_cast<std::uint32_t>(end - i)});
-                    i = end;
-                }
+                std::map<Symbol, std::uint32_t> counts;
+                for (const Symbol child : *successor) ++counts[child];
+                for (const auto& [child, times] : counts) terms.push_back({child, times});
             }
             begin.push_back(static_cast<std::uint32_t>(terms.size()));
         }
@@ -86,11 +82,10 @@ struct Steps {
 class Emptiness {
 public:
     Emptiness(const Steps& steps, std::size_t symbols) {
-        bool any = false;
-        for (const Sparse& table : steps.tables) {
-            any = any || std::find(table.length.begin(), table.length.end(), 0U) != table.length.end();
-        }
-        if (!any) return;
+        const bool erases = std::any_of(steps.tables.begin(), steps.tables.end(), [](const Sparse& table) {
+            return std::find(table.length.begin(), table.length.end(), 0U) != table.length.end();
+        });
+        if (!erases) return;
         const auto most_rows = static_cast<std::size_t>(kept_levels(symbols)) + 1;
         rows_.emplace_back(symbols, 0);
         for (std::size_t i = steps.runs.size(); i > 0; --i) {
@@ -171,12 +166,6 @@ void advance(const Sparse& table, const std::vector<Symbol>& symbols, std::vecto
     counts.swap(next);
 }
 
-double sum_log10(const std::vector<Scaled>& counts) {
-    Scaled sum;
-    for (const Scaled& count : counts) sum.add(count, 1);
-    return sum.log10();
-}
-
 /// Forecasts the nodes visited, the length and the counts, to 15 digits.
 Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
     const std::size_t symbols = grammar.symbols().size();
@@ -202,21 +191,21 @@ Forecast rough_forecast(const Grammar& grammar, const Steps& steps) {
         }
     }
     Forecast result;
-    result.log10_length = sum_log10(counts);
+    Scaled length;
     for (const Scaled& count : counts) {
+        length.add(count, 1);
         nodes.add(count, 1);
         result.rough_counts.push_back(count.as_double());
         result.log10_counts.push_back(count.log10());
     }
+    result.log10_length = length.log10();
     result.nodes = nodes.as_double();
     return result;
 }
 
 std::shared_ptr<const ExactCounts> exact_counts(const Grammar& grammar, const Steps& steps) {
-    ExactCounts counts(grammar.symbols().size());
-    ExactCounts next(grammar.symbols().size());
     const std::vector<std::uint64_t> occurrences = axiom_counts(grammar);
-    std::copy(occurrences.begin(), occurrences.end(), counts.begin());
+    ExactCounts counts(occurrences.begin(), occurrences.end()), next(counts.size());
     for (const auto& [index, count] : steps.runs) {
         for (std::int64_t step = 0; step < count; ++step) {
             advance(steps.tables[index], steps.symbols, counts, next,
@@ -309,9 +298,8 @@ std::int64_t largest_affordable(const Grammar& grammar, bool interpreted, double
         return shorter && rough_forecast(*shorter, Steps(*shorter, interpreted)).nodes <= budget;
     };
     // The schedule may also be too short for some lengths below n; a smaller length is then not searched for.
-    std::int64_t low = -1;
+    std::int64_t low = fits(0) ? 0 : -1;
     std::int64_t high = 1;
-    if (fits(0)) low = 0;
     while (high < grammar.steps() && fits(high)) {
         low = high;
         high *= 2;

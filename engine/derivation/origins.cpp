@@ -73,6 +73,7 @@ public:
     /// place in the word that contains it. False if there is no such symbol.
     template <class Report>
     bool descend(std::uint64_t position, Pulse& pulse, const Report& report) const {
+        if (position == 0) return false;
         std::uint64_t before = position - 1;  // symbols of the part that precede it
         std::int64_t level = levels_.count();
         const Word* word = &grammar_.axiom();
@@ -144,21 +145,17 @@ OriginTracer::~OriginTracer() = default;
 Origin OriginTracer::origin(std::uint64_t position, const Monitor& monitor) const {
     Origin found;
     Pulse pulse(monitor);
-    const bool is_found =
-        position > 0 &&
-        implementation_->descend(position, pulse, [&](const Origin& origin, const PathStep&) { found = origin; });
-    return is_found ? found : Origin();
+    const auto note = [&](const Origin& origin, const PathStep&) { found = origin; };
+    return implementation_->descend(position, pulse, note) ? found : Origin();
 }
 
 std::vector<PathStep> OriginTracer::path(std::uint64_t position) const {
     std::vector<PathStep> steps;
     const Monitor monitor;
     Pulse pulse(monitor);
-    const bool is_found =
-        position > 0 && implementation_->descend(position, pulse,
-                                                 [&](const Origin&, const PathStep& step) { steps.push_back(step); });
-    if (!is_found) return {};
-    if (!steps.empty()) steps.pop_back();  // the symbol itself
+    const auto note = [&](const Origin&, const PathStep& step) { steps.push_back(step); };
+    if (!implementation_->descend(position, pulse, note)) return {};
+    steps.pop_back();  // the symbol itself
     return steps;
 }
 

@@ -32,9 +32,7 @@ private:
 /// Derives the word to measure it; nullopt above `most` nodes.
 std::optional<WordSize> derived_size(const Grammar& grammar, double most) {
     WordSize size;
-    DerivationOptions options;
-    options.interpreted = true;
-    options.limit_whole_words(most);
+    DerivationOptions options = DerivationOptions::within(most);
     // Kept words are as long as streamed ones here, although keeping them costs more: most are short.
     options.longest_word = options.compared = static_cast<std::uint64_t>(most);
     options.whole_words = 5 * options.longest_word;

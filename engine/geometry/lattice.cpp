@@ -19,10 +19,6 @@ std::int64_t common_denominator(std::int64_t one, std::int64_t other) {
     return common > largest_denominator ? 0 : common;
 }
 
-bool is_step(const Command& command) {
-    return command.action == Action::draw || command.action == Action::move;
-}
-
 /// The length of a step as a decimal; for an edge, its factor.
 double decimal_length(const SymbolInfo& symbol) {
     if (symbol.command.edge == 0) return symbol.command.value;
@@ -43,7 +39,7 @@ public:
         lattice_.edge.assign(symbols, 0);
         for (std::size_t i = 0; i < symbols; ++i) {
             const SymbolInfo& symbol = grammar_.symbols()[i];
-            if (!is_step(symbol.command)) continue;
+            if (!symbol.command.is_step()) continue;
             const std::uint32_t edge = symbol.command.edge;
             const std::int64_t scale = edge == 0 ? denominator_ : denominator_ / edge_denominators_[edge - 1];
             std::int64_t& length = lattice_.length[i];
@@ -77,7 +73,7 @@ private:
                 common = common_denominator(common, decimal_denominator(part.length));
         }
         for (const SymbolInfo& symbol : grammar_.symbols()) {
-            if (!is_step(symbol.command)) continue;
+            if (!symbol.command.is_step()) continue;
             const std::int64_t own = symbol.command.takes_argument ? 0 : decimal_denominator(decimal_length(symbol));
             const std::uint32_t edge = symbol.command.edge;
             denominator_ = common_denominator(denominator_, edge == 0 ? own : own * edge_denominators_[edge - 1]);
@@ -85,7 +81,7 @@ private:
         }
         // Their multiples may together need more than 64 bits.
         return std::all_of(grammar_.symbols().begin(), grammar_.symbols().end(), [&](const SymbolInfo& symbol) {
-            return !is_step(symbol.command) ||
+            return !symbol.command.is_step() ||
                    std::fabs(symbol.command.value) * static_cast<double>(denominator_) <= 0x1p40;
         });
     }
@@ -141,8 +137,7 @@ Lattice make_lattice(const Grammar& grammar) {
     }
     for (std::int64_t h = 0; h < k; ++h) {
         const auto& first = grammar.heading().exact;
-        std::int64_t common = 0;
-        std::int64_t sum = 0;
+        std::int64_t common = 0, sum = 0;
         if (first && !__builtin_mul_overflow(first->denominator, k, &common) && common < (std::int64_t{1} << 58) &&
             !__builtin_mul_overflow(first->numerator, k, &sum)) {
             sum += h * first->denominator;

@@ -97,12 +97,8 @@ Polylines<Point> traced(const Grammar& given, const TraceOptions& options, Keepe
     const Grammar grammar = shorten(given);
     require_affordable(grammar, true, options.budget);
     if (const auto known = estimate(grammar, true)) kept.reserve(drawn_symbols(grammar, *known) + 1);
-    DerivationOptions derivation;
-    derivation.interpreted = true;
-    derivation.limit_whole_words(options.budget);
-    derivation.watch = options.watch;
     const auto turtle = make_turtle(grammar);
-    derive(grammar, *turtle, derivation);
+    derive(grammar, *turtle, DerivationOptions::within(options.budget, options.watch));
     return kept.finish();
 }
 

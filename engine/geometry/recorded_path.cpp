@@ -21,10 +21,8 @@ void RecordedPath::draw(PathSink& sink) const {
                 sink.change_pen(recorded.pen);
                 break;
             case Call::end:
-                sink.end_stroke(false);
-                break;
             case Call::close:
-                sink.end_stroke(true);
+                sink.end_stroke(recorded.call == Call::close);
                 break;
             case Call::polygon:
                 sink.polygon(points, recorded.pen);

@@ -33,14 +33,8 @@ glm::dquat rotation(double degrees, const glm::dvec3& axis) {
 }
 
 glm::dquat rotation(Action action, double degrees) {
-    switch (action) {
-        case Action::pitch:
-            return rotation(degrees, leftwards);
-        case Action::roll:
-            return rotation(-degrees, ahead);
-        default:
-            return rotation(degrees, upwards);
-    }
+    if (action == Action::pitch) return rotation(degrees, leftwards);
+    return action == Action::roll ? rotation(-degrees, ahead) : rotation(degrees, upwards);
 }
 
 std::uint64_t mixed(std::uint64_t number) {
@@ -74,7 +68,7 @@ public:
                                     .size = size_of(symbol.arguments),
                                     .arguments = symbol.arguments};
             if (!std::isfinite(command.angle.degrees)) instruction.value = command.angle.degrees;
-            if (turns(command.action) && !command.takes_argument) {
+            if (command.is_turn() && !command.takes_argument) {
                 instruction.turn = rotation(command.action, command.angle.degrees);
             }
             commands_.push_back(instruction);
@@ -150,10 +144,6 @@ private:
     static glm::dvec3 size_of(std::span<const double> arguments) {
         if (arguments.size() >= 3) return {arguments[0], arguments[1], arguments[2]};
         return glm::dvec3(arguments.empty() ? 1.0 : arguments[0]);
-    }
-
-    static bool turns(Action action) {
-        return action == Action::turn || action == Action::pitch || action == Action::roll;
     }
 
     void obey(const Instruction& command, double value) {

@@ -18,22 +18,14 @@ namespace sikku {
 
 /// Changes the pen if `action` sets its width or colour; `value` is finite.
 inline void change_pen(Pen& pen, Action action, double value) {
-    switch (action) {
-        case Action::width_set:
-            pen.width = std::min(std::fabs(value), 1e9);
-            pen.width_set = true;
-            break;
-        case Action::width_factor:
-            pen.width = std::min(pen.width * value, 1e9);
-            break;
-        case Action::colour_step:
-        case Action::colour_set: {
-            const double base = action == Action::colour_step ? pen.colour : 0;
-            pen.colour = static_cast<int>(std::clamp(std::round(base + value), -1e9, 1e9));
-            break;
-        }
-        default:
-            break;
+    if (action == Action::width_set) {
+        pen.width = std::min(std::fabs(value), 1e9);
+        pen.width_set = true;
+    } else if (action == Action::width_factor) {
+        pen.width = std::min(pen.width * value, 1e9);
+    } else if (action == Action::colour_step || action == Action::colour_set) {
+        const double base = action == Action::colour_step ? pen.colour : 0;
+        pen.colour = static_cast<int>(std::clamp(std::round(base + value), -1e9, 1e9));
     }
 }
 

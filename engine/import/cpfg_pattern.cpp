@@ -1,4 +1,5 @@
-#include "engine/import/cpfg_pattern.h"
+// engine/import/cpfg_pattern.cpp: writes a system of cpfg as a pattern.
+#include "engine/import/cpfg_system.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -307,8 +308,7 @@ private:
         for (const auto& [letter, count] : system_.letters.modules) {
             std::vector<std::string> names;
             for (std::size_t i = 0; i < count; ++i) names.push_back(fmt::format("a{}", i + 1));
-            std::string successor;
-            std::string condition;
+            std::string successor, condition;
             if (letter == "'" || letter == "@." || letter == "$") {
             } else if (letter == "@v") {
                 successor = "$";
@@ -348,8 +348,7 @@ private:
             if (letter != '@') symbols.insert(std::string(1, letter));
         }
         symbols.insert({"[", "]"});
-        std::string yes;
-        std::string no;
+        std::string yes, no;
         for (const std::string& letter : symbols) (is_listed(letter) ? yes : no) += ' ' + letter;
         const auto has = [](const std::string& letters, char letter) {
             return letters.find(letter) != std::string::npos;

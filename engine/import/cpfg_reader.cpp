@@ -1,5 +1,4 @@
-#include "engine/import/cpfg_reader.h"
-
+// engine/import/cpfg_reader.cpp: reads the L-system of a file of cpfg.
 #include "engine/base/text.h"
 #include "engine/import/cpfg_words.h"
 

@@ -1,4 +1,4 @@
-// engine/import/cpfg_system.h: an L-system as read from a cpfg file.
+// engine/import/cpfg_system.h: an L-system as read from a cpfg file, and the stages of its import.
 #pragma once
 
 #include "engine/import/cpfg_expression.h"
@@ -66,5 +66,24 @@ struct System {
     Letters letters;
     std::map<std::string, std::string> defines;  ///< defines that the expressions use
 };
+
+/// The settings of a view as keys of patterns; empty if not set.
+struct View {
+    std::string angle;
+    std::string stroke;
+    std::string scale;
+    double width_increment = 0;
+};
+
+/// Reads a view file. Settings without a counterpart in patterns are losses.
+View read_view(const SourcePointer& file, Report& report);
+
+/// Reads the first L-system in the text of a file. Errors and losses go to `report`.
+System read_system(std::string text, const View& view, Report& report);
+
+/// Returns the text of a pattern file; empty after an error. Reports features that are lost.
+/// @param name  name of the system
+std::string write_pattern(System system, const View& view, const std::string& name, const SourcePointer& file,
+                          Report& report);
 
 }  // namespace sikku::cpfg

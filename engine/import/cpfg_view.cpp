@@ -1,6 +1,6 @@
-#include "engine/import/cpfg_view.h"
-
+// engine/import/cpfg_view.cpp: reads the view file of cpfg.
 #include "engine/base/text.h"
+#include "engine/import/cpfg_system.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/import/cpfg_system.h"
-#include "engine/import/cpfg_view.h"
 
 #include <functional>
 #include <string>

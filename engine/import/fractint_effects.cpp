@@ -131,33 +131,21 @@ void apply(const Token& token, const Entry& entry, const std::map<char, Effect>&
     const auto add = [](std::int64_t& sum, std::int64_t more, std::int64_t whole) {
         sum = ((sum + more) % whole + whole) % whole;
     };
-    switch (token.letter) {
-        case '@': {
-            const std::vector<std::int32_t>& exponents = entry.factors.exponents[token.base];
-            for (std::size_t i = 0; i < exponents.size(); ++i) {
-                effect.halves[i] += std::int64_t{token.root} * exponents[i];
-            }
-            break;
+    if (token.letter == '@') {
+        const std::vector<std::int32_t>& exponents = entry.factors.exponents[token.base];
+        for (std::size_t i = 0; i < exponents.size(); ++i) {
+            effect.halves[i] += std::int64_t{token.root} * exponents[i];
         }
-        case '!':
-            effect.flips = !effect.flips;
-            break;
-        case '+':
-        case '-':
-            add(effect.steps, token.letter == '+' ? side : -side, entry.angle);
-            break;
-        case '|':
-            // Half a turn clockwise, rounded down to whole steps of the angle.
-            add(effect.around, -(entry.angle / 2), entry.angle);
-            break;
-        case '\\':
-        case '/': {
-            const auto turn = std::llround(std::fmod(token.number, 360) * 1e9);
-            add(effect.billionths, token.letter == '\\' ? side * turn : -side * turn, whole_turn);
-            break;
-        }
-        default:
-            break;
+    } else if (token.letter == '!') {
+        effect.flips = !effect.flips;
+    } else if (token.letter == '+' || token.letter == '-') {
+        add(effect.steps, token.letter == '+' ? side : -side, entry.angle);
+    } else if (token.letter == '|') {
+        // Half a turn clockwise, rounded down to whole steps of the angle.
+        add(effect.around, -(entry.angle / 2), entry.angle);
+    } else if (token.letter == '\\' || token.letter == '/') {
+        const auto turn = std::llround(std::fmod(token.number, 360) * 1e9);
+        add(effect.billionths, token.letter == '\\' ? side * turn : -side * turn, whole_turn);
     }
     const auto found = below.find(token.letter);
     if (found == below.end()) return;

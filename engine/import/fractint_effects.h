@@ -1,4 +1,5 @@
-// engine/import/fractint_effects.h: computes the effects of a Fractint entry's letters on the symbols after them.
+// engine/import/fractint_effects.h: computes the effects of a Fractint entry's letters on the symbols after them, and
+// writes the pattern.
 #pragma once
 
 #include "engine/import/fractint_entry.h"
@@ -74,5 +75,11 @@ void apply(const Token& token, const Entry& entry, const std::map<char, Effect>&
 
 /// The heading of D and M minus that of F and G, in degrees.
 double lead_of(const Effect& effect, const Entry& entry);
+
+/// Returns the text of a pattern file.
+/// @param room  bytes that may still be written; reduced by those written
+/// @throws BadEntry after reporting an error
+std::string write_pattern(const Entry& entry, const Effects& effects, const SourcePointer& file,
+                          Diagnostics& diagnostics, ImportLosses& losses, std::size_t& room);
 
 }  // namespace sikku::fractint

@@ -130,8 +130,7 @@ private:
     /// Reads `Q` and `I` in any order, then a decimal number of digits and points.
     void read_number_of(Token& token, std::size_t& at, std::size_t end) {
         const std::string& text = file_->text();
-        bool root = false;
-        bool inverse = false;
+        bool root = false, inverse = false;
         for (int i = 0; i < 2 && at < end; ++i) {
             const char byte = lower_case(std::string_view(text).substr(at, 1))[0];
             if (byte != 'q' && byte != 'i') break;

@@ -16,8 +16,7 @@ constexpr std::size_t most_digits = 18;  // that an integer of 64 bits holds
 
 /// A fraction above 0 in lowest terms.
 struct Fraction {
-    std::uint64_t over = 1;
-    std::uint64_t under = 1;
+    std::uint64_t over = 1, under = 1;
     bool operator==(const Fraction&) const = default;
 };
 
@@ -83,8 +82,7 @@ std::int32_t divide_out(std::uint64_t& number, std::uint64_t factor) {
 
 /// Pairwise coprime whole numbers above 1; all numerators and denominators are products of their powers.
 std::vector<std::uint64_t> coprime_base(const std::vector<Fraction>& fractions) {
-    std::vector<std::uint64_t> base;
-    std::vector<std::uint64_t> pending;
+    std::vector<std::uint64_t> base, pending;
     for (const Fraction& fraction : fractions) {
         pending.push_back(fraction.over);
         pending.push_back(fraction.under);
@@ -196,8 +194,7 @@ Factors find_factors(const std::vector<std::string>& numbers) {
     if (are_independent(rows)) {
         for (std::size_t k = 0; k < roots.size(); ++k) {
             // The only number with this root represents it.
-            std::size_t users = 0;
-            std::size_t user = 0;
+            std::size_t users = 0, user = 0;
             for (std::size_t i = 0; i < numbers.size(); ++i) {
                 if (!exact[i] || is_one(i) || root[i] != k) continue;
                 ++users;

@@ -1,6 +1,6 @@
-#include "engine/import/fractint_pattern.h"
-
+// engine/import/fractint_pattern.cpp: writes an entry of a Fractint collection as a pattern.
 #include "engine/base/text.h"
+#include "engine/import/fractint_effects.h"
 
 #include <fmt/format.h>
 
@@ -136,8 +136,7 @@ private:
     /// Writes a length: its base times powers of the factors, such as `s*sqrt(3)/2`.
     std::string length(std::string_view base, const std::vector<std::int64_t>& halves) const {
         const std::vector<double>& factors = entry_.factors.values;
-        std::string over;
-        std::string under;
+        std::string over, under;
         double digits = 0;  // before or after the point, at most, of an intermediate result
         for (std::size_t i = 0; i < halves.size(); ++i) {
             const std::int64_t power = std::abs(halves[i]);
@@ -335,8 +334,7 @@ private:
         text += '\n' + comments;
         text += fmt::format("\nderivation length: {}\nangle factor: {}\nturn: left\nheading: 0\n",
                             begins_late ? 3 : 2, entry_.angle);
-        std::string forward;
-        std::string move;
+        std::string forward, move;
         for (const auto& [letter, name] : step_letters_) {
             (letter == 'f' || letter == 'd' ? forward : move) += ' ' + name;
         }

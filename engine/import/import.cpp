@@ -39,20 +39,15 @@ private:
 bool draws_something(const Grammar& grammar) {
     if (!may_draw(grammar)) return false;
     if (grammar.is_plain() && grammar.whole_word_steps() == 0) return true;  // may_draw() was exact
-    DerivationOptions options;
-    options.interpreted = true;
-    options.limit_whole_words(most_derived);
     InkFinder finder(grammar);
     try {
-        derive(grammar, finder, options);
+        derive(grammar, finder, DerivationOptions::within(most_derived));
+        return false;
     } catch (const InkFound&) {
-        return true;
     } catch (const BudgetError&) {
-        return true;
     } catch (const WordError&) {
-        return true;
     }
-    return false;
+    return true;
 }
 
 }  // namespace

@@ -2,11 +2,7 @@
 // numeric values remain names in expressions. Expressions are rewritten, because in cpfg powers associate to the
 // left, signs bind tighter, and angles are degrees. cpfg tries productions in the order of the file, patterns try
 // those with contexts first; added conditions compensate for this.
-#include "engine/import/cpfg_pattern.h"
-#include "engine/import/cpfg_reader.h"
-#include "engine/import/cpfg_report.h"
-#include "engine/import/cpfg_view.h"
-#include "engine/import/import.h"
+#include "engine/import/cpfg_system.h"
 
 namespace sikku {
 namespace {

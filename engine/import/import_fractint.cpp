@@ -4,8 +4,7 @@
 // Lengths therefore become parameters, symbols that ! exchanges get counterparts, and both must be known where a
 // symbol is written: the effect of each symbol on them is composed beforehand for each number of remaining steps.
 #include "engine/base/text.h"
-#include "engine/import/fractint_pattern.h"
-#include "engine/import/import.h"
+#include "engine/import/fractint_effects.h"
 
 #include <fmt/format.h>
 

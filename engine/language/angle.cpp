@@ -24,8 +24,7 @@ std::optional<TurnFraction> reduced(std::int64_t numerator, std::int64_t denomin
 
 /// A decimal as written (`25.7`, `-3`, `1e2`) as a fraction numerator / denominator, if both stay small.
 std::optional<std::pair<std::int64_t, std::int64_t>> decimal_fraction(std::string_view text) {
-    std::int64_t numerator = 0;
-    std::int64_t denominator = 1;
+    std::int64_t numerator = 0, denominator = 1;
     bool negative = false;
     std::size_t at = 0;
     if (at < text.size() && (text[at] == '+' || text[at] == '-')) negative = text[at++] == '-';
@@ -73,8 +72,7 @@ Angle angle_of_parts(std::int64_t k) {
 }
 
 std::optional<Angle> read_angle(std::string_view text) {
-    double numerator = 0;
-    double denominator = 1;
+    double numerator = 0, denominator = 1;
     const std::size_t slash = text.find('/');
     const std::string_view over = text.substr(0, slash);
     if (!read_number(over, numerator) ||
@@ -88,8 +86,7 @@ std::optional<Angle> read_angle(std::string_view text) {
                                                         : decimal_fraction(text.substr(slash + 1));
     if (top && bottom && bottom->first != 0) {
         // (a/b) / (c/d) degrees = a d / (360 b c) turns
-        std::int64_t above = 0;
-        std::int64_t below = 0;
+        std::int64_t above = 0, below = 0;
         if (!__builtin_mul_overflow(top->first, bottom->second, &above) &&
             !__builtin_mul_overflow(top->second, bottom->first, &below) &&
             !__builtin_mul_overflow(below, std::int64_t{360}, &below)) {

@@ -81,8 +81,7 @@ ForeignKind foreign_kind(std::string_view text) {
     CommentSkipper comments;
     bool in_entry = false;
     bool has_axiom = false;  // as patterns state it
-    bool has_module = false;
-    bool has_produce = false;
+    bool has_module = false, has_produce = false;
     bool has_python = false;
     ForeignKind kind = ForeignKind::none;
     any_line(text, [&](std::string_view line) {

@@ -224,7 +224,7 @@ SymbolInfo with_values(const SymbolInfo& symbol, std::span<const double> values)
     if (command.takes_argument) {
         command.value *= values.front();
         command.takes_argument = false;
-        if (command.action == Action::turn || command.action == Action::pitch || command.action == Action::roll) {
+        if (command.is_turn()) {
             command.angle = angle_of_degrees(command.value);
             command.value = 0;
         }
@@ -253,8 +253,7 @@ bool Grammar::has_labels() const {
 
 std::int64_t Grammar::whole_word_steps() const {
     if (cut_) return steps_ - steps_done();
-    std::int64_t last = 0;
-    std::int64_t before = 0;
+    std::int64_t last = 0, before = 0;
     for (const ScheduleRun& run : schedule_) {
         before += run.steps;
         if (!tables_[run.table].context_free()) last = before;

@@ -69,6 +69,10 @@ struct Command {
     std::uint32_t surface = 0;  ///< index into Grammar::surfaces()
     std::uint32_t label = 0;    ///< index into Grammar::labels()
     std::uint32_t edge = 0;     ///< for a step, index into Grammar::edges() plus 1; 0: its value is its exact length
+
+    bool is_step() const { return action == Action::draw || action == Action::move; }
+    /// True if it turns the turtle by an angle, in the plane or in space.
+    bool is_turn() const { return action == Action::turn || action == Action::pitch || action == Action::roll; }
 };
 
 /// A symbol as the file writes it.

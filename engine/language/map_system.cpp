@@ -194,22 +194,16 @@ private:
     bool read_successor(const Span& text, MapProduction& production) {
         MapScanner scanner(names_, text, diagnostics_);
         for (Token token = scanner.next(); token.kind != TokenKind::end; token = scanner.next()) {
-            MapPart part;
-            switch (token.kind) {
-                case TokenKind::error:
-                    return false;
-                case TokenKind::open:
-                    if (!read_branch(scanner, token.where, production)) return false;
-                    continue;
-                case TokenKind::close:
-                    return wrong(token.where, "']' without '['");
-                case TokenKind::left:
-                case TokenKind::right:
-                    return wrong(token.where, "'+' and '-' stand only at the beginning of a branch: '[+a]'");
-                default:
-                    if (!read_part(scanner, token, "", part)) return false;
-                    production.parts.push_back(part);
+            if (token.kind == TokenKind::close) return wrong(token.where, "']' without '['");
+            if (token.kind == TokenKind::open) {
+                if (!read_branch(scanner, token.where, production)) return false;
+                continue;
             }
+            MapPart part;
+            if (!read_part(scanner, token, "'+' and '-' stand only at the beginning of a branch: '[+a]'", part)) {
+                return false;
+            }
+            production.parts.push_back(part);
         }
         std::reverse(production.left.begin(), production.left.end());
         return true;

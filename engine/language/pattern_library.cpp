@@ -70,8 +70,7 @@ const LibraryPattern* PatternLibrary::find(std::string_view name) const {
 
 std::vector<std::string_view> PatternLibrary::similar(std::string_view name) const {
     constexpr std::size_t most = 3;
-    std::vector<std::string_view> names;
-    std::vector<std::string_view> longer;
+    std::vector<std::string_view> names, longer;
     for (const LibraryPattern& pattern : *patterns_) {
         names.push_back(pattern.name);
         if (name.size() > 1 && names.back().starts_with(name) && longer.size() < most) longer.push_back(pattern.name);

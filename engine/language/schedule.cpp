@@ -98,7 +98,6 @@ std::optional<std::vector<ScheduleItem>> read_schedule(const Key& key, const Pat
 std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleItem> items, std::int64_t steps,
                                                       std::string* problem) {
     const double n = static_cast<double>(steps);
-    std::vector<ScheduleRun> last;
     std::vector<ScheduleRun> runs;
     std::int64_t missing = steps;  // counted from the end, so that the last tables are always applied
     double total = 0;
@@ -113,10 +112,9 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
         const std::int64_t own = count >= n ? steps : static_cast<std::int64_t>(std::max(count, 0.0));
         if (own > 0) runs.push_back({item.table, own});
     }
-    for (std::size_t i = runs.size(); i > 0 && missing > 0; --i) {
-        const std::int64_t taken = std::min(missing, runs[i - 1].steps);
-        last.push_back({runs[i - 1].table, taken});
-        missing -= taken;
+    for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+        run->steps = std::min(missing, run->steps);
+        missing -= run->steps;
     }
     if (missing > 0) {
         if (problem) {
@@ -126,8 +124,8 @@ std::optional<std::vector<ScheduleRun>> schedule_runs(std::span<const ScheduleIt
         }
         return std::nullopt;
     }
-    std::reverse(last.begin(), last.end());
-    return last;
+    std::erase_if(runs, [](const ScheduleRun& run) { return run.steps == 0; });
+    return runs;
 }
 
 }  // namespace sikku

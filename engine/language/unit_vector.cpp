@@ -10,8 +10,7 @@ namespace {
 /// their last bits, and so would drawings; Taylor's series has the same bits everywhere.
 glm::dvec2 small_angle(double radians) {
     const double square = radians * radians;
-    double cosine = 0;
-    double sine = 0;
+    double cosine = 0, sine = 0;
     for (int power = 16; power > 0; power -= 2) {
         cosine = square / ((power - 1) * power) * (1 - cosine);
         sine = square / (power * (power + 1)) * (1 - sine);

@@ -15,19 +15,11 @@ struct FoldedTurn {
 };
 FoldedTurn fold_turn(TurnFraction turn);
 
-/// Turns a vector by whole quarters.
+/// Turns a vector by whole quarters. @param quarter  0 or more
 template <class Vector>
-Vector by_quarters(int quarter, const Vector& vector) {
-    switch (quarter % 4) {
-        case 0:
-            return vector;
-        case 1:
-            return {-vector.y, vector.x};
-        case 2:
-            return {-vector.x, -vector.y};
-        default:
-            return {vector.y, -vector.x};
-    }
+Vector by_quarters(int quarter, Vector vector) {
+    for (; quarter % 4 > 0; --quarter) vector = {-vector.y, vector.x};
+    return vector;
 }
 
 /// Cosine and sine of a turn, exact at multiples of 30 and 45 degrees where they are 0, 1/2 or 1.

@@ -67,8 +67,7 @@ glm::dvec2 centroid_of_outline(const Map& map, const std::vector<glm::dvec2>& ve
     double area = 0;
     glm::dvec2 moment(0.0);
     for (const HalfEdge half : map.outer()) {
-        const glm::dvec2 a = vertices[map.start(half)] - origin;
-        const glm::dvec2 b = vertices[map.end(half)] - origin;
+        const glm::dvec2 a = vertices[map.start(half)] - origin, b = vertices[map.end(half)] - origin;
         const double part = a.x * b.y - b.x * a.y;
         area += part;
         moment += part * (a + b);

@@ -120,8 +120,7 @@ private:
         const glm::dvec2 origin = vertices[corners_[begins_[cell]]];
         double sum = 0;
         for (std::size_t k = begins_[cell] + 1; k + 1 < begins_[cell + 1]; ++k) {
-            const glm::dvec2 a = vertices[corners_[k]] - origin;
-            const glm::dvec2 b = vertices[corners_[k + 1]] - origin;
+            const glm::dvec2 a = vertices[corners_[k]] - origin, b = vertices[corners_[k + 1]] - origin;
             sum += b.x * a.y - a.x * b.y;
         }
         return 0.5 * sum;
@@ -150,8 +149,7 @@ double area_of_cell(const Map& map, std::size_t cell, const std::vector<glm::dve
     const glm::dvec2 origin = vertices[map.start(wall.front())];
     double sum = 0;
     for (const HalfEdge half : wall) {
-        const glm::dvec2 a = vertices[map.start(half)] - origin;
-        const glm::dvec2 b = vertices[map.end(half)] - origin;
+        const glm::dvec2 a = vertices[map.start(half)] - origin, b = vertices[map.end(half)] - origin;
         sum += b.x * a.y - a.x * b.y;
     }
     return 0.5 * sum;

@@ -35,16 +35,13 @@ bool closes_polygon(const Command& command) {
 /// Computes drawn, moves, length and polygons from the symbol counts of the interpreted word.
 void tell_steps(const Grammar& grammar, const std::vector<Integer>& counts, Measurement& result) {
     const Lattice lattice = make_lattice(grammar);
-    Integer drawn = 0;
-    Integer moves = 0;
-    Integer polygons = 0;
+    Integer drawn = 0, moves = 0, polygons = 0;
     std::array<Integer, most_coordinates> units;
     double length = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const Command& command = grammar.symbols()[i].command;
         if (closes_polygon(command)) polygons += counts[i];
-        if (command.action != Action::draw && command.action != Action::move) continue;
-        if (counts[i] == 0) continue;
+        if (!command.is_step() || counts[i] == 0) continue;
         moves += counts[i];
         if (command.action == Action::move) continue;
         drawn += counts[i];
@@ -156,10 +153,7 @@ Measurement walked(const Grammar& grammar, DerivationOptions options) {
 }
 
 Measurement measured(const Grammar& given, double budget, const std::function<void(std::uint64_t)>& watch) {
-    DerivationOptions options;
-    options.interpreted = true;
-    options.limit_whole_words(budget);
-    options.watch = watch;
+    const DerivationOptions options = DerivationOptions::within(budget, watch);
     const Grammar grammar = resolve_contexts(shorten(given), options);
     if (!grammar.is_plain()) return walked(grammar, options);
     Measurement result;
@@ -170,10 +164,9 @@ Measurement measured(const Grammar& given, double budget, const std::function<vo
     if (!plain.counts || !interpreted.counts) {
         const auto one_if = [](bool wanted) { return wanted ? 1.0 : 0.0; };
         const auto draws = [](const Command& command) { return command.action == Action::draw; };
-        const auto moves = [&](const Command& command) { return draws(command) || command.action == Action::move; };
         result.symbols = about(grammar, plain, [](const Command&) { return 1.0; });
         result.drawn = about(grammar, interpreted, [&](const Command& command) { return one_if(draws(command)); });
-        result.moves = about(grammar, interpreted, [&](const Command& command) { return one_if(moves(command)); });
+        result.moves = about(grammar, interpreted, [&](const Command& command) { return one_if(command.is_step()); });
         result.length = about(grammar, interpreted, [&](const Command& command) {
             return draws(command) ? std::fabs(command.value) : 0.0;
         });

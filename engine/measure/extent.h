@@ -1,4 +1,4 @@
-// engine/measure/extent.h: measures a word without drawing it: length, counts, box, end.
+// engine/measure/extent.h: measures a word without drawing it: length, counts, box, end; as data, text and JSON.
 #pragma once
 
 #include "engine/geometry/space_turtle.h"
@@ -37,5 +37,10 @@ struct Measurement {
 /// @throws WordError for unbalanced brackets and for steps that are not finite; BudgetError if words kept whole are
 /// too long, or if even the forecast is too costly
 Measurement measure(const Grammar& grammar, double budget, const std::function<void(std::uint64_t)>& watch = {});
+
+/// One line of JSON. Numbers beyond double precision are strings of digits. @param title  title of the pattern
+std::string measurement_json(const std::string& title, const Measurement& measurement);
+/// Text with one line for each quantity.
+std::string measurement_text(const std::string& title, const Measurement& measurement);
 
 }  // namespace sikku

@@ -369,8 +369,7 @@ private:
     };
     /// Number of pairs that a part of a word leaves open, and the lowest such number within it.
     struct Nesting {
-        Integer net = 0;
-        Integer low = 0;
+        Integer net = 0, low = 0;
         void append(const Nesting& part) {
             if (part.net == 0 && part.low == 0) return;
             const Integer lower = net + part.low;
@@ -405,43 +404,32 @@ private:
     Element primitive(Symbol symbol) const {
         Element element = empty();
         element.symbols = 1;
-        switch (grammar_.symbols()[symbol].command.action) {
-            case Action::draw:
-            case Action::move:
-                element.end.at = space_.step(symbol);
-                element.frames[0].box.corners.push_back(space_.vertex(element.end.at));
-                element.draws = grammar_.symbols()[symbol].command.action == Action::draw;
-                if (element.draws && has_moves_) {
-                    element.frames[0].ink.corners = {space_.vertex(space_.zero()), space_.vertex(element.end.at)};
-                }
-                break;
-            case Action::turn:
-                element.end.heading = space_.turn(symbol);
-                break;
-            case Action::push:
-                element.open.push_back({element.end, 0});
-                element.net = element.highest = 1;
-                break;
-            case Action::pop:
-                element.frames.resize(2);
-                element.pops.push_back(0);
-                element.net = -1;
-                break;
-            case Action::polygon_begin:
-                element.braces.net = 1;
-                element.has_cylinder = grammar_.symbols()[symbol].command.value != 0;
-                break;
-            case Action::polygon_end:
-                element.braces = {-1, -1};
-                break;
-            case Action::edge_begin:
-                element.edges.net = 1;
-                break;
-            case Action::edge_end:
-                element.edges = {-1, -1};
-                break;
-            default:
-                break;
+        const Command& command = grammar_.symbols()[symbol].command;
+        if (command.is_step()) {
+            element.end.at = space_.step(symbol);
+            element.frames[0].box.corners.push_back(space_.vertex(element.end.at));
+            element.draws = command.action == Action::draw;
+            if (element.draws && has_moves_) {
+                element.frames[0].ink.corners = {space_.vertex(space_.zero()), space_.vertex(element.end.at)};
+            }
+        } else if (command.action == Action::turn) {
+            element.end.heading = space_.turn(symbol);
+        } else if (command.action == Action::push) {
+            element.open.push_back({element.end, 0});
+            element.net = element.highest = 1;
+        } else if (command.action == Action::pop) {
+            element.frames.resize(2);
+            element.pops.push_back(0);
+            element.net = -1;
+        } else if (command.action == Action::polygon_begin) {
+            element.braces.net = 1;
+            element.has_cylinder = command.value != 0;
+        } else if (command.action == Action::polygon_end) {
+            element.braces = {-1, -1};
+        } else if (command.action == Action::edge_begin) {
+            element.edges.net = 1;
+        } else if (command.action == Action::edge_end) {
+            element.edges = {-1, -1};
         }
         return element;
     }

@@ -1,7 +1,7 @@
-#include "engine/measure/measurement_text.h"
-
+// engine/measure/measurement_text.cpp: formats a measurement as text and as JSON.
 #include "engine/base/diagnostic.h"
 #include "engine/base/json_text.h"
+#include "engine/measure/extent.h"
 
 #include <fmt/format.h>
 

@@ -160,7 +160,7 @@ void Parts<Number>::place_symbols(const Grammar& grammar, const Lattice& lattice
             if (!occurs(0, heading)) continue;
             DrawnPart<Number>& part = parts_[index(symbol, 0, heading)];
             if (command.action == Action::turn) part.turn = lattice.turn[symbol];
-            if (command.action != Action::draw && command.action != Action::move) continue;
+            if (!command.is_step()) continue;
             part.x = length * directions[heading].x;
             part.y = length * directions[heading].y;
             if (command.action == Action::move && !moves_draw) continue;

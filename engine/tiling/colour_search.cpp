@@ -184,21 +184,16 @@ private:
     }
     /// Adds the variables that led to a variable's value.
     void add_causes(Variable v, const Reason& reason, std::vector<Variable>& causes) const {
-        switch (reason.kind) {
-            case Reason::Kind::decision:
-                break;
-            case Reason::Kind::other:
-                causes.push_back(reason.index);
-                break;
-            case Reason::Kind::siblings:
-                for (Variable other = v - v % 3; other < v - v % 3 + 3; ++other) {
-                    if (other != v) causes.push_back(other);
-                }
-                break;
-            case Reason::Kind::clause:
-                for (const Literal literal : clauses_[reason.index]) {
-                    if (literal / 2 != v) causes.push_back(literal / 2);
-                }
+        if (reason.kind == Reason::Kind::other) {
+            causes.push_back(reason.index);
+        } else if (reason.kind == Reason::Kind::siblings) {
+            for (Variable other = v - v % 3; other < v - v % 3 + 3; ++other) {
+                if (other != v) causes.push_back(other);
+            }
+        } else if (reason.kind == Reason::Kind::clause) {
+            for (const Literal literal : clauses_[reason.index]) {
+                if (literal / 2 != v) causes.push_back(literal / 2);
+            }
         }
     }
 

@@ -7,14 +7,6 @@
 #include <fmt/format.h>
 
 namespace sikku {
-namespace {
-
-bool is_step(const Command& command) {
-    return command.action == Action::draw || command.action == Action::move;
-}
-
-}  // namespace
-
 std::string inexact_reason(const Grammar& grammar, const Lattice& lattice) {
     if (lattice.rank > 0) return {};
     const std::vector<char> reached = grammar.reachable();
@@ -26,8 +18,8 @@ std::string inexact_reason(const Grammar& grammar, const Lattice& lattice) {
     };
     const auto name = [](const SymbolInfo& symbol) { return printable(symbol_text(symbol)); };
     if (const SymbolInfo* computed = first([](const SymbolInfo& symbol) {
-            return symbol.command.takes_argument &&
-                   (is_step(symbol.command) || symbol.command.action == Action::turn);
+            const Command& command = symbol.command;
+            return command.takes_argument && (command.is_step() || command.action == Action::turn);
         })) {
         return fmt::format("the parameters of '{}' are computed", name(*computed));
     }
@@ -42,7 +34,7 @@ std::string inexact_reason(const Grammar& grammar, const Lattice& lattice) {
         return fmt::format("turns by 360/{} degrees lead to places with more than 8 coordinates", lattice.headings);
     }
     const SymbolInfo* step = first([](const SymbolInfo& symbol) {
-        return is_step(symbol.command) && symbol.command.edge == 0 && decimal_denominator(symbol.command.value) == 0;
+        return symbol.command.is_step() && symbol.command.edge == 0 && decimal_denominator(symbol.command.value) == 0;
     });
     return step ? fmt::format("the length of '{}' is not a short decimal; 'edge SYMBOL:' states lengths exactly",
                               name(*step))

@@ -464,7 +464,7 @@ private:
             Move step;
             if (interprets) {
                 step = move_of(interpreted(symbol), false);
-            } else if (command.action == Action::draw || command.action == Action::move) {
+            } else if (command.is_step()) {
                 step.way = {command.value, 0};
             } else if (command.action == Action::turn) {
                 step.turn =

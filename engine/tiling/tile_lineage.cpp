@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace sikku {
 namespace {
@@ -65,10 +66,11 @@ public:
         std::vector<std::uint32_t> makers;
         const Table* interpretation = grammar_.interpretation();
         ModuleWord interpreted;
-        if (interpretation) interpreted = rewrite(grammar_, *interpretation, word_, steps_ + 1, options_, &makers);
-        if (!interpretation) {
+        if (interpretation) {
+            interpreted = rewrite(grammar_, *interpretation, word_, steps_ + 1, options_, &makers);
+        } else {
             makers.resize(word_.symbols.size());
-            for (std::size_t i = 0; i < makers.size(); ++i) makers[i] = static_cast<std::uint32_t>(i);
+            std::iota(makers.begin(), makers.end(), 0U);
         }
         const auto written = grammar_.written_out(interpretation ? interpreted : word_);
         if (!written) throw BudgetError("the word has more than 524,288 different modules");

@@ -459,12 +459,9 @@ TileSet collect_tiles(const Grammar& grammar, TilePlane& plane, const TileLimits
     TileCollector collector(plane, tiles, most_corners(limits), monitor);
     TileReader reader(plane, collector, scale);
     const auto turtle = Turtle::tracing(grammar, reader, reader, false);
-    DerivationOptions options;
-    options.interpreted = true;
-    options.limit_whole_words(limits.nodes);
-    options.watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
+    const auto watch = [&monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     monitor.expect(expected_symbols(grammar, true));
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, DerivationOptions::within(limits.nodes, watch));
     return tiles;
 }
 

@@ -158,10 +158,8 @@ TilingResult examine_tiling(const Grammar& given, const TilingOptions& options) 
     if (given.is_spatial()) {
         throw std::runtime_error("a tiling lies in the plane: this drawing pitches, rolls, bends or has surfaces");
     }
-    DerivationOptions whole_words;
-    whole_words.limit_whole_words(options.limits.nodes);
-    whole_words.watch = [&options](std::uint64_t symbols) { options.monitor.advance(symbols); };
-    const Grammar grammar = resolve_contexts(shorten(given), whole_words);
+    const auto watch = [&options](std::uint64_t symbols) { options.monitor.advance(symbols); };
+    const Grammar grammar = resolve_contexts(shorten(given), DerivationOptions::within(options.limits.nodes, watch));
     const Lattice lattice = make_lattice(grammar);
     TilingResult result = [&] {
         try {

@@ -17,8 +17,7 @@ Corners least_form(const Corners& corners, const std::vector<double>& angles) {
     const auto less = [&](const Corners::value_type& a, const Corners::value_type& b) {
         return a.first != b.first ? angles[a.first] < angles[b.first] : a.second < b.second;
     };
-    Corners least = corners;
-    Corners form = corners;
+    Corners least = corners, form = corners;
     for (int reflection = 0; reflection < 2; ++reflection) {
         for (std::size_t i = 0; i < form.size(); ++i) {
             std::rotate(form.begin(), form.begin() + 1, form.end());
