@@ -50,13 +50,9 @@ public:
     std::vector<Diagnostic> run(std::string name, std::string text) {
         Diagnostics diagnostics;
         const Pattern pattern = parse_pattern(std::move(name), std::move(text), diagnostics);
-        if (!diagnostics.is_unreadable()) {
-            check(pattern, diagnostics);
-            collect(diagnostics);
-            check_variants(pattern);
-        } else {
-            collect(diagnostics);
-        }
+        if (!diagnostics.is_unreadable()) check(pattern, diagnostics);
+        collect(diagnostics);
+        if (!diagnostics.is_unreadable()) check_variants(pattern);
         std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
             return std::tie(a.where.line, a.where.column) < std::tie(b.where.line, b.where.column);
         });

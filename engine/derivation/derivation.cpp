@@ -2,8 +2,7 @@
 
 #include "engine/base/bits.h"
 #include "engine/derivation/levels.h"
-#include "engine/derivation/rewriting.h"
-#include "engine/derivation/streamer.h"
+#include "engine/derivation/neighbourhood.h"
 
 #include <fmt/format.h>
 

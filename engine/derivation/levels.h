@@ -1,7 +1,8 @@
-// engine/derivation/levels.h: selects the table for each level of an expansion.
+// engine/derivation/levels.h: selects the table for each level of an expansion, and expands words depth first,
+// without keeping them.
 #pragma once
 
-#include "engine/language/grammar.h"
+#include "engine/derivation/derivation.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -64,5 +65,12 @@ private:
     std::vector<Stretch> stretches_;
     std::int64_t count_ = 0;
 };
+
+/// Expands the axiom of a plain grammar through `levels`. Does not finish the sink.
+void stream_symbols(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
+
+/// Expands the axiom of a grammar with parameters or random choices, module by module. Does not finish the sink.
+/// @throws BudgetError, WordError
+void stream_modules(const Grammar& grammar, const Levels& levels, const DerivationOptions& options, SymbolSink& sink);
 
 }  // namespace sikku

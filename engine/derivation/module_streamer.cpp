@@ -1,6 +1,6 @@
 #include "engine/derivation/choice.h"
 #include "engine/derivation/drawn_successors.h"
-#include "engine/derivation/streamer.h"
+#include "engine/derivation/levels.h"
 
 #include <fmt/format.h>
 

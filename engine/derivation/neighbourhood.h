@@ -180,4 +180,8 @@ private:
     std::vector<std::uint32_t> ends_;    // ends of the branches in the context being matched
 };
 
+/// Rewrites a word as the public function does, and counts the symbols compared in `work`.
+ModuleWord rewrite(const Grammar& grammar, const Table& table, const ModuleWord& given, std::int64_t step,
+                   const DerivationOptions& options, MatchingWork& work);
+
 }  // namespace sikku

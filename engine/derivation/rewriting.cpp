@@ -1,6 +1,6 @@
-#include "engine/derivation/rewriting.h"
-
+// engine/derivation/rewriting.cpp: applies one step of a derivation to a whole word.
 #include "engine/derivation/choice.h"
+#include "engine/derivation/neighbourhood.h"
 
 #include <fmt/format.h>
 

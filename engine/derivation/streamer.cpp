@@ -1,4 +1,5 @@
-#include "engine/derivation/streamer.h"
+// engine/derivation/streamer.cpp: expands words of plain grammars, as levels.h declares it.
+#include "engine/derivation/levels.h"
 
 #include <algorithm>
 #include <functional>

@@ -523,18 +523,11 @@ std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, const Sinks& sinks, 
         return std::make_unique<WalkingTurtle<Walker, Surveying>>(std::move(lattice), std::move(walker), grammar,
                                                                   sinks, moves_draw);
     };
-    switch (fixed.rank) {
-        case 2:
-            return make(ExactWalker<2>(fixed));
-        case 4:
-            return make(ExactWalker<4>(fixed));
-        case 6:
-            return make(ExactWalker<6>(fixed));
-        case 8:
-            return make(ExactWalker<8>(fixed));
-        default:
-            return make(PlaneWalker(fixed, grammar));
-    }
+    if (fixed.rank == 2) return make(ExactWalker<2>(fixed));
+    if (fixed.rank == 4) return make(ExactWalker<4>(fixed));
+    if (fixed.rank == 6) return make(ExactWalker<6>(fixed));
+    if (fixed.rank == 8) return make(ExactWalker<8>(fixed));
+    return make(PlaneWalker(fixed, grammar));
 }
 
 }  // namespace

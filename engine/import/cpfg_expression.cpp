@@ -62,10 +62,6 @@ Value number(Reader& reader, std::size_t at) {
 constexpr std::array<std::string_view, 15> functions = {"sin",  "cos",  "tan",   "asin",  "acos",
                                                         "atan", "exp",  "log",   "floor", "ceil",
                                                         "sqrt", "fabs", "trunc", "sign",  "ran"};
-/// Operators and their precedence; longer ones precede their beginnings.
-constexpr std::array<std::string_view, 14> signs = {"||", "&&", "==", "!=", "<=", ">=", "<",
-                                                    ">",  "+",  "-",  "*",  "/",  "%",  "^"};
-constexpr std::array<int, signs.size()> levels = {1, 2, 3, 3, 4, 4, 4, 4, 5, 5, 6, 6, 6, 7};
 
 }  // namespace
 
@@ -151,12 +147,15 @@ std::string Expressions::identifier(Reader& reader) {
 }
 
 Expressions::Operator Expressions::operator_here(Reader& reader) {
+    // Longer ones precede their beginnings.
+    constexpr Operator operators[] = {{"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<=", 4}, {">=", 4}, {"<", 4},
+                                      {">", 4},  {"+", 5},  {"-", 5},  {"*", 6},  {"/", 6},  {"%", 6},  {"^", 7}};
     const char byte = next(reader);
     const std::string_view text = reader.ahead();
     if (text.starts_with("-->") || text.starts_with("-o>")) return {};
     if (text.starts_with("<>")) return {"!=", 3};
-    for (std::size_t i = 0; i < signs.size(); ++i) {
-        if (text.starts_with(signs[i])) return {signs[i], levels[i]};
+    for (const Operator& one : operators) {
+        if (text.starts_with(one.text)) return one;
     }
     if (byte == '=') mistake(reader.where(), "expected '==': a single '=' compares nothing");
     if (byte == '?') lose(reader.where(), "'?:' chooses between values");
@@ -193,8 +192,7 @@ Value Expressions::operand(Reader& reader) {
     if (byte == '(') {
         reader.take();
         Value value = read(reader);
-        if (next(reader) != ')') mistake(reader.where(), "expected ')'");
-        reader.take();
+        if (!takes(reader, ')')) mistake(reader.where(), "expected ')'");
         value.is_enclosed = true;
         return value;
     }
@@ -234,8 +232,7 @@ Value Expressions::call(Reader& reader, const std::string& name, std::size_t at)
         arguments.push_back(read(reader));
         if (arguments.size() > most_parameters) mistake(at, "a function has at most 64 arguments");
     } while (next(reader) == ',');
-    if (next(reader) != ')') mistake(reader.where(), "expected ',' or ')'");
-    reader.take();
+    if (!takes(reader, ')')) mistake(reader.where(), "expected ',' or ')'");
     if (std::find(functions.begin(), functions.end(), name) == functions.end()) {
         lose(at, fmt::format("the pattern language has no function '{}'", name));
     }

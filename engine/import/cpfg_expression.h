@@ -37,6 +37,12 @@ public:
     char next(Reader& reader) {
         return reader.peek([this](const std::string& name, Macro& macro) { return is_number(name, macro); });
     }
+    /// Takes that character if it is `wanted`.
+    bool takes(Reader& reader, char wanted) {
+        if (next(reader) != wanted) return false;
+        reader.take();
+        return true;
+    }
     /// Reads an identifier; empty if there is none.
     std::string identifier(Reader& reader);
 

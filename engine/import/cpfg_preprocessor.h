@@ -66,6 +66,12 @@ public:
     /// Unread text of the line, or of the define that is being expanded.
     std::string_view ahead() const { return frames_.back().text.substr(frames_.back().at); }
     void take(std::size_t bytes = 1) { frames_.back().at += bytes; }
+    /// Takes the next character that is not a blank if it is `wanted`, with all defines expanded.
+    bool takes(char wanted) {
+        if (peek() != wanted) return false;
+        take();
+        return true;
+    }
 
     /// Offset in the file; within a define, that of its use in the line.
     std::size_t where() const {

@@ -238,15 +238,12 @@ private:
     /// Reads `{a = 1; b = 2*a;}`. Names that are set only here become defines.
     void start(Reader& reader, std::size_t begin) {
         try {
-            if (expressions_.next(reader) != '{') lose(begin, "");
-            reader.take();
+            if (!expressions_.takes(reader, '{')) lose(begin, "");
             while (expressions_.next(reader) != '}') {
                 const std::string name = expressions_.identifier(reader);
-                if (name.empty() || expressions_.next(reader) != '=') lose(begin, "");
-                reader.take();
+                if (name.empty() || !expressions_.takes(reader, '=')) lose(begin, "");
                 const Value value = expressions_.read(reader);
-                if (expressions_.next(reader) != ';' || value.is_random) lose(begin, "");
-                reader.take();
+                if (value.is_random || !expressions_.takes(reader, ';')) lose(begin, "");
                 if (times_assigned(name) != 1 || defines_.macros.contains(name)) lose(begin, "");
                 expressions_.define(name, value);
             }
@@ -281,24 +278,15 @@ private:
         Rule rule;
         rule.at = at;
         rule.predecessor = words_.formal_modules(reader);
-        if (reader.peek() == '<') {
-            reader.take();
+        if (reader.takes('<')) {
             rule.left = std::move(rule.predecessor);
             rule.predecessor = words_.formal_modules(reader);
         }
-        if (reader.peek() == '>') {
-            reader.take();
-            rule.right = words_.formal_modules(reader);
-        }
+        if (reader.takes('>')) rule.right = words_.formal_modules(reader);
         if (rule.predecessor.empty()) mistake(at, "expected a predecessor");
-        if (reader.peek() == ':') {
-            reader.take();
+        if (reader.takes(':')) {
             block(reader);
-            if (expressions_.next(reader) == '*') {
-                reader.take();
-            } else if (!is_arrow(reader)) {
-                rule.condition = expressions_.read(reader);
-            }
+            if (!expressions_.takes(reader, '*') && !is_arrow(reader)) rule.condition = expressions_.read(reader);
             block(reader);
         }
         if (reader.peek() == 0 || !is_arrow(reader)) {
@@ -306,17 +294,9 @@ private:
                     reader.peek() == 0 ? "expected '-->' after the predecessor" : "expected '-->' here");
         }
         reader.take(3);
-        const char first = reader.peek();
-        if (first == 0) mistake(at, "expected a successor; '*' is the empty one");
-        if (first == '*') {
-            reader.take();
-        } else {
-            rule.successor = words_.word(reader, section_ == Section::homomorphism);
-        }
-        if (reader.peek() == ':') {
-            reader.take();
-            rule.weight = expressions_.read(reader);
-        }
+        if (reader.peek() == 0) mistake(at, "expected a successor; '*' is the empty one");
+        if (!reader.takes('*')) rule.successor = words_.word(reader, section_ == Section::homomorphism);
+        if (reader.takes(':')) rule.weight = expressions_.read(reader);
         if (expressions_.next(reader) != 0) mistake(reader.where(), "expected the end of the line");
         keep(std::move(rule));
     }
@@ -344,10 +324,7 @@ private:
 
     /// Reads one statement. False if it is not an assignment to a local variable; then its name has no value.
     bool statement(Reader& reader, std::size_t at) {
-        if (expressions_.next(reader) == ';') {
-            reader.take();
-            return true;
-        }
+        if (expressions_.takes(reader, ';')) return true;
         const std::string name = expressions_.identifier(reader);
         if (name == "printf" && expressions_.next(reader) == '(') {
             report_.once("printf", at, "what printf() writes");
@@ -366,8 +343,7 @@ private:
         reader.take();
         try {
             Value value = expressions_.read(reader);
-            if (!globals_.contains(name) && expressions_.next(reader) == ';') {
-                reader.take();
+            if (!globals_.contains(name) && expressions_.takes(reader, ';')) {
                 expressions_.set_local(name, std::move(value));
                 return true;
             }

@@ -90,10 +90,8 @@ std::string Words::word(Reader& reader, bool is_drawn) {
             finish(result, letter, std::move(arguments), at);
             continue;
         }
-        if (letter.size() == 1 && (letter == "!" || letter == "#") && arguments.empty()) {
-            if (view_.width_increment != 0) {
-                report_.once("!", at, "steps of # and ! in pixels: here they multiply the width by 1.25 and 0.8");
-            }
+        if ((letter == "!" || letter == "#") && arguments.empty() && view_.width_increment != 0) {
+            report_.once("!", at, "steps of # and ! in pixels: here they multiply the width by 1.25 and 0.8");
         }
         if ((letter == "{" || letter == "}") && !arguments.empty() && arguments[0] != "0") {
             report_.once("{(", at, "generalised cylinders");
@@ -140,18 +138,14 @@ std::vector<std::string> Words::parameters(Reader& reader, std::size_t at, const
         list.push_back(read());
         if (list.size() > most_parameters) mistake(at, "a module has at most 64 parameters");
     } while (expressions_.next(reader) == ',');
-    if (expressions_.next(reader) != ')') mistake(reader.where(), "expected ',' or ')' after a parameter");
-    reader.take();
+    if (!expressions_.takes(reader, ')')) mistake(reader.where(), "expected ',' or ')' after a parameter");
     return list;
 }
 
 std::vector<Formal> Words::formal_modules(Reader& reader) {
     std::vector<Formal> modules;
     after_tilde_ = false;
-    if (reader.peek() == '*') {
-        reader.take();
-        return modules;
-    }
+    if (reader.takes('*')) return modules;
     while (true) {
         const char byte = reader.peek();
         if (byte == 0 || byte == '<' || byte == '>' || byte == ':' || is_arrow(reader)) return modules;

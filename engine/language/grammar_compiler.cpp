@@ -103,10 +103,8 @@ private:
         const Key* increment = pattern_.find("angle increment");
         settings.increment = Angle{90.0, TurnFraction{1, 4}};
         if (factor && increment) {
-            diagnostics_.error(std::max(factor->name_at.at, increment->name_at.at) == factor->name_at.at
-                                   ? factor->name_at
-                                   : increment->name_at,
-                               "'angle factor:' and 'angle increment:' exclude each other");
+            const Key* later = factor->name_at.at > increment->name_at.at ? factor : increment;
+            diagnostics_.error(later->name_at, "'angle factor:' and 'angle increment:' exclude each other");
         }
         if (factor) {
             const auto k = whole_number(factor->value);
@@ -188,26 +186,20 @@ private:
 
     void read_axiom() {
         const Key* key = pattern_.find("axiom");
-        if (!key) {
-            diagnostics_.error({pattern_.source, 0, 0}, "'axiom:' is missing");
-        } else if (key->value.empty()) {
-            diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
-        } else {
-            std::vector<Expression> arguments;
-            auto axiom = reader_.word(key->value, WordPlace::axiom_or_successor, &arguments);
-            if (!axiom) return;
-            ModuleWord modules{std::move(*axiom), {}, {}};
-            modules.arguments.reserve(arguments.size());
-            if (!arguments.empty()) {
-                for (std::size_t i = 0, next = 0; i < modules.symbols.size(); ++i) {
-                    const Chance chance{axiom_place(grammar_.seed_, i), 0};
-                    for (std::uint32_t k = 0; k < reader_.symbols()[modules.symbols[i]].arity; ++k) {
-                        modules.arguments.push_back(arguments[next++].evaluate({}, chance));
-                    }
-                }
+        if (!key) return diagnostics_.error({pattern_.source, 0, 0}, "'axiom:' is missing");
+        if (key->value.empty()) return diagnostics_.error(key->name_at, "the axiom is empty: expected a word");
+        std::vector<Expression> arguments;
+        auto axiom = reader_.word(key->value, WordPlace::axiom_or_successor, &arguments);
+        if (!axiom) return;
+        ModuleWord modules{std::move(*axiom), {}, {}};
+        modules.arguments.reserve(arguments.size());
+        for (std::size_t i = 0, next = 0; next < arguments.size(); ++i) {
+            const Chance chance{axiom_place(grammar_.seed_, i), 0};
+            for (std::uint32_t k = 0; k < reader_.symbols()[modules.symbols[i]].arity; ++k) {
+                modules.arguments.push_back(arguments[next++].evaluate({}, chance));
             }
-            grammar_.axiom_ = std::make_shared<const ModuleWord>(std::move(modules));
         }
+        grammar_.axiom_ = std::make_shared<const ModuleWord>(std::move(modules));
     }
 
     /// Adds the letters of a list of symbols; false after an error in it.

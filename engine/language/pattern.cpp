@@ -277,34 +277,33 @@ private:
             diagnostics_.error(where, message);
             return true;
         };
+        const auto advice = [&] { return advice_for_line(whole.view(), true).text(); };
         const std::string_view left = left_side.view();
         const std::size_t colon = left.find(':');
         if (colon != std::string_view::npos) {
             const std::string_view name = trimmed(left.substr(0, colon));
             const std::string_view rest = trimmed(left.substr(colon + 1));
-            if (is_label(name, rest) && !define_names_.contains(rest) && !is_listed_symbol(name)) {
-                const LineAdvice advice = advice_for_line(whole.view(), true);
+            if (is_label(name, rest) && !define_names_.contains(rest) && !listed_symbols().contains(name)) {
                 return report(
                     left_side.part(0, name.size()),
-                    fmt::format("'{}:' is not a predecessor: productions have no names; {}", name, advice.text()));
+                    fmt::format("'{}:' is not a predecessor: productions have no names; {}", name, advice()));
             }
         }
         if (const std::size_t number = item_number_length(left); number > 0 && number < left.size()) {
-            const LineAdvice advice = advice_for_line(whole.view(), true);
             return report(left_side.part(0, number).trimmed(),
                           fmt::format("'{}' is not a predecessor: productions have no numbers; {}",
-                                      trimmed(left.substr(0, number)), advice.text()));
+                                      trimmed(left.substr(0, number)), advice()));
         }
         if (without_star(left).size() < trimmed(left).size()) {
-            return report(left_side.part(left.rfind('*'), 1),
-                          fmt::format("'*' is not a condition: without one, a production always applies; {}",
-                                      advice_for_line(whole.view(), true).text()));
+            return report(
+                left_side.part(left.rfind('*'), 1),
+                fmt::format("'*' is not a condition: without one, a production always applies; {}", advice()));
         }
         // A weight beside the word: `F --> 0.33 FF`.
         const Span right_side = whole.part(arrow + 3).trimmed();
         if (const auto weight = misplaced_weight(right_side.view())) {
             const Span number = right_side.part(weight->at, weight->length);
-            if (!has_predecessor_in(number.view())) {
+            if (number.view().find_first_of(predecessors()) == std::string_view::npos) {
                 return report(number, fmt::format("a weight follows the successor; write '{}'",
                                                   printable(fmt::format("{} --> {}", left, weight->right), 120)));
             }
@@ -328,27 +327,14 @@ private:
         return false;
     }
 
-    /// True if the key `symbols:`, wherever it stands, lists the name.
-    bool is_listed_symbol(std::string_view name) {
-        if (!listed_symbols_) find_listed_symbols();
-        return listed_symbols_->contains(name);
-    }
-
     /// True for the name of a symbol, and for words all of whose letters are symbols with productions.
     bool is_of_symbols(std::string_view word) {
-        if (is_listed_symbol(word)) return true;
-        find_predecessors();
-        return word.find_first_not_of(*predecessors_) == std::string_view::npos;
-    }
-
-    bool has_predecessor_in(std::string_view word) {
-        find_predecessors();
-        return word.find_first_of(*predecessors_) != std::string_view::npos;
+        return listed_symbols().contains(word) || word.find_first_not_of(predecessors()) == std::string_view::npos;
     }
 
     /// The letters and digits to the left of arrows, wherever these stand, and up to parameters and conditions.
-    void find_predecessors() {
-        if (predecessors_) return;
+    const std::string& predecessors() {
+        if (predecessors_) return *predecessors_;
         predecessors_.emplace();
         for (std::string_view text = pattern_.source->cleaned(); !text.empty();) {
             const std::string_view line = take_line(text);
@@ -363,17 +349,21 @@ private:
                 if (depth == 0 && is_letter_or_digit(byte) && !is_known) *predecessors_ += byte;
             }
         }
+        return *predecessors_;
     }
 
-    void find_listed_symbols() {
+    /// The names that the key `symbols:` lists, wherever it stands.
+    const std::set<std::string, std::less<>>& listed_symbols() {
+        if (listed_symbols_) return *listed_symbols_;
         listed_symbols_.emplace();
         for (std::string_view text = pattern_.source->cleaned(); !text.empty();) {
             const std::string_view line = trimmed(take_line(text));
             const std::size_t colon = line.find(':');
             if (colon > most_key_bytes || folded(line.substr(0, colon)) != "symbols") continue;
             for (const std::string_view name : split_words(line.substr(colon + 1))) listed_symbols_->emplace(name);
-            return;
+            break;
         }
+        return *listed_symbols_;
     }
 
     void add_key(const Span& whole, const std::string& name, std::size_t colon) {

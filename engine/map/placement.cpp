@@ -1,6 +1,5 @@
 #include "engine/map/placement.h"
 
-#include "engine/geometry/box.h"
 #include "engine/map/conjugate_gradients.h"
 
 #include <fmt/format.h>
@@ -61,6 +60,11 @@ private:
     std::vector<char> is_outer_;
 };
 
+/// A vector turned by the direction of a unit vector.
+glm::dvec2 turned(glm::dvec2 unit, glm::dvec2 vector) {
+    return {unit.x * vector.x - unit.y * vector.y, unit.y * vector.x + unit.x * vector.y};
+}
+
 /// Centroid of the area that the outline surrounds.
 glm::dvec2 centroid_of_outline(const Map& map, const std::vector<glm::dvec2>& vertices) {
     const glm::dvec2 origin = vertices[map.start(map.outer().front())];
@@ -79,8 +83,8 @@ glm::dvec2 centroid_of_outline(const Map& map, const std::vector<glm::dvec2>& ve
 std::vector<glm::dvec2> upright(const Map& map, std::vector<glm::dvec2> vertices, const glm::dvec2& first) {
     const glm::dvec2 centre = centroid_of_outline(map, vertices);
     const glm::dvec2 now = glm::normalize(vertices.front() - centre);
-    const glm::dvec2 turn(glm::dot(now, first), determinant(now, first));
-    for (glm::dvec2& vertex : vertices) vertex = complex_product(turn, vertex - centre);
+    const glm::dvec2 turn(glm::dot(now, first), now.x * first.y - now.y * first.x);
+    for (glm::dvec2& vertex : vertices) vertex = turned(turn, vertex - centre);
     return vertices;
 }
 
@@ -112,7 +116,7 @@ std::vector<glm::dvec2> outline_on_circle(const Map& map, const glm::dvec2& firs
     for (std::size_t i = 0; i < wall.size(); ++i) {
         const HalfEdge half = wall[(static_cast<std::size_t>(start) + i) % wall.size()];
         const double angle = step * static_cast<double>(i);
-        vertices[map.start(half)] = complex_product({std::cos(angle), std::sin(angle)}, first);
+        vertices[map.start(half)] = turned({std::cos(angle), std::sin(angle)}, first);
     }
     return vertices;
 }

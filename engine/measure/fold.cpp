@@ -653,20 +653,12 @@ std::optional<Fold> fold(const Grammar& grammar) {
     }
     try {
         const auto precision = static_cast<unsigned>(bits);
-        switch (lattice.rank) {
-            case 2:
-                return fold_exactly<2>(lattice, grammar, precision);
-            case 4:
-                return fold_exactly<4>(lattice, grammar, precision);
-            case 6:
-                return fold_exactly<6>(lattice, grammar, precision);
-            case 8:
-                return fold_exactly<8>(lattice, grammar, precision);
-            default: {
-                const PlaneSpace plane(lattice, grammar);
-                return Folder(plane, grammar).run();
-            }
-        }
+        if (lattice.rank == 2) return fold_exactly<2>(lattice, grammar, precision);
+        if (lattice.rank == 4) return fold_exactly<4>(lattice, grammar, precision);
+        if (lattice.rank == 6) return fold_exactly<6>(lattice, grammar, precision);
+        if (lattice.rank == 8) return fold_exactly<8>(lattice, grammar, precision);
+        const PlaneSpace plane(lattice, grammar);
+        return Folder(plane, grammar).run();
     } catch (const TooMuch&) {
         return std::nullopt;
     }

@@ -1,8 +1,6 @@
-#include "engine/tiling/exactness.h"
-
+// engine/tiling/exactness.cpp: explains why positions of a turtle are rounded.
 #include "engine/base/decimal.h"
-#include "engine/base/roots_of_unity.h"
-#include "engine/base/text.h"
+#include "engine/tiling/tiling.h"
 
 #include <fmt/format.h>
 

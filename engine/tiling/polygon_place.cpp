@@ -10,12 +10,17 @@
 namespace sikku {
 namespace {
 
-double distance_to(glm::dvec2 from, glm::dvec2 to, glm::dvec2 point) {
-    const glm::dvec2 along = to - from;
-    const double square = scalar_product(along, along);
-    const double share = square > 0 ? std::clamp(scalar_product(point - from, along) / square, 0.0, 1.0) : 0;
-    const glm::dvec2 gap = point - from - share * along;
-    return std::sqrt(scalar_product(gap, gap));
+/// The distance of a point from the outline of a polygon.
+double distance_to(std::span<const glm::dvec2> corners, glm::dvec2 point) {
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 from = corners[i], along = corners[(i + 1) % corners.size()] - from;
+        const double square = scalar_product(along, along);
+        const double share = square > 0 ? std::clamp(scalar_product(point - from, along) / square, 0.0, 1.0) : 0;
+        const glm::dvec2 gap = point - from - share * along;
+        nearest = std::min(nearest, std::sqrt(scalar_product(gap, gap)));
+    }
+    return nearest;
 }
 
 }  // namespace
@@ -37,11 +42,7 @@ PolygonMass mass_of(std::span<const glm::dvec2> corners) {
 }
 
 bool contains(std::span<const glm::dvec2> corners, glm::dvec2 point, double margin) {
-    if (contains(corners, point)) return true;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (distance_to(corners[i], corners[(i + 1) % corners.size()], point) <= margin) return true;
-    }
-    return false;
+    return contains(corners, point) || distance_to(corners, point) <= margin;
 }
 
 glm::dvec2 inner_middle(std::span<const glm::dvec2> corners) {
@@ -49,10 +50,7 @@ glm::dvec2 inner_middle(std::span<const glm::dvec2> corners) {
     const glm::dvec2 centroid = mass_of(corners).centre;
     const Box box = box_of(corners);
     const auto worth = [&](glm::dvec2 point) {
-        double nearest = std::numeric_limits<double>::max();
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            nearest = std::min(nearest, distance_to(corners[i], corners[(i + 1) % corners.size()], point));
-        }
+        const double nearest = distance_to(corners, point);
         const glm::dvec2 way = point - centroid;
         return (contains(corners, point) ? nearest : -nearest) -
                drawn_to_centroid * std::sqrt(scalar_product(way, way));

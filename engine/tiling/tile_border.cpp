@@ -18,7 +18,12 @@ namespace {
 class BorderFinder {
 public:
     BorderFinder(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces, const Monitor& monitor)
-        : plane_(plane), tiles_(tiles), pieces_(pieces), pulse_(monitor), loop_of_(pieces.sides(), no_number) {}
+        : plane_(plane),
+          tiles_(tiles),
+          pieces_(pieces),
+          pulse_(monitor),
+          loop_of_(pieces.sides(), no_number),
+          overlaps_(tiles) {}
 
     TileBorder find() {
         find_followers();
@@ -29,8 +34,9 @@ public:
         for (TileLoop& loop : result_.loops) measure(loop);
         count_components();
         find_crossings();
-        if (result_.overlap_count == 0) check_nesting();
-        if (result_.overlap_count == 0) find_gaps();
+        if (overlaps_.found.count == 0) check_nesting();
+        if (overlaps_.found.count == 0) find_gaps();
+        result_.overlaps = std::move(overlaps_.found);
         result_.areas_agree = areas_agree();
         return std::move(result_);
     }
@@ -121,14 +127,6 @@ private:
         result_.loops_agree = static_cast<std::uint64_t>(around) == result_.components;
     }
 
-    void overlap(std::uint32_t a, std::uint32_t b, glm::dvec2 at) {
-        if (!pairs_.insert(a, b)) return;
-        ++result_.overlap_count;
-        if (result_.overlaps.size() >= TileViolations::most) return;
-        result_.overlaps.push_back(
-            {TileFault::overlap, tiles_.number[std::max(a, b)], tiles_.number[std::min(a, b)], at});
-    }
-
     /// Pieces meet at corners only, so that they cross only where each has its ends on either side of the other.
     void find_crossings() {
         if (result_.sides.empty()) return;
@@ -143,11 +141,12 @@ private:
         for (const std::uint32_t side : result_.sides) visit(side, [&](std::size_t cell) { lists.count(cell); });
         lists.start();
         for (const std::uint32_t side : result_.sides) {
-            if (result_.overlap_count >= TileViolations::most_counted) return;
+            if (overlaps_.found.count >= TileViolations::most_counted) return;
             visit(side, [&](std::size_t cell) {
                 lists.visit_added(cell, [&](std::uint32_t other) {
                     pulse_();
-                    if (const auto at = crossing(side, other)) overlap(pieces_.tile[side], pieces_.tile[other], *at);
+                    const auto at = crossing(side, other);
+                    if (at) overlaps_.add(pieces_.tile[side], pieces_.tile[other], *at);
                 });
                 lists.add(cell, side);
             });
@@ -218,14 +217,11 @@ private:
             if (winding == (loop.is_outer ? 0 : 1)) continue;
             const std::uint32_t tile = pieces_.tile[own];
             const std::uint32_t other =
-                result_.overlaps.size() < TileViolations::most ? tile_around(middle, own) : no_number;
+                overlaps_.found.list.size() < TileViolations::most ? tile_around(middle, own) : no_number;
             if (other != no_number) {
-                overlap(tile, other, middle);
-                continue;
-            }
-            ++result_.overlap_count;
-            if (result_.overlaps.size() < TileViolations::most) {
-                result_.overlaps.push_back({TileFault::overlap, tiles_.number[tile], 0, middle});
+                overlaps_.add(tile, other, middle);
+            } else {
+                overlaps_.found.add({TileFault::overlap, tiles_.number[tile], 0, middle});
             }
         }
     }
@@ -373,7 +369,7 @@ private:
     std::vector<std::uint32_t> loop_of_;     // of sides
     std::vector<std::uint32_t> follower_;    // of sides
     std::vector<std::uint32_t> gap_around_;  // of loops
-    TilePairs pairs_;
+    TileOverlaps overlaps_;
     TileBorder result_;
 };
 

@@ -26,10 +26,9 @@ struct TileGap {
 struct TileBorder {
     std::vector<std::uint32_t> sides;  ///< of the loops, in order
     std::vector<TileLoop> loops;
-    std::vector<TileViolation> overlaps;  ///< the first TileViolations::most
     /// Pairs of tiles whose pieces cross, or of which one contains the other; counting ends soon after
     /// TileViolations::most_counted.
-    std::uint64_t overlap_count = 0;
+    TileViolations overlaps;
     std::uint64_t regions = 0;     ///< groups of tiles that are joined by pieces
     std::uint64_t components = 0;  ///< groups of tiles that are joined by pieces or at corners
     std::vector<TileGap> gaps;     ///< in the order of their loops; empty if tiles overlap

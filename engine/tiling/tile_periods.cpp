@@ -32,7 +32,7 @@ public:
     TilePeriods find() {
         find_middle();
         result_.reach = result_.radius / 3;
-        for (const std::uint32_t tile : candidates()) {
+        for (const auto& [length, tile] : candidates()) {
             const glm::dvec2 way = plane_.at(anchor(tile)) - plane_.at(anchor(result_.middle));
             if (result_.count == 1) {
                 const glm::dvec2 first = result_.vectors[0];
@@ -81,8 +81,9 @@ private:
         result_.radius = border_.empty() ? 0 : least;
     }
 
-    /// Tiles of the kind of the middle one that lie above it or on its right, the nearest first.
-    std::vector<std::uint32_t> candidates() const {
+    /// Tiles of the kind of the middle one that lie above it or on its right, with their rounded distances, the
+    /// nearest first.
+    std::vector<std::pair<double, std::uint32_t>> candidates() const {
         const glm::dvec2 at = plane_.at(anchor(result_.middle));
         std::vector<std::pair<double, std::uint32_t>> found;
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
@@ -95,10 +96,7 @@ private:
             if (length <= result_.reach) found.emplace_back(std::round(length * 1e6), tile);
         }
         std::sort(found.begin(), found.end());
-        std::vector<std::uint32_t> tiles;
-        tiles.reserve(found.size());
-        for (const auto& [length, tile] : found) tiles.push_back(tile);
-        return tiles;
+        return found;
     }
     bool is_alike(std::uint32_t a, std::uint32_t b) const {
         return tiles_.in_class[a] == tiles_.in_class[b] && kinds_[a] == kinds_[b];

@@ -205,7 +205,7 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
     TileVertices result;
     Pulse pulse(monitor);
     const std::uint32_t turn = plane.directions();
-    TilePairs pairs;
+    TileOverlaps overlaps(tiles);
     for (std::uint32_t point = 0; point < plane.points(); ++point) {
         pulse();
         const auto sides = pieces.out_of(point);
@@ -225,16 +225,11 @@ TileVertices check_vertices(const TilePlane& plane, const TileSet& tiles, const 
             } else if (!reaches(plane, pieces, sides[i], before, next)) {
                 continue;
             }
-            const std::uint32_t first = pieces.tile[sides[i]], second = pieces.tile[next];
-            if (!pairs.insert(first, second)) continue;
-            ++result.overlap_count;
-            if (result.overlaps.size() < TileViolations::most) {
-                result.overlaps.push_back({TileFault::overlap, tiles.number[std::max(first, second)],
-                                           tiles.number[std::min(first, second)], plane.at(point)});
-            }
+            overlaps.add(pieces.tile[sides[i]], pieces.tile[next], plane.at(point));
         }
         if (ends == 0) ++result.inner;
     }
+    result.overlaps = std::move(overlaps.found);
     return result;
 }
 

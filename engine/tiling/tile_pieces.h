@@ -48,23 +48,26 @@ struct TilePieces {
 /// differ so much that it would take minutes
 TilePieces cut_into_pieces(TilePlane& plane, const TileSet& tiles, const Monitor& monitor);
 
-/// Pairs of overlapping tiles, each once as far as the first 100,000.
-class TilePairs {
+/// Overlaps of pairs of tiles, each pair once as far as the first 100,000.
+class TileOverlaps {
 public:
-    /// Adds a pair; false if it is already known.
-    bool insert(std::uint32_t a, std::uint32_t b) {
-        return pairs_.size() >= 100'000 ? !pairs_.contains(std::minmax(a, b))
-                                        : pairs_.insert(std::minmax(a, b)).second;
+    explicit TileOverlaps(const TileSet& tiles) : tiles_(tiles) {}
+    void add(std::uint32_t a, std::uint32_t b, glm::dvec2 at) {
+        const auto [first, second] = std::minmax(a, b);
+        const bool is_new =
+            pairs_.size() >= 100'000 ? !pairs_.contains({first, second}) : pairs_.emplace(first, second).second;
+        if (is_new) found.add({TileFault::overlap, tiles_.number[second], tiles_.number[first], at});
     }
+    TileViolations found;
 
 private:
+    const TileSet& tiles_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
 };
 
 /// Facts about the points where pieces meet, and places where tiles overlap.
 struct TileVertices {
-    std::vector<TileViolation> overlaps;  ///< the first TileViolations::most
-    std::uint64_t overlap_count = 0;      ///< pairs of tiles that overlap around a point
+    TileViolations overlaps;  ///< pairs of tiles that overlap around a point
     std::uint64_t points = 0;
     std::uint64_t inner = 0;  ///< points with tiles all around
 };

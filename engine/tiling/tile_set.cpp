@@ -124,29 +124,25 @@ public:
             if (way != static_cast<std::int32_t>(way)) throw TilePlane::OutOfRange();
             key_.push_back(static_cast<std::uint32_t>(way));
         }
-        const std::uint64_t hash = hash_of(key_);
-        const auto point = [&](std::size_t i) {
-            return plane_.point(coordinates.subspan(i * rank, rank), places[i]);
-        };
-        const auto [begin, end] = outlines_.equal_range(hash);
-        for (auto at = begin; is_closed && at != end; ++at) {
-            if (at->second.key != key_) continue;
+        if (const auto at = outlines_.find(key_); is_closed && at != outlines_.end()) {
             ++tiles_.polygons;
             corners_.clear();
             plane_.points(coordinates, places, at->second.corners, corners_);
             return keep_tile(at->second.in_class, colour);
         }
         outline_points_.clear();
-        for (std::size_t i = 0; i < places.size(); ++i) outline_points_.push_back(point(i));
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            outline_points_.push_back(plane_.point(coordinates.subspan(i * rank, rank), places[i]));
+        }
         const std::size_t tiles = tiles_.tiles();
         add(outline_points_, colour, is_closed);
         if (tiles_.tiles() == tiles || outlines_.size() >= most_outlines) return;
-        Outline known{key_, tiles_.in_class.back(), {}};
+        Outline& known = outlines_[key_];
+        known.in_class = tiles_.in_class.back();
         for (const std::uint32_t corner : corners_) {
             const auto found = std::find(outline_points_.begin(), outline_points_.end(), corner);
             known.corners.push_back(static_cast<std::uint32_t>(found - outline_points_.begin()));
         }
-        outlines_.emplace(hash, std::move(known));
     }
 
     void add(std::span<const std::uint32_t> points, std::int32_t colour, bool is_closed) {
@@ -189,11 +185,13 @@ public:
     }
 
 private:
-    /// An outline as it was drawn: its vertices from the first one, and those that are corners.
+    /// An outline as it was drawn, and those of its vertices that are corners.
     struct Outline {
-        Points key;
-        std::uint32_t in_class;
+        std::uint32_t in_class = 0;
         Points corners;
+    };
+    struct Hash {
+        std::size_t operator()(const Points& sequence) const { return static_cast<std::size_t>(hash_of(sequence)); }
     };
     static constexpr std::size_t most_outlines = 100'000;
 
@@ -352,7 +350,7 @@ private:
     double most_corners_;
     const Monitor& monitor_;
     Points outline_, corners_, vectors_, key_, outline_points_;
-    std::unordered_multimap<std::uint64_t, Outline> outlines_;
+    std::unordered_map<Points, Outline, Hash> outlines_;  // by its vertices relative to the first one
     bool has_spike_ = false;
     std::uint32_t spike_ = 0;
     PolygonClasses shapes_;

@@ -47,6 +47,10 @@ struct TileViolations {
         if (list.size() < most) list.push_back(std::move(violation));
         ++count;
     }
+    void add(const TileViolations& others) {
+        for (const TileViolation& violation : others.list) add(violation);
+        count += others.count - others.list.size();
+    }
 };
 
 /// Tiles that are the same up to translation.

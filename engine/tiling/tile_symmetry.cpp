@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <unordered_map>
 
 namespace sikku {
 namespace {
@@ -147,9 +149,9 @@ private:
         std::vector<ClassImage> images;
         for (const TileClass& each : tiles_.classes) {
             pulse_();
-            ClassImage image;
-            if (!find_image(motion, each, image)) return false;
-            images.push_back(image);
+            const auto image = find_image(motion, each);
+            if (!image) return false;
+            images.push_back(*image);
         }
         if (!plane_.is_exact()) refine(motion);
         for (std::uint32_t tile = 0; tile < tiles_.tiles(); ++tile) {
@@ -161,25 +163,23 @@ private:
         return true;
     }
 
-    bool find_image(const Motion& motion, const TileClass& from, ClassImage& image) {
+    std::optional<ClassImage> find_image(const Motion& motion, const TileClass& from) const {
         const std::size_t count = from.vectors.size();
         Vectors vectors;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t vector = motion.reflects ? turned(motion, from.vectors[count - 1 - i], true)
                                                          : turned(motion, from.vectors[i], false);
-            if (vector == no_number) return false;
+            if (vector == no_number) return std::nullopt;
             vectors.push_back(vector);
         }
         const std::size_t start = least_rotation(vectors);
         std::rotate(vectors.begin(), vectors.begin() + static_cast<std::ptrdiff_t>(start), vectors.end());
-        image.corner = motion.reflects ? (count - start) % count : start;
+        const std::size_t corner = motion.reflects ? (count - start) % count : start;
         const auto [begin, end] = by_hash_.equal_range(hash_of(vectors));
         for (auto at = begin; at != end; ++at) {
-            if (tiles_.classes[at->second].vectors != vectors) continue;
-            image.in_class = at->second;
-            return true;
+            if (tiles_.classes[at->second].vectors == vectors) return ClassImage{at->second, corner};
         }
-        return false;
+        return std::nullopt;
     }
 
     glm::dvec2 unit(std::uint32_t vector) const {

@@ -2,8 +2,6 @@
 
 #include "engine/base/threads.h"
 #include "engine/derivation/forecast.h"
-#include "engine/tiling/exactness.h"
-#include "engine/tiling/vertex_figures.h"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -72,9 +70,8 @@ void examine_border(TilingPatch& patch, const TileVertices& vertices, const Moni
                     TilingExamination& result) {
     patch.border = find_border(patch.plane, patch.tiles, patch.pieces, monitor);
     const TileBorder& border = patch.border;
-    for (const TileViolation& overlap : border.overlaps) result.violations.add(overlap);
-    result.violations.count += border.overlap_count - border.overlaps.size();
-    result.has_border = border.overlap_count == 0;
+    result.violations.add(border.overlaps);
+    result.has_border = border.overlaps.count == 0;
     result.regions = border.regions;
     result.components = border.components;
     result.loops = border.loops.size();
@@ -88,11 +85,10 @@ void examine_border(TilingPatch& patch, const TileVertices& vertices, const Moni
 
 void examine_vertices(TilingPatch& patch, const Monitor& monitor, TilingExamination& result) {
     const TileVertices vertices = check_vertices(patch.plane, patch.tiles, patch.pieces, monitor);
-    for (const TileViolation& overlap : vertices.overlaps) result.violations.add(overlap);
+    result.violations.add(vertices.overlaps);
     result.vertices = vertices.points;
     result.inner_vertices = vertices.inner;
-    result.violations.count += vertices.overlap_count - vertices.overlaps.size();
-    if (vertices.overlap_count == 0) examine_border(patch, vertices, monitor, result);
+    if (vertices.overlaps.count == 0) examine_border(patch, vertices, monitor, result);
 }
 
 void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExamination& result) {

@@ -1,6 +1,5 @@
-#include "engine/tiling/vertex_figures.h"
-
-#include "engine/base/chance.h"
+// engine/tiling/vertex_figures.cpp: the vertices of a tiling, by the angles of the tiles around them.
+#include "engine/tiling/tiling.h"
 
 #include <algorithm>
 #include <map>
