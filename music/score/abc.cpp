@@ -86,9 +86,9 @@ std::string meter_name(const Meter& meter) {
     return fmt::format("({})/{}", groups, meter.unit);
 }
 
-class Writer : private TextWriter {
+class AbcWriter : private TextWriter {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, Output& out)
+    AbcWriter(const Notation& notation, const ScoreHead& head, Output& out)
         : TextWriter(out), notation_(notation), head_(head) {}
 
     void write() {
@@ -333,7 +333,7 @@ private:
 }  // namespace
 
 void write_abc(const Notation& notation, const ScoreHead& head, Output& out) {
-    Writer(notation, head, out).write();
+    AbcWriter(notation, head, out).write();
 }
 
 }  // namespace sikku

@@ -44,9 +44,9 @@ static_assert(std::endian::native == std::endian::little, "samples are handed ov
 // ---- files
 
 /// Writes a file from front to back, with a buffer.
-class Output {
+class AudioFile {
 public:
-    Output(const fs::path& file, fs::path name) : name_(std::move(name)) {
+    AudioFile(const fs::path& file, fs::path name) : name_(std::move(name)) {
         file_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
         if (file_.get() < 0) fail(name_, "write", errno);
     }
@@ -215,7 +215,7 @@ void put_samples(std::string& out, const std::vector<std::int16_t>& samples) {
     for (const std::int16_t sample : samples) put_little(out, static_cast<std::uint16_t>(sample), 2);
 }
 
-void write_wav(const Rendering& rendering, Output& out) {
+void write_wav(const Rendering& rendering, AudioFile& out) {
     const std::uint64_t bytes = rendering.frames * channels * 2;
     std::string text = "RIFF";
     put_little(text, 36 + bytes, 4);
@@ -513,7 +513,7 @@ std::string flac_frame(const std::vector<std::int16_t>& samples, std::uint32_t n
 }
 
 /// Writes blocks of fixed size, fixed predictors and Rice codes, which every player supports. Source: RFC 9639.
-void write_flac(const Rendering& rendering, Output& out) {
+void write_flac(const Rendering& rendering, AudioFile& out) {
     // The checksum of the samples precedes them.
     Md5 checksum;
     std::string bytes;
@@ -578,7 +578,7 @@ double render_audio(const std::filesystem::path& midi, const std::filesystem::pa
                     const AudioWatch& watch, const std::filesystem::path& given_name) {
     const fs::path& shown = given_name.empty() ? output : given_name;
     const Rendering rendering = render(midi, output, shown, watch);
-    Output out(output, shown);
+    AudioFile out(output, shown);
     if (format == AudioFormat::wav) {
         write_wav(rendering, out);
     } else {

@@ -83,9 +83,9 @@ std::string key_name(const KeySignature& key) {
                        modes[static_cast<std::size_t>(key.mode)]);
 }
 
-class Writer : private TextWriter {
+class LilypondWriter : private TextWriter {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, Output& sink)
+    LilypondWriter(const Notation& notation, const ScoreHead& head, Output& sink)
         : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
@@ -519,7 +519,7 @@ private:
 }  // namespace
 
 void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink) {
-    Writer(notation, head, sink).write();
+    LilypondWriter(notation, head, sink).write();
 }
 
 }  // namespace sikku
