@@ -5,8 +5,7 @@
 
 #include <pugixml.hpp>
 
-namespace sikku {
-namespace {
+namespace sikku::draw_test {
 
 /// The drawing of a pattern on a page of 100 x 60 mm with margins of 5 mm.
 class Draw : public ::testing::Test {
@@ -209,5 +208,4 @@ TEST_F(Draw, LinesBetweenUnseenOnesHaveColoursOfTheirOwn) {
     EXPECT_NE(colours[0], colours[1]);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::draw_test

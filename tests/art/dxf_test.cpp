@@ -15,8 +15,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::dxf_test {
 
 /// The entities of a drawing; anything that the writer has no reason to write is an error.
 struct Dxf {
@@ -291,5 +290,4 @@ print(len(space.query('POLYLINE')), all(10 <= value for value in low), all(value
     EXPECT_TRUE(outcome.text.ends_with(" True True\n")) << outcome.text;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::dxf_test

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::eps_test {
 
 constexpr const char* flower =
     "title: A (flower\nangle factor: 6\nderivation length: 2\naxiom: {X}[;{X}]@O(2)\nX --> "
@@ -102,5 +101,4 @@ TEST_F(Eps, RefusesPages) {
     EXPECT_THROW(draw(document, "eps", {{"plotter", "true"}, {"profile", "axidraw"}}), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::eps_test

@@ -25,8 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::hand_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -525,5 +524,4 @@ TEST_F(Hand, RefusesWhatItCannotKeep) {
     EXPECT_THROW(make_drawing(solid.grammar(), kolam_print(solid, 100, 0.5).style, options), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::hand_test

@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::icc_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -330,5 +329,4 @@ TEST_F(Icc, OtherFormatsHaveNeitherInksNorSingleBits) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::icc_test

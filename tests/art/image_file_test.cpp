@@ -16,8 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::image_file_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -227,5 +226,4 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     EXPECT_TRUE(has(other.text, "made for another version of sikku"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::image_file_test

@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::lesson_test {
 
 const std::string snake =
     "title: Snake\naxiom: f+Xf+f+Xf\nX --> Xf-f-f+Xf+f+Xf-f-f+X\nderivation length: 2\nangle factor: 4\n"
@@ -242,5 +241,4 @@ TEST_F(Lesson, RefusesWhatHasNoSteps) {
     EXPECT_THROW(make(snake, "glb"), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lesson_test

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_provenance_test {
 
 /// A print from `pattern`.
 void write(const std::filesystem::path& path, const std::string& pattern, const std::string& made,
@@ -97,5 +96,4 @@ TEST(PdfProvenance, OtherFilesHoldNoPattern) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_provenance_test

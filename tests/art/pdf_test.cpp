@@ -11,8 +11,7 @@
 #include <random>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_test {
 
 using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
@@ -286,5 +285,4 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     EXPECT_LT(difference, 0.02 * ink);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_test

@@ -15,8 +15,7 @@
 #include <sstream>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_x_test {
 
 constexpr const char* profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
@@ -219,5 +218,4 @@ TEST_F(PdfX, OtherProfilesAreRefused) {
     EXPECT_EQ(refused(text), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_x_test

@@ -13,8 +13,7 @@
 #include <optional>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::press_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -531,5 +530,4 @@ TEST_F(PressDraw, OneBitWithoutGroundIsOnPaper) {
     EXPECT_EQ(bits.at(bits.width / 2, bits.height / 2), black);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::press_test

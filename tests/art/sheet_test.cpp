@@ -11,8 +11,7 @@
 #include <pugixml.hpp>
 #include <regex>
 
-namespace sikku {
-namespace {
+namespace sikku::sheet_test {
 
 constexpr std::string_view kolam =
     "axiom: F+F+F+F\nF --> F+F-F-FF+F+F-F\nderivation length: 2\n"
@@ -446,5 +445,4 @@ TEST_F(Sheets, AWatcherMayStopIt) {
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"sheet.png"});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::sheet_test

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::sheets_test {
 
 const std::string square =
     "title: Square\naxiom: F-F-F-F\nangle increment: 90\nstroke: 0.5mm #204060\nground: #ffeedd\n";
@@ -205,5 +204,4 @@ TEST(SeveralDrawings, ShareAScaleOrADotSpacing) {
     EXPECT_GT(count_of(spaced, "<circle"), 20u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::sheets_test

@@ -13,8 +13,7 @@
 #include <random>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::svg_test {
 
 using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
@@ -499,5 +498,4 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
     for (int x = 560; x < 850; x += 3) ASSERT_TRUE(near(pixels.at(x, 200), half_blue)) << x;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::svg_test

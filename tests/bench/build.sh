@@ -29,7 +29,7 @@ export CCACHE_DISABLE=1 SIKKU_BUILD_TIMES=$PWD/$build/times
 cmake --preset "$preset" -B "$build" -DCMAKE_CXX_COMPILER_LAUNCHER="$here;--launch" \
     -DCMAKE_CXX_LINKER_LAUNCHER="$here;--launch" "$@" > "$build/configure.log"
 rm -f "$SIKKU_BUILD_TIMES"  # CMake tried the compiler
-cmake --build "$build" -j "$(nproc)" > "$build/build.log" || { tail -n 40 "$build/build.log"; exit 1; }
+cmake --build "$build" -j "$(nproc)" -- -k 0 > "$build/build.log" || { tail -n 40 "$build/build.log"; exit 1; }
 
 echo "Processor seconds by target:"
 awk '{

@@ -17,8 +17,7 @@
 #include <map>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::import_test {
 
 using namespace import_tools;
 
@@ -429,5 +428,4 @@ TEST(ImportFractint, MistakesAreTold) {
     EXPECT_TRUE(has(all_of(diagnostics), "test.l:2:10: warning: ']' without '['"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::audio_test {
 
 /// Sets an environment variable, or takes it away, for as long as this lives.
 class Environment {
@@ -363,5 +362,4 @@ TEST(Audio, IsWrittenWholeOrTheFailureIsTold) {
             "/dev/full"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::audio_test

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::lilypond_test {
 
 std::string lilypond_of(const TestScore& score) {
     MemorySink sink;
@@ -350,5 +349,4 @@ TEST(LilyPond, CompilesWithoutWarnings) {
     EXPECT_GT(contents(folder / "score.midi").size(), 100u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lilypond_test

@@ -21,8 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::midi_test {
 
 /// Fails with the message of a ScoreError that holds `part`.
 template <typename Work>
@@ -695,5 +694,4 @@ TEST(MidiTempo, FallsTowardsTheEnd) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::midi_test

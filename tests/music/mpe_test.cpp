@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::mpe_test {
 
 MidiOptions mpe(int format = 1) {
     MidiOptions options;
@@ -224,5 +223,4 @@ TEST(MpeReaders, MidoHearsTheSamePitches) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::mpe_test

@@ -20,8 +20,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::music_page_test {
 
 class Memory : public MemoryOutput {
 public:
@@ -431,5 +430,4 @@ TEST(MusicPage, WithoutNotesIsAPage) {
     EXPECT_TRUE(has(text, "\"end\":1,"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::music_page_test

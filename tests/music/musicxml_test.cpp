@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::musicxml_test {
 
 std::string xml_of(const TestScore& score) {
     MemorySink sink;
@@ -410,5 +409,4 @@ TEST(MusicXml, IsTheSameInAnyLocale) {
     EXPECT_FALSE(has(before, "1,234"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::musicxml_test

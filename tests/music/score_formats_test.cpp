@@ -24,8 +24,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::score_formats_test {
 
 std::string abc_of(const TestScore& score) {
     MemorySink sink;
@@ -299,5 +298,4 @@ TEST(ScoreFormats, LossesOfCommentsAreReported) {
     for (const char* lost : {"// \u2028\n", "// \x1b[0m\n"}) EXPECT_FALSE(is_reported(plain + lost, "mid"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::score_formats_test

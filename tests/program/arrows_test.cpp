@@ -12,8 +12,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::arrows_test {
 
 struct Include {
     std::string file;  ///< relative to the source folder
@@ -289,5 +288,4 @@ TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::arrows_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::growth_test {
 
 const std::string bush =
     "title: Bush\nangle increment: 22.5\nturn: left\nsymbols: A S L\naxiom: A\nderivation length: 4\n"
@@ -213,5 +212,4 @@ TEST_F(Growth, BadGenerationsAreRefused) {
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"bush.lsys", "none.lsys"}));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::growth_test

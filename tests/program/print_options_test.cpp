@@ -14,8 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::print_options_test {
 
 class PrintOptions : public ::testing::Test {
 protected:
@@ -370,5 +369,4 @@ TEST(BlankPicture, IsReportedWithItsRemedy) {
     EXPECT_EQ(draw({"hilbert", "-n", "60", "--window", window}), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::print_options_test

@@ -16,8 +16,7 @@
 #include <thread>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::provenance_test {
 
 using namespace std::string_literals;
 
@@ -386,5 +385,4 @@ TEST_F(ShowBombs, PatternsDevicesAndPipes) {
     writer.join();
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::provenance_test
