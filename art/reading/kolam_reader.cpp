@@ -51,11 +51,11 @@ public:
         exact_.follow();
     }
 
-    std::vector<Reading> read(const Monitor& monitor) {
+    std::vector<LineReading> read(const Monitor& monitor) {
         find_offset(monitor);
         for (int round = 0; round < 6 && !is_hopeless_ && add_encircled(monitor); ++round) {
         }
-        std::vector<Reading> readings;
+        std::vector<LineReading> readings;
         if (is_hopeless_) {
             readings.push_back(read_part());
             return readings;
@@ -111,9 +111,9 @@ private:
         is_hopeless_ = most < hopeless;
     }
 
-    Reading read_part() {
+    LineReading read_part() {
         const std::vector<GridDot> missing = complete();
-        Reading reading{.grid = found_.with({dots_.begin(), dots_.end()})};
+        LineReading reading{.grid = found_.with({dots_.begin(), dots_.end()})};
         const GridDot origin = reading.grid.placed.origin - found_.placed.origin;
         for (const GridDot place : added_) {
             if (dots_.contains(place)) reading.added.push_back(place - origin);
@@ -504,7 +504,7 @@ private:
 
     /// The share of the ink near the dots, up to a spacing away, that lies around gaps that agree with a state or
     /// around dots, where loops turn.
-    double explained(const Reading& reading) const {
+    double explained(const LineReading& reading) const {
         const DotGrid& dots = reading.grid.grid();
         const DotLattice lattice = dots.lattice();
         const auto back = reading.grid.map.perspective().inverse();
@@ -572,21 +572,21 @@ private:
 
 }  // namespace
 
-std::vector<Reading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
+std::vector<LineReading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
     // Pages have kolams of similar sizes.
     const double blur = std::exp2(std::round(4 * std::log2(0.018 * grid.spacing)) / 4);
     if (!smooth_ || smooth_->first != blur) smooth_.emplace(blur, blurred(ink_, blur));
     const GreyPicture& smooth = smooth_->second;
     const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, templates_, monitor);
-    std::vector<Reading> readings = LineWork(smooth, grid, reader).read(monitor);
+    std::vector<LineReading> readings = LineWork(smooth, grid, reader).read(monitor);
     if (readings.size() == 1 && readings[0].left_out == 0) return readings;
     // Spots that do not belong to a kolam may have bent its lattice.
-    for (Reading& reading : readings) {
+    for (LineReading& reading : readings) {
         constexpr std::size_t least_dots = 9;
         if (reading.grid.grid().dots().size() < least_dots) continue;
         FoundGrid alone = reading.grid;
         alone.map = reading.grid.map.fitted_to(alone.grid().dots());
-        std::vector<Reading> again = LineWork(smooth, std::move(alone), reader).read(monitor);
+        std::vector<LineReading> again = LineWork(smooth, std::move(alone), reader).read(monitor);
         if (again[0].grid.grid().dots().size() < reading.grid.grid().dots().size()) continue;
         again[0].left_out += reading.left_out;
         reading = std::move(again[0]);

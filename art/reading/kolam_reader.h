@@ -13,7 +13,7 @@
 namespace sikku {
 
 /// A kolam on a lattice of dots, as far as the ink agrees with one.
-struct Reading {
+struct LineReading {
     FoundGrid grid;
     std::vector<GapEvidence> evidence = {};  ///< by gap
     double agreement = 0;                    ///< mean of the gaps, with their margins
@@ -37,7 +37,7 @@ public:
     /// the one with more dots.
     /// @param grid  its map has to fit the picture
     /// Cost: about 0.1 s for 200 dots.
-    std::vector<Reading> read(const FoundGrid& grid, const Monitor& monitor);
+    std::vector<LineReading> read(const FoundGrid& grid, const Monitor& monitor);
 
 private:
     const GreyPicture& ink_;

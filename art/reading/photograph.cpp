@@ -78,7 +78,7 @@ constexpr double least_agreement = 1.12;
 
 /// A part of a picture with dots on a lattice.
 struct Part {
-    Reading reading;
+    LineReading reading;
     ReadKolam kolam;
     std::string refusal;  ///< reason why it is not a readable kolam; empty if it is
     bool is_dark = true;
@@ -98,7 +98,7 @@ struct Part {
 };
 
 /// Places that may have dots that were not read.
-std::size_t losses(const Reading& reading) {
+std::size_t losses(const LineReading& reading) {
     return reading.open_ends.size() + reading.missing.size() + reading.left_out;
 }
 bool has_kolam(const std::vector<Part>& parts) {
@@ -123,7 +123,7 @@ double gain_of(const std::vector<Part>& parts) {
 }
 
 /// The reason why dots with lines between them are not a kolam, or cannot be read; empty if they can.
-std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
+std::string refusal_of_joined(const LineReading& reading, const ReadKolam& kolam) {
     const std::size_t dots = kolam.grid.dots().size();
     const std::size_t gaps = kolam.states.size();
     const std::size_t doubts = kolam.doubtful().size();
@@ -147,7 +147,7 @@ std::string refusal_of_joined(const Reading& reading, const ReadKolam& kolam) {
 }
 
 /// The reason why a reading is not a kolam, or cannot be read; empty if it can.
-std::string refusal_of(const Reading& reading, const ReadKolam& kolam) {
+std::string refusal_of(const LineReading& reading, const ReadKolam& kolam) {
     std::string refusal = refusal_of_joined(reading, kolam);
     const std::size_t joined = kolam.grid.dots().size();
     const std::size_t dots = joined + reading.left_out;
@@ -184,7 +184,7 @@ void doubt_around(ReadKolam& kolam, GridDot place) {
     }
 }
 
-Part part_of(Reading reading, bool is_dark) {
+Part part_of(LineReading reading, bool is_dark) {
     const DotGrid& grid = reading.grid.grid();
     const std::size_t gaps = reading.evidence.size();
     ReadKolam kolam{grid, GapStates(gaps), std::vector<float>(gaps)};
@@ -205,29 +205,29 @@ Part part_of(Reading reading, bool is_dark) {
     return {std::move(reading), std::move(kolam), std::move(refusal), is_dark};
 }
 
-double agreement_of(const std::vector<Reading>& readings) {
+double agreement_of(const std::vector<LineReading>& readings) {
     return readings.empty() ? -1 : readings[0].agreement;
 }
-std::size_t dots_of(const std::vector<Reading>& readings) {
+std::size_t dots_of(const std::vector<LineReading>& readings) {
     std::size_t dots = 0;
-    for (const Reading& reading : readings) dots += reading.grid.grid().dots().size();
+    for (const LineReading& reading : readings) dots += reading.grid.grid().dots().size();
     return dots;
 }
 
 /// Reads the kolams on a lattice through some of the spots; where the angle of the lattice does not decide, the one
 /// whose gaps agree better.
-std::vector<Reading> read_lattice(InkReader& reader, const SpotFinder& finder, const std::vector<InkSpot>& spots,
-                                  std::optional<DotLattice> lattice, std::optional<double> spacing,
-                                  const Monitor& monitor) {
+std::vector<LineReading> read_lattice(InkReader& reader, const SpotFinder& finder, const std::vector<InkSpot>& spots,
+                                      std::optional<DotLattice> lattice, std::optional<double> spacing,
+                                      const Monitor& monitor) {
     auto found = find_grid(finder, spots, lattice, monitor, spacing);
     if (!found || found->grid().dots().size() < 3) return {};
     const double angle = found->angle;
     const DotLattice first = found->grid().lattice();
-    std::vector<Reading> readings = reader.read(*found, monitor);
+    std::vector<LineReading> readings = reader.read(*found, monitor);
     if (lattice || angle <= 64 || angle >= 84) return readings;
     const DotLattice other = first == DotLattice::square ? DotLattice::triangular : DotLattice::square;
     if (auto again = find_grid(finder, spots, other, monitor, spacing)) {
-        std::vector<Reading> second = reader.read(*again, monitor);
+        std::vector<LineReading> second = reader.read(*again, monitor);
         if (agreement_of(second) > agreement_of(readings) + 0.3 && 2 * dots_of(second) > dots_of(readings)) {
             return second;
         }
@@ -238,7 +238,7 @@ std::vector<Reading> read_lattice(InkReader& reader, const SpotFinder& finder, c
 /// The area around the dots of a reading.
 class Area {
 public:
-    explicit Area(const Reading& reading)
+    explicit Area(const LineReading& reading)
         : grid_(reading.grid.grid()), map_(reading.grid.map), back_(map_.perspective().inverse()) {
         for (const GridDot dot : grid_.dots()) box_.add(map_.dot(dot));
     }
@@ -354,7 +354,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
     if (ink.is_rough()) return;
     InkReader reader(ink.ink);
     std::vector<InkSpot> spots = ink.spots;
-    const auto remove_area = [&](const Reading& reading) {
+    const auto remove_area = [&](const LineReading& reading) {
         const Area area(reading);
         std::erase_if(spots, [&](const InkSpot& spot) { return area.contains(spot.at); });
     };
@@ -367,7 +367,7 @@ void find_parts(const InkSpots& ink, std::optional<DotLattice> lattice, std::vec
     // The parts on the best lattice through some spots.
     const auto parts_on = [&](const std::vector<InkSpot>& some, std::optional<double> step) {
         std::vector<Part> found;
-        for (Reading& reading : read_lattice(reader, ink.finder, some, lattice, step, monitor)) {
+        for (LineReading& reading : read_lattice(reader, ink.finder, some, lattice, step, monitor)) {
             found.push_back(part_of(std::move(reading), ink.is_dark));
         }
         return found;
@@ -612,7 +612,7 @@ StrayDots stray_dots(const Findings& found, const Part& part) {
 }
 
 void add_notes(Part& part, const Findings& found, const PhotographOptions& options) {
-    const Reading& reading = part.reading;
+    const LineReading& reading = part.reading;
     std::vector<std::string>& notes = part.kolam.notes;
     if (const std::size_t kolams = found.kolams(); kolams > 1) {
         notes.push_back(fmt::format("{} kolams in the picture: this is number {}", kolams, options.number));
