@@ -1,5 +1,6 @@
 #include "engine/tiling/tile_pieces.h"
 
+#include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/place_grid.h"
 
