@@ -6,7 +6,6 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "music/live/ahead.h"
-#include "music/live/device_port.h"
 #include "music/live/performer.h"
 #include "music/live/ports.h"
 

@@ -5,6 +5,7 @@
 #include "cli/link_argument.h"
 #include "cli/live.h"
 #include "cli/options.h"
+#include "engine/base/text.h"
 #include "music/scores.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,19 @@ struct PlayCommand {
     TableOptions options;
 };
 
+std::string listed(const std::vector<std::string>& words) {
+    const std::vector<std::string_view> views(words.begin(), words.end());
+    return alternatives(views);
+}
+
+/// All extensions of scores.
+std::string all_extensions() {
+    auto [all, sounds, views] = score_extensions();
+    all.insert(all.end(), sounds.begin(), sounds.end());
+    all.insert(all.end(), views.begin(), views.end());
+    return listed(all);
+}
+
 /// The name of the format with the file's extension. @throws UsageError
 std::string score_format_of(const std::string& output) {
     const std::string extension = std::filesystem::path(output).extension().string();
@@ -33,10 +47,10 @@ std::string score_format_of(const std::string& output) {
         throw UsageError(
             fmt::format("-o {}: this is a print; `sikku draw` draws the curve; a printed score is .pdf", output));
     }
-    throw UsageError(fmt::format(
-        "-o {}: {}; a score is .mid, .pdf, .musicxml, .mxl, .ly, .abc, .csd, .sco or .strudel; sound is .wav or "
-        ".flac; .svg and .html show it",
-        output, extension.empty() ? "no extension" : "unknown extension"));
+    const auto [files, sounds, views] = score_extensions();
+    throw UsageError(fmt::format("-o {}: {}; a score is {}; sound is {}; {} show it", output,
+                                 extension.empty() ? "no extension" : "unknown extension", listed(files),
+                                 listed(sounds), fmt::join(views, " and ")));
 }
 
 /// Uses the seed of the pattern for the options of the score, too. Those of a link contain it already: see assign().
@@ -102,12 +116,11 @@ void play_arrangement(const PlayCommand& command, const std::string& format, con
     scores().check(format, values);
     try {
         const auto [arrangement, folder] = read_arrangement_argument(command.patterns.front());
-        if (command.output.empty()) {
-            Progress progress(quiet);
-            fmt::print("{}", describe_score(arrangement, values, progress.monitor(), folder));
-            return;
+        if (!command.output.empty()) {
+            return make(*plan_score(arrangement, format, values, folder), command.output, quiet);
         }
-        make(*plan_score(arrangement, format, values, folder), command.output, quiet);
+        Progress progress(quiet);
+        fmt::print("{}", describe_score(arrangement, values, progress.monitor(), folder));
     } catch (const FileError& error) {
         throw UsageError(error.what());
     }
@@ -167,19 +180,16 @@ Parts read_parts(const PlayCommand& command, const OptionValues& given, bool qui
 
 /// The files that the command reads: patterns, and an arrangement with its patterns.
 std::vector<std::filesystem::path> files_of(const PlayCommand& command) {
+    if (is_arrangement(command.patterns.front())) return files_of_arrangement(command.patterns.front());
     std::vector<std::filesystem::path> files;
-    const auto add = [&](const std::string& name) {
+    for (const std::string& given : command.patterns) {
+        const std::string name = given.substr(0, end_of_name(given));
         try {
             if (name != "-" && !is_link(name)) files.push_back(find_pattern(name).path);
         } catch (const NotFound&) {
             // An editor may be about to write it.
         }
-    };
-    if (!is_arrangement(command.patterns.front())) {
-        for (const std::string& name : command.patterns) add(name.substr(0, end_of_name(name)));
-        return files;
     }
-    files = files_of_arrangement(command.patterns.front());
     return files;
 }
 
@@ -236,10 +246,9 @@ void add_play(CLI::App& app, bool& quiet) {
         ->required();
     add_override_options(*command, options->pattern);
     command
-        ->add_option("-o,--output", options->output,
-                     "output file: .mid, .pdf, .musicxml, .mxl, .ly, .abc, .csd, .sco, .strudel, .wav, .flac, .svg "
-                     "or .html; without it, notes, bars, time and "
-                     "range are reported")
+        ->add_option(
+            "-o,--output", options->output,
+            fmt::format("output file: {}; without it, notes, bars, time and range are reported", all_extensions()))
         ->type_name("FILE");
     add_live_options(*command, options->live);
     options->options.add(*command, scores().options());

@@ -1,7 +1,6 @@
 #include "music/ensemble.h"
 
 #include "music/form/block.h"
-#include "music/held_ending.h"
 #include "music/score/glides.h"
 #include "music/score/note_order.h"
 
@@ -9,10 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <tuple>
+#include <optional>
 #include <utility>
 
 namespace sikku {
@@ -37,12 +37,7 @@ public:
         moved_.assign(notes.begin(), notes.end());
         for (Note& note : moved_) {
             note.voice = static_cast<std::int16_t>(note.voice + first_voice_);
-            const std::int64_t end = ratio_.of(note.onset + note.duration);
-            if (note.glide.ticks > 0) {
-                note.glide.ticks = end - ratio_.of(note.onset + note.duration - note.glide.ticks);
-            }
-            note.onset = ratio_.of(note.onset);
-            note.duration = std::max<std::int64_t>(1, end - note.onset);
+            scale_times(note, ratio_);
             note.onset += later_;
         }
         sink_.notes(moved_);
@@ -395,6 +390,69 @@ private:
     const PlayOptions& playing_;
     std::vector<WholePart> parts_;
     EnsembleReport report_;
+};
+
+/// Forwards notes, but holds back the last one of each voice until the end of the score is known. Memory: O(voices).
+class HeldEnding : public NoteSink {
+public:
+    /// The line of a voice; -1 for drums, which are not held. Voices of one line end together: their last notes are
+    /// held if they sound when the last note of the line begins.
+    using LineOf = std::function<int(int voice)>;
+    HeldEnding(NoteSink& sink, LineOf line_of) : sink_(sink), line_of_(std::move(line_of)) {}
+
+    void controls(std::span<const ControlPoint> points) override { sink_.controls(points); }
+    void notes(std::span<const Note> notes) override {
+        passing_.clear();
+        for (const Note& note : notes) {
+            auto& last = last_[note.voice];
+            if (last) passing_.push_back(*last);
+            last = note;
+        }
+        if (!passing_.empty()) sink_.notes(passing_);
+    }
+    void finish(std::int64_t) override {}
+
+    /// Forwards the notes held back. The last notes of lines that ended within four bars of the end are extended to
+    /// the end of the last bar, or of one more bar if the last of them would otherwise last less than half a bar.
+    /// @param end  end of the score, in ticks
+    /// @param most  limit of the new end
+    /// @return the end of the score
+    std::int64_t finish(std::int64_t end, const Meter& meter, std::int64_t most) {
+        constexpr std::int64_t latest_bars = 4;
+        const std::int64_t bar = meter.bar();
+        std::map<int, std::int64_t> onsets;  // onset of the last note, by line
+        std::int64_t last_onset = 0;
+        for (const auto& [voice, note] : last_) {
+            const int line = line_of_(voice);
+            if (line < 0) continue;
+            onsets[line] = std::max(onsets[line], note->onset);
+            last_onset = std::max(last_onset, note->onset);
+        }
+        std::int64_t until = (end + bar - 1) / bar * bar;
+        if (2 * (until - last_onset) < bar) until += bar;
+        until = std::max(end, std::min(until, most));
+        passing_.clear();
+        for (auto& [voice, last] : last_) {
+            Note& note = *last;
+            const int line = line_of_(voice);
+            const std::int64_t note_end = note.onset + note.duration;
+            if (line >= 0 && note_end > onsets[line] && note_end > end - latest_bars * bar) {
+                note.duration = until - note.onset;
+                note.glide = {};
+                note.has_fermata = true;
+            }
+            passing_.push_back(note);
+        }
+        if (!passing_.empty()) sink_.notes(passing_);
+        last_.clear();
+        return until;
+    }
+
+private:
+    NoteSink& sink_;
+    LineOf line_of_;
+    std::map<int, std::optional<Note>> last_;  // by voice
+    std::vector<Note> passing_;
 };
 
 /// The line of a voice for HeldEnding: a melody or its accompaniment; -1 for drums.

@@ -140,24 +140,21 @@ private:
 /// Keeps the notes of one window, and the ends of notes that were not known before.
 class WindowSink : public NoteSink {
 public:
-    /// @param open         by voice: true if the end of its last note is not known
-    /// @param begin        tick of the first note that may come
-    /// @param known_until  ends from here on were not known before
-    /// @param until        tick after which nothing is known; INT64_MAX if the score ends there
-    /// @param is_sought    true if the window does not continue the one before
-    WindowSink(NoteWindow& window, std::vector<char> open, double tempo, std::int64_t begin, std::int64_t known_until,
-               std::int64_t until, bool is_sought)
-        : window_(window),
-          open_(std::move(open)),
-          tempo_(tempo),
-          begin_(begin),
-          known_until_(known_until),
-          until_(until),
-          is_sought_(is_sought) {}
+    struct Place {
+        double tempo;
+        std::int64_t begin;        ///< tick of the first note that may come
+        std::int64_t known_until;  ///< ends from here on were not known before
+        std::int64_t until;        ///< tick after which nothing is known; INT64_MAX if the score ends there
+        bool is_sought;            ///< the window does not continue the one before
+    };
+
+    /// @param open  by voice: true if the end of its last note is not known
+    WindowSink(NoteWindow& window, std::vector<char> open, const Place& place)
+        : window_(window), open_(std::move(open)), place_(place) {}
 
     void controls(std::span<const ControlPoint> points) override {
         for (ControlPoint point : points) {
-            point.tick += begin_;
+            point.tick += place_.begin;
             const auto voice = static_cast<std::size_t>(point.voice);
             if (voice >= coming_.size()) coming_.resize(voice + 1);
             coming_[voice].push_back(point);
@@ -166,7 +163,7 @@ public:
 
     void notes(std::span<const Note> notes) override {
         for (Note note : notes) {
-            note.onset += begin_;
+            note.onset += place_.begin;
             take_controls(note);
             if (note.onset >= window_.to) continue;
             const auto voice = static_cast<std::size_t>(note.voice);
@@ -174,18 +171,18 @@ public:
             if (voice >= open_.size()) open_.resize(voice + 1, 0);
             const std::int64_t end = note.onset + note.duration;
             if (note.onset < window_.from) {
-                if (open_[voice] == 0 || end < known_until_) continue;
+                if (open_[voice] == 0 || end < place_.known_until) continue;
                 open_[voice] = 0;
-                add_pitches(note, tempo_, known_until_, window_);
-                if (end < until_) {
+                add_pitches(note, place_.tempo, place_.known_until, window_);
+                if (end < place_.until) {
                     window_.ends.push_back({end, note.voice});
                 } else {
                     still_open_[voice] = 1;
                 }
                 continue;
             }
-            add_pitches(note, tempo_, 0, window_);
-            if (end >= until_) {
+            add_pitches(note, place_.tempo, 0, window_);
+            if (end >= place_.until) {
                 note.duration = 0;
                 still_open_[voice] = 1;
             }
@@ -207,7 +204,7 @@ public:
         sort_by_time(window_.notes);
         sort_pitches(window_);
         std::vector<ControlPoint> points;
-        if (is_sought_) before_.put(window_.from, points);
+        if (place_.is_sought) before_.put(window_.from, points);
         points.insert(points.end(), window_.controls.begin(), window_.controls.end());
         std::stable_sort(points.begin(), points.end(), comes_before);
         window_.controls = std::move(points);
@@ -227,7 +224,7 @@ private:
         for (; next != points.end() && next->tick < note.onset + note.duration; ++next) {
             if (next->tick <= window_.from && note.onset < window_.from) {
                 before_.add(*next);
-            } else if (note.onset < window_.to && (is_sought_ || note.onset >= window_.from)) {
+            } else if (note.onset < window_.to && (place_.is_sought || note.onset >= window_.from)) {
                 window_.controls.push_back(*next);
             }
         }
@@ -236,11 +233,7 @@ private:
 
     NoteWindow& window_;
     std::vector<char> open_;
-    double tempo_;
-    std::int64_t begin_;
-    std::int64_t known_until_;
-    std::int64_t until_;
-    bool is_sought_;
+    Place place_;
     std::vector<char> still_open_;
     std::vector<std::vector<ControlPoint>> coming_;  // by voice, points of the notes to come
     LastControls before_;
@@ -280,8 +273,9 @@ public:
         options.to = std::min(playing_.to, playing_.from + window.to + after_);
         const std::int64_t until = options.to - playing_.from;
         const bool is_cut = options.to == playing_.to;
-        WindowSink sink(window, std::move(open_), score_.head.tempo, begin, known_until_, is_cut ? INT64_MAX : until,
-                        std::exchange(is_sought_, false));
+        WindowSink sink(
+            window, std::move(open_),
+            {score_.head.tempo, begin, known_until_, is_cut ? INT64_MAX : until, std::exchange(is_sought_, false)});
         EnsembleReport report;
         std::vector<TempoPoint> tempos;
         if (options.from < options.to) {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -47,6 +46,13 @@ std::string slowing_time_of(std::int64_t ticks, const Melody& melody) {
     ScoreHead head;
     head.ritardando = 2 * melody.meter.bar();
     return time_text(seconds_at(ticks, melody.tempo, tempo_map(head, {}, ticks)));
+}
+
+/// The title of a pattern, or the name of its file.
+std::string name_of(const Document& document) {
+    const std::string title = document.text("title");
+    const std::string file = std::filesystem::path(document.source().name()).stem().string();
+    return !title.empty() ? printable(title) : file.empty() || file == "-" ? "(untitled)" : printable(file);
 }
 
 }  // namespace
@@ -237,17 +243,6 @@ std::string range_of(const PlayReport& report, const Melody& melody) {
     const auto spelling = spell(melody.scale, melody.tonic_spelling);
     return fmt::format("{} to {}", note_name(report.lowest, spelling), note_name(report.highest, spelling));
 }
-
-namespace {
-
-/// The title of a pattern, or the name of its file.
-std::string name_of(const Document& document) {
-    const std::string title = document.text("title");
-    const std::string file = std::filesystem::path(document.source().name()).stem().string();
-    return !title.empty() ? printable(title) : file.empty() || file == "-" ? "(untitled)" : printable(file);
-}
-
-}  // namespace
 
 std::string skipped_text(const std::map<std::string, std::uint64_t>& skipped) {
     constexpr std::size_t most_named = 8;

@@ -3,8 +3,6 @@
 #include "engine/base/memory.h"
 #include "music/score/unisons.h"
 
-#include <algorithm>
-
 namespace sikku {
 namespace {
 

@@ -5,6 +5,7 @@
 #include "engine/geometry/lattice.h"
 #include "music/melody/melody_fold.h"
 #include "music/score/instruments.h"
+#include "music/score/midi.h"
 #include "music/score/rhythm.h"
 #include "music/score/spelling.h"
 
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,7 +83,54 @@ std::string_view remedy_for_moved(const Ensemble& ensemble) {
     return {};
 }
 
+/// Names of the parts that share a MIDI channel on which a voice has pan or a controller of its own.
+/// @param head            head of the ensemble, whose voices are numbered
+/// @param share_channels  as in MidiOptions
+std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, const ScoreHead& head,
+                                                   bool share_channels) {
+    struct Channel {
+        int voices = 0;
+        bool is_controlled = false;
+    };
+    constexpr int drums = -1;
+    const std::vector<int> slots = share_channels ? channel_slots(head) : std::vector<int>();
+    std::map<int, Channel> channels;
+    const auto is_controlled = [&](int voice) {
+        const auto next = std::find_if(ensemble.players.begin(), ensemble.players.end(),
+                                       [&](const Player& player) { return player.first_voice > voice; });
+        const MelodicExpression& expression = std::prev(next)->melody.expression;
+        return expression.pan.is_on() || expression.control.is_on();
+    };
+    // Voices of a part use one channel if channels are shared; those of drums always do.
+    const auto each_shared = [&](const auto& visit) {
+        int voice = 0;
+        for (std::size_t i = 0; i < head.parts.size(); voice += head.parts[i].voices, ++i) {
+            if (head.parts[i].is_drums || share_channels) {
+                visit(head.parts[i], head.parts[i].is_drums ? drums : slots[i], voice);
+            }
+        }
+    };
+    each_shared([&](const Part& part, int channel, int voice) {
+        channels[channel].voices += part.voices;
+        // Accompaniments have no place on the curve to follow.
+        if (!part.is_accompaniment && is_controlled(voice)) channels[channel].is_controlled = true;
+    });
+    std::vector<std::string> names;
+    each_shared([&](const Part& part, int channel, int) {
+        if (channels[channel].voices < 2 || !channels[channel].is_controlled) return;
+        if (std::find(names.begin(), names.end(), part.name) == names.end()) names.push_back(part.name);
+    });
+    return names;
+}
+
 }  // namespace
+
+void report_shared_channels(const Ensemble& ensemble, const ScoreHead& head, bool share_channels, Made& made) {
+    const std::vector<std::string> names = parts_controlled_together(ensemble, head, share_channels);
+    if (names.empty()) return;
+    made.warn(fmt::format("voices of {} share MIDI channels, and with them pan and controllers{}",
+                          fmt::join(names, ", "), share_channels ? "; 'tuning' mpe gives each note a channel" : ""));
+}
 
 void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
     const Melody& first = ensemble.players.front().melody;

@@ -7,6 +7,9 @@
 
 namespace sikku {
 
+/// Warns of voices whose controllers apply to others, too, because they share a channel of MIDI.
+void report_shared_channels(const Ensemble& ensemble, const ScoreHead& head, bool share_channels, Made& made);
+
 /// Reports notes, time and range, and what became of notes and symbols that could not be played as stated.
 void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made);
 

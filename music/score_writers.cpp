@@ -2,14 +2,9 @@
 
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
-#include "music/score/abc.h"
 #include "music/score/audio.h"
-#include "music/score/csound.h"
 #include "music/score/engraving.h"
-#include "music/score/lilypond.h"
-#include "music/score/musicxml.h"
-#include "music/score/mxl.h"
-#include "music/score/strudel.h"
+#include "music/score/score_formats.h"
 
 #include <fmt/format.h>
 
@@ -126,8 +121,10 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .pattern = PatternForm::comments,
      .write = write_notes<write_strudel>},
     {.name = {.extension = "notes.svg", .label = "the notes", .alias = "svg", .is_text = true},
+     .medium = view,
      .write = write_notes<write_music_svg>},
     {.name = {.extension = "html", .label = "play", .is_text = true},
+     .medium = view,
      .pattern = PatternForm::xml,
      .write = write_notes<write_music_page>},
 }};

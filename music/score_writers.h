@@ -15,6 +15,7 @@ enum class ScoreMedium {
     sound,     ///< as a MIDI file that is rendered
     notation,  ///< in bars
     notes,     ///< all together
+    view,      ///< all together, to look at
 };
 
 /// Form in which a score contains the text of the pattern.

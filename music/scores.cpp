@@ -15,7 +15,6 @@
 #include "music/score_head.h"
 #include "music/score_remarks.h"
 #include "music/score_writers.h"
-#include "music/shared_channels.h"
 
 #include <fmt/format.h>
 
@@ -169,20 +168,15 @@ private:
         for (const Player& player : ensemble_.players) {
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
         }
-        if (ensemble_.has_bends() && !writer_.is_printed) {
+        const auto bend = [&](std::string_view what, int range) {
             if (settings_.tuning == Tuning::mts) {
-                throw SettingError("tuning", "mts", "gamakas are pitch bends; expected bend or mpe");
+                throw SettingError("tuning", "mts", fmt::format("{} are pitch bends; expected bend or mpe", what));
             }
             midi_.microtonal = true;
-            midi_.bend_range = widest_bend;
-        }
-        if (ensemble_.has_glides() && !writer_.is_printed) {
-            if (settings_.tuning == Tuning::mts) {
-                throw SettingError("tuning", "mts", "glissandi are pitch bends; expected bend or mpe");
-            }
-            midi_.microtonal = true;
-            midi_.bend_range = glide_bend_range;
-        }
+            midi_.bend_range = range;
+        };
+        if (ensemble_.has_bends() && !writer_.is_printed) bend("gamakas", widest_bend);
+        if (ensemble_.has_glides() && !writer_.is_printed) bend("glissandi", glide_bend_range);
         midi_.format = settings_.format;
         midi_.tuning = settings_.tuning;
     }
@@ -256,14 +250,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     const bool is_limited = writer_.has_channels() && midi_.microtonal && !is_mpe;
     const ScoreHead head = make_head(playing, is_limited ? most_channels : most_voices);
     midi_.share_channels = !midi_.microtonal && !is_mpe && pitched_voices(head) > most_channels;
-    if (writer_.has_channels() && !is_mpe) {
-        const auto names = parts_controlled_together(ensemble_, head, midi_.share_channels);
-        if (!names.empty()) {
-            made.warn(fmt::format("voices of {} share MIDI channels, and with them pan and controllers{}",
-                                  fmt::join(names, ", "),
-                                  midi_.share_channels ? "; 'tuning' mpe gives each note a channel" : ""));
-        }
-    }
+    if (writer_.has_channels() && !is_mpe) report_shared_channels(ensemble_, head, midi_.share_channels, made);
     Rendition rendition{ensemble_, playing, head, use(), human(), midi_, monitor, name, {}, {}, {}};
     const auto output = destination.open(name);
     if (output->can_insert()) {
@@ -358,6 +345,22 @@ private:
 const Interpreter& scores() {
     static const Scores interpreter;
     return interpreter;
+}
+
+ScoreExtensions score_extensions() {
+    ScoreExtensions result;
+    for (const bool is_ready : {true, false}) {
+        for (const ScoreWriter& row : score_writers()) {
+            if (is_ready != (row.medium == ScoreMedium::midi || !row.needs_file.empty())) continue;
+            // Names with two parts are those of formats whose extension is that of a print, too.
+            const bool is_shared = row.name.extension.find('.') != std::string_view::npos;
+            (row.medium == ScoreMedium::sound  ? result.sounds
+             : row.medium == ScoreMedium::view ? result.views
+                                               : result.scores)
+                .push_back(fmt::format(".{}", is_shared ? row.name.alias : row.name.extension));
+        }
+    }
+    return result;
 }
 
 std::unique_ptr<Work> plan_score(std::span<const Document> documents, std::string_view format,

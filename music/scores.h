@@ -17,6 +17,14 @@ namespace sikku {
 /// Plays documents: MIDI, MusicXML, LilyPond, WAV, FLAC, an SVG of the notes, and a page that plays.
 const Interpreter& scores();
 
+/// Extensions of files for messages, such as `.mid`: those that need no other program come first.
+struct ScoreExtensions {
+    std::vector<std::string> scores;
+    std::vector<std::string> sounds;
+    std::vector<std::string> views;  ///< pictures and pages of the notes
+};
+ScoreExtensions score_extensions();
+
 /// Returns the bytes of a score. Names in `values` are options of scores() or keys and defines of the pattern:
 /// `play(koch, "mid", {{"scale", "dorian"}, {"bars", "16"}})`.
 /// @param format  a name from scores().formats()

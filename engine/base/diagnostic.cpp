@@ -2,6 +2,7 @@
 
 #include "engine/base/characters.h"
 #include "engine/base/decimal.h"
+#include "engine/base/edit_distance.h"
 
 #include <fmt/format.h>
 
@@ -230,31 +231,34 @@ void Diagnostics::throw_if_errors() const {
 PatternError::PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors)
     : std::runtime_error(text_of(diagnostics, errors)), diagnostics_(std::move(diagnostics)) {}
 
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> earlier(b.size() + 1);
+    std::vector<std::size_t> above(b.size() + 1);
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        earlier.swap(above);
+        above.swap(row);
+        row[0] = i;
+        for (std::size_t j = 1; j < row.size(); ++j) {
+            row[j] = std::min({above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = std::min(row[j], earlier[j - 2] + 1);
+            }
+        }
+    }
+    return row.back();
+}
+
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
     if (word.size() > 64) return {};
     std::string_view best;
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string_view candidate : known) {
         if (candidate.size() >= word.size() + best_distance) continue;
-        // Optimal string alignment: two neighbours exchanged are one error.
-        std::vector<std::size_t> earlier(candidate.size() + 1);
-        std::vector<std::size_t> above(candidate.size() + 1);
-        std::vector<std::size_t> row(candidate.size() + 1);
-        for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-        for (std::size_t i = 1; i <= word.size(); ++i) {
-            earlier.swap(above);
-            above.swap(row);
-            row[0] = i;
-            for (std::size_t j = 1; j < row.size(); ++j) {
-                row[j] = std::min(
-                    {above[j - 1] + (word[i - 1] == candidate[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
-                if (i > 1 && j > 1 && word[i - 1] == candidate[j - 2] && word[i - 2] == candidate[j - 1]) {
-                    row[j] = std::min(row[j], earlier[j - 2] + 1);
-                }
-            }
-        }
-        if (row.back() < best_distance) {
-            best_distance = row.back();
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
             best = candidate;
         }
     }

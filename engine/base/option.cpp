@@ -1,5 +1,6 @@
 #include "engine/base/option.h"
 
+#include "engine/base/decimal.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
@@ -28,11 +29,11 @@ bool OptionInfo::is_neutral(std::string_view value_text) const {
     if (neutral.empty()) return false;
     if (value_text == neutral) return true;
     // Lengths in other units.
-    double given = 0, none = 0;
-    const auto [given_end, given_error] =
-        std::from_chars(value_text.data(), value_text.data() + value_text.size(), given);
-    const auto [none_end, none_error] = std::from_chars(neutral.data(), neutral.data() + neutral.size(), none);
-    return given_error == std::errc() && none_error == std::errc() && given == none && given == 0;
+    const auto is_zero = [](std::string_view text) {
+        double number = 1;
+        return parse_number(text, number).ec == std::errc() && number == 0;
+    };
+    return is_zero(value_text) && is_zero(neutral);
 }
 
 SettingError::SettingError(std::string option, std::string value, std::string message)

@@ -356,16 +356,13 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     last[0]->note.is_sliding = false;
     const auto period = static_cast<std::int64_t>(melody.scale.size());
     const std::int64_t place = ending == Ending::open ? fifth_degree(melody.scale) : 0;
-    std::int64_t above = (last[0]->degree - place) % period;
-    if (above < 0) above += period;
-    std::int64_t goal = 2 * above <= period ? last[0]->degree - above : last[0]->degree + period - above;
-    const std::int64_t side = last.size() > 1 && last[1]->degree < goal ? -1 : 1;
+    const std::int64_t nearest = mapping::goal_near(last[0]->degree, place, period, std::nullopt);
+    const std::int64_t side = last.size() > 1 && last[1]->degree < nearest ? -1 : 1;
     const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
     const auto range = is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
     // Answers of a canon lie within the range moved by the interval.
     const std::int64_t answer = melody.answer;
-    if (range && goal < range->low() + answer && goal + period <= range->high() + answer) goal += period;
-    if (range && goal > range->high() + answer && goal - period >= range->low() + answer) goal -= period;
+    const std::int64_t goal = mapping::goal_near(last[0]->degree, place, period, range, answer);
     for (std::size_t i = 0; i < last.size(); ++i) {
         last[i]->degree = goal + side * static_cast<std::int64_t>(i);
         if (range) last[i]->degree = range->inside(last[i]->degree - answer) + answer;
@@ -375,16 +372,16 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     close_chords(block, melody, goal_note, ending);
 }
 
+void scale_times(Note& note, Ratio by) {
+    const std::int64_t end = by.of(note.onset + note.duration);
+    if (note.glide.ticks > 0) note.glide.ticks = end - by.of(note.onset + note.duration - note.glide.ticks);
+    note.onset = by.of(note.onset);
+    note.duration = std::max<std::int64_t>(1, end - note.onset);
+}
+
 void scale_times(Block& block, Ratio by) {
     if (by.is_one()) return;
-    for (FormNote& one : block.notes) {
-        const std::int64_t end = by.of(one.note.onset + one.note.duration);
-        if (one.note.glide.ticks > 0) {
-            one.note.glide.ticks = end - by.of(one.note.onset + one.note.duration - one.note.glide.ticks);
-        }
-        one.note.onset = by.of(one.note.onset);
-        one.note.duration = std::max<std::int64_t>(1, end - one.note.onset);
-    }
+    for (FormNote& one : block.notes) scale_times(one.note, by);
     for (std::int64_t& end : block.ends) end = by.of(end);
     block.length = by.of(block.length);
 }

@@ -57,6 +57,7 @@ void add_drone(Block& block, const Melody& melody, int first_voice);
 void end_on(Block& block, const Melody& melody, Ending ending);
 
 /// Multiplies all times.
+void scale_times(Note& note, Ratio by);
 void scale_times(Block& block, Ratio by);
 
 /// The MIDI key of a degree, moved by periods of the scale into the range of the melody.

@@ -1,5 +1,6 @@
 #include "music/form/counterpoint.h"
 
+#include "music/score/note_order.h"
 #include "music/score/rhythm.h"
 
 #include <algorithm>
@@ -18,10 +19,7 @@ constexpr std::array<std::int64_t, 7> moves = {0, 1, -1, 2, -2, 3, -3};
 class Line {
 public:
     void add(const Note& note) { notes_.push_back(note); }
-    void sort() {
-        std::stable_sort(notes_.begin(), notes_.end(),
-                         [](const Note& a, const Note& b) { return a.onset < b.onset; });
-    }
+    void sort() { sort_by_onset(notes_); }
     /// The key that sounds at a tick.
     std::optional<double> at(std::int64_t tick) const {
         const auto after = first_after(tick);

@@ -175,10 +175,7 @@ public:
 
     std::vector<Received> wait(Clock& clock, Nanoseconds time) override {
         std::vector<Received> received;
-        const Nanoseconds left = std::max<Nanoseconds>(0, time - clock.now());
-        timespec timeout{};
-        timeout.tv_sec = static_cast<time_t>(left / second);
-        timeout.tv_nsec = static_cast<long>(left % second);
+        const timespec timeout = timespec_of(std::max<Nanoseconds>(0, time - clock.now()));
         std::array<pollfd, 4> polled{};
         const int count = snd_seq_poll_descriptors(handle(), polled.data(), polled.size(), POLLIN);
         if (snd_seq_event_input_pending(handle(), 0) == 0 &&
@@ -216,22 +213,18 @@ private:
 
     void read(const snd_seq_event_t& event, Nanoseconds now, std::vector<Received>& received) const {
         using Kind = Received::Kind;
+        const auto add = [&](Kind kind, int position = 0) { received.push_back({now, kind, position}); };
         switch (event.type) {
             case SND_SEQ_EVENT_CLOCK:
-                received.push_back({now, Kind::clock, 0});
-                break;
+                return add(Kind::clock);
             case SND_SEQ_EVENT_START:
-                received.push_back({now, Kind::start, 0});
-                break;
+                return add(Kind::start);
             case SND_SEQ_EVENT_CONTINUE:
-                received.push_back({now, Kind::resume, 0});
-                break;
+                return add(Kind::resume);
             case SND_SEQ_EVENT_STOP:
-                received.push_back({now, Kind::stop, 0});
-                break;
+                return add(Kind::stop);
             case SND_SEQ_EVENT_SONGPOS:
-                received.push_back({now, Kind::position, event.data.control.value});
-                break;
+                return add(Kind::position, event.data.control.value);
             case SND_SEQ_EVENT_CLIENT_EXIT:
                 if (event.data.addr.client == other_.client) fail("it has vanished");
                 break;

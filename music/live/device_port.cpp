@@ -1,4 +1,4 @@
-#include "music/live/device_port.h"
+#include "music/live/ports.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -53,10 +53,7 @@ public:
     }
 
     std::vector<Received> wait(Clock& clock, Nanoseconds time) override {
-        const Nanoseconds left = std::max<Nanoseconds>(0, time - clock.now());
-        timespec timeout{};
-        timeout.tv_sec = static_cast<time_t>(left / second);
-        timeout.tv_nsec = static_cast<long>(left % second);
+        const timespec timeout = timespec_of(std::max<Nanoseconds>(0, time - clock.now()));
         pollfd polled{descriptor_, static_cast<short>(has_input_ ? POLLIN : 0), 0};
         std::vector<Received> received;
         if (ppoll(&polled, 1, &timeout, nullptr) <= 0) return received;

@@ -182,7 +182,6 @@ private:
     }
 
     // --- what comes next; ticks of the performance, which go on through repetitions
-    // ---------------------------------
 
     void begin_pass() {
         ++report_.passes;
@@ -255,7 +254,6 @@ private:
     }
 
     // --- waiting
-    // ----------------------------------------------------------------------------------------------------
 
     /// Waits for a tick, but not for long. @return whether it has come
     bool wait_for(std::int64_t tick) {
@@ -373,7 +371,6 @@ private:
     }
 
     // --- newer versions
-    // ---------------------------------------------------------------------------------------------
 
     void look_for_newer() {
         auto stream = hooks_.newer ? hooks_.newer() : nullptr;
@@ -422,7 +419,6 @@ private:
     }
 
     // --- playing
-    // ----------------------------------------------------------------------------------------------------
 
     /// Sends everything of a tick: tempo, clock, ends, beginnings.
     void play_tick(std::int64_t tick) {

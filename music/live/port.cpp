@@ -4,8 +4,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdint>
 #include <ctime>
+#include <utility>
 
 namespace sikku::live {
 namespace {
@@ -33,6 +35,10 @@ void ask_for_short_slices() {
 
 }  // namespace
 
+timespec timespec_of(Nanoseconds time) {
+    return {static_cast<time_t>(time / second), static_cast<long>(time % second)};
+}
+
 Nanoseconds MonotonicClock::now() {
     timespec time{};
     clock_gettime(CLOCK_MONOTONIC, &time);
@@ -41,9 +47,7 @@ Nanoseconds MonotonicClock::now() {
 
 void MonotonicClock::sleep_until(Nanoseconds time) {
     if (time <= 0) return;
-    timespec until{};
-    until.tv_sec = static_cast<time_t>(time / second);
-    until.tv_nsec = static_cast<long>(time % second);
+    const timespec until = timespec_of(time);
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
 }
 
@@ -56,29 +60,17 @@ void prefer_this_thread() {
 
 void ClockReader::read(std::span<const std::uint8_t> bytes, Nanoseconds time, std::vector<Received>& received) {
     using Kind = Received::Kind;
+    static constexpr std::array<std::pair<std::uint8_t, Kind>, 4> kinds = {{{clock_byte, Kind::clock},
+                                                                            {start_byte, Kind::start},
+                                                                            {continue_byte, Kind::resume},
+                                                                            {stop_byte, Kind::stop}}};
     for (const std::uint8_t byte : bytes) {
-        switch (byte) {
-            case clock_byte:
-                received.push_back({time, Kind::clock, 0});
-                continue;
-            case start_byte:
-                received.push_back({time, Kind::start, 0});
-                continue;
-            case continue_byte:
-                received.push_back({time, Kind::resume, 0});
-                continue;
-            case stop_byte:
-                received.push_back({time, Kind::stop, 0});
-                continue;
-            case position_byte:
-                expected_ = 2;
-                continue;
-            default:
-                break;
+        for (const auto& [first, kind] : kinds) {
+            if (byte == first) received.push_back({time, kind, 0});
         }
         if (byte >= 0xF8) continue;
-        if (byte >= 0x80) expected_ = 0;
-        if (expected_ == 0) continue;
+        if (byte >= 0x80) expected_ = byte == position_byte ? 2 : 0;
+        if (byte >= 0x80 || expected_ == 0) continue;
         position_ = expected_ == 2 ? byte : position_ | byte << 7;
         if (--expected_ == 0) received.push_back({time, Kind::position, position_});
     }

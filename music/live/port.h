@@ -4,6 +4,7 @@
 #include "music/live/message.h"
 
 #include <cstdint>
+#include <ctime>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,9 @@ namespace sikku::live {
 
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds second = 1'000'000'000;
+
+/// A time of the clock, or a duration, from 0 on.
+timespec timespec_of(Nanoseconds time);
 
 /// A clock that never goes back.
 class Clock {

@@ -1,4 +1,4 @@
-// music/live/ports.h: the ports of ALSA's sequencer.
+// music/live/ports.h: the ports of ALSA's sequencer, and MIDI devices that are files.
 #pragma once
 
 #include "music/live/port.h"
@@ -36,5 +36,10 @@ const PortInfo& choose_port(std::span<const PortInfo> ports, const std::string& 
 /// CLOCK_MONOTONIC. Its clock messages are received if `has_input`.
 /// @throws PortError
 std::unique_ptr<Port> open_alsa_port(const std::string& name, bool has_input);
+
+/// Opens a character device such as /dev/snd/midiC1D0, or a named pipe that a program reads. Messages are written as
+/// bytes, and clock messages are read if `has_input`. The signal SIGPIPE has to be ignored.
+/// @throws PortError
+std::unique_ptr<Port> open_device(const std::string& path, bool has_input);
 
 }  // namespace sikku::live

@@ -5,32 +5,13 @@
 #include <utility>
 
 namespace sikku::live {
+
+using namespace midi;
+
 namespace {
 
-constexpr int drums = 9;
-constexpr int centre = 8192;  // of a pitch bend
-constexpr int release = 64;   // velocity of note-offs
 constexpr int all_notes_off = 123;
 constexpr std::uint32_t unset = ~std::uint32_t{0};
-/// Half a cent: see write_midi().
-constexpr double least_fraction = 0.005 + 1e-9;
-
-void controller(int channel, int number, int value, std::vector<Message>& messages) {
-    messages.push_back({0xB0 | channel, number, value});
-}
-
-void parameter(int channel, int number, int value, std::vector<Message>& messages) {
-    controller(channel, 101, 0, messages);
-    controller(channel, 100, number, messages);
-    controller(channel, 6, value, messages);
-    controller(channel, 38, 0, messages);
-}
-
-/// Further data entry changes nothing.
-void no_parameter(int channel, std::vector<Message>& messages) {
-    controller(channel, 101, 127, messages);
-    controller(channel, 100, 127, messages);
-}
 
 Message bend(int channel, int value) {
     return {0xE0 | channel, value & 0x7F, value >> 7};
@@ -44,11 +25,11 @@ std::vector<int> channels_of(const ScoreHead& head, bool share) {
     for (std::size_t i = 0; i < head.parts.size(); ++i) {
         for (int voice = 0; voice < head.parts[i].voices; ++voice) {
             if (head.parts[i].is_drums) {
-                channels.push_back(drums);
+                channels.push_back(drum_channel);
                 continue;
             }
             const int slot = share ? slots[i] : pitched++ % 15;
-            channels.push_back(slot < drums ? slot : slot + 1);
+            channels.push_back(slot < drum_channel ? slot : slot + 1);
         }
     }
     return channels;
@@ -73,52 +54,25 @@ Voices::Voices(const ScoreHead& head, const MidiOptions& midi)
     }
 }
 
-bool Voices::is_drum(int voice) const {
-    return head_.parts[static_cast<std::size_t>(part_of(voice))].is_drums;
-}
-
-int Voices::part_of(int voice) const {
-    for (std::size_t i = 0; i < head_.parts.size(); ++i) {
-        voice -= std::max(head_.parts[i].voices, 0);
-        if (voice < 0) return static_cast<int>(i);
-    }
-    return 0;
-}
-
 int Voices::channel_of(int voice) const {
     return channels_[static_cast<std::size_t>(voice)];
 }
 
 void Voices::prepare(std::vector<Message>& messages) const {
-    if (is_mpe_) {
-        parameter(mpe_master, 6, mpe_members, messages);
-        no_parameter(mpe_master, messages);
-        for (int channel = 0; channel < 16; ++channel) {
-            if (!is_mpe_member(channel)) continue;
-            parameter(channel, 0, mpe_bend_range, messages);
-            no_parameter(channel, messages);
-        }
-        return;
-    }
+    const auto add = [&](const std::vector<Message>& all) {
+        messages.insert(messages.end(), all.begin(), all.end());
+    };
+    if (is_mpe_) return add(mpe_setup());
     std::array<bool, 16> is_ready{};
     for (int voice = 0; voice < voice_count_; ++voice) {
         const int channel = channel_of(voice);
         if (std::exchange(is_ready[static_cast<std::size_t>(channel)], true)) continue;
-        if (midi_.microtonal && midi_.tuning == Tuning::bend && channel != drums) {
-            parameter(channel, 0, midi_.bend_range, messages);
-            no_parameter(channel, messages);
-        }
-        if (midi_.microtonal && midi_.tuning == Tuning::mts && channel != drums) {
-            parameter(channel, 4, 0, messages);
-            parameter(channel, 3, channel, messages);
-            no_parameter(channel, messages);
-        }
-        messages.push_back({0xC0 | channel, head_.parts[static_cast<std::size_t>(part_of(voice))].program});
+        add(channel_setup(channel, midi_, head_.part_of(voice).program));
     }
 }
 
 void Voices::tune(int channel, int key, double fraction, std::vector<Message>& messages) {
-    if (channel == drums) return;
+    if (channel == drum_channel) return;
     if (std::fabs(fraction) <= least_fraction) fraction = 0;
     if (bends_notes()) {
         const int value =
@@ -132,8 +86,7 @@ void Voices::tune(int channel, int key, double fraction, std::vector<Message>& m
         std::uint32_t& last = tuned_[static_cast<std::size_t>(channel)][static_cast<std::size_t>(key)];
         if (value == last) return;
         last = value;
-        const auto seven = [value](int shift) { return static_cast<int>(value >> shift & 0x7F); };
-        messages.push_back({0xF0, 0x7F, 0x7F, 8, 2, channel, 1, key, seven(14), seven(7), seven(0), 0xF7});
+        messages.push_back(key_tuning(channel, key, value));
     }
 }
 
@@ -143,14 +96,15 @@ void Voices::begin(const Note& note, std::int64_t tick, std::vector<Message>& me
     end(voice, tick, messages);
     const int key = static_cast<int>(note.key + 0.5);
     int channel = channel_of(voice);
-    if (is_mpe_ && channel != drums) {
+    if (is_mpe_ && channel != drum_channel) {
         channel = mpe_.take(tick, INT64_MAX, key, 0);
         if (channel < 0) {
-            end(*std::find_if_not(order_.begin(), order_.end(), [this](int one) { return is_drum(one); }), tick,
-                messages);
+            end(*std::find_if_not(order_.begin(), order_.end(),
+                                  [this](int one) { return head_.part_of(one).is_drums; }),
+                tick, messages);
             channel = mpe_.take(tick, INT64_MAX, key, 0);
         }
-        const int program = head_.parts[static_cast<std::size_t>(part_of(voice))].program;
+        const int program = head_.part_of(voice).program;
         int& last = programs_[static_cast<std::size_t>(channel)];
         if (last != program) messages.push_back({0xC0 | channel, program});
         last = program;
@@ -177,11 +131,11 @@ void Voices::control(const ControlPoint& point, std::vector<Message>& messages) 
         return;
     }
     const int value = controller_value(point);
-    if (!is_mpe_) return controller(channel_of(point.voice), point.number, value, messages);
+    if (!is_mpe_) return messages.push_back(controller(channel_of(point.voice), point.number, value));
     values_[static_cast<std::size_t>(point.voice)][point.number] = value;
     if (note.channel < 0) return;
     sent_[static_cast<std::size_t>(note.channel)][point.number] = value;
-    controller(note.channel, point.number, value, messages);
+    messages.push_back(controller(note.channel, point.number, value));
 }
 
 /// With MPE: sets the values of a voice, and no others, on the channel of its next note.
@@ -192,7 +146,7 @@ void Voices::set_controllers(int voice, int channel, std::vector<Message>& messa
     for (const auto& [number, value] : values) {
         if (const auto last = sent.find(number); last != sent.end() && last->second == value) continue;
         sent[number] = value;
-        controller(channel, number, value, messages);
+        messages.push_back(controller(channel, number, value));
     }
 }
 
@@ -214,7 +168,7 @@ void Voices::end(int voice, std::int64_t tick, std::vector<Message>& messages) {
     if (note.channel < 0) return;
     Key& state = keys_[static_cast<std::size_t>(note.channel)][static_cast<std::size_t>(note.key)];
     if (--state.notes == 0) messages.push_back({0x80 | note.channel, note.key, release});
-    if (is_mpe_ && note.channel != drums) mpe_.release(note.channel, tick);
+    if (is_mpe_ && note.channel != drum_channel) mpe_.release(note.channel, tick);
     note.channel = -1;
     order_.erase(std::find(order_.begin(), order_.end(), voice));
 }
@@ -223,7 +177,7 @@ void Voices::silence(std::int64_t tick, std::vector<Message>& messages) {
     while (!order_.empty()) end(order_.front(), tick, messages);
     for (int channel = 0; channel < 16; ++channel) {
         if (!is_used_[static_cast<std::size_t>(channel)]) continue;
-        controller(channel, all_notes_off, 0, messages);
+        messages.push_back(controller(channel, all_notes_off, 0));
         int& last = bends_[static_cast<std::size_t>(channel)];
         if (last != centre) messages.push_back(bend(channel, centre));
         last = centre;

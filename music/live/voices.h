@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <vector>
 
 namespace sikku::live {
@@ -46,8 +45,6 @@ private:
         double fraction = 0;
         std::uint8_t velocity = 80;
     };
-    int part_of(int voice) const;
-    bool is_drum(int voice) const;
     int channel_of(int voice) const;
     bool bends_notes() const { return is_mpe_ || (midi_.microtonal && midi_.tuning == Tuning::bend); }
     void tune(int channel, int key, double fraction, std::vector<Message>& messages);

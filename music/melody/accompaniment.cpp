@@ -60,13 +60,7 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) con
     const Voicing keys = voicing_of(begin / length, *chord);
     for (std::size_t voice = 0; voice < keys.size(); ++voice) {
         if (keys[voice] == silent) continue;
-        Note note;
-        note.onset = begin;
-        note.duration = length;
-        note.key = keys[voice];
-        note.voice = static_cast<std::int16_t>(voice);
-        note.velocity = soft;
-        notes.push_back(note);
+        notes.push_back({begin, length, keys[voice], static_cast<std::int16_t>(voice), soft});
     }
     return notes;
 }
@@ -76,21 +70,11 @@ std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
     const std::int64_t length = melody_.meter.bar();
     const auto [first, second, third] = plucks(melody_.meter);
     const double fifth = melody_.scale.cents(drone_degree(melody_.scale), false);
-    std::vector<Note> notes;
-    const auto add = [&](std::int16_t voice, std::int64_t from, std::int64_t to, double key) {
-        Note note;
-        note.onset = begin + from;
-        note.duration = to - from;
-        note.key = key;
-        note.voice = voice;
-        note.velocity = soft;
-        notes.push_back(note);
+    const auto note = [&](std::int16_t voice, std::int64_t from, std::int64_t to, double key) {
+        return Note{begin + from, to - from, key, voice, soft};
     };
-    add(0, first, second, key_above(fifth, -12));
-    add(0, second, third, key_above(0, 0));
-    add(0, third, length, key_above(0, 0));
-    add(1, 0, length, key_above(0, -12));
-    return notes;
+    return {note(0, first, second, key_above(fifth, -12)), note(0, second, third, key_above(0, 0)),
+            note(0, third, length, key_above(0, 0)), note(1, 0, length, key_above(0, -12))};
 }
 
 /// The voicing of a chord. Those of a given progression are known; the last bar of a piece, with the first chord,

@@ -30,6 +30,18 @@ std::int64_t DegreeRange::inside(std::int64_t degree) const {
     return low_ + (phase <= width ? phase : 2 * width - phase);
 }
 
+std::int64_t goal_near(std::int64_t degree, std::int64_t place, std::int64_t period,
+                       const std::optional<DegreeRange>& range, std::int64_t shift) {
+    std::int64_t above = (degree - place) % period;
+    if (above < 0) above += period;
+    const std::int64_t goal = 2 * above <= period ? degree - above : degree - above + period;
+    if (!range) return goal;
+    const std::int64_t low = range->low() + shift;
+    const std::int64_t high = range->high() + shift;
+    if (goal < low) return goal + period <= high ? goal + period : goal;
+    return goal > high && goal - period >= low ? goal - period : goal;
+}
+
 double folded(const Melody& melody, double key) {
     const double period = std::fabs(melody.scale.period) / 100;
     if (std::isfinite(key) && period > 0 && period <= melody.highest - melody.lowest) {

@@ -4,6 +4,7 @@
 #include "music/melody/melody.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace sikku::mapping {
 
@@ -22,6 +23,11 @@ private:
     std::int64_t low_ = 0;
     std::int64_t high_ = 0;
 };
+
+/// The degree of `place` and whole periods that is nearest to `degree`, or of two the lower, moved by a period
+/// towards `range` if it lies beyond. @param shift  degrees by which the range is moved
+std::int64_t goal_near(std::int64_t degree, std::int64_t place, std::int64_t period,
+                       const std::optional<DegreeRange>& range, std::int64_t shift = 0);
 
 /// The key moved by whole periods of the scale into the range of the melody; the nearest end of the range if the
 /// range is narrower than a period.

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,10 +29,10 @@ constexpr std::array<SourceName, 7> sources = {{{"x", ExpressionSource::x},
                                                 {"length", ExpressionSource::length},
                                                 {"level", ExpressionSource::level}}};
 
-class ExpressionReader {
+class ExpressionReader : private KeyReader {
 public:
     ExpressionReader(const Pattern& pattern, Melody& melody, Diagnostics& diagnostics)
-        : pattern_(pattern), expression_(melody.expression), melody_(melody), diagnostics_(diagnostics) {}
+        : KeyReader(pattern, diagnostics), expression_(melody.expression), melody_(melody) {}
 
     void read() {
         constexpr std::string_view velocities = "velocities from 1 to 127, such as by y 50-110";
@@ -57,13 +56,11 @@ public:
 private:
     static bool is_none(const Key& key) { return lower_case(key.value.view()) == "none"; }
 
-    void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
-
     /// Reads `by SOURCE` and an optional `LOW-HIGH` from word `at` on.
     void read_curve(const Key& key, std::size_t at, ExpressionCurve& curve, std::pair<double, double> usual,
                     double least, double most, std::string_view expected) {
         const std::string text = lower_case(key.value.view());
-        const std::vector<std::string_view> words = words_of(text);
+        const std::vector<std::string_view> words = split_words(text);
         const auto refuse = [&] {
             fail(key, fmt::format("expected {}; by x, y, depth, turn, length or level", expected));
         };
@@ -83,7 +80,7 @@ private:
 
     void read_controller(const Key& key) {
         constexpr std::string_view expected = "none, or a controller of MIDI from 0 to 119 such as 74 by y 0-127";
-        const std::vector<std::string_view> words = words_of(key.value.view());
+        const std::vector<std::string_view> words = split_words(key.value.view());
         const auto number = words.empty() ? std::nullopt : whole_number(words[0], 0, 119);
         if (!number) {
             return fail(key, fmt::format("expected {}; by x, y, depth, turn, length or level", expected));
@@ -111,7 +108,7 @@ private:
         };
         for (;;) {
             const std::size_t comma = std::min(rest.find(','), rest.size());
-            const std::vector<std::string_view> words = words_of(rest.substr(0, comma));
+            const std::vector<std::string_view> words = split_words(rest.substr(0, comma));
             if (words.size() < 2) return refuse();
             Gamaka gamaka;
             if (words[0] == "jaru") {
@@ -139,17 +136,15 @@ private:
         if (melody_.keys) fail(key, "'gamaka:' cannot be combined with 'keyboard:'");
     }
 
-    const Pattern& pattern_;
     MelodicExpression& expression_;
     Melody& melody_;
-    Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
 bool states_curve(std::string_view value) {
     const std::string text = lower_case(value);
-    const std::vector<std::string_view> words = words_of(text);
+    const std::vector<std::string_view> words = split_words(text);
     const auto by = std::find(words.begin(), words.end(), "by");
     if (by == words.end()) return false;
     // `by turn`, `by depth` and `by length` alone are the fixed rules of `velocity`.

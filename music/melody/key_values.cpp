@@ -14,16 +14,6 @@ std::optional<std::int64_t> whole_number(std::string_view text, std::int64_t lea
     return is_good && value >= least && value <= most ? std::optional(value) : std::nullopt;
 }
 
-std::vector<std::string_view> words_of(std::string_view text) {
-    std::vector<std::string_view> words;
-    while (!(text = trimmed(text)).empty()) {
-        const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-        words.push_back(text.substr(0, end));
-        text.remove_prefix(end);
-    }
-    return words;
-}
-
 std::optional<std::int64_t> note_value(std::string_view text) {
     constexpr std::int64_t most = 100'000;
     const std::size_t slash = std::min(text.find('/'), text.size());

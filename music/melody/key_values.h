@@ -6,8 +6,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace sikku {
 
@@ -16,12 +16,28 @@ inline const Span& place_of(const Key& key) {
     return key.value.empty() ? key.name_at : key.value;
 }
 
+/// The base of readers of the keys of a pattern.
+class KeyReader {
+protected:
+    KeyReader(const Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+
+    /// Reports an error in the value of a key.
+    void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
+
+    /// Passes the value of a key to `read`, if the pattern states it. @param read  returns false for mistakes
+    template <class Read>
+    void read_key(std::string_view name, const std::string& expected, Read read) {
+        const Key* key = pattern_.find(name);
+        if (key && !read(key->value.view())) fail(*key, expected);
+    }
+
+    const Pattern& pattern_;
+    Diagnostics& diagnostics_;
+};
+
 /// Reads a whole number from `least` to `most`; nullopt for anything else.
 std::optional<std::int64_t> whole_number(std::string_view text, std::int64_t least = INT64_MIN,
                                          std::int64_t most = INT64_MAX);
-
-/// The words between blanks and tabs.
-std::vector<std::string_view> words_of(std::string_view text);
 
 /// Ticks of `1/8` or `2`, up to 16 whole notes; nullopt for anything else.
 std::optional<std::int64_t> note_value(std::string_view text);

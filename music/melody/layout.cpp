@@ -46,9 +46,9 @@ std::string_view next_word(std::string_view& text) {
     return word;
 }
 
-class LayoutReader {
+class LayoutReader : private KeyReader {
 public:
-    LayoutReader(const Pattern& pattern, Diagnostics& diagnostics) : pattern_(pattern), diagnostics_(diagnostics) {}
+    LayoutReader(const Pattern& pattern, Diagnostics& diagnostics) : KeyReader(pattern, diagnostics) {}
 
     Layout read() {
         read_key("start", "expected bars of rest, from 0 to 100000",
@@ -70,15 +70,7 @@ public:
     }
 
 private:
-    template <class Read>
-    void read_key(std::string_view name, std::string_view expected, Read read) {
-        const Key* key = pattern_.find(name);
-        if (key && !read(key->value.view())) {
-            diagnostics_.error(place_of(*key), std::string(expected));
-        }
-    }
-
-    void read_ratio(std::string_view name, Ratio& value, std::string_view expected) {
+    void read_ratio(std::string_view name, Ratio& value, const std::string& expected) {
         read_key(name, expected, [&](std::string_view text) {
             const auto read = ratio(text);
             if (read) value = *read;
@@ -189,8 +181,6 @@ private:
         return direction.empty() && read_number(word, follower.semitones) && std::fabs(follower.semitones) <= 127;
     }
 
-    const Pattern& pattern_;
-    Diagnostics& diagnostics_;
     Layout layout_;
 };
 

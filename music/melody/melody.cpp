@@ -32,10 +32,10 @@ Spelling usual_spelling(double key) {
 template <class Choice>
 using Choices = std::vector<std::pair<std::string_view, Choice>>;
 
-class MelodyReader {
+class MelodyReader : private KeyReader {
 public:
     MelodyReader(const Pattern& pattern, const FileReader& read_file, Diagnostics& diagnostics)
-        : pattern_(pattern), read_file_(read_file), diagnostics_(diagnostics) {}
+        : KeyReader(pattern, diagnostics), read_file_(read_file) {}
 
     Melody read() {
         read_scale();
@@ -108,8 +108,7 @@ private:
             }
             if (word != "center" && word != "true" && word != "false") words.push_back(word);
         }
-        diagnostics_.error(place_of(*key), fmt::format("expected {}{}{}", alternatives(words), remark,
-                                                       did_you_mean(nearest(wanted, words))));
+        fail(*key, fmt::format("expected {}{}{}", alternatives(words), remark, did_you_mean(nearest(wanted, words))));
     }
 
     void warn_of_what_has_no_meaning() {
@@ -139,7 +138,7 @@ private:
             } else if (const Scale* known = find_scale(name)) {
                 melody_.scale = *known;
             } else {
-                diagnostics_.error(place_of(*key), unknown_scale(name));
+                fail(*key, unknown_scale(name));
             }
         }
         if (const Key* key = pattern_.find("keyboard")) {
@@ -173,9 +172,7 @@ private:
             while (text.ends_with(' ')) text.pop_back();
             double frequency = 0;
             if (!read_number(text, frequency) || !(frequency > 0)) {
-                diagnostics_.error(place_of(*key),
-                                   "expected a note such as C4, F#3 or Bb, or a frequency such as 261.63 Hz");
-                return;
+                return fail(*key, "expected a note such as C4, F#3 or Bb, or a frequency such as 261.63 Hz");
             }
             if (!has_unit && frequency <= 127 && frequency == std::floor(frequency)) {
                 diagnostics_.error(key->value,
@@ -243,9 +240,7 @@ private:
             return;
         }
         if (!good || above * whole_note / below > 16 * whole_note) {
-            diagnostics_.error(place_of(*key),
-                               "expected a note value such as 1/16, 1/8 or 3/16, up to 16 whole notes");
-            return;
+            return fail(*key, "expected a note value such as 1/16, 1/8 or 3/16, up to 16 whole notes");
         }
         if (below == 1 && above > 1) {
             diagnostics_.warning(key->value,
@@ -258,28 +253,27 @@ private:
         if (const Key* key = pattern_.find("rhythm"); key && lower_case(key->value.view()) != "curve") {
             std::string problem;
             melody_.rhythm = read_rhythm_template(key->value.view(), problem);
-            if (melody_.rhythm.empty()) diagnostics_.error(place_of(*key), problem);
+            if (melody_.rhythm.empty()) fail(*key, problem);
             if (melody_.branches == Branches::shares) {
-                diagnostics_.error(place_of(*key), "'rhythm:' cannot be combined with `brackets: shares`");
+                fail(*key, "'rhythm:' cannot be combined with `brackets: shares`");
             }
         }
-        if (const Key* key = pattern_.find("swing")) {
-            const std::string_view text = key->value.view();
-            const std::size_t blank = std::min(text.find(' '), text.size());
-            std::string_view percent = text.substr(0, blank);
-            if (percent.ends_with('%')) percent.remove_suffix(1);
-            double share = 0;
-            const auto unit = blank < text.size() ? note_value(text.substr(blank + 1)) : melody_.swing_unit;
-            if (!read_number(percent, share) || !(share >= 50 && share <= 80) || !unit || *unit == 0) {
-                diagnostics_.error(
-                    place_of(*key),
-                    "expected the share of the first of two eighths in percent, from 50 to 80, such as "
-                    "`67`; of two sixteenths `60 1/16`");
-                return;
-            }
-            melody_.swing = share / 100;
-            melody_.swing_unit = *unit;
-        }
+        read_key("swing",
+                 "expected the share of the first of two eighths in percent, from 50 to 80, such as `67`; of two "
+                 "sixteenths `60 1/16`",
+                 [&](std::string_view text) {
+                     const std::size_t blank = std::min(text.find(' '), text.size());
+                     std::string_view percent = text.substr(0, blank);
+                     if (percent.ends_with('%')) percent.remove_suffix(1);
+                     double share = 0;
+                     const auto unit = blank < text.size() ? note_value(text.substr(blank + 1)) : melody_.swing_unit;
+                     if (!read_number(percent, share) || !(share >= 50 && share <= 80) || !unit || *unit == 0) {
+                         return false;
+                     }
+                     melody_.swing = share / 100;
+                     melody_.swing_unit = *unit;
+                     return true;
+                 });
     }
 
     void read_form() {
@@ -288,8 +282,7 @@ private:
             if (text.starts_with("order ")) text.remove_prefix(6);
             melody_.phrase_order = whole_number(text, 1).value_or(0);
             if (melody_.phrase_order == 0) {
-                diagnostics_.error(place_of(*key),
-                                   "expected the order of the sub-curves that are phrases, 1 or more, or none");
+                fail(*key, "expected the order of the sub-curves that are phrases, 1 or more, or none");
             } else {
                 melody_.breath = ticks_per_quarter / 2;
             }
@@ -310,8 +303,7 @@ private:
         const bool is_none = text == "none" || (is_to_bar && text.empty());
         const auto ticks = is_none ? std::optional<std::int64_t>(0) : note_value(text);
         if (!ticks) {
-            diagnostics_.error(place_of(key),
-                               "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar or none");
+            fail(key, "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar or none");
         } else if (melody_.phrase_order == 0) {
             diagnostics_.warning(key.name_at, "'breath:' has no effect without 'phrases:'");
         } else {
@@ -326,10 +318,9 @@ private:
         const Key* key = pattern_.find("form");
         if (layout.form.empty() || !key) return;
         if (melody_.phrase_order > 0 && layout.form_order > 0 && layout.form_order != melody_.phrase_order) {
-            diagnostics_.error(place_of(*key),
-                               fmt::format("the orders must agree: 'phrases:' has {} and the form {}; expected "
-                                           "`phrases: {}`, or a form without an order",
-                                           melody_.phrase_order, layout.form_order, layout.form_order));
+            fail(*key, fmt::format("the orders must agree: 'phrases:' has {} and the form {}; expected "
+                                   "`phrases: {}`, or a form without an order",
+                                   melody_.phrase_order, layout.form_order, layout.form_order));
         }
         layout.is_order_of_phrases = melody_.phrase_order > 0;
         if (layout.form_order > 0) melody_.phrase_order = layout.form_order;
@@ -348,12 +339,12 @@ private:
             std::string problem;
             melody_.harmony = Harmony::progression;
             melody_.progression = read_progression(rest, melody_.scale, problem);
-            if (melody_.progression.empty()) diagnostics_.error(place_of(*key), problem);
+            if (melody_.progression.empty()) fail(*key, problem);
         } else if (kind == "bass" && !rest.empty()) {
             melody_.harmony = Harmony::bass;
             const auto order = whole_number(rest, 1, 30);
             if (!order) {
-                diagnostics_.error(place_of(*key), "expected the orders by which the bass is coarser, from 1 to 30");
+                fail(*key, "expected the orders by which the bass is coarser, from 1 to 30");
             }
             melody_.bass_order = order.value_or(1);
         } else {
@@ -366,7 +357,7 @@ private:
                             "; `bass 2` is two orders coarser than the melody");
         }
         if (melody_.keys && melody_.harmony != Harmony::none) {
-            diagnostics_.error(place_of(*key), "'harmony:' cannot be combined with 'keyboard:'");
+            fail(*key, "'harmony:' cannot be combined with 'keyboard:'");
         }
     }
 
@@ -374,14 +365,12 @@ private:
     void read_place() {
         choose<bool>("inversion", melody_.is_inverted,
                      {{"no", false}, {"yes", true}, {"false", false}, {"true", true}});
-        if (const Key* key = pattern_.find("transposition")) {
+        read_key("transposition", "expected semitones from -127 to 127", [&](std::string_view text) {
             double semitones = 0;
-            if (!read_number(key->value.view(), semitones) || !(std::fabs(semitones) <= 127)) {
-                diagnostics_.error(place_of(*key), "expected semitones from -127 to 127");
-            } else {
-                transpose(melody_, semitones);
-            }
-        }
+            const bool is_good = read_number(text, semitones) && std::fabs(semitones) <= 127;
+            if (is_good) transpose(melody_, semitones);
+            return is_good;
+        });
         melody_.layout = read_layout(pattern_, diagnostics_);
         augment();
         read_sections();
@@ -394,13 +383,11 @@ private:
         const Key& key = *pattern_.find("augmentation");
         for (std::int64_t* ticks : {&melody_.unit, &melody_.breath}) {
             if (*ticks * by.above % by.below != 0) {
-                diagnostics_.error(place_of(key),
-                                   "the notes would be no whole numbers of ticks; a larger `unit` helps");
-                return;
+                return fail(key, "the notes would be no whole numbers of ticks; a larger `unit` helps");
             }
             *ticks = *ticks * by.above / by.below;
         }
-        if (melody_.unit > most_unit) diagnostics_.error(place_of(key), "a step would last more than 64 whole notes");
+        if (melody_.unit > most_unit) fail(key, "a step would last more than 64 whole notes");
     }
 
     void read_articulation() {
@@ -426,30 +413,26 @@ private:
     }
 
     void read_tempo() {
-        const Key* key = pattern_.find("tempo");
-        if (!key) return;
-        double tempo = 0;
-        const std::string_view text = key->value.view();
-        // A curve follows after a blank.
-        const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
-        if (!read_number(number, tempo) || !(tempo >= 4 && tempo <= most_tempo)) {
-            diagnostics_.error(place_of(*key), "expected quarter notes a minute, from 4 to 1000");
-            return;
-        }
-        melody_.tempo = tempo;
+        read_key("tempo", "expected quarter notes a minute, from 4 to 1000", [&](std::string_view text) {
+            // A curve follows after a blank.
+            const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
+            double tempo = 0;
+            const bool is_good = read_number(number, tempo) && tempo >= 4 && tempo <= most_tempo;
+            if (is_good) melody_.tempo = tempo;
+            return is_good;
+        });
     }
 
     /// Reads `4/4`, `7/8`, or with groups `3+2+2/8`.
     void read_meter() {
-        const Key* key = pattern_.find("meter");
-        if (!key) return;
-        if (const auto meter = parse_meter(key->value.view())) {
-            melody_.meter = *meter;
-            return;
-        }
-        diagnostics_.error(place_of(*key),
-                           "expected a meter such as 4/4, 7/8 or 3+2+2/8: 1 to 64, in up to 16 groups, over a power "
-                           "of two up to 64");
+        read_key("meter",
+                 "expected a meter such as 4/4, 7/8 or 3+2+2/8: 1 to 64, in up to 16 groups, over a power of two up "
+                 "to 64",
+                 [&](std::string_view text) {
+                     const auto meter = parse_meter(text);
+                     melody_.meter = meter.value_or(melody_.meter);
+                     return meter.has_value();
+                 });
     }
 
     void read_instrument() {
@@ -466,33 +449,25 @@ private:
         }
         const std::string wanted = lower_case(text);
         std::vector<std::string> folded;
-        std::vector<std::string_view> names;
         for (const std::string_view name : instrument_names()) folded.push_back(lower_case(name));
-        for (std::size_t i = 0; i < folded.size(); ++i) {
-            if (folded[i] == wanted) {
-                melody_.program = static_cast<int>(i);
-                return;
-            }
-            names.push_back(folded[i]);
+        if (const auto same = std::find(folded.begin(), folded.end(), wanted); same != folded.end()) {
+            melody_.program = static_cast<int>(same - folded.begin());
+            return;
         }
         if (wanted == "piano") return;  // the first of all, and the default
         // Part of a name is enough: `guitar`, `strings`.
         if (wanted.size() >= 4 && choose_by_word(*key, wanted, folded)) return;
         // The nearest name, or the one with the nearest word.
-        std::string_view near = nearest(wanted, names);
+        std::string_view near = nearest(wanted, {folded.begin(), folded.end()});
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
-            for (std::size_t at = 0; at < folded[i].size();) {
-                const std::size_t blank = std::min(folded[i].find(' ', at), folded[i].size());
-                if (!nearest(wanted, {std::string_view(folded[i]).substr(at, blank - at)}).empty()) near = folded[i];
-                at = blank + 1;
+            for (const std::string_view word : split_words(folded[i])) {
+                if (!nearest(wanted, {word}).empty()) near = folded[i];
             }
         }
-        const std::string problem =
-            text.empty() ? "expected" : fmt::format("unknown instrument '{}'; expected", text);
-        diagnostics_.error(text.empty() ? key->name_at : key->value,
-                           near.empty() || text.empty()
-                               ? problem + " a General MIDI name such as flute or sitar, or a number from 1 to 128"
-                               : fmt::format("unknown instrument '{}'; did you mean '{}'?", text, near));
+        const std::string problem = text.empty() ? "" : fmt::format("unknown instrument '{}'; ", text);
+        fail(*key, near.empty() || text.empty()
+                       ? problem + "expected a General MIDI name such as flute or sitar, or a number from 1 to 128"
+                       : fmt::format("{}did you mean '{}'?", problem, near));
     }
 
     /// Selects the first name that contains the text, preferably as a whole word, and reports it.
@@ -516,9 +491,7 @@ private:
         return false;
     }
 
-    const Pattern& pattern_;
     const FileReader& read_file_;
-    Diagnostics& diagnostics_;
     Melody melody_;
 };
 

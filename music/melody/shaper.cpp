@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::size_t notes_of_cadence = 3;
 
-/// The member of `place` + whole periods that is nearest to `degree`; of two, the lower.
-std::int64_t nearest_in(std::int64_t degree, std::int64_t place, std::int64_t period) {
-    std::int64_t above = (degree - place) % period;
-    if (above < 0) above += period;
-    return 2 * above <= period ? degree - above : degree + (period - above);
-}
-
 }  // namespace
 
 Shaper::Shaper(const Melody& melody)
@@ -101,9 +94,7 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
     if (melody_.cadence == Cadence::none) return;
     const bool is_open = melody_.cadence == Cadence::alternate && !is_odd;
     const auto period = static_cast<std::int64_t>(melody_.scale.size());
-    std::int64_t goal = nearest_in(notes.back().degree, is_open ? fifth_ : 0, period);
-    if (range_ && goal < range_->low() && goal + period <= range_->high()) goal += period;
-    if (range_ && goal > range_->high() && goal - period >= range_->low()) goal -= period;
+    std::int64_t goal = goal_near(notes.back().degree, is_open ? fifth_ : 0, period, range_);
     // A given chord is applied first, so that the goal is still approached by step.
     if (const Chord* chord = given_chord(notes.back().onset)) goal = tone_of(*chord, goal);
     const bool from_above = notes.front().degree >= goal;

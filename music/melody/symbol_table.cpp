@@ -76,10 +76,10 @@ TablePitch pitch_of_key(const Melody& melody, double key) {
     return {degree, key};
 }
 
-class TableReader {
+class TableReader : private KeyReader {
 public:
     TableReader(const Pattern& pattern, Melody& melody, Diagnostics& diagnostics)
-        : pattern_(pattern), melody_(melody), diagnostics_(diagnostics) {}
+        : KeyReader(pattern, diagnostics), melody_(melody) {}
 
     void read() {
         read_names();
@@ -97,12 +97,10 @@ public:
     }
 
 private:
-    void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
-
     void read_names() {
         const Key* key = pattern_.find("symbols");
         if (!key) return;
-        for (const std::string_view name : words_of(key->value.view())) names_.emplace(name);
+        for (const std::string_view name : split_words(key->value.view())) names_.emplace(name);
     }
 
     /// True for one character, `@` with another, a listed name or a surface.
@@ -132,7 +130,7 @@ private:
             return diagnostics_.error(key.name_at, fmt::format("'{}' is defined twice: '{}:' states what it sounds",
                                                                row.symbol, known->second));
         }
-        const std::vector<std::string_view> words = words_of(key.value.view());
+        const std::vector<std::string_view> words = split_words(key.value.view());
         std::string problem;
         switch (row.kind) {
             case Kind::note:
@@ -389,9 +387,7 @@ private:
         }
     }
 
-    const Pattern& pattern_;
     Melody& melody_;
-    Diagnostics& diagnostics_;
     std::set<std::string> names_;
     std::map<std::string, std::string> keys_;  // key that states each symbol
 };

@@ -1,12 +1,13 @@
 // Reads Scala files: scales (.scl) and key maps (.kbm).
 #include "music/scale/scale.h"
 
+#include "engine/base/characters.h"
+#include "engine/base/text.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -19,13 +20,6 @@ constexpr double most_cents = 240'000.0;
 constexpr int most_degrees = 100'000;
 constexpr double highest_frequency = 1e6;
 
-bool is_blank(char byte) {
-    return byte == ' ' || byte == '\t';
-}
-bool is_digit(char byte) {
-    return byte >= '0' && byte <= '9';
-}
-
 /// Converts Latin-1 to UTF-8; keeps text that is UTF-8 already.
 std::string to_utf8(std::string_view text) {
     bool is_utf8 = true;
@@ -36,15 +30,7 @@ std::string to_utf8(std::string_view text) {
     }
     if (is_utf8) return std::string(text);
     std::string result;
-    for (const char byte : text) {
-        const auto value = static_cast<unsigned char>(byte);
-        if (value < 0x80) {
-            result += byte;
-        } else {
-            result += static_cast<char>(0xC0 | value >> 6);
-            result += static_cast<char>(0x80 | (value & 0x3F));
-        }
-    }
+    for (const char byte : text) append_utf8(static_cast<unsigned char>(byte), result);
     return result;
 }
 
@@ -53,6 +39,12 @@ struct Piece {
     std::size_t at = 0;
     std::string_view text;
 };
+
+/// The piece without blanks at either end.
+Piece stripped(const Piece& piece) {
+    const std::string_view text = trimmed(piece.text);
+    return {piece.at + static_cast<std::size_t>(text.data() - piece.text.data()), text};
+}
 
 /// The lines of a file that are not comments.
 class Lines {
@@ -74,11 +66,7 @@ public:
     /// Reads the next line that is not blank, without blanks at either end.
     bool next_filled(Piece& line) {
         while (next(line)) {
-            while (!line.text.empty() && is_blank(line.text.front())) {
-                line.text.remove_prefix(1);
-                ++line.at;
-            }
-            while (!line.text.empty() && is_blank(line.text.back())) line.text.remove_suffix(1);
+            line = stripped(line);
             if (!line.text.empty()) return true;
         }
         return false;
@@ -156,10 +144,7 @@ public:
                   "this is not a Scala scale: a description, the number of notes and the notes are missing");
             return std::nullopt;
         }
-        Piece description = line;
-        while (!description.text.empty() && is_blank(description.text.front())) description.text.remove_prefix(1);
-        while (!description.text.empty() && is_blank(description.text.back())) description.text.remove_suffix(1);
-        scale.title = printable(to_utf8(description.text));
+        scale.title = printable(to_utf8(trimmed(line.text)));
         std::int64_t count = 0;
         if (!read_count(count)) return std::nullopt;
 
@@ -199,49 +184,43 @@ private:
         diagnostics_.error(where, message);
     }
 
+    /// Reports an error. @return false
+    bool refuse(const Piece& piece, const std::string& message) {
+        error(lines_.span(piece), message);
+        return false;
+    }
+
     bool read_count(std::int64_t& count) {
         Piece line;
         if (!lines_.next(line)) {
             error(lines_.end(), "after the description the number of notes is missing");
             return false;
         }
-        while (!line.text.empty() && is_blank(line.text.front())) {
-            line.text.remove_prefix(1);
-            ++line.at;
-        }
+        line = stripped(line);
         const Piece word = first_word(line);
-        if (word.text.empty()) {
-            error(lines_.span(line), "the second line has to be the number of notes");
-        } else if (!read_whole(word.text, count) || count < 0) {
-            error(lines_.span(word),
-                  fmt::format("the second line has to be the number of notes, not {}", quoted(word)));
-        } else if (count == 0) {
-            error(lines_.span(word), "a scale without notes cannot be played");
-        } else {
-            return true;
+        if (word.text.empty()) return refuse(line, "the second line has to be the number of notes");
+        if (!read_whole(word.text, count) || count < 0) {
+            return refuse(word, fmt::format("the second line has to be the number of notes, not {}", quoted(word)));
         }
-        return false;
+        return count > 0 || refuse(word, "a scale without notes cannot be played");
     }
 
     bool read_pitch(const Piece& line, double& cents) {
         const Piece word = first_word(line);
         const std::string_view text = word.text;
         if (text.empty()) {
-            error(lines_.span(line), "a comment has its ! at the very beginning of the line");
-            return false;
+            return refuse(line, "a comment has its ! at the very beginning of the line");
         }
         if (text.find('.') != std::string_view::npos) {
             double value = 0;
             if (!is_decimal(text)) {
-                error(lines_.span(word),
-                      fmt::format("{} is neither cents, as 701.955, nor a ratio, as 3/2", quoted(word)));
-                return false;
+                return refuse(word,
+                              fmt::format("{} is neither cents, as 701.955, nor a ratio, as 3/2", quoted(word)));
             }
             const bool is_number = read_number(text, value);
             if (!is_number || std::fabs(value) > most_cents) {
-                error(lines_.span(word),
-                      fmt::format("{} cents are beyond the {:.0f} that are allowed", quoted(word), most_cents));
-                return false;
+                return refuse(
+                    word, fmt::format("{} cents are beyond the {:.0f} that are allowed", quoted(word), most_cents));
             }
             cents = value;
             return true;
@@ -249,44 +228,36 @@ private:
         const std::size_t slash = text.find('/');
         const std::string_view above = text.substr(0, slash);
         const std::string_view below = slash == std::string_view::npos ? "1" : text.substr(slash + 1);
-        std::string_view rest = line.text.substr(text.size());
-        while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+        const std::string_view rest = trimmed(line.text.substr(text.size()));
         if (slash == std::string_view::npos ? is_digits(text) && rest.starts_with('/')
                                             : below.empty() && !rest.empty() && is_digit(rest.front())) {
-            error(lines_.span(word), "a ratio is written without blanks: 3/2");
-            return false;
+            return refuse(word, "a ratio is written without blanks: 3/2");
         }
         if ((text.starts_with('-') || text.starts_with('+')) && is_digits(above.substr(1)) && is_digits(below)) {
-            error(lines_.span(word),
-                  text.starts_with('-')
-                      ? fmt::format("{} is a ratio below 0; negative cents are written with a point: -5.0",
-                                    quoted(word))
-                      : fmt::format("{}: a ratio has no sign", quoted(word)));
-            return false;
+            return refuse(word,
+                          text.starts_with('-')
+                              ? fmt::format("{} is a ratio below 0; negative cents are written with a point: -5.0",
+                                            quoted(word))
+                              : fmt::format("{}: a ratio has no sign", quoted(word)));
         }
         if (!is_digits(above) || !is_digits(below)) {
-            error(lines_.span(word),
-                  text.find(',') != std::string_view::npos
-                      ? fmt::format("{}: cents are written with a point, as 701.955", quoted(word))
-                      : fmt::format("{} is neither cents, as 701.955, nor a ratio, as 3/2", quoted(word)));
-            return false;
+            return refuse(word,
+                          text.find(',') != std::string_view::npos
+                              ? fmt::format("{}: cents are written with a point, as 701.955", quoted(word))
+                              : fmt::format("{} is neither cents, as 701.955, nor a ratio, as 3/2", quoted(word)));
         }
         double numerator = 0;
         double denominator = 0;
         if (!read_number(above, numerator) || !read_number(below, denominator)) {
-            error(lines_.span(word), "the numbers of this ratio are too large");
-            return false;
+            return refuse(word, "the numbers of this ratio are too large");
         }
         if (numerator == 0 || denominator == 0) {
-            error(lines_.span(word),
-                  fmt::format("the ratio {} is not a pitch: expected numbers above 0", quoted(word)));
-            return false;
+            return refuse(word, fmt::format("the ratio {} is not a pitch: expected numbers above 0", quoted(word)));
         }
         cents = 1200.0 * std::log2(numerator / denominator);
         if (std::fabs(cents) > most_cents) {
-            error(lines_.span(word),
-                  fmt::format("the ratio {} is beyond the {:.0f} cents that are allowed", quoted(word), most_cents));
-            return false;
+            return refuse(word, fmt::format("the ratio {} is beyond the {:.0f} cents that are allowed", quoted(word),
+                                            most_cents));
         }
         if (slash == std::string_view::npos && numerator >= 100 && !warned_) {
             warned_ = true;

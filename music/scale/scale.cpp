@@ -1,6 +1,7 @@
 #include "music/scale/scale.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/edit_distance.h"
 #include "engine/base/text.h"
 
 #include <embedded/scales.h>
@@ -116,26 +117,6 @@ std::string loosely_folded(std::string_view key) {
     return result;
 }
 
-/// Edit distance: the fewest substitutions, deletions, insertions and swaps of neighbours that turn `a` into `b`.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> earlier(b.size() + 1);
-    std::vector<std::size_t> above(b.size() + 1);
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        earlier.swap(above);
-        above.swap(row);
-        row[0] = i;
-        for (std::size_t j = 1; j < row.size(); ++j) {
-            row[j] = std::min({above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                row[j] = std::min(row[j], earlier[j - 2] + 1);
-            }
-        }
-    }
-    return row.back();
-}
-
 // --- the data file ----------------------------------------------------------------------------------------------
 
 /// Removes the text before `mark`, and the mark, from `text` and returns it trimmed; all of it without a mark.
@@ -205,91 +186,31 @@ std::string title_of(std::string_view id) {
 
 // --- the 72 melakarta -------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 72> mela_names = {"Kanakangi",
-                                                         "Ratnangi",
-                                                         "Ganamurti",
-                                                         "Vanaspati",
-                                                         "Manavati",
-                                                         "Tanarupi",
-                                                         "Senavati",
-                                                         "Hanumatodi",
-                                                         "Dhenuka",
-                                                         "Natakapriya",
-                                                         "Kokilapriya",
-                                                         "Rupavati",
-                                                         "Gayakapriya",
-                                                         "Vakulabharanam",
-                                                         "Mayamalavagowla",
-                                                         "Chakravakam",
-                                                         "Suryakantam",
-                                                         "Hatakambari",
-                                                         "Jhankaradhwani",
-                                                         "Natabhairavi",
-                                                         "Keeravani",
-                                                         "Kharaharapriya",
-                                                         "Gourimanohari",
-                                                         "Varunapriya",
-                                                         "Mararanjani",
-                                                         "Charukesi",
-                                                         "Sarasangi",
-                                                         "Harikambhoji",
-                                                         "Dheerasankarabharanam",
-                                                         "Naganandini",
-                                                         "Yagapriya",
-                                                         "Ragavardhini",
-                                                         "Gangeyabhushani",
-                                                         "Vagadheeswari",
-                                                         "Sulini",
-                                                         "Chalanata",
-                                                         "Salagam",
-                                                         "Jalarnavam",
-                                                         "Jhalavarali",
-                                                         "Navaneetam",
-                                                         "Pavani",
-                                                         "Raghupriya",
-                                                         "Gavambodhi",
-                                                         "Bhavapriya",
-                                                         "Subhapantuvarali",
-                                                         "Shadvidhamargini",
-                                                         "Suvarnangi",
-                                                         "Divyamani",
-                                                         "Dhavalambari",
-                                                         "Namanarayani",
-                                                         "Kamavardhini",
-                                                         "Ramapriya",
-                                                         "Gamanashrama",
-                                                         "Vishwambari",
-                                                         "Shamalangi",
-                                                         "Shanmukhapriya",
-                                                         "Simhendramadhyamam",
-                                                         "Hemavati",
-                                                         "Dharmavati",
-                                                         "Neetimati",
-                                                         "Kantamani",
-                                                         "Rishabhapriya",
-                                                         "Latangi",
-                                                         "Vachaspati",
-                                                         "Mechakalyani",
-                                                         "Chitrambari",
-                                                         "Sucharitra",
-                                                         "Jyotiswarupini",
-                                                         "Dhatuvardhani",
-                                                         "Nasikabhushani",
-                                                         "Kosalam",
-                                                         "Rasikapriya"};
+/// Names of the 72 melakarta in order, separated by blanks.
+constexpr std::string_view mela_names =
+    "Kanakangi Ratnangi Ganamurti Vanaspati Manavati Tanarupi Senavati Hanumatodi Dhenuka Natakapriya "
+    "Kokilapriya Rupavati Gayakapriya Vakulabharanam Mayamalavagowla Chakravakam Suryakantam Hatakambari "
+    "Jhankaradhwani Natabhairavi Keeravani Kharaharapriya Gourimanohari Varunapriya Mararanjani Charukesi "
+    "Sarasangi Harikambhoji Dheerasankarabharanam Naganandini Yagapriya Ragavardhini Gangeyabhushani "
+    "Vagadheeswari Sulini Chalanata Salagam Jalarnavam Jhalavarali Navaneetam Pavani Raghupriya Gavambodhi "
+    "Bhavapriya Subhapantuvarali Shadvidhamargini Suvarnangi Divyamani Dhavalambari Namanarayani "
+    "Kamavardhini Ramapriya Gamanashrama Vishwambari Shamalangi Shanmukhapriya Simhendramadhyamam Hemavati "
+    "Dharmavati Neetimati Kantamani Rishabhapriya Latangi Vachaspati Mechakalyani Chitrambari Sucharitra "
+    "Jyotiswarupini Dhatuvardhani Nasikabhushani Kosalam Rasikapriya";
 
 /// Other names of melakarta, apart from variant spellings.
-const std::vector<std::pair<std::size_t, std::vector<std::string>>>& more_mela_names() {
-    static const std::vector<std::pair<std::size_t, std::vector<std::string>>> names = {
-        {8, {"carnatic-todi"}}, {29, {"shankarabharanam"}}, {36, {"chalanattai"}}, {51, {"pantuvarali"}},
-        {53, {"gamanasrama"}},  {56, {"shanmugapriya"}},    {65, {"kalyani"}},
-    };
-    return names;
-}
+constexpr std::array<std::pair<int, std::string_view>, 7> more_mela_names = {{{8, "carnatic-todi"},
+                                                                              {29, "shankarabharanam"},
+                                                                              {36, "chalanattai"},
+                                                                              {51, "pantuvarali"},
+                                                                              {53, "gamanasrama"},
+                                                                              {56, "shanmugapriya"},
+                                                                              {65, "kalyani"}}};
 
-/// Melakarta `n` by the formula of Venkatamakhin: the six chakras of a half take all pairs of second and third, the
-/// six ragas of a chakra those of sixth and seventh; the fourth is pure in the first half and raised in the second.
-Scale melakarta(int n) {
+/// Melakarta `n`, 1 to 72, by the formula of Venkatamakhin: the six chakras of a half take all pairs of second and
+/// third, the six ragas of a chakra those of sixth and seventh; the fourth is pure in the first half and raised in
+/// the second.
+Scale melakarta(int n, std::string_view name) {
     static constexpr std::array<std::array<int, 2>, 6> pairs = {{{1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
     static constexpr std::array<std::string_view, 12> chakras = {
         "Indu", "Netra", "Agni", "Veda", "Bana", "Rutu", "Rishi", "Vasu", "Brahma", "Disi", "Rudra", "Aditya"};
@@ -299,12 +220,12 @@ Scale melakarta(int n) {
     const int m = n <= 36 ? 5 : 6;
     Scale scale;
     scale.id = fmt::format("mela-{}", n);
-    scale.title = mela_names[static_cast<std::size_t>(n - 1)];
+    scale.title = name;
     scale.group = "melakarta";
     for (const int step : {0, r, g, m, 7, 7 + d, 7 + v}) scale.ascent.push_back(100.0 * step);
     scale.descent = scale.ascent;
-    for (const auto& [at, names] : more_mela_names()) {
-        if (at == static_cast<std::size_t>(n)) scale.names = names;
+    for (const auto& [number, other] : more_mela_names) {
+        if (number == n) scale.names.emplace_back(other);
     }
     scale.sources = fmt::format("melakarta {}, chakra {}: S R{} G{} M{} P D{} N{}", n, chakras[chakra], r, g - 1,
                                 m - 4, d, v - 1);
@@ -323,7 +244,8 @@ struct Catalogue {
 
     Catalogue() {
         read(scales_txt);
-        for (int n = 1; n <= 72; ++n) scales.push_back(melakarta(n));
+        std::string_view names = mela_names;
+        for (int n = 1; n <= 72; ++n) scales.push_back(melakarta(n, take_word(names)));
         for (std::size_t i = 0; i < scales.size(); ++i) {
             claim(scales[i].id, i);
             for (const std::string& name : scales[i].names) claim(name, i);
@@ -560,7 +482,7 @@ std::vector<std::string> similar_scales(std::string_view name) {
         const auto compare = [&](const std::string& word) {
             const std::string other = folded(word);
             if (other.size() > key.size() + enough || key.size() > other.size() + enough) return;
-            const std::size_t slips = distance(key, other);
+            const std::size_t slips = edit_distance(key, other);
             if (slips >= nearest_distance) return;
             nearest_distance = slips;
             nearest_word = &word;

@@ -1,4 +1,4 @@
-#include "music/score/abc.h"
+#include "music/score/score_formats.h"
 
 #include "music/score/comments.h"
 #include "music/score/drums.h"
@@ -60,10 +60,6 @@ std::string_view clef_name(Clef clef) {
     return names[static_cast<std::size_t>(clef)];
 }
 
-int octaves_of(Clef clef) {
-    return clef == Clef::treble_up_8 ? 1 : clef == Clef::treble_8 || clef == Clef::bass_8 ? -1 : 0;
-}
-
 std::string key_name(const std::optional<KeySignature>& key) {
     if (!key) return "C";
     static constexpr std::array<std::string_view, 7> modes = {"lyd", "", "mix", "dor", "min", "phr", "loc"};
@@ -78,12 +74,7 @@ std::string key_name(const std::optional<KeySignature>& key) {
 }
 
 std::string meter_name(const Meter& meter) {
-    if (meter.groups[0] == 0) return fmt::format("{}/{}", meter.beats, meter.unit);
-    std::string groups;
-    for (const std::uint8_t group : meter.groups) {
-        if (group != 0) groups += fmt::format("{}{}", groups.empty() ? "" : "+", group);
-    }
-    return fmt::format("({})/{}", groups, meter.unit);
+    return fmt::format("{}/{}", meter.groups[0] == 0 ? beats_text(meter) : "(" + beats_text(meter) + ")", meter.unit);
 }
 
 class AbcWriter : private TextWriter {
@@ -257,7 +248,7 @@ private:
                 if (next.kind == level) put("!{}!", dynamic_name(next.level));
             }
             if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
-            write_symbol(symbol, octaves_of(clef), signs, altered);
+            write_symbol(symbol, form_of(clef).octaves, signs, altered);
             const std::int64_t end = symbol.onset + symbol.length;
             const bool is_beamed = symbol.beams[0] == Beam::begin || symbol.beams[0] == Beam::inside;
             if (end % bar != 0) {

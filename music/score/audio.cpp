@@ -15,7 +15,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -41,34 +41,8 @@ constexpr std::string_view advice = "apt install fluidsynth timgm6mb-soundfont";
 
 static_assert(std::endian::native == std::endian::little, "samples are handed over as little-endian floats");
 
-// ---- files
-
-/// Writes a file from front to back, with a buffer.
-class AudioFile {
-public:
-    AudioFile(const fs::path& file, fs::path name) : name_(std::move(name)) {
-        file_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-        if (file_.get() < 0) fail(name_, "write", errno);
-    }
-    void write(std::string_view bytes) {
-        buffer_ += bytes;
-        if (buffer_.size() >= flush_bytes) flush();
-    }
-    void close() {
-        flush();
-        file_.reset();
-    }
-
-private:
-    static constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-    void flush() {
-        write_all(file_.get(), buffer_.data(), buffer_.size(), name_);
-        buffer_.clear();
-    }
-    fs::path name_;
-    Descriptor file_;
-    std::string buffer_;
-};
+/// Writes bytes to the end of the file of the sound.
+using Write = std::function<void(std::string_view bytes)>;
 
 // ---- fluidsynth
 
@@ -215,7 +189,7 @@ void put_samples(std::string& out, const std::vector<std::int16_t>& samples) {
     for (const std::int16_t sample : samples) put_little(out, static_cast<std::uint16_t>(sample), 2);
 }
 
-void write_wav(const Rendering& rendering, AudioFile& out) {
+void write_wav(const Rendering& rendering, const Write& write) {
     const std::uint64_t bytes = rendering.frames * channels * 2;
     std::string text = "RIFF";
     put_little(text, 36 + bytes, 4);
@@ -229,13 +203,13 @@ void write_wav(const Rendering& rendering, AudioFile& out) {
     put_little(text, 16, 2);
     text += "data";
     put_little(text, bytes, 4);
-    out.write(text);
+    write(text);
     Samples samples(rendering);
     while (true) {
         const std::vector<std::int16_t>& block = samples.next();
         if (block.empty()) break;
         put_samples(text, block);
-        out.write(text);
+        write(text);
     }
 }
 
@@ -513,7 +487,7 @@ std::string flac_frame(const std::vector<std::int16_t>& samples, std::uint32_t n
 }
 
 /// Writes blocks of fixed size, fixed predictors and Rice codes, which every player supports. Source: RFC 9639.
-void write_flac(const Rendering& rendering, AudioFile& out) {
+void write_flac(const Rendering& rendering, const Write& write) {
     // The checksum of the samples precedes them.
     Md5 checksum;
     std::string bytes;
@@ -536,13 +510,13 @@ void write_flac(const Rendering& rendering, AudioFile& out) {
     head.put(16 - 1, 5);
     head.put(static_cast<std::uint32_t>(rendering.frames >> 32), 4);
     head.put(static_cast<std::uint32_t>(rendering.frames), 32);
-    out.write(head.bytes());
-    out.write(checksum.finish());
+    write(head.bytes());
+    write(checksum.finish());
     std::uint32_t number = 0;
     for (Samples samples(rendering);; ++number) {
         const std::vector<std::int16_t>& block = samples.next();
         if (block.empty()) break;
-        out.write(flac_frame(block, number));
+        write(flac_frame(block, number));
     }
 }
 
@@ -578,13 +552,10 @@ double render_audio(const std::filesystem::path& midi, const std::filesystem::pa
                     const AudioWatch& watch, const std::filesystem::path& given_name) {
     const fs::path& shown = given_name.empty() ? output : given_name;
     const Rendering rendering = render(midi, output, shown, watch);
-    AudioFile out(output, shown);
-    if (format == AudioFormat::wav) {
-        write_wav(rendering, out);
-    } else {
-        write_flac(rendering, out);
-    }
-    out.close();
+    const Descriptor file(::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) fail(shown, "write", errno);
+    (format == AudioFormat::wav ? write_wav : write_flac)(
+        rendering, [&](std::string_view bytes) { write_all(file.get(), bytes.data(), bytes.size(), shown); });
     return rendering.peak;
 }
 

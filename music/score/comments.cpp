@@ -1,6 +1,7 @@
 #include "music/score/comments.h"
 
 #include "engine/base/diagnostic.h"
+#include "engine/base/text.h"
 
 #include <algorithm>
 #include <array>
@@ -29,12 +30,10 @@ std::string head_comments(const ScoreHead& head, std::string_view sign) {
     std::string comments;
     for (std::string_view text : {std::string_view(head.made), std::string_view(head.pattern)}) {
         while (!text.empty()) {
-            const std::size_t end = std::min(text.find('\n'), text.size());
-            std::string line(text.substr(0, end));
+            std::string line(take_line(text));
             if (line.ends_with('\r')) line.pop_back();
             std::replace(line.begin(), line.end(), '\t', ' ');
             comments.append(sign).append(line.empty() ? "" : " ").append(single_line(line)).append("\n");
-            text.remove_prefix(std::min(end + 1, text.size()));
         }
     }
     return comments;

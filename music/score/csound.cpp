@@ -1,4 +1,4 @@
-#include "music/score/csound.h"
+#include "music/score/score_formats.h"
 
 #include "music/score/comments.h"
 #include "music/score/glides.h"
@@ -12,7 +12,6 @@
 #include <iterator>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace sikku {
@@ -66,35 +65,26 @@ double frequency(double key) {
 
 void write_statements(const ScoreHead& head, std::vector<Note> notes, std::int64_t end, Output& out,
                       const Curves& curves) {
-    std::vector<int> instruments;
-    for (std::size_t i = 0; i < head.parts.size(); ++i) {
-        instruments.insert(instruments.end(), static_cast<std::size_t>(std::max(head.parts[i].voices, 0)),
-                           static_cast<int>(i) + 1);
-    }
     sort_by_time(notes);
-    std::string text = tempo_statement(head, curves, end);
+    TextWriter writer(out);
+    writer.put("{}", tempo_statement(head, curves, end));
     const bool glides = has_glides(notes);
     const bool is_panned = has_pan(curves) || glides;
     for (const Note& note : notes) {
-        const int instrument = instruments.at(static_cast<std::size_t>(note.voice));
-        const bool is_drum = head.parts[static_cast<std::size_t>(instrument - 1)].is_drums;
-        constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-        fmt::format_to(std::back_inserter(text), "i {} {} {} {} {} {}{}", instrument, number(quarters(note.onset)),
-                       number(quarters(note.duration)), number(is_drum ? note.key : frequency(note.key)),
-                       number(note.velocity / 127.0), note.voice + 1,
-                       is_panned ? " " + number(pan_of(note, curves)) : "");
+        const std::size_t part = head.part_index(note.voice);
+        const bool is_drum = head.parts[part].is_drums;
+        writer.put("i {} {} {} {} {} {}{}", part + 1, number(quarters(note.onset)), number(quarters(note.duration)),
+                   number(is_drum ? note.key : frequency(note.key)), number(note.velocity / 127.0), note.voice + 1,
+                   is_panned ? " " + number(pan_of(note, curves)) : "");
         if (glides && !is_drum) {
             const std::int64_t level = note.duration - note.glide.ticks;
-            fmt::format_to(std::back_inserter(text), " {} {}", number(frequency(last_key(note))),
-                           number(static_cast<double>(level) / static_cast<double>(note.duration)));
+            writer.put(" {} {}", number(frequency(last_key(note))),
+                       number(static_cast<double>(level) / static_cast<double>(note.duration)));
         }
-        text += '\n';
-        if (text.size() < flush_bytes) continue;
-        out.write(text);
-        text.clear();
+        writer.put("\n");
     }
-    fmt::format_to(std::back_inserter(text), "f 0 {}\ne\n", number(quarters(end) + 2));
-    out.write(text);
+    writer.put("f 0 {}\ne\n", number(quarters(end) + 2));
+    writer.flush();
 }
 
 /// The greatest sum of the velocities that sound together, 1 for one at its loudest.

@@ -1,4 +1,4 @@
-#include "music/score/lilypond.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/diagnostic.h"
 #include "music/score/comments.h"
@@ -23,19 +23,6 @@ namespace sikku {
 namespace {
 
 constexpr std::string_view rit = "\\markup \\normal-text \\italic \"rit.\" ";
-
-}  // namespace
-
-std::string lilypond_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char byte : single_line(text)) {
-        if (byte == '"' || byte == '\\') result += '\\';
-        result += byte;
-    }
-    return result + '"';
-}
-
-namespace {
 
 /// The name of a pitch: c d e … b, a sign (also for quarter tones), the octave: c' is middle C.
 std::string pitch_name(const Pitch& pitch) {
@@ -69,8 +56,6 @@ std::string meter_name(const Meter& meter) {
 }
 
 std::string key_name(const KeySignature& key) {
-    static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
-                                                              "minor",  "phrygian", "locrian"};
     // Along the fifths, from the tonic of seven flats in lydian on.
     constexpr std::string_view letters = "fcgdaeb";
     const int from_f = std::clamp(key.fifths, -7, 7) + static_cast<int>(key.mode);
@@ -80,7 +65,7 @@ std::string key_name(const KeySignature& key) {
                        sharps < 0   ? "es"
                        : sharps > 0 ? "is"
                                     : "",
-                       modes[static_cast<std::size_t>(key.mode)]);
+                       mode_name(key.mode));
 }
 
 class LilypondWriter : private TextWriter {
@@ -378,17 +363,9 @@ private:
     }
 
     static std::string mark_text(const DynamicMark& mark) {
-        switch (mark.kind) {
-            case DynamicMark::Kind::crescendo:
-                return "\\<";
-            case DynamicMark::Kind::diminuendo:
-                return "\\>";
-            case DynamicMark::Kind::end:
-                return "\\!";
-            case DynamicMark::Kind::level:
-                break;
-        }
-        return fmt::format("\\{}", dynamic_name(mark.level));
+        using enum DynamicMark::Kind;
+        if (mark.kind == level) return fmt::format("\\{}", dynamic_name(mark.level));
+        return mark.kind == crescendo ? "\\<" : mark.kind == diminuendo ? "\\>" : "\\!";
     }
 
     /// Writes a clef or a line of 8va that begins with a symbol; the first clef is written already.
@@ -517,6 +494,15 @@ private:
 };
 
 }  // namespace
+
+std::string lilypond_string(std::string_view text) {
+    std::string result = "\"";
+    for (const char byte : single_line(text)) {
+        if (byte == '"' || byte == '\\') result += '\\';
+        result += byte;
+    }
+    return result + '"';
+}
 
 void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink) {
     LilypondWriter(notation, head, sink).write();

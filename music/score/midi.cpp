@@ -17,10 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,9 +29,6 @@ namespace {
 
 constexpr std::uint64_t most_track_bytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t most_voices = most_pitched_channels;
-/// Half a cent, which is inaudible, and a margin, as cents are not exact in binary.
-constexpr double least_fraction = 0.005 + 1e-9;
-constexpr int release = 64;  // the velocity of a note-off that does not matter
 constexpr std::uint32_t unset = ~std::uint32_t{0};
 constexpr int none = -1;
 
@@ -232,22 +226,14 @@ private:
         head_bytes_ = front.size() + size;
     }
 
-    int part_of(int voice) const {
-        for (std::size_t i = 0; i < head_.parts.size(); ++i) {
-            voice -= std::max(head_.parts[i].voices, 0);
-            if (voice < 0) return static_cast<int>(i);
-        }
-        return 0;  // refused before
-    }
-
     std::unique_ptr<Voice> begin_voice(std::int16_t number) {
-        const bool is_drums = head_.parts[static_cast<std::size_t>(part_of(number))].is_drums;
+        const bool is_drums = head_.part_of(number).is_drums;
         if (!is_drums && !options_.share_channels && !is_mpe_ && pitched_ == most_voices) {
             throw ScoreError(fmt::format("too many voices: a MIDI file has channels for {}", most_voices));
         }
         auto voice = std::make_unique<Voice>();
         voice->number = number;
-        const int slot = options_.share_channels         ? slots_[static_cast<std::size_t>(part_of(number))]
+        const int slot = options_.share_channels         ? slots_[head_.part_index(number)]
                          : voices_.size() <= most_voices ? number
                                                          : static_cast<int>(pitched_);
         voice->is_drums = is_drums;
@@ -255,7 +241,7 @@ private:
         voice->channel = is_drums ? drum_channel : slot < drum_channel ? slot : slot + 1;
         ++sounding_;
         pitched_ += is_drums ? 0 : 1;
-        voice->program = head_.parts[static_cast<std::size_t>(part_of(number))].program;
+        voice->program = head_.part_of(number).program;
         if (options_.microtonal && options_.tuning == Tuning::mts && !is_drums) voice->tuned.assign(128, unset);
         return voice;
     }
@@ -263,18 +249,17 @@ private:
     /// The name of a voice as in print. The voices of its part that sound are numbered; for a streamed voice all are,
     /// as more may follow.
     std::string name_of(const Voice& voice) const {
-        const int part = part_of(voice.number);
-        const std::string& name = labels_[static_cast<std::size_t>(part)].name;
+        const std::size_t part = head_.part_index(voice.number);
+        const std::string& name = labels_[part].name;
         if (name.empty()) return {};
         std::size_t before = 0;
         std::size_t count = 0;
         for (const auto& one : voices_) {
-            if (!one || part_of(one->number) != part) continue;
+            if (!one || head_.part_index(one->number) != part) continue;
             before += one->number < voice.number ? 1 : 0;
             ++count;
         }
-        if (streamed_ && voice.number == 0)
-            count = static_cast<std::size_t>(head_.parts[static_cast<std::size_t>(part)].voices);
+        if (streamed_ && voice.number == 0) count = static_cast<std::size_t>(head_.parts[part].voices);
         return line_name(name, before, count);
     }
 
@@ -283,17 +268,7 @@ private:
         std::string bytes;
         const std::string name = name_of(voice);
         if (!name.empty()) bytes += meta_now(options_.format == 1 ? name_type : instrument_type, name);
-        const int channel = voice.channel;
-        if (is_mpe_) return bytes;
-        if (options_.microtonal && options_.tuning == Tuning::bend && !voice.is_drums) {
-            bytes += parameter_now(channel, bend_range_parameter, options_.bend_range) + no_parameter_now(channel);
-        }
-        if (options_.microtonal && options_.tuning == Tuning::mts && !voice.is_drums) {
-            // Each voice has its own tuning program, so that voices do not retune each other's keys.
-            bytes += parameter_now(channel, tuning_bank_parameter, 0) +
-                     parameter_now(channel, tuning_program_parameter, channel) + no_parameter_now(channel);
-        }
-        return bytes.append({'\0', static_cast<char>(status(0xC0, channel)), static_cast<char>(voice.program)});
+        return is_mpe_ ? bytes : bytes + messages_now(channel_setup(voice.channel, options_, voice.program));
     }
 
     /// Writes the first notes as long as they belong to this voice; returns their number.

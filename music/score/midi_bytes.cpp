@@ -1,6 +1,5 @@
 #include "music/score/midi_bytes.h"
 
-#include "music/score/mpe.h"
 #include "music/score/score.h"
 
 #include <array>
@@ -38,24 +37,11 @@ std::string meta_now(int type, std::string_view data) {
     return '\0' + meta(type, data);
 }
 
-std::string controller_now(int channel, int number, int value) {
-    return {'\0', static_cast<char>(status(0xB0, channel)), static_cast<char>(number), static_cast<char>(value)};
-}
-
-std::string parameter_now(int channel, int parameter, int value) {
-    return controller_now(channel, 101, 0) + controller_now(channel, 100, parameter) +
-           controller_now(channel, 6, value) + controller_now(channel, 38, 0);
-}
-
-std::string no_parameter_now(int channel) {
-    return controller_now(channel, 101, 127) + controller_now(channel, 100, 127);
-}
-
-std::string mpe_configuration() {
-    std::string bytes = parameter_now(mpe_master, mpe_parameter, mpe_members) + no_parameter_now(mpe_master);
-    for (int channel = 0; channel < channels; ++channel) {
-        if (!is_mpe_member(channel)) continue;
-        bytes += parameter_now(channel, bend_range_parameter, mpe_bend_range) + no_parameter_now(channel);
+std::string messages_now(std::span<const Message> messages) {
+    std::string bytes;
+    for (const Message& message : messages) {
+        bytes += '\0';
+        bytes.append(message.span().begin(), message.span().end());
     }
     return bytes;
 }

@@ -1,7 +1,10 @@
 // music/score/midi_bytes.h: the numbers and messages of MIDI files as bytes.
 #pragma once
 
+#include "music/score/midi_message.h"
+
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,9 +12,6 @@ namespace sikku::midi {
 
 /// The largest number that four bytes of seven bits can represent.
 constexpr std::uint64_t most_delta = (std::uint64_t{1} << 28) - 1;
-constexpr int channels = 16;
-constexpr int drum_channel = 9;  ///< General MIDI, counted from 0
-constexpr int centre = 8192;     ///< value without pitch bend
 
 inline char* put_byte(char* out, int byte) {
     *out = static_cast<char>(byte);
@@ -54,17 +54,7 @@ constexpr int key_type = 0x59;
 std::string meta(int type, std::string_view data);
 /// A meta event at the tick of the event before it.
 std::string meta_now(int type, std::string_view data);
-std::string controller_now(int channel, int number, int value);
-
-constexpr int bend_range_parameter = 0;
-constexpr int tuning_program_parameter = 3;
-constexpr int tuning_bank_parameter = 4;
-constexpr int mpe_parameter = 6;
-/// A registered parameter: selects it, then sets both halves of its value.
-std::string parameter_now(int channel, int parameter, int value);
-/// Deselects the parameter, so that further data entry has no effect.
-std::string no_parameter_now(int channel);
-/// Assigns channels 2 to 16 to single notes. The range of the bend is repeated for synthesizers without MPE.
-std::string mpe_configuration();
+/// Messages at the tick of the event before them.
+std::string messages_now(std::span<const Message> messages);
 
 }  // namespace sikku::midi

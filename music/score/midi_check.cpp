@@ -126,11 +126,16 @@ public:
 private:
     bool is_full() const { return faults_.size() == most_midi_faults; }
 
-    void fault(std::size_t at, std::string what) {
-        if (!is_full()) faults_.push_back({at, std::move(what)});
+    /// Adds a fault. @return false
+    template <class... Values>
+    bool fault(std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
+        if (!is_full()) faults_.push_back({at, fmt::format(what, std::forward<Values>(values)...)});
+        return false;
     }
-    void fault(const TrackState& track, std::size_t at, std::string_view what) {
-        fault(at, fmt::format("track {}, tick {}: {}", track.number, track.tick, what));
+    template <class... Values>
+    void fault(const TrackState& track, std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
+        fault(at, "track {}, tick {}: {}", track.number, track.tick,
+              fmt::format(what, std::forward<Values>(values)...));
     }
 
     std::size_t size() const { return bytes_.size(); }
@@ -165,28 +170,18 @@ private:
 
     /// False if nothing can be read after it.
     bool read_header() {
-        if (size() == 0) {
-            fault(0, "this is not a MIDI file: it is empty");
-            return false;
-        }
+        if (size() == 0) return fault(0, "this is not a MIDI file: it is empty");
         if (!has(0, "MThd")) {
-            fault(0, has(0, "RIFF") ? "this is a RIFF file, not a MIDI file, though it may contain one"
-                                    : "this is not a MIDI file: it does not begin with MThd");
-            return false;
+            return fault(0, "{}",
+                         has(0, "RIFF") ? "this is a RIFF file, not a MIDI file, though it may contain one"
+                                        : "this is not a MIDI file: it does not begin with MThd");
         }
-        if (size() < header_bytes) {
-            fault(size(), "header: the file ends within it");
-            return false;
-        }
+        if (size() < header_bytes) return fault(size(), "header: the file ends within it");
         const std::uint32_t length = big_endian(4, 4);
-        if (length < 6) {
-            fault(4, fmt::format("header: a length of {}, but 6 are needed", bytes_of(length)));
-            return false;
-        }
+        if (length < 6) return fault(4, "header: a length of {}, but 6 are needed", bytes_of(length));
         if (length > size() - chunk_head_bytes) {
-            fault(4, fmt::format("header: a length of {}, but the file ends after {}", bytes_of(length),
-                                 size() - chunk_head_bytes));
-            return false;
+            return fault(4, "header: a length of {}, but the file ends after {}", bytes_of(length),
+                         size() - chunk_head_bytes);
         }
         const auto format = static_cast<int>(big_endian(8, 2));
         format_ = format;
@@ -194,11 +189,11 @@ private:
         division_ = static_cast<int>(big_endian(12, 2));
         if (division_ >= 0x8000) division_ -= 0x10000;
         if (format > 2) {
-            fault(8, fmt::format("header: format {}, but there are only 0, 1 and 2", format));
+            fault(8, "header: format {}, but there are only 0, 1 and 2", format);
         } else if (format == 2) {
             fault(8, "header: format 2, tracks that are songs of their own, which hardly any program reads");
         } else if (format == 0 && declared_ > 1) {
-            fault(8, fmt::format("header: format 0 has one track, and not {}", declared_));
+            fault(8, "header: format 0 has one track, and not {}", declared_);
         }
         if (declared_ == 0) fault(10, "header: it declares no tracks");
         check_division();
@@ -214,9 +209,10 @@ private:
         }
         const int frames = -(division_ >> 8);
         if (frames != 24 && frames != 25 && frames != 29 && frames != 30) {
-            fault(12, fmt::format("header: a division of {} SMPTE frames a second, but there are only 24, 25, 29 "
-                                  "(for 29.97) and 30",
-                                  frames));
+            fault(12,
+                  "header: a division of {} SMPTE frames a second, but there are only 24, 25, 29 "
+                  "(for 29.97) and 30",
+                  frames);
         }
         if ((division_ & 0xFF) == 0) fault(13, "header: a division of 0 ticks a SMPTE frame");
     }
@@ -233,10 +229,9 @@ private:
                 at_ += chunk_head_bytes + big_endian(at_ + 4, 4);
             } else {
                 const std::size_t next = next_track(at_ + 1);
-                fault(at_, fmt::format(
-                               "{}: {} that form no chunk",
-                               found_ == 0 ? std::string("after the header") : fmt::format("after track {}", found_),
-                               bytes_of(next - at_)));
+                fault(at_, "{}: {} that form no chunk",
+                      found_ == 0 ? std::string("after the header") : fmt::format("after track {}", found_),
+                      bytes_of(next - at_));
                 at_ = next;
             }
         }
@@ -244,8 +239,8 @@ private:
 
     void check_tracks() {
         if (found_ != declared_) {
-            fault(10, fmt::format("header: it declares {} track{}, but there {} {}", declared_,
-                                  declared_ == 1 ? "" : "s", found_ == 1 ? "is" : "are", found_));
+            fault(10, "header: it declares {} track{}, but there {} {}", declared_, declared_ == 1 ? "" : "s",
+                  found_ == 1 ? "is" : "are", found_);
         }
         check_ends();
     }
@@ -263,8 +258,8 @@ private:
         for (const auto& [number, tick, at] : ends_) {
             const double hours = static_cast<double>(tick - last_tick_) * seconds / 3600.0;
             if (hours > 1.0) {
-                fault(at, fmt::format("track {}, tick {}: its end-of-track comes {:.1f} hours after the last event",
-                                      number, tick, hours));
+                fault(at, "track {}, tick {}: its end-of-track comes {:.1f} hours after the last event", number, tick,
+                      hours);
             }
         }
     }
@@ -282,7 +277,7 @@ private:
         if (is_full()) return;
         if (!track.ended && track.end > size()) {
             track.is_readable = false;
-            fault(track, size(), fmt::format("the file ends within it; {} missing", bytes_of(track.end - size())));
+            fault(track, size(), "the file ends within it; {} missing", bytes_of(track.end - size()));
         } else if (track.ended && track.is_readable && track.end > size() && track.at == size()) {
             fault_length(track, fmt::format("its end-of-track, and with it the file, comes after {}",
                                             size() - track.head - chunk_head_bytes));
@@ -295,8 +290,8 @@ private:
     }
 
     void fault_length(const TrackState& track, std::string_view what) {
-        fault(track.head + 4, fmt::format("track {}: its length is given as {}, but {}", track.number,
-                                          bytes_of(big_endian(track.head + 4, 4)), what));
+        fault(track.head + 4, "track {}: its length is given as {}, but {}", track.number,
+              bytes_of(big_endian(track.head + 4, 4)), what);
     }
 
     /// Reads one event; false at the end of the track.
@@ -414,18 +409,18 @@ private:
         if (event.is_running && track.running == 0) {
             if (event.status == 0) {
                 fault(track, event.at,
-                      fmt::format("data byte {:02X} where the status of an event is needed; the rest of the track is "
-                                  "ignored",
-                                  bytes_[event.at]));
+                      "data byte {:02X} where the status of an event is needed; the rest of the track is "
+                      "ignored",
+                      bytes_[event.at]);
                 track.is_readable = false;
                 track.ended = true;  // as far as it can be read
                 track.at = track.limit;
                 return;
             }
             fault(track, event.at,
-                  fmt::format("data byte {:02X} where the status of an event is needed: running status ends with a "
-                              "meta or sysex event",
-                              bytes_[event.at]));
+                  "data byte {:02X} where the status of an event is needed: running status ends with a "
+                  "meta or sysex event",
+                  bytes_[event.at]);
         }
         const bool is_end = event.status == 0xFF && event.type == end_of_track;
         if (!is_end) note_event_at(track.tick);
@@ -438,7 +433,7 @@ private:
             } else if (event.status == 0xF0 || event.status == 0xF7) {
                 read_sysex(track, event);
             } else {
-                fault(track, event.at, fmt::format("status byte {:02X}, which no MIDI file may have", event.status));
+                fault(track, event.at, "status byte {:02X}, which no MIDI file may have", event.status);
             }
         }
         if (is_end) {
@@ -448,7 +443,7 @@ private:
     }
 
     void fault_number(const TrackState& track, std::size_t at, std::size_t count) {
-        fault(track, at, fmt::format("a variable-length number of {} bytes, but 4 is the most", count));
+        fault(track, at, "a variable-length number of {} bytes, but 4 is the most", count);
     }
 
     void note_event_at(std::int64_t tick) { last_tick_ = std::max(last_tick_, tick); }
@@ -456,7 +451,7 @@ private:
     void read_channel_event(TrackState& track, const Layout& event) {
         track.running = track.last_channel_status = event.status;
         for (std::size_t i = event.data; i < event.next; ++i) {
-            if (bytes_[i] > 0x7F) fault(track, i, fmt::format("data byte {:02X} is above 7F", bytes_[i]));
+            if (bytes_[i] > 0x7F) fault(track, i, "data byte {:02X} is above 7F", bytes_[i]);
         }
         const int kind = event.status & 0xF0;
         if (kind != 0x80 && kind != 0x90) return;
@@ -477,9 +472,8 @@ private:
         std::size_t told = no_fault;
         if (!notes.empty() && !is_full()) {
             told = faults_.size();
-            fault(track, at,
-                  fmt::format("a note-on of {}, which sounds since tick {}", name_of(channel, key),
-                              notes.starts[notes.first].tick));
+            fault(track, at, "a note-on of {}, which sounds since tick {}", name_of(channel, key),
+                  notes.starts[notes.first].tick);
         }
         notes.starts.push_back({track.tick, at, told});
     }
@@ -487,13 +481,13 @@ private:
     void end_note(TrackState& track, std::size_t at, int channel, int key) {
         Sounding& notes = sounding(channel, key);
         if (notes.empty()) {
-            fault(track, at, fmt::format("a note-off of {}, which does not sound", name_of(channel, key)));
+            fault(track, at, "a note-off of {}, which does not sound", name_of(channel, key));
             return;
         }
         const Start start = notes.take();
         --track.sounding;
         if (start.tick == track.tick) {
-            fault(track, start.at, fmt::format("a note without length of {}", name_of(channel, key)));
+            fault(track, start.at, "a note without length of {}", name_of(channel, key));
             return;
         }
         if (notes.empty()) return;
@@ -513,9 +507,8 @@ private:
             Sounding& notes = sounding_[i];
             while (!notes.empty() && track.is_readable && !is_full()) {
                 const Start start = notes.take();
-                fault(start.at,
-                      fmt::format("track {}, tick {}: a note of {} that does not end", track.number, start.tick,
-                                  name_of(static_cast<int>(i / 128), static_cast<int>(i % 128))));
+                fault(start.at, "track {}, tick {}: a note of {} that does not end", track.number, start.tick,
+                      name_of(static_cast<int>(i / 128), static_cast<int>(i % 128)));
             }
             notes.clear();
         }
@@ -533,7 +526,7 @@ private:
         track.sysex_is_open = !ends;
         for (std::size_t i = 0; i + (ends ? 1 : 0) < data.size(); ++i) {
             if (data[i] > 0x7F) {
-                fault(track, event.data + i, fmt::format("byte {:02X} within a sysex message", data[i]));
+                fault(track, event.data + i, "byte {:02X} within a sysex message", data[i]);
                 break;
             }
         }
@@ -541,17 +534,16 @@ private:
 
     void read_meta(TrackState& track, const Layout& event) {
         if (event.type > 0x7F) {
-            fault(track, event.at + 1, fmt::format("a meta event of type {:02X}, which is above 7F", event.type));
+            fault(track, event.at + 1, "a meta event of type {:02X}, which is above 7F", event.type);
             return;
         }
         if (event.type == 0 && event.size != 2 && event.size != 0) {
-            fault(track, event.length_at, fmt::format("a sequence number of {} instead of 2", bytes_of(event.size)));
+            fault(track, event.length_at, "a sequence number of {} instead of 2", bytes_of(event.size));
         }
         for (const MetaForm& form : meta_forms) {
             if (form.type != event.type) continue;
             if (form.size != event.size) {
-                fault(track, event.length_at,
-                      fmt::format("{} of {} instead of {}", form.name, bytes_of(event.size), form.size));
+                fault(track, event.length_at, "{} of {} instead of {}", form.name, bytes_of(event.size), form.size);
                 return;
             }
         }
@@ -572,21 +564,18 @@ private:
                 fault(track, event.at, "a tempo outside the first track, which programs ignore in format 1");
             }
         } else if (event.type == 0x20 && data(0) > 15) {
-            fault(track, event.data, fmt::format("a channel prefix of {}, but 15 is the most", data(0)));
+            fault(track, event.data, "a channel prefix of {}, but 15 is the most", data(0));
         } else if (event.type == 0x58) {
             if (data(0) == 0) fault(track, event.data, "a time signature of no beats");
             // 2^7 is a 128th, the shortest that has a name.
-            if (data(1) > 7) {
-                fault(track, event.data + 1, fmt::format("a time signature in units of 1/2^{}", data(1)));
-            }
+            if (data(1) > 7) fault(track, event.data + 1, "a time signature in units of 1/2^{}", data(1));
         } else if (event.type == 0x59) {
             const int fifths = data(0) < 0x80 ? data(0) : data(0) - 0x100;
             if (fifths < -7 || fifths > 7) {
-                fault(track, event.data, fmt::format("a key signature of {} fifths, but 7 is the most", fifths));
+                fault(track, event.data, "a key signature of {} fifths, but 7 is the most", fifths);
             }
             if (data(1) > 1) {
-                fault(track, event.data + 1,
-                      fmt::format("a key signature of mode {}; 0 is major, 1 is minor", data(1)));
+                fault(track, event.data + 1, "a key signature of mode {}; 0 is major, 1 is minor", data(1));
             }
         }
     }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 
 namespace sikku::midi {
 namespace {
@@ -60,7 +59,7 @@ std::string Conductor::make_opening(bool is_mpe) const {
         const KeySignature key = *head_->parts.front().key;
         bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
     }
-    if (is_mpe) bytes += mpe_configuration();
+    if (is_mpe) bytes += messages_now(mpe_setup());
     return bytes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace sikku::midi {
@@ -9,20 +10,9 @@ namespace {
 
 /// The order of events of one tick in the file.
 int rank(unsigned char status) {
-    switch (status & 0xF0) {
-        case 0xB0:
-            return 1;
-        case 0xC0:
-            return 2;
-        case 0x80:
-            return 3;
-        case 0xE0:
-            return 4;
-        case 0x90:
-            return 5;
-        default:
-            return status == 0xF0 ? 4 : 0;
-    }
+    // By kind: controllers, program, note-offs, bends, note-ons; others come first, except tunings.
+    static constexpr std::array<int, 16> ranks = {0, 0, 0, 0, 0, 0, 0, 0, 3, 5, 0, 1, 2, 0, 4, 0};
+    return status == 0xF0 ? 4 : ranks[status >> 4];
 }
 
 }  // namespace
@@ -95,10 +85,11 @@ char* retune(Voice& voice, char* out, std::uint64_t rest, int key, double fracti
     if (wanted == tuned) return out;
     tuned = wanted;
     out = put_delta(out, rest);
-    // Real time, to all devices: in this tuning program one key sounds as so many semitones and 2^-14 of them.
-    for (const int byte : {0xF0, 11, 0x7F, 0x7F, 0x08, 0x02, voice.channel, 1, key}) out = put_byte(out, byte);
-    for (const int shift : {14, 7, 0}) out = put_byte(out, static_cast<int>(wanted >> shift & 0x7F));
-    return put_byte(out, 0xF7);
+    const Message message = key_tuning(voice.channel, key, wanted);
+    // In files the number of the bytes that follow stands behind the first.
+    out = put_byte(put_byte(out, message.bytes[0]), message.size - 1);
+    for (const std::uint8_t byte : message.span().subspan(1)) out = put_byte(out, byte);
+    return out;
 }
 
 }  // namespace sikku::midi

@@ -15,8 +15,6 @@
 
 namespace sikku::midi {
 
-/// Channels besides that of drums.
-constexpr std::size_t most_pitched_channels = channels - 1;
 constexpr std::size_t block_bytes = std::size_t{1} << 16;
 /// Bytes that a note may need, including a tuning before it.
 constexpr std::size_t note_room = 14 + 14;

@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -31,25 +32,6 @@ std::string shortened(std::string_view text, std::size_t most) {
     }
     return std::string(text);
 }
-
-/// Writes text in pieces.
-class Pieces {
-public:
-    explicit Pieces(Output& out) : out_(out) {}
-    std::string& text() {
-        if (text_.size() >= flush_bytes) flush();
-        return text_;
-    }
-    void flush() {
-        out_.write(text_);
-        text_.clear();
-    }
-
-private:
-    static constexpr std::size_t flush_bytes = std::size_t{1} << 16;
-    Output& out_;
-    std::string text_;
-};
 
 // ---- colours
 
@@ -157,24 +139,21 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
     return head.source.empty() ? text : fmt::format("{} · {}", shortened(head.source, 90), text);
 }
 
-/// Changes of tempo, and points of pan and pitch: [voice, tick, number, value].
-void write_curves(std::string& out, const Curves& curves, const std::vector<TempoPoint>& tempos) {
-    out += "\"tempos\":[";
-    for (std::size_t i = 0; i < tempos.size(); ++i) {
-        out += fmt::format("{}[{},", i > 0 ? "," : "", tempos[i].tick);
-        put_number(out, tempos[i].factor, 4);
-        out += ']';
+/// Writes changes of tempo, and points of pan and pitch: [voice, tick, number, value].
+void write_curves(TextWriter& out, const Curves& curves, const std::vector<TempoPoint>& tempos) {
+    std::string_view comma;
+    out.put("\"tempos\":[");
+    for (const TempoPoint& point : tempos) {
+        out.put("{}[{},{}]", std::exchange(comma, ","), point.tick, number(point.factor, 4));
     }
-    out += "],\"controls\":[";
-    bool is_first = true;
+    out.put("],\"controls\":[");
+    comma = {};
     for (const ControlPoint& point : curves.controls) {
         if (point.number != ControlPoint::pan && point.number != ControlPoint::bend) continue;
-        out += fmt::format("{}[{},{},{},", is_first ? "" : ",", point.voice, point.tick, point.number);
-        put_number(out, point.value, 4);
-        out += ']';
-        is_first = false;
+        out.put("{}[{},{},{},{}]", std::exchange(comma, ","), point.voice, point.tick, point.number,
+                number(point.value, 4));
     }
-    out += "],";
+    out.put("],");
 }
 
 /// The voices of drums.
@@ -218,7 +197,7 @@ constexpr double key_names_width = 8.0;
 constexpr double between_panels = 10.0;
 constexpr double narrowest_note = 0.8;  // two pixels of a screen that shows the whole page
 
-void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
+void write_curve(const Melody& melody, const Panel& panel, TextWriter& out) {
     const glm::dvec2 extent = melody.curve_high - melody.curve_low;
     const double room = 1.2;  // for the strokes' width
     const double step = std::min(extent.x > 0.0 ? (panel.width - room) / extent.x : panel.height,
@@ -230,35 +209,34 @@ void write_curve(const Melody& melody, const Panel& panel, Pieces& out) {
     };
     const double width = std::clamp(0.28 * step, 0.08, 1.2);
     const std::vector<Joint> gaps = joints(melody);
-    out.text() +=
-        fmt::format("<g id=\"curve\" fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\">\n", number(width));
+    out.put("<g id=\"curve\" fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\">\n", number(width));
     // Writes several paths, as readers refuse very long attributes.
     constexpr std::size_t joints_of_a_path = 1000;
     for (std::size_t i = 0; i < gaps.size(); i += joints_of_a_path) {
-        out.text() += fmt::format("<path class=\"silent\" stroke=\"#9a9aa5\" stroke-width=\"{}\" d=\"",
-                                  number(std::max(0.3 * width, 0.05)));
+        out.put("<path class=\"silent\" stroke=\"#9a9aa5\" stroke-width=\"{}\" d=\"",
+                number(std::max(0.3 * width, 0.05)));
         for (std::size_t k = i; k < std::min(i + joints_of_a_path, gaps.size()); ++k) {
             const glm::dvec2 from = place(gaps[k].from);
             const glm::dvec2 to = place(gaps[k].to);
-            out.text() += fmt::format("M{} {}L{} {}", number(from.x), number(from.y), number(to.x), number(to.y));
+            out.put("M{} {}L{} {}", number(from.x), number(from.y), number(to.x), number(to.y));
         }
-        out.text() += "\"/>\n";
+        out.put("\"/>\n");
     }
     for (const Note& note : melody.notes) {
         const glm::dvec2 from = place(note.from);
         const glm::dvec2 to = place(note.to);
-        out.text() += fmt::format("<line stroke=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n",
-                                  ramp_colour(paper_ramp, melody.height(note.key)), number(from.x), number(from.y),
-                                  number(to.x), number(to.y));
+        out.put("<line stroke=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n",
+                ramp_colour(paper_ramp, melody.height(note.key)), number(from.x), number(from.y), number(to.x),
+                number(to.y));
         if (note.glide.rise == 0) continue;
-        out.text() += fmt::format("<path class=\"glide\" stroke=\"{}\" d=\"M{} {}V{}\"/>\n",
-                                  ramp_colour(paper_ramp, melody.height(last_key(note))), number(to.x), number(to.y),
-                                  number(place(note.end_point()).y));
+        out.put("<path class=\"glide\" stroke=\"{}\" d=\"M{} {}V{}\"/>\n",
+                ramp_colour(paper_ramp, melody.height(last_key(note))), number(to.x), number(to.y),
+                number(place(note.end_point()).y));
     }
-    out.text() += "</g>\n";
+    out.put("</g>\n");
 }
 
-void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel, Pieces& out) {
+void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel, TextWriter& out) {
     // At least an octave high, so that a few notes do not become wide bars.
     int low = static_cast<int>(std::floor(melody.low)) - 1;
     int high = static_cast<int>(std::ceil(melody.high)) + 1;
@@ -272,25 +250,24 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     const auto middle = [&](double key) { return panel.top + panel.height - row * (key - low + 0.5); };
     const double bottom = panel.top + panel.height;
 
-    out.text() += "<g id=\"keys\">\n";
-    out.text() += fmt::format("<rect fill=\"#fafafc\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
-                              number(panel.left), number(panel.top), number(panel.width), number(panel.height));
+    out.put("<g id=\"keys\">\n");
+    out.put("<rect fill=\"#fafafc\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", number(panel.left),
+            number(panel.top), number(panel.width), number(panel.height));
     for (int key = low; key <= high; ++key) {
         if (!is_black(key)) continue;
-        out.text() +=
-            fmt::format("<rect fill=\"#f0f0f4\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", number(panel.left),
-                        number(middle(key) - 0.5 * row), number(panel.width), number(row));
+        out.put("<rect fill=\"#f0f0f4\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", number(panel.left),
+                number(middle(key) - 0.5 * row), number(panel.width), number(row));
     }
     for (int key = low; key <= high; ++key) {
         if (((key % 12) + 12) % 12 != 0) continue;
         const double line = middle(key) + 0.5 * row;
-        out.text() += fmt::format(
+        out.put(
             "<path class=\"octave\" stroke=\"#b9b9c4\" stroke-width=\"0.15\" d=\"M{} {}h{}\"/>\n"
             "<text fill=\"#5c5c68\" font-size=\"2.8\" text-anchor=\"end\" x=\"{}\" y=\"{}\">C{}</text>\n",
             number(panel.left), number(line), number(panel.width), number(panel.left - 1.2),
             number(middle(key) + 1.0), (key + 120) / 12 - 11);
     }
-    out.text() += "</g>\n<g id=\"bars\">\n";
+    out.put("</g>\n<g id=\"bars\">\n");
     // Every bar, or every 2nd, 4th, 8th if lines would merge into grey; a number at most every 12 mm.
     const auto bar = static_cast<double>(std::max<std::int64_t>(head.meter.bar(), 1)) * width_of_tick;
     std::int64_t every = 1;
@@ -299,14 +276,14 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     while (bar * static_cast<double>(named) < 12.0) named *= 2;
     const std::int64_t ticks = std::max<std::int64_t>(head.meter.bar(), 1);
     for (std::int64_t i = 0; i <= melody.end / ticks; i += every) {
-        out.text() += fmt::format("<path class=\"bar\" stroke=\"#cfcfd8\" stroke-width=\"0.12\" d=\"M{} {}V{}\"/>\n",
-                                  number(across(i * ticks)), number(panel.top), number(bottom));
+        out.put("<path class=\"bar\" stroke=\"#cfcfd8\" stroke-width=\"0.12\" d=\"M{} {}V{}\"/>\n",
+                number(across(i * ticks)), number(panel.top), number(bottom));
         if (i % named == 0 && i * ticks < melody.end) {
-            out.text() += fmt::format("<text fill=\"#5c5c68\" font-size=\"2.8\" x=\"{}\" y=\"{}\">{}</text>\n",
-                                      number(across(i * ticks)), number(bottom + 4.0), i + 1);
+            out.put("<text fill=\"#5c5c68\" font-size=\"2.8\" x=\"{}\" y=\"{}\">{}</text>\n",
+                    number(across(i * ticks)), number(bottom + 4.0), i + 1);
         }
     }
-    out.text() += "</g>\n<g id=\"roll\">\n";
+    out.put("</g>\n<g id=\"roll\">\n");
     const double thick = std::max(0.86 * row, 0.6);
     for (const Note& note : melody.notes) {
         // A gap at the end separates repeated notes.
@@ -314,25 +291,23 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
         const double full = width_of_tick * static_cast<double>(level);
         // Notes of a very long score overlap rather than vanish.
         const double width = std::max(full > 0.6 ? full - 0.2 : full * 0.7, narrowest_note);
-        out.text() += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
-                                  ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
-                                  number(middle(note.key) - 0.5 * thick), number(width), number(thick),
-                                  number(std::min({0.4, 0.3 * thick, 0.3 * width})));
+        out.put("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>\n",
+                ramp_colour(paper_ramp, melody.height(note.key)), number(across(note.onset)),
+                number(middle(note.key) - 0.5 * thick), number(width), number(thick),
+                number(std::min({0.4, 0.3 * thick, 0.3 * width})));
         if (note.glide.ticks == 0) continue;
-        out.text() += fmt::format("<path class=\"glide\" stroke=\"{}\" stroke-width=\"{}\" d=\"M{} {}L{} {}\"/>\n",
-                                  ramp_colour(paper_ramp, melody.height(note.key)), number(0.5 * thick),
-                                  number(across(note.onset + level)), number(middle(note.key)),
-                                  number(across(note.onset + note.duration)), number(middle(last_key(note))));
+        out.put("<path class=\"glide\" stroke=\"{}\" stroke-width=\"{}\" d=\"M{} {}L{} {}\"/>\n",
+                ramp_colour(paper_ramp, melody.height(note.key)), number(0.5 * thick),
+                number(across(note.onset + level)), number(middle(note.key)),
+                number(across(note.onset + note.duration)), number(middle(last_key(note))));
     }
-    out.text() += "</g>\n";
+    out.put("</g>\n");
 }
 
 // ---- the page
 
-void write_ramp(std::string& out, const std::array<std::string_view, 9>& ramp) {
-    out += '[';
-    for (const std::string_view colour : ramp) fmt::format_to(std::back_inserter(out), "\"{}\",", colour);
-    out.back() = ']';
+std::string ramp_text(const std::array<std::string_view, 9>& ramp) {
+    return fmt::format("[\"{}\"]", fmt::join(ramp, "\",\""));
 }
 
 }  // namespace
@@ -366,31 +341,29 @@ void NoteCollector::finish(std::int64_t end) {
 
 void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink) {
     const Melody melody = survey(notes, end);
-    Pieces out(sink);
+    TextWriter out(sink);
     const std::string title = title_of(head);
     // The head is that of prints, so that the pattern can be read in the same way.
-    out.text() += fmt::format(
+    out.put(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:sikku=\"urn:sikku:print\"\n"
         "     width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\" font-family=\"'DejaVu Sans', Helvetica, "
         "Arial, "
-        "sans-serif\">\n<title>{2}</title>\n<desc>",
-        number(page_width), number(page_height), xml_escaped(title));
-    out.text() += xml_escaped(head.pattern);
-    out.text() += fmt::format("</desc>\n<metadata>\n<sikku:made>{}</sikku:made>\n", xml_escaped(head.made));
+        "sans-serif\">\n<title>{2}</title>\n<desc>{3}</desc>\n<metadata>\n<sikku:made>{4}</sikku:made>\n",
+        number(page_width), number(page_height), xml_escaped(title), xml_escaped(head.pattern),
+        xml_escaped(head.made));
     if (!fits_xml(head.pattern)) {
-        out.text() += fmt::format("<sikku:pattern>{}</sikku:pattern>\n", to_hex(head.pattern));
+        out.put("<sikku:pattern>{}</sikku:pattern>\n", to_hex(head.pattern));
     }
-    out.text() += fmt::format(
+    out.put(
         "</metadata>\n<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n"
         "<text fill=\"#22222a\" font-size=\"6.5\" x=\"{}\" y=\"20\">{}</text>\n"
         "<text fill=\"#5c5c68\" font-size=\"3.2\" x=\"{}\" y=\"26.5\">{}</text>\n",
         number(page_width), number(page_height), number(page_margin), xml_escaped(shortened(title, 64)),
         number(page_margin), xml_escaped(subtitle(head, melody)));
     if (!head.made.empty()) {
-        out.text() += fmt::format(
-            "<text fill=\"#8a8a95\" font-size=\"2.6\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>\n",
-            number(page_width - page_margin), number(page_height - 8.0), xml_escaped(shortened(head.made, 140)));
+        out.put("<text fill=\"#8a8a95\" font-size=\"2.6\" text-anchor=\"end\" x=\"{}\" y=\"{}\">{}</text>\n",
+                number(page_width - page_margin), number(page_height - 8.0), xml_escaped(shortened(head.made, 140)));
     }
     Panel roll{page_margin + key_names_width, panels_top, page_width - 2.0 * page_margin - key_names_width,
                panels_bottom - panels_top};
@@ -405,38 +378,33 @@ void write_music_svg(const ScoreHead& head, const std::vector<Note>& notes, std:
         write_curve(melody, curve, out);
     }
     write_roll(head, melody, roll, out);
-    out.text() += "</svg>\n";
+    out.put("</svg>\n");
     out.flush();
 }
 
 void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& sink,
                       const Curves& curves) {
     const Melody melody = survey(notes, end);
-    Pieces out(sink);
+    TextWriter out(sink);
     const std::string title = xml_escaped(title_of(head));
     // The slider ranges from a quarter of the tempo to four times the tempo.
     const double slowest = head.tempo < 8.0 ? head.tempo / 4.0 : std::floor(head.tempo / 4.0);
     const double fastest = std::ceil(head.tempo * 4.0);
-    out.text() += fmt::format(
+    out.put(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
         "style-src 'unsafe-inline'; img-src data:\"/>\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
         "<meta name=\"generator\" content=\"{}\"/>\n<link rel=\"icon\" "
-        "href=\"data:,\"/>\n<title>{}</title>\n<style>\n",
-        xml_escaped(head.made), title);
-    out.text() += page_css;
-    out.text() += fmt::format(
-        "</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n<p class=\"about\">{}</p>\n"
+        "href=\"data:,\"/>\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n<p "
+        "class=\"about\">{}</p>\n"
         "<div class=\"bar\" role=\"group\" aria-label=\"Playing\">\n"
         "<button type=\"button\" id=\"play\"><svg viewBox=\"0 0 10 10\" aria-hidden=\"true\"><path "
         "d=\"M1 0l8 5-8 5z\"/></svg><span>Play</span></button>\n"
         "<label class=\"long\">Position <input type=\"range\" id=\"place\" min=\"0\" max=\"1000\" step=\"any\" "
         "value=\"0\" aria-label=\"Position\"/> <span id=\"place-text\" aria-hidden=\"true\"></span></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
-        "<output id=\"tempo-text\"></output></label>\n</div>\n",
-        title, xml_escaped(subtitle(head, melody)), number(slowest, 4), number(fastest, 4), number(head.tempo, 4));
-    out.text() +=
+        "<output id=\"tempo-text\"></output></label>\n</div>\n"
         "<div class=\"panels\" id=\"panels\">\n"
         "<figure class=\"curve\"><canvas id=\"curve\" role=\"img\" aria-label=\"The curve, drawn note by note as "
         "they "
@@ -445,46 +413,33 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "upwards; a click goes there\"></canvas></figure>\n</div>\n"
         "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> move by one bar, "
         "<kbd>Home</kbd> "
-        "goes to the beginning.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n";
+        "goes to the beginning.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n",
+        xml_escaped(head.made), title, page_css, title, xml_escaped(subtitle(head, melody)), number(slowest, 4),
+        number(fastest, 4), number(head.tempo, 4));
     if (!head.pattern.empty()) {
-        out.text() += "<details>\n<summary>The pattern</summary>\n<pre tabindex=\"0\">";
         // HTML drops a leading line feed.
-        if (head.pattern.front() == '\n') out.text() += '\n';
-        out.text() += xml_escaped(head.pattern);
-        out.text() += "</pre>\n</details>\n";
+        out.put("<details>\n<summary>The pattern</summary>\n<pre tabindex=\"0\">{}{}</pre>\n</details>\n",
+                head.pattern.front() == '\n' ? "\n" : "", xml_escaped(head.pattern));
     }
-    out.text() += fmt::format(
+    out.put(
         "</main>\n<script type=\"application/json\" "
         "id=\"score\">{{\"quarter\":{},\"bar\":{},\"end\":{},\"tempo\":{},",
         ticks_per_quarter, std::max<std::int64_t>(head.meter.bar(), 1), melody.end, number(head.tempo, 4));
-    write_curves(out.text(), curves, tempo_map(head, curves, end));
-    out.text() += fmt::format("\"drums\":[{}],\"paper\":", fmt::join(drum_voices(head), ","));
-    write_ramp(out.text(), paper_ramp);
-    out.text() += ",\"screen\":";
-    write_ramp(out.text(), screen_ramp);
-    out.text() += ",\"notes\":[";
-    bool first = true;
+    write_curves(out, curves, tempo_map(head, curves, end));
+    out.put("\"drums\":[{}],\"paper\":{},\"screen\":{},\"notes\":[", fmt::join(drum_voices(head), ","),
+            ramp_text(paper_ramp), ramp_text(screen_ramp));
+    std::string_view separator = "\n";
     for (const Note& note : melody.notes) {
-        std::string& text = out.text();
-        fmt::format_to(std::back_inserter(text), "{}[{},{},", first ? "\n" : ",\n", note.onset, note.duration);
-        first = false;
-        put_number(text, note.key, 4);
-        fmt::format_to(std::back_inserter(text), ",{},{}", note.voice, note.velocity);
-        for (const double value : {note.from.x, note.from.y, note.to.x, note.to.y}) {
-            text += ',';
-            put_number(text, value, 4);
-        }
+        out.put("{}[{},{},{},{},{}", std::exchange(separator, ",\n"), note.onset, note.duration, number(note.key, 4),
+                note.voice, note.velocity);
+        for (const double value : {note.from.x, note.from.y, note.to.x, note.to.y}) out.put(",{}", number(value, 4));
         if (note.glide.ticks > 0) {
-            text += fmt::format(",{},", note.glide.ticks);
-            put_number(text, static_cast<double>(note.glide.semitones), 4);
-            text += ',';
-            put_number(text, static_cast<double>(note.glide.rise), 4);
+            out.put(",{},{},{}", note.glide.ticks, number(static_cast<double>(note.glide.semitones), 4),
+                    number(static_cast<double>(note.glide.rise), 4));
         }
-        text += ']';
+        out.put("]");
     }
-    out.text() += "]}</script>\n<script>\n";
-    out.text() += page_js;
-    out.text() += "</script>\n</body>\n</html>\n";
+    out.put("]}}</script>\n<script>\n{}</script>\n</body>\n</html>\n", page_js);
     out.flush();
 }
 

@@ -1,4 +1,4 @@
-#include "music/score/musicxml.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/text.h"
 #include "music/score/drums.h"
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -17,7 +18,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -25,23 +25,11 @@ namespace {
 
 constexpr int voice_numbers_per_staff = 4;
 
+/// Name of a note value. @param divisor  a power of two
 std::string_view type_name(int divisor) {
-    switch (divisor) {
-        case 1:
-            return "whole";
-        case 2:
-            return "half";
-        case 4:
-            return "quarter";
-        case 8:
-            return "eighth";
-        case 16:
-            return "16th";
-        case 32:
-            return "32nd";
-        default:
-            return "64th";
-    }
+    static constexpr std::array<std::string_view, 7> names = {"whole", "half", "quarter", "eighth",
+                                                              "16th",  "32nd", "64th"};
+    return names[static_cast<std::size_t>(std::min(std::countr_zero(static_cast<unsigned>(divisor)), 6))];
 }
 
 std::string_view accidental_name(int quarters) {
@@ -224,29 +212,18 @@ private:
     }
 
     void write_key(const std::optional<KeySignature>& key) {
-        static constexpr std::array<std::string_view, 7> modes = {"lydian", "major",    "mixolydian", "dorian",
-                                                                  "minor",  "phrygian", "locrian"};
         put("<key><fifths>{}</fifths>{}</key>\n", key ? key->fifths : 0,
-            key ? fmt::format("<mode>{}</mode>", modes[static_cast<std::size_t>(key->mode)]) : "");
+            key ? fmt::format("<mode>{}</mode>", mode_name(key->mode)) : "");
     }
 
     void write_attributes(const XmlPart& part) {
         put("<attributes>\n<divisions>{}</divisions>\n", ticks_per_quarter / unit_);
         write_key(part.part->keys.front().key);
-        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats(), head_.meter.unit);
+        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats_text(head_.meter), head_.meter.unit);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
         for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
         if (part.staves.front().lines == 1) put("<staff-details><staff-lines>1</staff-lines></staff-details>\n");
         put("</attributes>\n");
-    }
-
-    std::string beats() const {
-        if (head_.meter.groups[0] == 0) return std::to_string(head_.meter.beats);
-        std::string text;
-        for (const std::uint8_t group : head_.meter.groups) {
-            if (group != 0) text += fmt::format("{}{}", text.empty() ? "" : "+", group);
-        }
-        return text;
     }
 
     void write_clef(Clef clef, const XmlPart& part, std::size_t staff) {
@@ -255,16 +232,9 @@ private:
             put("<clef{}><sign>percussion</sign></clef>\n", staff_number);
             return;
         }
-        struct Sign {
-            char sign;
-            int line;
-            int octaves;  // higher
-        };
-        static constexpr std::array<Sign, 7> signs = {
-            {{'G', 2, 0}, {'F', 4, 0}, {'C', 3, 0}, {'C', 4, 0}, {'G', 2, -1}, {'F', 4, -1}, {'G', 2, 1}}};
-        const Sign& sign = signs[static_cast<std::size_t>(clef)];
-        put("<clef{}><sign>{}</sign><line>{}</line>{}</clef>\n", staff_number, sign.sign, sign.line,
-            sign.octaves != 0 ? fmt::format("<clef-octave-change>{}</clef-octave-change>", sign.octaves) : "");
+        const ClefForm& form = form_of(clef);
+        put("<clef{}><sign>{}</sign><line>{}</line>{}</clef>\n", staff_number, form.sign, form.line,
+            form.octaves != 0 ? fmt::format("<clef-octave-change>{}</clef-octave-change>", form.octaves) : "");
     }
 
     /// Writes the tempo in beats of the meter, rounded to a whole number unless beats are quarters.

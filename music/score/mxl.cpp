@@ -1,4 +1,4 @@
-#include "music/score/mxl.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/deflate.h"
 

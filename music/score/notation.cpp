@@ -3,6 +3,7 @@
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
+#include "music/score/note_order.h"
 #include "music/score/spelling.h"
 #include "music/score/staves.h"
 #include "music/score/strokes.h"
@@ -100,10 +101,6 @@ void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
             if (symbol.kind == SymbolKind::rest && i > 1) symbol.kind = SymbolKind::gap;
         }
     }
-}
-
-void sort_by_onset(std::vector<Note>& notes) {
-    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
 }
 
 /// Gives hands that state dynamics their own, if these are fewer marks.
@@ -245,6 +242,14 @@ int cents_above(double key, const Pitch& pitch) {
     return std::fabs(away) > unheard ? static_cast<int>(std::lround(100 * away)) : 0;
 }
 
+void add_drums(const NotatedVoice& voice, std::set<int>& drums) {
+    for (const NotatedSymbol& symbol : voice.symbols) {
+        if (symbol.drum == 0) continue;
+        drums.insert(symbol.drum);
+        for (const ChordNote& note : symbol.chord) drums.insert(note.drum);
+    }
+}
+
 }  // namespace
 
 double Pitch::key() const {
@@ -272,18 +277,6 @@ int staff_size(const Notation& notation) {
     return staves >= 10 ? 13 : staves >= 7 ? 15 : staves >= 4 ? 16 : staves >= 2 ? 18 : 20;
 }
 
-namespace {
-
-void add_drums(const NotatedVoice& voice, std::set<int>& drums) {
-    for (const NotatedSymbol& symbol : voice.symbols) {
-        if (symbol.drum == 0) continue;
-        drums.insert(symbol.drum);
-        for (const ChordNote& note : symbol.chord) drums.insert(note.drum);
-    }
-}
-
-}  // namespace
-
 std::vector<int> drums_of(const Staff& staff) {
     std::set<int> drums;
     for (const NotatedVoice& voice : staff.voices) add_drums(voice, drums);
@@ -309,6 +302,18 @@ std::vector<int> printed_cents(const NotatedSymbol& symbol) {
 
 std::string cents_text(int cents) {
     return fmt::format("{}{}", cents < 0 ? "\u2212" : "+", std::abs(cents));
+}
+
+const ClefForm& form_of(Clef clef) {
+    static constexpr std::array<ClefForm, 8> forms = {
+        {{'G', 2, 0}, {'F', 4, 0}, {'C', 3, 0}, {'C', 4, 0}, {'G', 2, -1}, {'F', 4, -1}, {'G', 2, 1}, {'G', 2, 0}}};
+    return forms[static_cast<std::size_t>(clef)];
+}
+
+std::string_view mode_name(Mode mode) {
+    static constexpr std::array<std::string_view, 7> names = {"lydian", "major",    "mixolydian", "dorian",
+                                                              "minor",  "phrygian", "locrian"};
+    return names[static_cast<std::size_t>(mode)];
 }
 
 std::optional<KeySignature> printed_key(const Part& part) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -72,6 +73,15 @@ struct NotatedSymbol {
 
 /// Clefs with an octave are for instruments that are written an octave away from their sound.
 enum class Clef { treble, bass, alto, tenor, treble_8, bass_8, treble_up_8, percussion };
+
+struct ClefForm {
+    char sign;    ///< G, F or C: the letter of the note on its line
+    int line;     ///< from 1, the lowest
+    int octaves;  ///< octaves by which notes sound higher
+};
+
+/// The form of a clef; that of percussion is as in treble.
+const ClefForm& form_of(Clef clef);
 
 /// One voice on one staff. Its symbols fill the score from the first bar to the last, bar by bar.
 struct NotatedVoice {
@@ -217,6 +227,9 @@ std::string cents_text(int cents);
 
 /// The height of a staff in printer's points (1/72.27 inch), 13 to 20: lower in scores of many staves.
 int staff_size(const Notation& notation);
+
+/// `lydian`, `major`, … `locrian`.
+std::string_view mode_name(Mode mode);
 
 /// The signature that a part is printed with.
 std::optional<KeySignature> printed_key(const Part& part);

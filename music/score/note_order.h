@@ -16,4 +16,9 @@ inline void sort_by_time(std::vector<Note>& notes) {
     });
 }
 
+/// Sorts notes by onset; those of one onset keep their order.
+inline void sort_by_onset(std::vector<Note>& notes) {
+    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
+}
+
 }  // namespace sikku

@@ -97,6 +97,14 @@ BeatUnit beat_unit(const Meter& meter) {
     return {note_value(length), static_cast<double>(length) / static_cast<double>(ticks_per_quarter)};
 }
 
+std::string beats_text(const Meter& meter) {
+    std::string groups;
+    for (const std::uint8_t group : meter.groups) {
+        if (group != 0) groups += (groups.empty() ? "" : "+") + std::to_string(group);
+    }
+    return groups.empty() ? std::to_string(meter.beats) : groups;
+}
+
 std::int64_t beat_end(std::int64_t time, const Meter& meter) {
     const std::int64_t begin = time / meter.bar() * meter.bar();
     if (has_short_units(meter)) return begin + Bar(meter).group_end(time - begin);

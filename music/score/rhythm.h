@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -51,6 +52,9 @@ struct BeatUnit {
 };
 /// The beat of printed tempos: a dotted one in 6/8, 9/8, …, the unit in other meters.
 BeatUnit beat_unit(const Meter& meter);
+
+/// The number of beats as printed: `7`, or groups of a pattern such as `3+2+2`.
+std::string beats_text(const Meter& meter);
 
 /// The end of the beat, or the group of x/8, in which a time lies: ticks from the beginning of the score.
 std::int64_t beat_end(std::int64_t time, const Meter& meter);

@@ -3,6 +3,7 @@
 #include "engine/base/json_text.h"
 #include "engine/base/text.h"
 #include "music/score/spelling.h"
+#include "music/score/text_writer.h"
 
 #include <fmt/format.h>
 
@@ -15,20 +16,8 @@ namespace sikku {
 namespace {
 
 /// The shortest digits that reproduce the number, without -0.
-std::string number(double value) {
-    return value == 0 ? "0" : fmt::format("{}", value);
-}
-
 JsonText json(double value) {
-    return JsonText::raw(number(value));
-}
-
-/// Cents with at most three decimals.
-std::string cents_text(double cents) {
-    std::string text = fmt::format("{:.3f}", cents);
-    while (text.ends_with('0')) text.pop_back();
-    if (text.ends_with('.')) text.pop_back();
-    return text == "-0" ? "0" : text;
+    return JsonText::raw(value == 0 ? "0" : fmt::format("{}", value));
 }
 
 /// The least number of equal steps in a period such that every note is one; 0 if more than 72 are needed.
@@ -55,7 +44,7 @@ std::string steps_text(const Scale& scale, const std::vector<double>& notes) {
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const double step = (i + 1 < notes.size() ? notes[i + 1] : scale.period) - notes[i];
         text += text.empty() ? "" : " ";
-        text += division > 0 ? fmt::format("{:.0f}", std::round(step * division / scale.period)) : cents_text(step);
+        text += division > 0 ? fmt::format("{:.0f}", std::round(step * division / scale.period)) : number(step);
     }
     if (division == 0) return text + " cents";
     if (division == 12 && scale.period == 1200.0) return text;
@@ -64,7 +53,7 @@ std::string steps_text(const Scale& scale, const std::vector<double>& notes) {
 
 std::string cents_list(const std::vector<double>& notes) {
     std::string text;
-    for (const double cents : notes) text += (text.empty() ? "" : " ") + cents_text(cents);
+    for (const double cents : notes) text += (text.empty() ? "" : " ") + number(cents);
     return text;
 }
 
@@ -142,7 +131,7 @@ std::string scale_text(const Scale& scale, const Tonic& tonic) {
         text += "falling\n";
         list(scale.descent);
     }
-    line("period", cents_text(scale.period) + " cents");
+    line("period", number(scale.period) + " cents");
     line("names", fmt::format("{}", fmt::join(scale.names, ", ")));
     line("sources", scale.sources);
     return text;

@@ -4,7 +4,9 @@
 
 #include "engine/base/output.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -136,6 +138,16 @@ struct ScoreHead {
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
     std::vector<Part> parts;
+
+    /// The index of the part of a voice; 0 for voices that no part has.
+    std::size_t part_index(int voice) const {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            voice -= std::max(parts[i].voices, 0);
+            if (voice < 0) return i;
+        }
+        return 0;
+    }
+    const Part& part_of(int voice) const { return parts[part_index(voice)]; }
 };
 
 }  // namespace sikku

@@ -54,24 +54,9 @@ std::vector<Candidate> clefs_of(int program, bool is_high) {
 
 /// The height of the middle line.
 int middle_line(Clef clef) {
-    switch (clef) {
-        case Clef::treble:
-        case Clef::percussion:
-            return Pitch{6, 4}.height();
-        case Clef::bass:
-            return Pitch{1, 3}.height();
-        case Clef::alto:
-            return Pitch{0, 4}.height();
-        case Clef::tenor:
-            return Pitch{5, 3}.height();
-        case Clef::treble_8:
-            return Pitch{6, 3}.height();
-        case Clef::bass_8:
-            return Pitch{1, 2}.height();
-        case Clef::treble_up_8:
-            return Pitch{6, 5}.height();
-    }
-    return 0;
+    const ClefForm& form = form_of(clef);
+    const Pitch named = form.sign == 'G' ? Pitch{4, 4} : form.sign == 'F' ? Pitch{3, 3} : Pitch{0, 4};
+    return named.height() + 2 * (3 - form.line) + 7 * form.octaves;
 }
 
 /// Cost of the ledger lines of a note: small up to two, large from four on.

@@ -2,6 +2,7 @@
 
 #include "music/score/drums.h"
 #include "music/score/notation.h"
+#include "music/score/note_order.h"
 #include "music/score/rhythm.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ int height_of(const Note& note) {
 
 /// Joins strokes that begin together. @param notes  in any order @param merged  incremented for each merged stroke
 StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& merged) {
-    std::stable_sort(notes.begin(), notes.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
+    sort_by_onset(notes);
     StrokeLine line;
     for (const Note& note : notes) {
         if (line.strokes.empty() || line.strokes.back().onset != note.onset) {

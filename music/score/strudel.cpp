@@ -1,4 +1,4 @@
-#include "music/score/strudel.h"
+#include "music/score/score_formats.h"
 
 #include "engine/base/base64.h"
 #include "music/score/comments.h"
@@ -89,15 +89,8 @@ std::string program_of(const ScoreHead& head, const std::vector<Note>& notes, st
 std::string strudel_link(const std::string& program) {
     std::string link = "https://strudel.cc/#";
     for (const char letter : to_base64(program, Base64::padded)) {
-        if (letter == '+') {
-            link += "%2B";
-        } else if (letter == '/') {
-            link += "%2F";
-        } else if (letter == '=') {
-            link += "%3D";
-        } else {
-            link += letter;
-        }
+        const bool is_plain = std::string_view("+/=").find(letter) == std::string_view::npos;
+        link += is_plain ? std::string(1, letter) : fmt::format("%{:02X}", static_cast<int>(letter));
     }
     return link;
 }

@@ -13,7 +13,7 @@ namespace sikku {
 
 /// Formats text into an output, in blocks.
 class TextWriter {
-protected:
+public:
     explicit TextWriter(Output& out) : out_(out) {}
 
     template <typename... Arguments>
@@ -33,10 +33,12 @@ private:
     fmt::memory_buffer text_;
 };
 
-/// Appends a number with at most `places` decimals, without trailing zeros or -0.
-void put_number(std::string& text, double value, int places);
-
-/// Formats such a number.
-std::string number(double value, int places = 3);
+/// Formats a number with at most `places` decimals, without trailing zeros or -0.
+inline std::string number(double value, int places = 3) {
+    std::string text = fmt::format("{:.{}f}", value, places);
+    if (text.find('.') != std::string::npos) text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text == "-0" ? "0" : text;
+}
 
 }  // namespace sikku

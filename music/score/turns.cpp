@@ -1,6 +1,7 @@
 #include "music/score/turns.h"
 
 #include "music/score/notation.h"
+#include "music/score/note_order.h"
 #include "music/score/staves.h"
 
 #include <algorithm>
@@ -202,9 +203,7 @@ std::vector<std::vector<Note>> voices_of(const Line& line) {
             result[i].insert(result[i].end(), order[i]->begin(), order[i]->end());
         }
     }
-    for (auto& voice : result) {
-        std::stable_sort(voice.begin(), voice.end(), [](const Note& a, const Note& b) { return a.onset < b.onset; });
-    }
+    for (auto& voice : result) sort_by_onset(voice);
     return result;
 }
 

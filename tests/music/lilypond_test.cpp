@@ -1,4 +1,4 @@
-#include "music/score/lilypond.h"
+#include "music/score/score_formats.h"
 
 #include "tests/files.h"
 #include "tests/notation_tools.h"

@@ -33,7 +33,7 @@ inline std::uint64_t most_midi_bytes(std::uint64_t notes, const ScoreHead& head 
     // Up to ten controllers, the program, and a number after the name.
     fixed += midi::most_pitched_channels * (8 + text_bytes + longest_name + 12 + 10 * 4 + 3 + end_bytes);
     const bool is_mpe = options.tuning == Tuning::mpe;
-    if (is_mpe) fixed += midi::mpe_configuration().size();
+    if (is_mpe) fixed += midi::messages_now(midi::mpe_setup()).size();
     const std::uint64_t each = plain_note_bytes + (is_mpe                           ? program_bytes + bend_bytes
                                                    : !options.microtonal            ? 0
                                                    : options.tuning == Tuning::bend ? bend_bytes

@@ -1,4 +1,4 @@
-#include "music/score/musicxml.h"
+#include "music/score/score_formats.h"
 
 #include "tests/checks.h"
 #include "tests/files.h"

@@ -1,10 +1,6 @@
 // The formats that need little code: ABC, Csound, Strudel, compressed MusicXML.
-#include "music/score/abc.h"
+#include "music/score/score_formats.h"
 #include "music/score/comments.h"
-#include "music/score/csound.h"
-#include "music/score/musicxml.h"
-#include "music/score/mxl.h"
-#include "music/score/strudel.h"
 #include "music/scores.h"
 #include "tests/checks.h"
 #include "tests/files.h"

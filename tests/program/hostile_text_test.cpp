@@ -2,7 +2,7 @@
 // writes.
 #include "art/plotter/gcode.h"
 #include "engine/base/diagnostic.h"
-#include "music/score/lilypond.h"
+#include "music/score/score_formats.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
