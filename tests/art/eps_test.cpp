@@ -30,7 +30,8 @@ protected:
     std::string pixels(const std::string& file) const {
         const std::string picture = (folder_.path() / "page.ppm").string();
         EXPECT_EQ(
-            run("gs -q -dNOPAUSE -dBATCH -dSAFER -dEPSCrop -sDEVICE=ppmraw -r100 -o " + picture + " " + file).text,
+            run_tool("gs -q -dNOPAUSE -dBATCH -dSAFER -dEPSCrop -sDEVICE=ppmraw -r100 -o " + picture + " " + file)
+                .text,
             "");
         return contents(picture);
     }
@@ -74,7 +75,7 @@ TEST_F(Eps, HasTheBoxOfThePage) {
     for (const char byte : eps) ASSERT_TRUE(byte == '\n' || (byte >= 0x20 && byte < 0x7F));
     // The ground covers the page.
     const std::string box =
-        run("gs -q -dNOPAUSE -dBATCH -sDEVICE=bbox " + (folder_.path() / "print.eps").string()).text;
+        run_tool("gs -q -dNOPAUSE -dBATCH -sDEVICE=bbox " + (folder_.path() / "print.eps").string()).text;
     EXPECT_TRUE(has(box, "%%BoundingBox: 0 0 171 227\n"));
     EXPECT_EQ(eps, contents(file("eps", document, {})));
 }

@@ -48,7 +48,8 @@ TEST(PdfProvenance, WhatOthersRewriteIsReadRightOrNotAtAll) {
         write(folder / "print.pdf", text, "sikku");
         for (const std::string options : {"", "--qdf", "--linearize", "--object-streams=generate"}) {
             ASSERT_TRUE(
-                run("qpdf " + options + " '" + folder.file("print.pdf") + "' '" + folder.file("other.pdf") + "'").ok);
+                run_tool("qpdf " + options + " '" + folder.file("print.pdf") + "' '" + folder.file("other.pdf") + "'")
+                    .ok);
             const auto provenance = provenance_of(folder / "other.pdf");
             if (provenance) {
                 EXPECT_EQ(provenance->pattern, text) << options;

@@ -160,7 +160,7 @@ TEST(SeveralDrawings, LookTheSameInPicturesAndVectors) {
     write("a.png");
     const PixelGrid pdf = render_pdf(folder / "a.pdf", 72);
     const ToolOutcome converted =
-        run("oiiotool '" + folder.file("a.png") + "' --ch R,G,B -o '" + folder.file("a.ppm") + "'");
+        run_tool("oiiotool '" + folder.file("a.png") + "' --ch R,G,B -o '" + folder.file("a.ppm") + "'");
     ASSERT_TRUE(converted.ok) << converted.text;
     const PixelGrid png = read_ppm(folder / "a.ppm");
     ASSERT_EQ(pdf.width, png.width);

@@ -381,7 +381,8 @@ TEST(MusicXml, IsWellFormedToOthers) {
     for (unsigned seed = 0; seed < 8; ++seed) {
         TestScore score = random_score(seed, true);
         score.head.title = "<&\" \x02 \xC3";
-        const auto outcome = run("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
+        const auto outcome =
+            run_tool("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         EXPECT_EQ(outcome.text, "");
     }

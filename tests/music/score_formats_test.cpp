@@ -227,7 +227,7 @@ TEST(Csound, PlaysTheFile) {
     MemorySink sink;
     write_csound_file(score.head, score.notes, score.end, sink);
     const auto outcome =
-        run("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
+        run_tool("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_TRUE(has(outcome.text, "0 errors in performance"));
     EXPECT_FALSE(has(outcome.text, "WARNING"));
@@ -261,10 +261,10 @@ TEST(Mxl, IsReadByOthers) {
     folder.write("x.mxl", packed.text);
     folder.write("x.musicxml", xml.text);
     const auto outcome =
-        run("cd '" + folder.path().string() +
-            "' && python3 -c \"import zipfile; z = zipfile.ZipFile('x.mxl'); assert z.testzip() is None; "
-            "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
-            "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
+        run_tool("cd '" + folder.path().string() +
+                 "' && python3 -c \"import zipfile; z = zipfile.ZipFile('x.mxl'); assert z.testzip() is None; "
+                 "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
+                 "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 

@@ -61,7 +61,7 @@ TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     ASSERT_EQ(draw({"bush.lsys", "-n", "4", "--dpi", "40"}, "alone.png").status, 0);
     NEEDS("iinfo");
     const auto pixels = [&](const std::string& name) {
-        const std::string told = run("iinfo --hash '" + (folder_ / name).string() + "'").text;
+        const std::string told = run_tool("iinfo --hash '" + (folder_ / name).string() + "'").text;
         const std::size_t hash = told.find("SHA-1: ");
         return hash == std::string::npos ? std::string() : told.substr(hash);
     };
