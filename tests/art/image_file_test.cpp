@@ -216,11 +216,11 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     ASSERT_NE(at, std::string::npos);
     const auto save = [&] { std::ofstream(copied_module, std::ios::binary) << bytes; };
     save();
-    const auto same = run(draw);
+    const auto same = run_tool(draw);
     EXPECT_TRUE(same.ok) << same.text;
     bytes[at] ^= 1;
     save();
-    const auto other = run(draw);
+    const auto other = run_tool(draw);
     // Where sikku is installed as well, its module serves.
     if (other.ok) GTEST_SKIP() << "an installed module was found";
     EXPECT_TRUE(has(other.text, "made for another version of sikku"));
