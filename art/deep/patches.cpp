@@ -253,6 +253,18 @@ private:
         Heading heading{};
     };
 
+    /// Saves or restores the state at a bracket. @return false for other symbols
+    bool follows_bracket(Symbol symbol, State& here, std::vector<State>& saved) const {
+        if (grammar_.is_push(symbol)) {
+            saved.push_back(here);
+            return true;
+        }
+        if (!grammar_.is_pop(symbol)) return false;
+        here = saved.back();
+        saved.pop_back();
+        return true;
+    }
+
     const Word* successor(Symbol symbol, std::size_t level) const {
         return level > 0 ? tables_[level - 1]->successor(symbol) : nullptr;
     }
@@ -420,15 +432,7 @@ typename PatchesOf<Headings>::Piece PatchesOf<Headings>::composed(const Word& wo
     std::vector<State> saved;
     typename Headings::Collector bounds(headings_);
     for (const Symbol child : word) {
-        if (grammar_.is_push(child)) {
-            saved.push_back(here);
-            continue;
-        }
-        if (grammar_.is_pop(child)) {
-            here = saved.back();
-            saved.pop_back();
-            continue;
-        }
+        if (follows_bracket(child, here, saved)) continue;
         const Piece& next = piece(child, level, here.heading);
         if (!Headings::is_empty(next.bound)) bounds.add(here.at.rounded(), next.bound, here.heading);
         pass(next, here);
@@ -496,15 +500,7 @@ QuadVector PatchesOf<Headings>::random_place(std::uint64_t seed) const {
         choices.clear();
         saved.clear();
         for (const Symbol child : *word) {
-            if (grammar_.is_push(child)) {
-                saved.push_back(here);
-                continue;
-            }
-            if (grammar_.is_pop(child)) {
-                here = saved.back();
-                saved.pop_back();
-                continue;
-            }
+            if (follows_bracket(child, here, saved)) continue;
             const Piece& is = pieces_[index(child, level, here.heading)];
             const Box own = box(is, here.heading);
             const glm::dvec2 size = own.high - own.low;

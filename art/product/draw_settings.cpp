@@ -16,6 +16,7 @@
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -24,6 +25,8 @@ namespace sikku {
 namespace {
 
 constexpr double longest = 10'000;  // millimetres: wider than any press or plotter
+constexpr double above_0 = std::numeric_limits<double>::denorm_min();
+constexpr double any_length = std::numeric_limits<double>::infinity();
 
 int to_int(const std::string& text) {
     return static_cast<int>(to_number(text));
@@ -39,6 +42,23 @@ double length(const char* option, const std::string& text, double dpi) {
     return *value;
 }
 
+/// Parses a length between two others, in millimetres.
+double length_between(const char* option, const std::string& text, double dpi, double least, double most,
+                      const char* expected) {
+    const double value = length(option, text, dpi);
+    if (!(value >= least && value <= most)) refuse_option(option, text, expected);
+    return value;
+}
+
+/// Parses seconds, which have a default.
+double seconds_between(const char* option, const std::string& text, double seconds, double least, double most,
+                       const char* expected) {
+    if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= least && seconds <= most)) {
+        refuse_option(option, text, expected);
+    }
+    return seconds;
+}
+
 Page sheet(const char* option, const std::string& text, double dpi) {
     const auto size = parse_size(text, dpi);
     if (!size) {
@@ -51,13 +71,6 @@ Page sheet(const char* option, const std::string& text, double dpi) {
         refuse_option(option, text, "expected a page between 1 mm and 10 m wide and high");
     }
     return {size->x, size->y, 10.0};
-}
-
-void set_step(DrawSettings& settings, const std::string& text) {
-    settings.place.step = length("step", text, settings.page.dpi);
-    if (!(*settings.place.step >= 1e-9 && *settings.place.step <= longest)) {
-        refuse_option("step", text, "expected a step of at least 10^-9 mm and at most 10 m");
-    }
 }
 
 void set_window(DrawSettings& settings, const std::string& text) {
@@ -88,13 +101,6 @@ void set_dots(DrawSettings& settings, const std::string& text) {
     settings.look.dots = settings.look.only_dots ? text.substr(std::min<std::size_t>(text.size(), 5)) : text;
 }
 
-void set_dot_spacing(DrawSettings& settings, const std::string& text) {
-    settings.place.dot_spacing = length("dot-spacing", text, settings.page.dpi);
-    if (!(*settings.place.dot_spacing > 0 && *settings.place.dot_spacing <= longest)) {
-        refuse_option("dot-spacing", text, "expected a length above 0 and at most 10 m");
-    }
-}
-
 /// Parses `A:B` or `A`.
 void set_generations(DrawSettings& settings, const std::string& text) {
     const std::size_t colon = text.find(':');
@@ -112,30 +118,6 @@ void set_generations(DrawSettings& settings, const std::string& text) {
         refuse_option("generations", text, fmt::format("expected derivation lengths up to {}", most_steps));
     }
     settings.time.generations = {first, last};
-}
-
-void set_animation(DrawSettings& settings, const std::string& text) {
-    double seconds = 20;
-    if ((!text.empty() && !read_number(text, seconds)) || !(seconds > 0 && seconds <= 86'400)) {
-        refuse_option("animate", text, "expected seconds, above 0 and at most a day");
-    }
-    settings.time.animation = seconds;
-}
-
-void set_division(DrawSettings& settings, const std::string& text) {
-    double seconds = 1.4;
-    if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
-        refuse_option("divide", text, "expected seconds for each division, 0.1 to 600");
-    }
-    settings.time.division = seconds;
-}
-
-void set_lesson(DrawSettings& settings, const std::string& text) {
-    double seconds = 3;
-    if ((!text.empty() && !read_number(text, seconds)) || !(seconds >= 0.1 && seconds <= 600)) {
-        refuse_option("lesson", text, "expected seconds for each stroke, 0.1 to 600");
-    }
-    settings.time.lesson = seconds;
 }
 
 /// Parses `SPACING`, followed by `ANGLE` and `cross` in either order.
@@ -195,20 +177,6 @@ void set_base(DrawSettings& settings, const std::string& text) {
     settings.relief.base = part(text.substr(0, comma));
     settings.relief.beyond.reset();
     if (comma != std::string::npos) settings.relief.beyond = part(text.substr(comma + 1));
-}
-
-void set_groove(DrawSettings& settings, const std::string& text) {
-    settings.relief.groove = length("groove", text, settings.page.dpi);
-    if (!(*settings.relief.groove >= 0 && *settings.relief.groove <= longest)) {
-        refuse_option("groove", text, "expected a width from 0 to 10 m");
-    }
-}
-
-void set_pen_width(DrawSettings& settings, const std::string& text) {
-    settings.plot.pen_width = length("pen-width", text, settings.page.dpi);
-    if (!(settings.plot.pen_width >= 0.05 && settings.plot.pen_width <= 100)) {
-        refuse_option("pen-width", text, "expected a width between 0.05mm and 100mm");
-    }
 }
 
 void set_paper(DrawSettings& settings, const std::string& text) {
@@ -317,8 +285,7 @@ const std::array own_rows = {
               [](S& s, Text t) { s.page.landscape = is_true(t); }},
     Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH", .scope = Scope::page},
               [](S& s, Text t) {
-                  s.page.sheet.margin = length("margin", t, s.page.dpi);
-                  if (s.page.sheet.margin < 0) refuse_option("margin", t, "expected 0 or more");
+                  s.page.sheet.margin = length_between("margin", t, s.page.dpi, 0, any_length, "expected 0 or more");
               }},
     Option<S>{{.name = "fit",
                .help = "fill the page within its margins (default)",
@@ -337,7 +304,10 @@ const std::array own_rows = {
                .value = "LENGTH",
                .scope = Scope::scale,
                .sets_scale = true},
-              set_step},
+              [](S& s, Text t) {
+                  s.place.step = length_between("step", t, s.page.dpi, 1e-9, longest,
+                                                "expected a step of at least 10^-9 mm and at most 10 m");
+              }},
     Option<S>{{.name = "fill-page",
                .help = "cover the whole page with a tiling, at the length of a step that 'step' sets (a 40th of the "
                        "page's shorter side); finds a place and the derivation length it needs",
@@ -404,7 +374,10 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::kolam,
                .sets_scale = true},
-              set_dot_spacing},
+              [](S& s, Text t) {
+                  s.place.dot_spacing = length_between("dot-spacing", t, s.page.dpi, above_0, longest,
+                                                       "expected a length above 0 and at most 10 m");
+              }},
     Option<S>{
         {.name = "border",
          .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, or a pattern file to repeat along the "
@@ -491,7 +464,10 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::file,
                .unit = "s"},
-              set_animation},
+              [](S& s, Text t) {
+                  s.time.animation = seconds_between("animate", t, 20, above_0, 86'400,
+                                                     "expected seconds, above 0 and at most a day");
+              }},
     Option<S>{{.name = "divide",
                .help = "animation in which each tile divides into its parts, from generation to generation: .gif or "
                        "SVG, with this many seconds per division (1.4); 'generations' selects a range (0 to n)",
@@ -499,7 +475,10 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::time,
                .unit = "s"},
-              set_division},
+              [](S& s, Text t) {
+                  s.time.division =
+                      seconds_between("divide", t, 1.4, 0.1, 600, "expected seconds for each division, 0.1 to 600");
+              }},
     Option<S>{{.name = "name-tiles",
                .help = "SVG in which each tile is an element with an identifier, and classes for its shape, hand, "
                        "direction and colour; PDF and DXF with a layer for each shape, hand and colour of tiles",
@@ -516,9 +495,7 @@ const std::array own_rows = {
          .scope = Scope::tiling,
          .neutral = "0mm"},
         [](S& s, Text t) {
-            s.look.kerf = length("kerf", t, s.page.dpi);
-            if (!(s.look.kerf >= 0 && s.look.kerf <= 10))
-                refuse_option("kerf", t, "expected a length from 0 to 10mm");
+            s.look.kerf = length_between("kerf", t, s.page.dpi, 0, 10, "expected a length from 0 to 10mm");
         }},
     Option<S>{
         {.name = "lesson",
@@ -529,7 +506,9 @@ const std::array own_rows = {
          .group = kolams,
          .scope = Scope::lesson,
          .unit = "s"},
-        set_lesson},
+        [](S& s, Text t) {
+            s.time.lesson = seconds_between("lesson", t, 3, 0.1, 600, "expected seconds for each stroke, 0.1 to 600");
+        }},
     Option<S>{{.name = "tile",
                .help = "cut the print into sheets of this size, to be glued together: pages of a PDF after an "
                        "overview, or files; MARGIN is the area the printer cannot reach (5mm)",
@@ -569,7 +548,10 @@ const std::array own_rows = {
                .value = "WIDTH",
                .group = reliefs,
                .scope = Scope::solid},
-              set_groove},
+              [](S& s, Text t) {
+                  s.relief.groove =
+                      length_between("groove", t, s.page.dpi, 0, longest, "expected a width from 0 to 10 m");
+              }},
     Option<S>{
         {.name = "plotter",
          .help = "draw nothing twice, with few pen lifts and little pen-up travel; HP-GL, G-code and DXF always do",
@@ -594,15 +576,18 @@ const std::array own_rows = {
                .group = plotters,
                .scope = Scope::strokes},
               [](S& s, Text t) {
-                  s.plot.split = length("split", t, s.page.dpi);
-                  if (!(s.plot.split > 0)) refuse_option("split", t, "expected a length above 0");
+                  s.plot.split =
+                      length_between("split", t, s.page.dpi, above_0, any_length, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
                .help = "width of the plotter's pen; wider strokes take several passes (each stroke's own width)",
                .value = "WIDTH",
                .group = plotters,
                .scope = Scope::plot},
-              set_pen_width},
+              [](S& s, Text t) {
+                  s.plot.pen_width = length_between("pen-width", t, s.page.dpi, 0.05, 100,
+                                                    "expected a width between 0.05mm and 100mm");
+              }},
     Option<S>{{.name = "hatch",
                .help = "hatch filled shapes: spacing (one pen), angle (45) or both directions, such as 0.5mm,30 or "
                        "0.5mm,cross",
@@ -651,8 +636,8 @@ const std::array own_rows = {
                .scope = Scope::plot,
                .moves_machine = true},
               [](S& s, Text t) {
-                  s.plot.resume = length("resume", t, s.page.dpi);
-                  if (!(s.plot.resume > 0)) refuse_option("resume", t, "expected a length above 0");
+                  s.plot.resume =
+                      length_between("resume", t, s.page.dpi, above_0, any_length, "expected a length above 0");
               }},
     Option<S>{{.name = "arcs",
                .help = "follow curves by arcs where they fit (default); G-code",
@@ -668,8 +653,8 @@ const std::array own_rows = {
                .scope = Scope::gcode,
                .neutral = "0mm"},
               [](S& s, Text t) {
-                  s.plot.gcode.least_arc = length("min-arc", t, s.page.dpi);
-                  if (!(s.plot.gcode.least_arc >= 0)) refuse_option("min-arc", t, "expected a length of 0 or more");
+                  s.plot.gcode.least_arc =
+                      length_between("min-arc", t, s.page.dpi, 0, any_length, "expected a length of 0 or more");
               }},
     Option<S>{{.name = "hpgl-paper",
                .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "

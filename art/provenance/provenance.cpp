@@ -20,68 +20,12 @@ bool begins_as_xml(std::string_view head) {
     return first != std::string_view::npos && head[first] == '<';
 }
 
-template <char... signature>
-bool begins_with(std::string_view head) {
-    constexpr char bytes[] = {signature...};
-    return head.starts_with(std::string_view(bytes, sizeof bytes));
-}
-
-bool begins_as_tiff(std::string_view head) {
-    return head.starts_with("II*\0"sv) || head.starts_with("MM\0*"sv) || head.starts_with("II+\0"sv) ||
-           head.starts_with("MM\0+"sv);
-}
-
-bool begins_as_html(std::string_view head) {
-    return begins_as_xml(head) && head.find("<!DOCTYPE html") != std::string_view::npos;
-}
-
-bool begins_as_musicxml(std::string_view head) {
-    return begins_as_xml(head) && head.find("<score-partwise") != std::string_view::npos;
-}
-
-bool begins_as_gcode(std::string_view head) {
-    return head.find("(recipe: sikku:") != std::string_view::npos;
-}
-
 bool begins_as_eps(std::string_view head) {
-    return head.starts_with("%!PS-Adobe-") &&
-           head.substr(0, head.find('\n')).find(" EPSF-") != std::string_view::npos;
-}
-
-bool begins_as_obj(std::string_view head) {
-    return head.starts_with("# ") && head.find("\n# sikku:") != std::string_view::npos;
-}
-
-bool begins_as_lilypond(std::string_view head) {
-    return head.starts_with("\\version \"");
-}
-
-bool begins_as_mxl(std::string_view head) {
-    return head.starts_with("PK\x03\x04") && head.find("META-INF/container.xml") != std::string_view::npos;
-}
-
-bool begins_as_abc(std::string_view head) {
-    return head.starts_with("%abc");
-}
-
-bool begins_as_csound(std::string_view head) {
-    return head.starts_with("<CsoundSynthesizer>");
-}
-
-bool begins_as_csound_score(std::string_view head) {
-    return head.starts_with("; score for Csound\n");
-}
-
-bool begins_as_strudel(std::string_view head) {
-    return head.starts_with("// https://strudel.cc/#");
+    return head.substr(0, head.find('\n')).find(" EPSF-") != std::string_view::npos;
 }
 
 bool begins_as_wav(std::string_view head) {
-    return head.starts_with("RIFF") && head.find("WAVE") == 8;
-}
-
-bool begins_as_stl(std::string_view head) {
-    return head.starts_with("Binary STL in millimetres, sikku ");
+    return head.find("WAVE") == 8;
 }
 
 /// Sound files do not contain a pattern.
@@ -95,46 +39,60 @@ std::optional<Provenance> read_stl_provenance(const InputFile& /*file*/) {
 }
 
 struct Format {
-    std::string_view name;                  ///< with its article
-    bool (*begins)(std::string_view head);  ///< true if a file with this head has the format
+    std::string_view name;    ///< with its article
+    std::string_view begin;   ///< the first bytes of a file
+    std::string_view within;  ///< a text in the head of a file
     std::optional<Provenance> (*read)(const InputFile& file);
+    bool (*check)(std::string_view head) = nullptr;  ///< what else a head must fulfil
+
+    bool begins(std::string_view head) const {
+        return head.starts_with(begin) && head.find(within) != std::string_view::npos && (!check || check(head));
+    }
 };
 constexpr std::size_t head_bytes = 1024;
-constexpr std::array<Format, 24> formats = {{
-    {"a PNG file", begins_with<'\x89', 'P', 'N', 'G', '\r', '\n', '\x1A', '\n'>, read_png_provenance},
-    {"a TIFF file", begins_as_tiff, read_tiff_provenance},
-    {"a JPEG file", begins_with<'\xFF', '\xD8', '\xFF'>, read_jpeg_provenance},
-    {"an EXR file", begins_with<'\x76', '\x2F', '\x31', '\x01'>, read_exr_provenance},
-    {"a PDF file", begins_with<'%', 'P', 'D', 'F', '-'>, read_pdf_provenance},
-    {"an EPS file", begins_as_eps, read_comment_provenance},
-    {"a GIF file", begins_with<'G', 'I', 'F', '8'>, read_comment_provenance},
-    {"a GLB file", begins_with<'g', 'l', 'T', 'F'>, read_comment_provenance},
-    {"an HP-GL file", begins_with<'I', 'N', ';'>, read_comment_provenance},
-    {"a G-code file", begins_as_gcode, read_comment_provenance},
-    {"a DXF file", begins_with<'9', '9', '9', '\n'>, read_comment_provenance},
-    {"an OBJ file", begins_as_obj, read_comment_provenance},
-    {"an STL file", begins_as_stl, read_stl_provenance},
-    {"a WAV file", begins_as_wav, read_nothing},
-    {"a FLAC file", begins_with<'f', 'L', 'a', 'C'>, read_nothing},
-    {"a LilyPond file", begins_as_lilypond, read_lilypond_provenance},
-    {"a compressed MusicXML file", begins_as_mxl, read_musicxml_provenance},
-    {"an ABC file", begins_as_abc, read_lilypond_provenance},
-    {"a Csound file", begins_as_csound, read_csound_provenance},
-    {"a Csound score", begins_as_csound_score, read_csound_provenance},
-    {"a Strudel program", begins_as_strudel, read_strudel_provenance},
-    {"an HTML page", begins_as_html, read_page_provenance},
-    {"a MusicXML file", begins_as_musicxml, read_musicxml_provenance},
-    {"an SVG file", begins_as_xml, read_svg_provenance},
-}};
+constexpr std::array formats = {
+    Format{"a PNG file", "\x89PNG\r\n\x1A\n", "", read_png_provenance},
+    Format{"a TIFF file", "II*\0"sv, "", read_tiff_provenance},
+    Format{"a TIFF file", "MM\0*"sv, "", read_tiff_provenance},
+    Format{"a TIFF file", "II+\0"sv, "", read_tiff_provenance},
+    Format{"a TIFF file", "MM\0+"sv, "", read_tiff_provenance},
+    Format{"a JPEG file", "\xFF\xD8\xFF", "", read_jpeg_provenance},
+    Format{"an EXR file", "\x76\x2F\x31\x01", "", read_exr_provenance},
+    Format{"a PDF file", "%PDF-", "", read_pdf_provenance},
+    Format{"an EPS file", "%!PS-Adobe-", "", read_comment_provenance, begins_as_eps},
+    Format{"a GIF file", "GIF8", "", read_comment_provenance},
+    Format{"a GLB file", "glTF", "", read_comment_provenance},
+    Format{"an HP-GL file", "IN;", "", read_comment_provenance},
+    Format{"a G-code file", "", "(recipe: sikku:", read_comment_provenance},
+    Format{"a DXF file", "999\n", "", read_comment_provenance},
+    Format{"an OBJ file", "# ", "\n# sikku:", read_comment_provenance},
+    Format{"an STL file", "Binary STL in millimetres, sikku ", "", read_stl_provenance},
+    Format{"a WAV file", "RIFF", "", read_nothing, begins_as_wav},
+    Format{"a FLAC file", "fLaC", "", read_nothing},
+    Format{"a LilyPond file", "\\version \"", "", read_lilypond_provenance},
+    Format{"a compressed MusicXML file", "PK\x03\x04", "META-INF/container.xml", read_musicxml_provenance},
+    Format{"an ABC file", "%abc", "", read_lilypond_provenance},
+    Format{"a Csound file", "<CsoundSynthesizer>", "", read_csound_provenance},
+    Format{"a Csound score", "; score for Csound\n", "", read_csound_provenance},
+    Format{"a Strudel program", "// https://strudel.cc/#", "", read_strudel_provenance},
+    Format{"an HTML page", "", "<!DOCTYPE html", read_page_provenance, begins_as_xml},
+    Format{"a MusicXML file", "", "<score-partwise", read_musicxml_provenance, begins_as_xml},
+    Format{"an SVG file", "", "", read_svg_provenance, begins_as_xml},
+};
+
+const Format* format_of(const InputFile& file) {
+    const std::string head = file.read(0, head_bytes);
+    const auto* const found =
+        std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
+    return found == formats.end() ? nullptr : found;
+}
 
 }  // namespace
 
 std::optional<KnownFormat> known_format(const std::filesystem::path& file) {
     try {
-        const std::string head = InputFile(file).read(0, head_bytes);
-        const auto format =
-            std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
-        if (format == formats.end()) return std::nullopt;
+        const Format* const format = format_of(InputFile(file));
+        if (!format) return std::nullopt;
         return KnownFormat{format->name, format->read != read_nothing && format->read != read_stl_provenance};
     } catch (const std::system_error&) {
         return std::nullopt;
@@ -149,10 +107,8 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& file) {
         return std::nullopt;
     }
     try {
-        const std::string head = input->read(0, head_bytes);
-        const auto format =
-            std::find_if(formats.begin(), formats.end(), [&](const Format& each) { return each.begins(head); });
-        if (format == formats.end()) return std::nullopt;
+        const Format* const format = format_of(*input);
+        if (!format) return std::nullopt;
         std::string refusal = "contains no pattern";
         try {
             auto found = format->read(*input);
