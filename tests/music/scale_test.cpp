@@ -2,8 +2,8 @@
 #include "music/scale/scale.h"
 
 #include "music/melody/melody.h"
-#include "tests/program.h"
 #include "tests/files.h"
+#include "tests/program.h"
 
 #include <gtest/gtest.h>
 
