@@ -11,7 +11,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_modules = 100'000;
-constexpr std::size_t most_work = 50'000'000;  // modules of all steps and symbols of all successors
+constexpr std::size_t most_rewriting = 50'000'000;  // modules of all steps and symbols of all successors
 
 /// Numbers modules by their letters and values, and writes productions between the numbers.
 class PlainWriter {
@@ -82,7 +82,7 @@ private:
 
     void add_work(std::size_t more) {
         work_ += more;
-        if (work_ > most_work) is_too_much_ = true;
+        if (work_ > most_rewriting) is_too_much_ = true;
     }
 
     /// Applies a table to modules. New productions go to `productions`.

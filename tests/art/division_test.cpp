@@ -18,8 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::division_test {
 
 Document pattern(const std::string& name, int n, const std::string& variant = "") {
     return load(name, {variant, {{"-n", "derivation length", std::to_string(n)}}});
@@ -234,5 +233,4 @@ TEST(Division, IsRefusedWithAReason) {
               "animate: cannot be combined with 'divide', which has its own times");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::division_test

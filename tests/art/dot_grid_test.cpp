@@ -22,8 +22,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::dot_grid_test {
 
 GapStates state_of(const DotGrid& grid, std::uint64_t bits) {
     GapStates crossings(grid.gaps().size());
@@ -763,5 +762,4 @@ TEST(DotGridPattern, TellsItsCrossings) {
               crossings);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::dot_grid_test

@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::lesson_test {
 
 const std::string snake =
     "title: Snake\naxiom: f+Xf+f+Xf\nX --> Xf-f-f+Xf+f+Xf-f-f+X\nderivation length: 2\nangle factor: 4\n"
@@ -105,11 +104,11 @@ TEST_F(Lesson, PdfHasAPageForEachStep) {
     NEEDS("pdftoppm");
     NEEDS("qpdf");
     const std::string pdf = save("lesson.pdf", make(snake, "pdf").at("lesson.pdf"));
-    EXPECT_TRUE(run("qpdf --check '" + pdf + "'").ok);
-    const std::string info = run("pdfinfo '" + pdf + "'").text;
+    EXPECT_TRUE(run_tool("qpdf --check '" + pdf + "'").ok);
+    const std::string info = run_tool("pdfinfo '" + pdf + "'").text;
     const int pages = std::stoi(info.substr(info.find("Pages:") + 6));
     EXPECT_GE(pages, 6);
-    ASSERT_TRUE(run("pdftoppm -r 40 '" + pdf + "' '" + pdf + ".p'").ok);
+    ASSERT_TRUE(run_tool("pdftoppm -r 40 '" + pdf + "' '" + pdf + ".p'").ok);
     std::vector<PixelGrid> grids;
     for (int page = 1; page <= pages; ++page) {
         const std::string digits = std::to_string(page);
@@ -138,8 +137,8 @@ TEST_F(Lesson, SvgShowsOneStepAfterTheOther) {
     NEEDS("rsvg-convert");
     const std::string svg = make(snake, "svg").at("lesson.svg");
     const std::string file = save("lesson.svg", svg);
-    EXPECT_TRUE(run("xmllint --noout '" + file + "'").ok);
-    EXPECT_TRUE(run("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
+    EXPECT_TRUE(run_tool("xmllint --noout '" + file + "'").ok);
+    EXPECT_TRUE(run_tool("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
     const std::size_t steps = count_of(svg, "class=\"s\"");
     EXPECT_GE(steps, 5u);
     EXPECT_EQ(count_of(svg, "class=\"w\""), 1u);
@@ -242,5 +241,4 @@ TEST_F(Lesson, RefusesWhatHasNoSteps) {
     EXPECT_THROW(make(snake, "glb"), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lesson_test

@@ -11,8 +11,7 @@
 
 #include <cmath>
 
-namespace sikku {
-namespace {
+namespace sikku::lettering_test {
 
 /// Everything that was written, flattened to its control points.
 class Written : public PathSink {
@@ -290,5 +289,4 @@ TEST(Tamil, CurvesAreSmoothWhereAStrokeGoesOn) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lettering_test

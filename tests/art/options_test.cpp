@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::options_test {
 
 struct Drawing {
     std::string name, text;
@@ -272,5 +271,4 @@ TEST(Options, NoneIsIgnoredInSilence) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::options_test

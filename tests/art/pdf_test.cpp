@@ -11,8 +11,7 @@
 #include <random>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_test {
 
 using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
@@ -28,7 +27,7 @@ protected:
 
     /// Says what is wrong with the file's structure, or nothing.
     static std::string complaints(const std::filesystem::path& path) {
-        const ToolOutcome outcome = run("qpdf --check '" + path.string() + "'");
+        const ToolOutcome outcome = run_tool("qpdf --check '" + path.string() + "'");
         return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
     }
 
@@ -36,7 +35,7 @@ protected:
     std::string plain_text(const std::filesystem::path& path) {
         const auto plain = folder_ / "plain.pdf";
         const ToolOutcome outcome =
-            run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
+            run_tool("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return contents(plain);
     }
@@ -56,7 +55,7 @@ TEST_F(Pdf, IsSoundAndHasItsBoxes) {
         });
         EXPECT_EQ(complaints(path), "");
         EXPECT_TRUE(contents(path).starts_with("%PDF-1.6\n"));
-        const std::string boxes = run("pdfinfo -box '" + path.string() + "'").text;
+        const std::string boxes = run_tool("pdfinfo -box '" + path.string() + "'").text;
         for (const std::string name : {"MediaBox", "CropBox", "BleedBox", "TrimBox"}) {
             EXPECT_TRUE(has(boxes, name));
         }
@@ -207,7 +206,7 @@ TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
         print.made = "sikku 0.1.0, -n 4; " + title;
         const auto path = write(print, draw_sampler);
         EXPECT_EQ(complaints(path), "");
-        const std::string information = run("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
+        const std::string information = run_tool("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
         EXPECT_TRUE(has(information, title + "\n"));
         EXPECT_TRUE(has(information, print.made + "\n"));
         EXPECT_TRUE(has(information, "Sikku"));
@@ -271,7 +270,7 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     const auto svg = folder_ / "print.svg";
     write_print(svg, print, write_svg, draw);
     const auto from_svg = folder_ / "svg.pdf";
-    ASSERT_TRUE(run("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
+    ASSERT_TRUE(run_tool("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
     const PixelGrid one = render_pdf(pdf, 150);
     const PixelGrid other = render_pdf(from_svg, 150);
     ASSERT_EQ(one.width, other.width);
@@ -286,5 +285,4 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     EXPECT_LT(difference, 0.02 * ink);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_test

@@ -15,8 +15,7 @@
 #include <sstream>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_x_test {
 
 constexpr const char* profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
@@ -39,22 +38,23 @@ protected:
     }
     /// The file with its streams uncompressed, found sound by qpdf.
     std::string plain_text(const std::filesystem::path& path) {
-        const ToolOutcome check = run("qpdf --check '" + path.string() + "'");
+        const ToolOutcome check = run_tool("qpdf --check '" + path.string() + "'");
         EXPECT_TRUE(check.ok && check.text.find("WARNING") == std::string::npos) << check.text;
         const auto plain = folder_ / "plain.pdf";
-        EXPECT_TRUE(run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'").ok);
+        EXPECT_TRUE(run_tool("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'").ok);
         return contents(plain);
     }
     /// Mean ink on a plate as Ghostscript separates it, 0 to 1.
     double ink(const std::filesystem::path& pdf, const std::string& plate) {
         const std::string stem = (folder_ / pdf.stem().string()).string();
         if (!std::filesystem::exists(stem + ".tif")) {
-            const ToolOutcome outcome = run("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=tiffsep -r50 -o '" + stem +
-                                            ".tif' '" + pdf.string() + "'");
+            const ToolOutcome outcome = run_tool("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=tiffsep -r50 -o '" + stem +
+                                                 ".tif' '" + pdf.string() + "'");
             EXPECT_TRUE(outcome.ok) << outcome.text;
         }
         const std::string picture = stem + ".ppm";
-        EXPECT_TRUE(run("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok) << plate;
+        EXPECT_TRUE(run_tool("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok)
+            << plate;
         const PixelGrid pixels = read_ppm(picture);
         double sum = 0;
         for (const char byte : pixels.bytes) sum += 255 - static_cast<unsigned char>(byte);
@@ -78,7 +78,7 @@ TEST_F(PdfX, SaysWhatItIs) {
     for (const char* part : {"/ArtBox", "/AS ", "/JavaScript", "/Annots", "/Encrypt", "/Font"}) {
         EXPECT_FALSE(has(text, part)) << part;
     }
-    const ToolOutcome info = run("pdfinfo -box '" + path.string() + "'");
+    const ToolOutcome info = run_tool("pdfinfo -box '" + path.string() + "'");
     EXPECT_TRUE(has(info.text, "PDF subtype:    PDF/X-4"));
     // 100 mm are 283.46 points; bleed and marks take 8 mm.
     EXPECT_TRUE(has(info.text, "TrimBox:            22.68    22.68   306.14   306.14"));
@@ -88,7 +88,7 @@ TEST_F(PdfX, SaysWhatItIs) {
 TEST_F(PdfX, MetadataAndInformationAgree) {
     NEEDS("pdfinfo");
     const auto path = write({});
-    const std::string packet = run("pdfinfo -meta '" + path.string() + "'").text;
+    const std::string packet = run_tool("pdfinfo -meta '" + path.string() + "'").text;
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(packet.c_str())) << packet;
     const pugi::xml_node about = document.child("x:xmpmeta").child("rdf:RDF").child("rdf:Description");
@@ -103,7 +103,7 @@ TEST_F(PdfX, MetadataAndInformationAgree) {
     for (const char* date : {"xmp:CreateDate", "xmp:ModifyDate", "xmp:MetadataDate"}) {
         EXPECT_EQ(value(date), "2010-01-01T00:00:00Z") << "the same on every day";
     }
-    const std::string info = run("pdfinfo -isodates '" + path.string() + "'").text;
+    const std::string info = run_tool("pdfinfo -isodates '" + path.string() + "'").text;
     EXPECT_TRUE(has(info, "Title:           A <kolam> & more"));
     EXPECT_TRUE(has(info, "CreationDate:    2010-01-01T00:00:00Z"));
     EXPECT_TRUE(has(info, "ModDate:         2010-01-01T00:00:00Z"));
@@ -125,8 +125,8 @@ TEST_F(PdfX, TheProfileIsTheOneGiven) {
     std::smatch match;
     ASSERT_TRUE(std::regex_search(text, match, reference));
     const std::string icc = folder_.file("out.icc");
-    ASSERT_TRUE(run("qpdf --show-object=" + match[1].str() + " --filtered-stream-data '" +
-                    (folder_ / "plain.pdf").string() + "' > '" + icc + "'")
+    ASSERT_TRUE(run_tool("qpdf --show-object=" + match[1].str() + " --filtered-stream-data '" +
+                         (folder_ / "plain.pdf").string() + "' > '" + icc + "'")
                     .ok);
     EXPECT_EQ(contents(icc), contents(profile));
 }
@@ -219,5 +219,4 @@ TEST_F(PdfX, OtherProfilesAreRefused) {
     EXPECT_EQ(refused(text), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_x_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::photograph_prints_test {
 
 struct PrintedKolam {
     std::string grid;
@@ -140,5 +139,4 @@ TEST(PhotographPrints, AllKolamsOfASheetAreReadable) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::photograph_prints_test

@@ -18,8 +18,7 @@
 #include <random>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::raster_test {
 
 using Points = std::vector<glm::dvec2>;
 using Bytes = std::vector<std::uint8_t>;
@@ -661,5 +660,4 @@ TEST(Raster, AWatcherMayStopItWithinABand) {
                  Stop);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::raster_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sikku {
-namespace {
+namespace sikku::relief_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -361,5 +360,4 @@ TEST(Relief, IsClosedForTilingsAndKolams) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::relief_test

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tessellation_test {
 
 using reference::grammar_of;
 
@@ -181,5 +180,4 @@ TEST(Solids, ExtentsOfSurfacesAreThoseOfWhatIsSeen) {
     EXPECT_NEAR(box.high.y - box.low.y, 3, 1e-5);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tessellation_test

@@ -10,8 +10,7 @@
 #include <random>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::expression_test {
 
 struct Compiled {
     std::optional<Expression> expression;
@@ -327,5 +326,4 @@ TEST(Expression, WholePowersAreCorrectlyRounded) {
     EXPECT_EQ(value("10^-3"), 1e-3);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::expression_test

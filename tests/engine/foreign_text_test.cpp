@@ -11,8 +11,7 @@
 
 #include <algorithm>
 
-namespace sikku {
-namespace {
+namespace sikku::foreign_text_test {
 
 using reference::diagnostics_of;
 using reference::expect_mistakes;
@@ -382,5 +381,4 @@ TEST(ForeignText, OtherProgramsAreRecognised) {
     expect_mistakes("Lsystem: 1\nAxiom: F\nF --> FF\nendlsystem\n", {{{1, 1}, "this is an L-system of cpfg"}});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::foreign_text_test

@@ -18,8 +18,7 @@
 #include <map>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::import_cpfg_test {
 
 using namespace import_tools;
 
@@ -475,5 +474,4 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("Lsystem: 1\nAxiom: F(1" + repeated_text("%1.5", 40) + ")\nendlsystem\n", {{{2, 71}, "longer than 1 MB"}});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_cpfg_test

@@ -12,8 +12,7 @@
 
 #include <limits>
 
-namespace sikku {
-namespace {
+namespace sikku::label_test {
 
 using reference::expect_mistakes;
 
@@ -159,5 +158,4 @@ TEST(Labels, AreCheckedWithTheirPlaces) {
     EXPECT_TRUE(has(error_of<WordError>([&] { drawn("axiom: N(1/0)\nlabel N: {1}\n"); }), "not finite"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::label_test

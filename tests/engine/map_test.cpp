@@ -15,8 +15,7 @@
 #include <map>
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::map_test {
 
 const std::vector<Setting> all = {{"--set", "divide", "all"}};
 
@@ -428,5 +427,4 @@ TEST(MapLanguage, SettingsAreRead) {
     EXPECT_EQ(document.with({{"set", "divide", "once"}}).map()->divides_all, false);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::map_test

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::parts_test {
 
 using reference::grammar_of;
 
@@ -121,5 +120,4 @@ TEST(Parts, AreRefusedWhereTheyWouldLie) {
     EXPECT_FALSE(Parts<double>::make(grammar_of("axiom: A\nA --> B\nB --> C\n"))->whole().draws());
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::parts_test

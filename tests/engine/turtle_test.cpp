@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::turtle_test {
 
 using reference::derived_text;
 using reference::expect_mistakes;
@@ -466,5 +465,4 @@ TEST(TurtleErrors, NothingWraps) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::turtle_test

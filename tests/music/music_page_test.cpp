@@ -20,8 +20,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::music_page_test {
 
 class Memory : public MemoryOutput {
 public:
@@ -267,7 +266,7 @@ TEST(MusicSvg, TextsAreTexts) {
     const ScratchFolder folder;
     NEEDS("xmllint");
     const ToolOutcome outcome =
-        run("xmllint --nonet --noout '" + folder.write("x.svg", svg(about, hilbert(), 1920)) + "'");
+        run_tool("xmllint --nonet --noout '" + folder.write("x.svg", svg(about, hilbert(), 1920)) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_EQ(outcome.text, "");
 }
@@ -282,7 +281,7 @@ TEST(MusicSvg, HoldsVeryMany) {
     ASSERT_TRUE(document.load_string(text.c_str()));
     EXPECT_EQ(children(group(document, "roll"), "rect").size(), 100'000U);
     NEEDS("xmllint");
-    const ToolOutcome outcome = run("xmllint --nonet --noout '" + folder.write("x.svg", text) + "'");
+    const ToolOutcome outcome = run_tool("xmllint --nonet --noout '" + folder.write("x.svg", text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -431,5 +430,4 @@ TEST(MusicPage, WithoutNotesIsAPage) {
     EXPECT_TRUE(has(text, "\"end\":1,"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::music_page_test

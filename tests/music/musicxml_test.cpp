@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::musicxml_test {
 
 std::string xml_of(const TestScore& score) {
     MemorySink sink;
@@ -382,7 +381,8 @@ TEST(MusicXml, IsWellFormedToOthers) {
     for (unsigned seed = 0; seed < 8; ++seed) {
         TestScore score = random_score(seed, true);
         score.head.title = "<&\" \x02 \xC3";
-        const auto outcome = run("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
+        const auto outcome =
+            run_tool("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         EXPECT_EQ(outcome.text, "");
     }
@@ -410,5 +410,4 @@ TEST(MusicXml, IsTheSameInAnyLocale) {
     EXPECT_FALSE(has(before, "1,234"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::musicxml_test

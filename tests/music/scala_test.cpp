@@ -12,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::scala_test {
 
 /// What a reader made of a text.
 template <typename What>
@@ -482,5 +481,4 @@ TEST(MappedKey, EndsWithItsKeys) {
     EXPECT_FALSE(mapped_key(equal(12), map, 60));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::scala_test

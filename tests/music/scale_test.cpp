@@ -2,8 +2,8 @@
 #include "music/scale/scale.h"
 
 #include "music/melody/melody.h"
-#include "tests/program.h"
 #include "tests/files.h"
+#include "tests/program.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::scale_test {
 
 const Scale& scale_of(std::string_view name) {
     const Scale* scale = find_scale(name);
@@ -741,5 +740,4 @@ TEST(ScalesCommand, ShowsScalaFiles) {
     EXPECT_TRUE(has(none.errors, "none.scl: No such file or directory"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::scale_test

@@ -9,8 +9,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::cli_test {
 
 // --- JSON ---------------------------------------------------------------------------------------------------------
 
@@ -814,5 +813,4 @@ TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     EXPECT_EQ(colours.status, 0) << "several pens are read from the word: " << colours.errors;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::cli_test

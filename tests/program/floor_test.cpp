@@ -18,8 +18,7 @@
 #include <span>
 #include <variant>
 
-namespace sikku {
-namespace {
+namespace sikku::floor_test {
 
 const char* const koch = "title: Koch\naxiom: F\nF --> F-F++F-F\nangle factor: 6\nderivation length: 3\n";
 
@@ -258,5 +257,4 @@ TEST(Floor, EveryOptionOfTheTablesIsInTheHelp) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::floor_test

@@ -13,8 +13,7 @@
 #include <iterator>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -211,5 +210,4 @@ TEST_F(GalleryFolderTest, ProfilesOfInksBelongToTheJob) {
     EXPECT_TRUE(has(gallery(asked).errors, "0 made"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_folder_test

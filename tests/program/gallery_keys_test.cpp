@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_keys_test {
 
 const GalleryKeys& keys() {
     static const GalleryKeys known({&prints(), &scores()});
@@ -85,5 +84,4 @@ TEST(GalleryKeys, MakeWhatTheySay) {
                     "tile: sheets as png are several files, and each job of a gallery makes one"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_keys_test

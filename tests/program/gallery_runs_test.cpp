@@ -13,8 +13,7 @@
 #include <set>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_runs_test {
 
 namespace fs = std::filesystem;
 
@@ -152,5 +151,4 @@ TEST_F(GalleryRunsTest, RunsThatAreKilledAgainAndAgainGetOn) {
     EXPECT_EQ(tree(folder / "out").size(), 5U) << "nothing is left";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_runs_test

@@ -16,8 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_test {
 
 TEST_F(GalleryTest, MakesWhatTheFileSays) {
     const Outcome outcome = small("out");
@@ -663,5 +662,4 @@ TEST_F(GalleryTest, ForecastsTellWhatWillFail) {
     EXPECT_FALSE(has(gallery({"hilbert", "--dry-run"}).output, "may be refused"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_test

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::growth_test {
 
 const std::string bush =
     "title: Bush\nangle increment: 22.5\nturn: left\nsymbols: A S L\naxiom: A\nderivation length: 4\n"
@@ -62,7 +61,7 @@ TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     ASSERT_EQ(draw({"bush.lsys", "-n", "4", "--dpi", "40"}, "alone.png").status, 0);
     NEEDS("iinfo");
     const auto pixels = [&](const std::string& name) {
-        const std::string told = run("iinfo --hash '" + (folder_ / name).string() + "'").text;
+        const std::string told = run_tool("iinfo --hash '" + (folder_ / name).string() + "'").text;
         const std::size_t hash = told.find("SHA-1: ");
         return hash == std::string::npos ? std::string() : told.substr(hash);
     };
@@ -213,5 +212,4 @@ TEST_F(Growth, BadGenerationsAreRefused) {
     EXPECT_EQ(folder_.names(), (std::vector<std::string>{"bush.lsys", "none.lsys"}));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::growth_test

@@ -8,8 +8,7 @@
 
 #include <functional>
 
-namespace sikku {
-namespace {
+namespace sikku::library_test {
 
 Document curve() {
     return parse("curve", "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 3\ndefine width = 2\n");
@@ -86,5 +85,4 @@ TEST(Library, AMonitorStopsTheWork) {
     EXPECT_TRUE(memory.outputs().empty());
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::library_test

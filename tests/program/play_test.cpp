@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::play_test {
 
 /// Plays `pattern` into a file that must not be there after a failure.
 Outcome played(const std::string& pattern, std::vector<std::string> arguments, const std::string& name = "x.mid",
@@ -338,5 +337,4 @@ TEST(Play, ScalesOfFiles) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("y.mid")));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::play_test

@@ -14,8 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::print_options_test {
 
 class PrintOptions : public ::testing::Test {
 protected:
@@ -172,10 +171,10 @@ TEST_F(PrintOptions, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {
     // Not only drawings of one stroke, and readers that know no animation show them.
     NEEDS("rsvg-convert");
     const std::string file = (folder_ / "print.svg").string();
-    EXPECT_TRUE(run("rsvg-convert " + file + " -o " + file + ".png").ok);
+    EXPECT_TRUE(run_tool("rsvg-convert " + file + " -o " + file + ".png").ok);
     ASSERT_EQ(draw({"tree-in-voices", "-n", "3"}, "still.svg").status, 0);
     const std::string still = (folder_ / "still.svg").string();
-    EXPECT_TRUE(run("rsvg-convert " + still + " -o " + still + ".png").ok);
+    EXPECT_TRUE(run_tool("rsvg-convert " + still + " -o " + still + ".png").ok);
     EXPECT_EQ(contents(file + ".png"), contents(still + ".png"));
 }
 
@@ -370,5 +369,4 @@ TEST(BlankPicture, IsReportedWithItsRemedy) {
     EXPECT_EQ(draw({"hilbert", "-n", "60", "--window", window}), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::print_options_test

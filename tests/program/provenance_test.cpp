@@ -16,8 +16,7 @@
 #include <thread>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::provenance_test {
 
 using namespace std::string_literals;
 
@@ -144,9 +143,9 @@ TEST(Show, OtherProgramsAgree) {
         const std::string file = folder.file(name);
         ASSERT_EQ(run({"-q", "draw", source, "-n", "0", "--dpi", "10", "-o", file}).status, 0);
         const std::string tag = name == "a.png" ? "Description" : name == "a.exr" ? "Comments" : "ImageDescription";
-        EXPECT_EQ(run("exiftool -b -" + tag + " '" + file + "'").text, text) << name;
+        EXPECT_EQ(run_tool("exiftool -b -" + tag + " '" + file + "'").text, text) << name;
         EXPECT_EQ(provenance_of(file).value().pattern, text) << name;
-        const std::string made = run("exiftool -b -Software '" + file + "'").text;
+        const std::string made = run_tool("exiftool -b -Software '" + file + "'").text;
         EXPECT_EQ(provenance_of(file).value().made, made) << name;
     }
 }
@@ -386,5 +385,4 @@ TEST_F(ShowBombs, PatternsDevicesAndPipes) {
     writer.join();
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::provenance_test
