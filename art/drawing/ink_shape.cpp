@@ -1,7 +1,7 @@
 #include "art/drawing/ink_shape.h"
 
 #include "engine/geometry/bezier.h"
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,7 +22,8 @@ std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
     for (int side = 0; side < 2; ++side) {
         const std::size_t first = hull.size();
         for (const glm::dvec2 point : points) {
-            while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) {
+            while (hull.size() >= first + 2 &&
+                   determinant(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0) {
                 hull.pop_back();
             }
             hull.push_back(point);
@@ -35,7 +36,8 @@ std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
 
 double polygon_area(const std::vector<glm::dvec2>& corners) {
     double area = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) area += cross(corners[i], corners[(i + 1) % corners.size()]);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        area += determinant(corners[i], corners[(i + 1) % corners.size()]);
     return area / 2;
 }
 
@@ -90,8 +92,8 @@ void InkShape::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
     glm::dvec2 moment(0.0);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::dvec2 one = vertices[i], two = vertices[(i + 1) % vertices.size()];
-        area += cross(one, two) / 2;
-        moment += cross(one, two) / 6 * (one + two);
+        area += determinant(one, two) / 2;
+        moment += determinant(one, two) / 6 * (one + two);
     }
     area_ += std::fabs(area);
     area_moment_ += area < 0 ? -moment : moment;

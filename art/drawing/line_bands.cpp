@@ -1,6 +1,6 @@
 #include "art/drawing/line_bands.h"
 
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/geometry/point_tree.h"
 
@@ -32,7 +32,7 @@ bool mitre(glm::dvec2 corner, glm::dvec2 before, glm::dvec2 after, double offset
     constexpr double sharpest = 0.15;
     constexpr double sharpest_outside = 0.91;
     const double share = 1 + glm::dot(before, after);
-    const bool is_outside = cross(before, after) * offset < 0;
+    const bool is_outside = determinant(before, after) * offset < 0;
     if (share < (is_outside ? sharpest_outside : sharpest)) return false;
     found = corner + offset / share * (left_of(before) + left_of(after));
     return true;
@@ -130,11 +130,11 @@ void LineBands::measure_turns(const Monitor& monitor) {
             const glm::dvec2 before = tangent_of(piece.curve, 1);
             const glm::dvec2 after = tangent_of(lines_.piece(line, (i + 1) % count).curve, 0);
             glm::dvec2 unused;
-            if (!mitre({}, before, after, cross(before, after), unused)) {
+            if (!mitre({}, before, after, determinant(before, after), unused)) {
                 run = turn_before = 0;
                 continue;
             }
-            const double turn = cross(before, after) / (1 + glm::dot(before, after));
+            const double turn = determinant(before, after) / (1 + glm::dot(before, after));
             if (std::fabs(turn) < 1e-9) continue;
             constexpr double most = 0.9;
             const double both = std::fabs(turn_before + turn);
@@ -227,7 +227,7 @@ double LineBands::cut(std::size_t line, std::size_t pass, bool is_forward, doubl
     const glm::dvec2 upper_speed = lines_.derivative(upper, upper_mark.position);
     const glm::dvec2 own_speed = lines_.derivative(own, at);
     const double speeds = glm::length(upper_speed) * glm::length(own_speed);
-    const double sine = speeds > 0 ? std::fabs(cross(upper_speed, own_speed)) / speeds : 1;
+    const double sine = speeds > 0 ? std::fabs(determinant(upper_speed, own_speed)) / speeds : 1;
     constexpr double least_sine = 0.15;
     const double reach = 2.5 * clear / std::max(sine, least_sine);
     constexpr int chords = 96;

@@ -1,6 +1,6 @@
 #include "art/plotter/arc_follower.h"
 
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,7 +22,7 @@ constexpr double largest_sweep = 4.7;      // radians; an arc's ends must not fa
 std::optional<PlotArc> arc_through(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const glm::dvec2 to_b = b - a;
     const glm::dvec2 to_c = c - a;
-    const double twice = 2 * cross(to_b, to_c);
+    const double twice = 2 * determinant(to_b, to_c);
     const glm::dvec2 offset =
         (glm::dvec2(to_c.y, -to_c.x) * glm::dot(to_b, to_b) + glm::dvec2(-to_b.y, to_b.x) * glm::dot(to_c, to_c)) /
         twice;
@@ -39,7 +39,7 @@ bool line_fits(std::span<const glm::dvec2> points) {
     for (const glm::dvec2 point : points) {
         const glm::dvec2 way = point - points.front();
         const double along = glm::dot(way, whole) / length;
-        if (std::fabs(cross(way, whole)) > fit * length || along < reached - fit) return false;
+        if (std::fabs(determinant(way, whole)) > fit * length || along < reached - fit) return false;
         reached = std::max(reached, along);
     }
     return reached <= length + fit;
@@ -55,9 +55,9 @@ std::optional<PlotArc> fitting_arc(std::span<const glm::dvec2> points) {
         const glm::dvec2 from = points[i - 1] - arc->centre;
         const glm::dvec2 to = points[i] - arc->centre;
         const glm::dvec2 way = to - from;
-        sweep += cross(from, to) / (radius * radius) * (arc->is_left ? 1 : -1);
+        sweep += determinant(from, to) / (radius * radius) * (arc->is_left ? 1 : -1);
         if (std::fabs(glm::length(to) - radius) > fit || glm::dot(way, way) > 16 * ArcFollower::chord * radius ||
-            (cross(from, to) > 0) != arc->is_left) {
+            (determinant(from, to) > 0) != arc->is_left) {
             return std::nullopt;
         }
     }

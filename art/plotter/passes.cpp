@@ -2,7 +2,7 @@
 
 #include "art/plotter/shading.h"
 #include "engine/geometry/bezier.h"
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
 
@@ -101,7 +101,7 @@ private:
 
     /// Length trimmed from two lines at the inside of a corner; 0 if they are not trimmed.
     double trim(const Part& part, const Part& next) const {
-        const double turn = cross(part.in, next.out);
+        const double turn = determinant(part.in, next.out);
         if (part.is_curve || next.is_curve || offset_ * turn <= 0) return 0;
         const double cut = std::fabs(offset_ * turn) / (1 + glm::dot(part.in, next.out));
         return cut < 0.5 * std::min(part.length(), next.length()) ? cut : 0;
@@ -111,7 +111,7 @@ private:
     void corner(const Part& part, const Part& next) {
         const glm::dvec2 at = part.bezier[3];
         const glm::dvec2 to = at + offset_ * left_of(next.out);
-        const double turn = std::atan2(cross(part.in, next.out), glm::dot(part.in, next.out));
+        const double turn = std::atan2(determinant(part.in, next.out), glm::dot(part.in, next.out));
         if (std::fabs(turn * offset_) <= tolerance_) return;
         const bool is_back = std::fabs(turn) > std::numbers::pi - 1e-9;
         if (offset_ * turn > 0 && !is_back) return line(to);
@@ -141,7 +141,7 @@ private:
             const glm::dvec2 first = curve[1] - curve[0];
             const double length = square(first);
             if (!(length > 0)) return 1.0;
-            const double bend = 2.0 / 3.0 * cross(first, curve[2] - curve[1]) / (length * std::sqrt(length));
+            const double bend = 2.0 / 3.0 * determinant(first, curve[2] - curve[1]) / (length * std::sqrt(length));
             return 1 - side * offset_ * bend;
         };
         const Bezier found = {from, from + speed(b, 1) * (b[1] - b[0]), to + speed(reversed, -1) * (b[2] - b[3]), to};

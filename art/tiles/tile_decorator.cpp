@@ -6,7 +6,7 @@
 #include "art/tiles/united_lines.h"
 #include "engine/base/chance.h"
 #include "engine/derivation/derivation.h"
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -27,7 +27,7 @@ glm::dvec2 turned_left(glm::dvec2 vector) {
 double twice_area(std::span<const glm::dvec2> vertices) {
     double area = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        area += cross(vertices[i] - vertices[0], vertices[(i + 1) % vertices.size()] - vertices[0]);
+        area += determinant(vertices[i] - vertices[0], vertices[(i + 1) % vertices.size()] - vertices[0]);
     }
     return area;
 }
@@ -40,7 +40,7 @@ glm::dvec2 middle(std::span<const glm::dvec2> vertices) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::dvec2 a = vertices[i] - vertices[0];
         const glm::dvec2 b = vertices[(i + 1) % vertices.size()] - vertices[0];
-        sum += (a + b) * cross(a, b);
+        sum += (a + b) * determinant(a, b);
         mean += a / static_cast<double>(vertices.size());
     }
     return vertices[0] + (area != 0 ? sum / (3 * area) : mean);
@@ -57,11 +57,11 @@ public:
     void curve(int colour, glm::dvec2 from, glm::dvec2 out, glm::dvec2 to, glm::dvec2 in) {
         const glm::dvec2 chord = to - from;
         // The handles of a circular arc, if the ends are those of one.
-        const double angle = std::fabs(std::atan2(cross(out, in), glm::dot(out, in)));
+        const double angle = std::fabs(std::atan2(determinant(out, in), glm::dot(out, in)));
         const double quarter = std::cos(angle / 4);
         const double handle = glm::length(chord) / (3 * quarter * quarter);
         const double slack = 1e-9 * glm::length(chord);
-        if (std::fabs(cross(chord, out)) <= slack && std::fabs(cross(chord, in)) <= slack &&
+        if (std::fabs(determinant(chord, out)) <= slack && std::fabs(determinant(chord, in)) <= slack &&
             glm::dot(chord, out) > 0) {
             return line(colour, from, to);
         }

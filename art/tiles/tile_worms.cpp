@@ -2,7 +2,7 @@
 
 #include "art/plotter/plot_layer.h"
 #include "engine/base/union_find.h"
-#include "engine/geometry/cross.h"
+#include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
 
@@ -30,7 +30,7 @@ std::vector<glm::dvec2> rhomb(std::span<const glm::dvec2> vertices) {
         const glm::dvec2 before = vertices[i] - vertices[(i + vertices.size() - 1) % vertices.size()];
         const glm::dvec2 after = vertices[(i + 1) % vertices.size()] - vertices[i];
         const bool is_straight =
-            std::fabs(cross(before, after)) <= accuracy * glm::length(before) * glm::length(after);
+            std::fabs(determinant(before, after)) <= accuracy * glm::length(before) * glm::length(after);
         if (!is_straight) corners.push_back(vertices[i]);
     }
     if (corners.size() != 4) return {};
@@ -104,7 +104,7 @@ std::vector<WormLink> find_worms(const TileOutlines& tiles, const Monitor& monit
         const std::vector<glm::dvec2> corners = rhomb(tiles[tile]);
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::dvec2 ahead = corners[(i + 1) % 4] - corners[i], back = corners[(i + 3) % 4] - corners[i];
-            const double angle = std::fabs(std::atan2(cross(ahead, back), glm::dot(ahead, back)));
+            const double angle = std::fabs(std::atan2(determinant(ahead, back), glm::dot(ahead, back)));
             const std::uint32_t node = nodes.at(corners[i]);
             const RhombCorner corner{static_cast<std::uint32_t>(tile),
                                      angle,

@@ -61,7 +61,7 @@ private:
 };
 
 /// A vector turned by the direction of a unit vector.
-glm::dvec2 turned(glm::dvec2 unit, glm::dvec2 vector) {
+glm::dvec2 turned_by(glm::dvec2 unit, glm::dvec2 vector) {
     return {unit.x * vector.x - unit.y * vector.y, unit.y * vector.x + unit.x * vector.y};
 }
 
@@ -84,7 +84,7 @@ std::vector<glm::dvec2> upright(const Map& map, std::vector<glm::dvec2> vertices
     const glm::dvec2 centre = centroid_of_outline(map, vertices);
     const glm::dvec2 now = glm::normalize(vertices.front() - centre);
     const glm::dvec2 turn(glm::dot(now, first), now.x * first.y - now.y * first.x);
-    for (glm::dvec2& vertex : vertices) vertex = turned(turn, vertex - centre);
+    for (glm::dvec2& vertex : vertices) vertex = turned_by(turn, vertex - centre);
     return vertices;
 }
 
@@ -116,7 +116,7 @@ std::vector<glm::dvec2> outline_on_circle(const Map& map, const glm::dvec2& firs
     for (std::size_t i = 0; i < wall.size(); ++i) {
         const HalfEdge half = wall[(static_cast<std::size_t>(start) + i) % wall.size()];
         const double angle = step * static_cast<double>(i);
-        vertices[map.start(half)] = turned({std::cos(angle), std::sin(angle)}, first);
+        vertices[map.start(half)] = turned_by({std::cos(angle), std::sin(angle)}, first);
     }
     return vertices;
 }
