@@ -176,16 +176,6 @@ TEST_F(Growth, ViewsDifferAndAreToldInThePrint) {
     expect_refused(run({"kolam", (folder_ / "bush.lsys").string()}), 1, "a kolam lies in the plane");
 }
 
-TEST_F(Growth, MeasureTellsThreeAxes) {
-    const Outcome outcome = run({"measure", (folder_ / "bush.lsys").string(), "--json"});
-    EXPECT_EQ(outcome.status, 0);
-    EXPECT_TRUE(has(outcome.output, "\"end\": [0, 0, 0], \"heading\": null, \"closed\": true, \"depth\": 4"));
-    const auto box = outcome.output.find("\"box\": [");
-    ASSERT_NE(box, std::string::npos);
-    const std::string numbers = outcome.output.substr(box, outcome.output.find(']', box) - box);
-    EXPECT_EQ(std::count(numbers.begin(), numbers.end(), ','), 5);
-}
-
 TEST_F(Growth, ModelsAreMade) {
     for (const char* file : {"b.obj", "b.glb"}) EXPECT_EQ(draw({"bush.lsys"}, file).status, 0) << file;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.mtl"));
