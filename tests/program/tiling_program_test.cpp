@@ -266,31 +266,6 @@ TEST(TilingCommand, ListsOriginsOfFaults) {
     EXPECT_TRUE(tiling({"chair", "-n", "1"})["violation_list"].empty());
 }
 
-TEST(TilingCommand, NamesOfTilesNeedTiles) {
-    const ScratchFolder folder;
-    const std::string warning = "--name-tiles has no effect: this drawing has no filled polygons with straight edges";
-    for (const char* extension : {"svg", "pdf", "dxf"}) {
-        const std::string file = folder.file(std::string("x.") + extension);
-        for (const bool has_tiles : {true, false}) {
-            const char* pattern = has_tiles ? "chair" : "hilbert";
-            std::vector<std::vector<std::string>> commands = {{"draw", pattern, "-n", "2"}, {"sheet", pattern}};
-            if (std::string(extension) != "dxf") commands.push_back({"draw", pattern, "-n", "2", "--tile", "a6"});
-            for (std::vector<std::string>& command : commands) {
-                command.insert(command.end(), {"--name-tiles", "-o", file});
-                const Outcome outcome = run(command);
-                EXPECT_EQ(outcome.status, 0) << outcome.errors;
-                EXPECT_EQ(outcome.errors.find(warning) == std::string::npos, has_tiles)
-                    << pattern << ' ' << extension << ": " << outcome.errors;
-            }
-        }
-    }
-    // An empty window says nothing about the drawing.
-    const Outcome empty = run({"draw", "spectre", "-n", "40", "--window", "1000000,3,1000040,43", "--name-tiles",
-                               "-o", folder.file("x.svg")});
-    EXPECT_TRUE(has(empty.errors, "the window contains no part of the drawing"));
-    EXPECT_FALSE(has(empty.errors, warning));
-}
-
 /// Pieces of files are those of the pattern that wrote them, at the length of a unit.
 TEST(TilingCommand, CutsPiecesOfFiles) {
     const ScratchFolder folder;
