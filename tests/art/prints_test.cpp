@@ -268,7 +268,7 @@ TEST(Prints, WhatSpaceLacksIsRefused) {
                                "this one pitches, rolls, bends or has surfaces"))
             << value.name;
     }
-    EXPECT_TRUE(has(error_of([&] { examine_kolam(parse("-", leafy), 1e6); }), "or has surfaces"));
+    EXPECT_TRUE(has(error_of([&] { examine_kolam(parse("-", leafy), 1e6, {}); }), "or has surfaces"));
 }
 
 TEST(Prints, ScreensAreTheSameOnEveryNumberOfThreads) {
