@@ -30,6 +30,22 @@ inline std::string remarks_of(const Made& made) {
     return text;
 }
 
+/// The warnings, a line each.
+inline std::string warnings_of(const Made& made) {
+    std::string text;
+    for (const Remark& remark : made.remarks) text += remark.is_warning ? remark.text + "\n" : "";
+    return text;
+}
+
+/// Makes a document in a format and keeps nothing but the remarks. Names in `values` are options of the interpreter,
+/// or keys and defines of the pattern. @throws as assign(), plan() and make()
+inline Made remarks_about(const Interpreter& interpreter, const Document& document, const std::string& format,
+                          const OptionValues& values = {}) {
+    MemoryDestination memory;
+    const Assignment assigned = assign(interpreter, document, values);
+    return interpreter.plan(assigned.document, format, assigned.options)->make(memory, "x." + format, {});
+}
+
 /// Calls `plan(memory)`, which makes a work in memory and returns what it made. After an error no output is kept.
 template <typename Plan>
 MadeWork made_work(Plan&& plan) {

@@ -8,7 +8,6 @@
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -10,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>

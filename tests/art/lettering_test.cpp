@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <cmath>
-
 namespace sikku {
 namespace {
 

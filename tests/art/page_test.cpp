@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>

@@ -8,11 +8,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 
 namespace sikku {
@@ -36,14 +32,6 @@ protected:
         values.push_back({"cmyk", profile});
         values.push_back({"size", "100x100mm"});
         return folder_.write(name, draw(parse("x.lsys", pattern), "pdf", values));
-    }
-    /// The file with its streams uncompressed, found sound by qpdf.
-    std::string plain_text(const std::filesystem::path& path) {
-        const ToolOutcome check = run("qpdf --check '" + path.string() + "'");
-        EXPECT_TRUE(check.ok && check.text.find("WARNING") == std::string::npos) << check.text;
-        const auto plain = folder_ / "plain.pdf";
-        EXPECT_TRUE(run("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'").ok);
-        return contents(plain);
     }
     /// Mean ink on a plate as Ghostscript separates it, 0 to 1.
     double ink(const std::filesystem::path& pdf, const std::string& plate) {

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace sikku {

@@ -4,7 +4,6 @@
 #include "tests/plot_tools.h"
 
 #include <map>
-#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>

@@ -9,14 +9,12 @@
 #include "tests/print_tools.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
 #include <random>
-#include <thread>
 
 namespace sikku {
 namespace {

@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -457,13 +456,10 @@ TEST(Scene, LettersFaceTheEye) {
 // --- vectors -----------------------------------------------------------------------------------------------------
 
 /// Polygons in the order in which they come.
-class Polygons : public PathSink {
+class Polygons : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2, const Pen&) override { ++strokes; }
     void lines(std::span<const glm::dvec2> ends) override { lines_drawn += ends.size(); }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         shapes.emplace_back(vertices.begin(), vertices.end());
         colours.push_back(pen.colour);

@@ -3,7 +3,6 @@
 #include "tests/checks.h"
 #include "tests/print_tools.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <charconv>

@@ -8,9 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 namespace sikku {
 namespace {

@@ -12,7 +12,6 @@
 #include <regex>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace sikku {
 namespace {

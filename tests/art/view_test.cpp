@@ -7,7 +7,6 @@
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
 #include "engine/measure/fold.h"
-#include "tests/files.h"
 #include "tests/reference.h"
 
 #include <fmt/format.h>
@@ -185,7 +184,7 @@ TEST(View, WindowsOfHilbertAreThoseOfAnotherForm) {
 }
 
 /// Every Bézier of a drawing.
-class BezierSink : public PathSink {
+class BezierSink : public PolygonSink {
 public:
     using Bezier = std::array<glm::dvec2, 4>;
     void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
@@ -196,10 +195,7 @@ public:
             at_ = controls[i + 2];
         }
     }
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     /// Those that touch a window, moved and rounded so that they can be compared.
     std::multiset<std::array<std::int64_t, 8>> within(glm::dvec2 low, double side, glm::dvec2 origin) const {
@@ -314,7 +310,7 @@ TEST(View, WindowsOfOtherAnglesAreWhereTheyShouldBe) {
         Sight sight;
         sight.box.add({0, 0});
         sight.box.add({2, 2});
-        class Nearest : public BlotSink {
+        class Nearest : public WithoutStrokes<BlotSink> {
         public:
             explicit Nearest(glm::dvec2 end) : end_(end) {}
             void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
@@ -324,9 +320,6 @@ TEST(View, WindowsOfOtherAnglesAreWhereTheyShouldBe) {
                     at_ = end;
                 }
             }
-            void curves(std::span<const glm::dvec2>) override {}
-            void change_pen(const Pen&) override {}
-            void end_stroke(bool) override {}
             void polygon(std::span<const glm::dvec2>, const Pen&) override {}
             void disc(glm::dvec2, double, const Pen&) override {}
             std::size_t prepare(const Blot&, const Pen&) override { return 0; }

@@ -12,9 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <glm/geometric.hpp>
-#include <map>
 #include <random>
 
 namespace sikku {

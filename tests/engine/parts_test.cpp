@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace sikku {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 using reference::grammar_of;
 
 /// Length, centre of mass and covariance of straight lines.
-class MassSink : public PathSink {
+class MassSink : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
     void lines(std::span<const glm::dvec2> ends) override {
@@ -34,11 +33,7 @@ public:
             at_ = end;
         }
     }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     double length = 0;
     glm::dvec2 sum{0.0};

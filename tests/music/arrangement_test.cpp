@@ -300,12 +300,7 @@ TEST(ScoreOptions, AreAppliedOrReported) {
     const Document document = parse(
         "h.lsys", "axiom: X\nX --> +YF-XFX-FY+\nY --> -XF+YFY+FX-\nderivation length: 2\nangle increment: 90\n");
     const auto warnings_of = [&](const std::string& format, const OptionValues& values) {
-        std::string warnings;
-        std::istringstream lines(made_work(scores(), document, format, values).remarks);
-        for (std::string line; std::getline(lines, line);) {
-            if (line.starts_with("warning: ")) warnings += line.substr(9) + "\n";
-        }
-        return warnings;
+        return sikku::warnings_of(remarks_about(scores(), document, format, values));
     };
     // Names of keys contain blanks, those of options dashes.
     EXPECT_EQ(warnings_of("mid", {{"named-notes", "no"}}),

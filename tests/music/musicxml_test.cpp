@@ -9,11 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <clocale>
-#include <cmath>
 #include <map>
 #include <pugixml.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sikku {

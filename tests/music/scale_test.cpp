@@ -2,8 +2,8 @@
 #include "music/scale/scale.h"
 
 #include "music/melody/melody.h"
-#include "tests/program.h"
 #include "tests/files.h"
+#include "tests/program.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>

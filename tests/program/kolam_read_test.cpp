@@ -4,7 +4,6 @@
 #include "tests/program.h"
 #include "tests/tools.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -3,15 +3,8 @@
 #include "tests/program.h"
 #include "tests/tools.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <pugixml.hpp>
-#include <regex>
 #include <set>
-#include <sstream>
 
 namespace sikku {
 namespace {
