@@ -20,8 +20,11 @@ struct MadeWork {
     std::string error;    ///< the message, if the work failed
     std::string remarks;  ///< a line each; warnings begin with `warning: `
     std::map<std::string, std::string> outputs;
-    /// The bytes of the only output.
-    const std::string& bytes() const { return outputs.begin()->second; }
+    /// The bytes of the first output. @throws std::runtime_error if the work failed
+    const std::string& bytes() const {
+        if (outputs.empty()) throw std::runtime_error(error);
+        return outputs.begin()->second;
+    }
 };
 
 inline std::string remarks_of(const Made& made) {
