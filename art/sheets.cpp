@@ -51,50 +51,50 @@ double length(const char* option, const std::string& text, double dpi, double le
     return *value;
 }
 
-using S = SheetSettings;
 using P = PlaceSettings;
 using Text = const std::string&;
 using enum OptionKind;
 
 const std::array sheet_rows = {
-    Option<S>{{.name = "columns",
-               .help = "number of columns (the number for which the drawings are largest)",
-               .value = "N",
-               .kind = whole,
-               .least = 1,
-               .most = 1000},
-              [](S& s, Text t) { s.columns = static_cast<int>(to_number(t)); }},
-    Option<S>{
+    Option<SheetSettings>{{.name = "columns",
+                           .help = "number of columns (the number for which the drawings are largest)",
+                           .value = "N",
+                           .kind = whole,
+                           .least = 1,
+                           .most = 1000},
+                          [](SheetSettings& s, Text t) { s.columns = static_cast<int>(to_number(t)); }},
+    Option<SheetSettings>{
         {.name = "gutter", .help = "space between the drawings (about a tenth of their width)", .value = "LENGTH"},
-        [](S& s, Text t) { s.gutter = length("gutter", t, s.dpi, 0); }},
-    Option<S>{{.name = "titles",
-               .help = "text below each drawing: none, its title, or a caption with its productions (none)",
-               .value = "none|title|caption"},
-              [](S& s, Text t) {
-                  const std::array<std::pair<const char*, Titles>, 3> known = {
-                      {{"none", Titles::none}, {"title", Titles::title}, {"caption", Titles::caption}}};
-                  for (const auto& [name, titles] : known) {
-                      if (t == name) return void(s.titles = titles);
-                  }
-                  refuse_option("titles", t, "expected none, title or caption");
-              }},
-    Option<S>{
+        [](SheetSettings& s, Text t) { s.gutter = length("gutter", t, s.dpi, 0); }},
+    Option<SheetSettings>{
+        {.name = "titles",
+         .help = "text below each drawing: none, its title, or a caption with its productions (none)",
+         .value = "none|title|caption"},
+        [](SheetSettings& s, Text t) {
+            const std::array<std::pair<const char*, Titles>, 3> known = {
+                {{"none", Titles::none}, {"title", Titles::title}, {"caption", Titles::caption}}};
+            for (const auto& [name, titles] : known) {
+                if (t == name) return void(s.titles = titles);
+            }
+            refuse_option("titles", t, "expected none, title or caption");
+        }},
+    Option<SheetSettings>{
         {.name = "same-scale",
          .help =
              "draw all at one scale, at which the largest fills its place, instead of each as large as fits: with "
              "one distance between dots if all have dots, otherwise with one step length",
          .kind = flag},
-        [](S& s, Text t) { s.same_scale = t == "true"; }},
-    Option<S>{{.name = "heading", .help = "title of the sheet, above the drawings", .value = "TEXT"},
-              [](S& s, Text t) { s.heading = t; }},
-    Option<S>{{.name = "subheading", .help = "smaller line below the heading", .value = "TEXT"},
-              [](S& s, Text t) { s.subheading = t; }},
-    Option<S>{
+        [](SheetSettings& s, Text t) { s.same_scale = t == "true"; }},
+    Option<SheetSettings>{{.name = "heading", .help = "title of the sheet, above the drawings", .value = "TEXT"},
+                          [](SheetSettings& s, Text t) { s.heading = t; }},
+    Option<SheetSettings>{{.name = "subheading", .help = "smaller line below the heading", .value = "TEXT"},
+                          [](SheetSettings& s, Text t) { s.subheading = t; }},
+    Option<SheetSettings>{
         {.name = "sheet-ground",
          .help =
              "colour between the drawings, or none (the ground of the drawings if they share one, otherwise paper)",
          .value = "COLOUR"},
-        [](S& s, Text t) {
+        [](SheetSettings& s, Text t) {
             s.has_ground = true;
             if (lower_case(trimmed(t)) == "none") return;
             s.ground = parse_colour(trimmed(t));
@@ -174,7 +174,7 @@ Shared read_shared(OptionValues values, const std::filesystem::path* folder = nu
     check_names(prints().options(), shared.cells);
     shared.print = read_draw_settings(wide, folder);
     shared.sheet.dpi = shared.print.page.dpi;
-    apply_options(std::span<const Option<S>>(sheet_rows), own, shared.sheet);
+    apply_options(std::span<const Option<SheetSettings>>(sheet_rows), own, shared.sheet);
     return shared;
 }
 

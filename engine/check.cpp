@@ -14,7 +14,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_variant_bytes = std::size_t{256} << 20;  // of all variants together
-constexpr std::size_t most_errors = 50;
+constexpr std::size_t most_pattern_errors = 50;
 constexpr double most_compositions = 100'000;  // symbols times steps, which take a few milliseconds
 
 /// True if each bracket in the text has its counterpart.
@@ -96,7 +96,7 @@ private:
             return collect(diagnostics);
         }
         for (const Variant& variant : pattern.variants) {
-            if (errors_ >= most_errors) return;
+            if (errors_ >= most_pattern_errors) return;
             Diagnostics diagnostics;
             Pattern varied = pattern;
             apply_overrides(varied, variant.name.view(), {}, diagnostics);

@@ -15,7 +15,7 @@ namespace py = pybind11;
 namespace sikku {
 namespace {
 
-constexpr std::chrono::milliseconds interval{50};  // between two checks for signals
+constexpr std::chrono::milliseconds signal_interval{50};  // between two checks for signals
 
 constexpr std::size_t most_modules = 4096;  // in a list
 
@@ -81,7 +81,7 @@ void WordIterator::read_piece() {
         WordStream::Next next{};
         {
             const py::gil_scoped_release release;
-            next = stream_->next(piece_, interval);
+            next = stream_->next(piece_, signal_interval);
         }
         if (next == WordStream::Next::piece) return;
         if (next == WordStream::Next::end) {

@@ -18,7 +18,7 @@ std::string all_of(const Diagnostics& diagnostics) {
     return text;
 }
 
-std::vector<ImportedSystem> fractint(const std::string& text) {
+std::vector<ImportedSystem> systems_of(const std::string& text) {
     Diagnostics diagnostics;
     const auto systems = import_fractint(source_of(text), diagnostics);
     EXPECT_FALSE(diagnostics.has_errors()) << all_of(diagnostics);

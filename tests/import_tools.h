@@ -25,7 +25,7 @@ SourcePointer source_of(const std::string& text, const std::string& name = "test
 
 std::string all_of(const Diagnostics& diagnostics);
 
-std::vector<ImportedSystem> fractint(const std::string& text);
+std::vector<ImportedSystem> systems_of(const std::string& text);
 
 ImportedSystem cpfg(const std::string& text, const std::string& view = "");
 

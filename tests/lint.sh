@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the format of all sources, and runs clang-tidy on changed ones. Usage: lint.sh BUILD_FOLDER [--all]
-# BUILD_FOLDER has compile_commands.json. A clean source is checked again only after it, a header or the settings
+# BUILD_FOLDER is build/PRESET. A clean source is checked again only after it, a header or the settings
 # change. Without --all, only files that differ from the commit before the last are checked (none outside of a git
 # repository), without the static analyser, which takes minutes.
 set -euo pipefail
@@ -19,10 +19,11 @@ if [ "$all" != --all ]; then
     mapfile -t wanted < <(git diff --name-only --diff-filter=d HEAD~1 -- engine art music cli python 'studio/*.cpp' ':!studio/wasm' 2> /dev/null |
         grep '\.cpp$' || true)
 fi
-mkdir -p "$build/tidy"
-# clang-tidy cannot read the precompiled headers of g++, nor does it have all its warnings.
-sed -E 's/ -Winvalid-pch//; s/ -include [^ ]*cmake_pch\.hxx//; s/ -Wno-(restrict|stringop-[a-z]*)//g' "$build/compile_commands.json" \
-    > "$build/tidy/compile_commands.json"
+# A table of single sources instead of batches, without precompiled headers of g++, which clang-tidy cannot read, and
+# without options that it does not have.
+cmake --preset "$(basename "$build")" -B "$build/tidy" -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+    > "$build/tidy.log" 2>&1 || { cat "$build/tidy.log"; exit 1; }
+sed -i -E 's/ --param ggc[^ ]*//g; s/ -Wno-(restrict|stringop-[a-z]*)//g' "$build/tidy/compile_commands.json"
 # All headers and settings.
 seen=$(cat .clang-tidy $(find engine art music cli python studio/*.h -name '*.h' | sort) | sha256sum | cut -c1-24)
 export build seen

@@ -31,7 +31,7 @@ std::string plain_text(const std::filesystem::path& pdf) {
 PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi) {
     const std::string stem = pdf.string() + ".page";
     const ToolOutcome outcome =
-        run("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");
+        run_tool("pdftoppm -r " + std::to_string(dpi) + " -singlefile '" + pdf.string() + "' '" + stem + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_EQ(outcome.text, "");
     return read_ppm(stem + ".ppm");

@@ -21,7 +21,7 @@ struct ToolOutcome {
     bool ok = false;
     std::string text;
 };
-inline ToolOutcome run(const std::string& command) {
+inline ToolOutcome run_tool(const std::string& command) {
     FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     if (!pipe) return {};
     ToolOutcome outcome;

@@ -19,7 +19,6 @@
 #include "engine/measure/clumps.h"
 #include "engine/measure/fold.h"
 
-#include <oneapi/tbb/parallel_pipeline.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -529,27 +528,21 @@ void StripRendering::render(int threads, const RowSink& sink) {
     nodes_ = 0;
     const int rows = strip_rows(print_.style.line_width({}, print_.placement.step), pixel_, size_);
     threads = thread_count(threads);
-    using Token = std::shared_ptr<Rows>;
-    int next = 0;
-    using oneapi::tbb::filter_mode;
-    const auto strips = oneapi::tbb::make_filter<void, Token>(
-        filter_mode::serial_in_order, [&](oneapi::tbb::flow_control& control) -> Token {
-            if (next >= size_.height) {
-                control.stop();
-                return nullptr;
-            }
-            auto strip = std::make_shared<Rows>(Rows{next, std::min(rows, size_.height - next), {}});
-            next += strip->count;
-            return strip;
-        });
-    const auto drawn = oneapi::tbb::make_filter<Token, Token>(filter_mode::parallel, [&](Token strip) {
-        draw(*strip);
-        return strip;
+    std::vector<Rows> strips(static_cast<std::size_t>(threads));
+    on_threads(threads, [&] {
+        in_order(
+            static_cast<std::size_t>((size_.height + rows - 1) / rows), strips.size(),
+            [&](std::size_t i, std::size_t place) {
+                Rows& strip = strips[place];
+                strip.first = static_cast<int>(i) * rows;
+                strip.count = std::min(rows, size_.height - strip.first);
+                strip.pixels.clear();
+                draw(strip);
+            },
+            [&](std::size_t, std::size_t place) {
+                sink(strips[place].first, strips[place].count, strips[place].pixels);
+            });
     });
-    const auto hand_on = oneapi::tbb::make_filter<Token, void>(
-        filter_mode::serial_in_order, [&](const Token& strip) { sink(strip->first, strip->count, strip->pixels); });
-    on_threads(threads,
-               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(threads), strips & drawn & hand_on); });
 }
 
 /// All visible lines, from a single walk.

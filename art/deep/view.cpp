@@ -27,7 +27,7 @@ struct BracketTable {
 };
 
 template <class Number>
-struct Place {
+struct ViewPlace {
     Number x = 0, y = 0;
     std::uint32_t heading = 0;
 
@@ -146,7 +146,7 @@ private:
         }
         if (brackets_.is_pop[symbol]) {
             count();
-            const Place<double>& from = stack_.back();
+            const ViewPlace<double>& from = stack_.back();
             next_line(at_.point(), from.point());
             at_ = from;
             stack_.pop_back();
@@ -231,9 +231,9 @@ private:
     BlotSink& sink_;
     double budget_;
     const std::function<void(std::uint64_t)>& watch_;
-    Place<double> at_;
+    ViewPlace<double> at_;
     std::vector<Frame> frames_;
-    std::vector<Place<double>> stack_;
+    std::vector<ViewPlace<double>> stack_;
     std::vector<glm::dvec2> points_;
     std::vector<std::size_t> blots_;  // their numbers in the sink, by part
     std::vector<std::size_t> blots_of_clumps_;
@@ -263,8 +263,8 @@ public:
         // Doubles place parts of that size within a millionth of a millionth of the window.
         const double largest =
             0x1p12 * std::max(sight.box.high.x - sight.box.low.x, sight.box.high.y - sight.box.low.y);
-        Place<Number> at{-x_, -y_, 0};
-        std::vector<Place<Number>> stack;
+        ViewPlace<Number> at{-x_, -y_, 0};
+        std::vector<ViewPlace<Number>> stack;
         sink.begin_line(at.point());
         const Word& axiom = grammar_.axiom();
         std::vector<Frame> frames{{axiom.data(), axiom.data() + axiom.size(), parts_.levels()}};

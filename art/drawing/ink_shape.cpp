@@ -1,6 +1,7 @@
 #include "art/drawing/ink_shape.h"
 
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/cross.h"
 
 #include <glm/geometric.hpp>
 
@@ -10,13 +11,7 @@
 #include <utility>
 
 namespace sikku {
-namespace {
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
     const auto is_before = [](glm::dvec2 a, glm::dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };

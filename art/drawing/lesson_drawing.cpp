@@ -30,7 +30,7 @@ constexpr double caption_letters = 3.2;
 constexpr double stem = 0.13;  // share of the height of letters
 constexpr double halo = 0.6;   // share of the stem of letters, on either side
 
-Colour mixed(Colour a, Colour b, double share) {
+Colour blended(Colour a, Colour b, double share) {
     const auto channel = [&](std::uint8_t from, std::uint8_t to) {
         return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
     };
@@ -150,7 +150,8 @@ LessonDrawing::LessonDrawing(std::unique_ptr<HandDrawing> drawing, const Drawing
     new_begin_ = 2 * colours;
     halo_ = 3 * colours;
     sign_ = halo_ + 1;
-    for (int i = 0; i < colours; ++i) add_layer(style_, mixed(drawn_.line_colour({.colour = i}), ground, pale_share));
+    for (int i = 0; i < colours; ++i)
+        add_layer(style_, blended(drawn_.line_colour({.colour = i}), ground, pale_share));
     for (int i = 0; i < colours; ++i) add_layer(style_, drawn_.line_colour({.colour = i}));
     add_layer(style_, {ground.red, ground.green, ground.blue, 255});
     add_layer(style_, sign_colour(drawn_, ground));

@@ -1,5 +1,6 @@
 #include "art/drawing/line_bands.h"
 
+#include "engine/geometry/cross.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/geometry/point_tree.h"
 
@@ -24,10 +25,6 @@ constexpr int samples = 4;              // points of each piece, for distances
 glm::dvec2 left_of(glm::dvec2 along) {
     return {-along.y, along.x};
 }
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 /// Finds the point where two straight strands meet that run `offset` to the left of a corner. Returns false if it is
 /// far away, or far outside of the corner.
 bool mitre(glm::dvec2 corner, glm::dvec2 before, glm::dvec2 after, double offset, glm::dvec2& found) {

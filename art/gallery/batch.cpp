@@ -5,7 +5,6 @@
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -78,10 +77,7 @@ void Batch::run(std::vector<Task> tasks, double memory) {
     listener_.begin(tasks.size(), cost);
     free_ = memory_ = memory;
     workers_ = thread_count(options_.threads);
-    on_threads(workers_, [&] {
-        oneapi::tbb::parallel_for(
-            0, workers_, [&](int) { work(); }, oneapi::tbb::simple_partitioner());
-    });
+    on_threads(workers_, [&] { for_each_index(static_cast<std::size_t>(workers_), [&](std::size_t) { work(); }); });
     listener_.end();
     std::sort(failures.begin(), failures.end(), [](const Failure& a, const Failure& b) { return a.job < b.job; });
 }

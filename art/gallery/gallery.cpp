@@ -11,7 +11,6 @@
 #include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
@@ -28,7 +27,7 @@ constexpr double job_bytes = 700;
 template <typename Work>
 void for_each_number(std::size_t count, int threads, const Monitor& monitor, const Work& work) {
     on_threads(threads, [&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        for_each_index(count, [&](std::size_t i) {
             monitor.check();
             work(i);
         });

@@ -14,7 +14,7 @@ namespace {
 
 /// Maximum number of keys with values, in all items together.
 constexpr std::size_t most_settings = 10'000'000;
-constexpr std::size_t longest_line = std::size_t{16} << 20;
+constexpr std::size_t longest_item_line = std::size_t{16} << 20;
 
 /// Parses `A:B` or `A:B:STEP`; nullopt for anything else.
 std::optional<GalleryRange> read_range(const std::string& key, const std::string& text, const std::string& place) {
@@ -144,7 +144,7 @@ bool next_line(std::istream& stream, std::string& line, const std::string& place
     if (byte == end) return false;
     for (; byte != end && byte != '\n'; byte = buffer.sbumpc()) {
         line += static_cast<char>(byte);
-        if (line.size() > longest_line) fail(place, "this line is longer than 16 MB");
+        if (line.size() > longest_item_line) fail(place, "this line is longer than 16 MB");
     }
     return true;
 }

@@ -16,7 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_entries = 1'000'000;
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr std::size_t most_total_bytes = std::size_t{1} << 30;
 constexpr std::size_t longest_word = 4096;
 
 bool has_wildcards(std::string_view word) {
@@ -277,7 +277,7 @@ PatternShelf::Pointer PatternShelf::read(const std::filesystem::path& file, cons
     } catch (const std::runtime_error& error) {
         pattern.problem = error.what();
     }
-    if (bytes_ > most_bytes) throw GalleryError("the patterns of this gallery exceed 1 GB in total");
+    if (bytes_ > most_total_bytes) throw GalleryError("the patterns of this gallery exceed 1 GB in total");
     known = std::make_shared<const GalleryPattern>(std::move(pattern));
     return known;
 }

@@ -13,7 +13,7 @@ namespace sikku {
 namespace {
 
 /// Distance of a control point from its end point, for a quarter circle of radius 1.
-constexpr double quarter_circle = 0.5522847498307936;
+constexpr double cap_control = 0.5522847498307936;
 /// Greatest distance of an edge from the exact one, as a share of half the line's width.
 constexpr double tolerance_share = 0.015;
 /// Greatest distance of an edge towards the centre of a bend, as a share of its radius.
@@ -107,8 +107,8 @@ void append(const Edge& edge, double tolerance, bool backwards, std::vector<glm:
 /// Half a circle around `centre` from centre + side to centre - side, by way of centre + ahead.
 void append_cap(glm::dvec2 centre, glm::dvec2 side, glm::dvec2 ahead, std::vector<glm::dvec2>& outline) {
     outline.insert(outline.end(),
-                   {centre + side + quarter_circle * ahead, centre + ahead + quarter_circle * side, centre + ahead,
-                    centre + ahead - quarter_circle * side, centre - side + quarter_circle * ahead, centre - side});
+                   {centre + side + cap_control * ahead, centre + ahead + cap_control * side, centre + ahead,
+                    centre + ahead - cap_control * side, centre - side + cap_control * ahead, centre - side});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace sikku {
 namespace {
 
 constexpr double one_place = 1e-6;  // points as near as this are one
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_meeting = std::numeric_limits<std::uint32_t>::max();
 
 /// Pairs of pieces whose boxes overlap, found through the cells of a grid.
 class PiecePairs {
@@ -276,7 +276,7 @@ CurveDiagram make_curve_diagram(const CurvedLines& lines, const CurveMeetings& m
         if (known < 2) visits[meetings.marks[mark].vertex][known] = mark;
         ++known;
     }
-    std::vector<std::uint32_t> crossing(meetings.places.size(), none);
+    std::vector<std::uint32_t> crossing(meetings.places.size(), no_meeting);
     for (std::uint32_t vertex = 0; vertex < meetings.places.size(); ++vertex) {
         result.multiple += count[vertex] > 2 ? 1 : 0;
         if (count[vertex] != 2) continue;
@@ -302,7 +302,7 @@ CurveDiagram make_curve_diagram(const CurvedLines& lines, const CurveMeetings& m
         result.marks.emplace_back();
         for (std::size_t mark = meetings.begins[line]; mark < meetings.begins[line + 1]; ++mark) {
             const std::uint32_t vertex = meetings.marks[mark].vertex;
-            if (crossing[vertex] == none) continue;
+            if (crossing[vertex] == no_meeting) continue;
             passes.passes.push_back({crossing[vertex], static_cast<std::uint8_t>(visits[vertex][0] == mark ? 0 : 1)});
             result.marks.back().push_back(mark);
         }

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_end = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
@@ -105,15 +105,15 @@ CurvedLines CurveReader::finish(const KolamExamination& examination) {
     const auto after = [&](std::uint32_t end) {
         if (is_same) return examination.continuation[end];
         const Stroke& stroke = strokes_[end / 2];
-        return pieces_[stroke.begin].curve[0] == pieces_[stroke.end - 1].curve[3] ? end ^ 1 : none;
+        return pieces_[stroke.begin].curve[0] == pieces_[stroke.end - 1].curve[3] ? end ^ 1 : no_end;
     };
     std::vector<bool> is_done(strokes_.size(), false);
     for (std::uint32_t stroke = 0; stroke < strokes_.size(); ++stroke) {
         if (is_done[stroke]) continue;
         // From the beginning of an open line.
         std::uint32_t first = 2 * stroke;
-        while (after(first) != none && after(first) / 2 != stroke) first = after(first) ^ 1;
-        if (after(first) != none) first = 2 * stroke;
+        while (after(first) != no_end && after(first) / 2 != stroke) first = after(first) ^ 1;
+        if (after(first) != no_end) first = 2 * stroke;
         CurvedLines::Line& line = result.lines.emplace_back();
         line.begin = result.pieces.size();
         line.orbit = is_same ? examination.orbit_of_line[examination.line_of_stroke[stroke]] : stroke;
@@ -122,8 +122,8 @@ CurvedLines CurveReader::finish(const KolamExamination& examination) {
             is_done[end / 2] = true;
             append(result, strokes_[end / 2], end % 2 == 1);
             end = after(end ^ 1);
-        } while (end != none && end != first);
-        line.is_closed = end != none;
+        } while (end != no_end && end != first);
+        line.is_closed = end != no_end;
         line.end = result.pieces.size();
         if (line.is_closed) result.pieces.back().curve[3] = result.pieces[line.begin].curve[0];
     }

@@ -5,7 +5,6 @@
 #include "engine/base/threads.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -202,8 +201,7 @@ Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions
     for (std::size_t i = 0; i < depth; ++i) prefixes *= plan.state_count;
     std::vector<Search> searches(prefixes, Search(plan, options.keep, options.monitor));
     on_threads(options.threads, [&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, searches.size(),
-                                  [&](std::size_t prefix) { searches[prefix].run(prefix, depth); });
+        for_each_index(searches.size(), [&](std::size_t prefix) { searches[prefix].run(prefix, depth); });
     });
     Enumeration all;
     all.choices = static_cast<int>(plan.choices.size());

@@ -16,7 +16,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_field = std::numeric_limits<std::uint32_t>::max();
 constexpr double alike = 1e-4;  // in steps: centroids as near as this are one
 
 /// Numbers groups of fields, those with a dot even, the others odd, each in the order of `key`.
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<F
         }
         away.push_back(std::fabs(turn) > std::numbers::pi ? 0 : least);
     }
-    std::vector<std::uint32_t> distance(fields.size(), none);
+    std::vector<std::uint32_t> distance(fields.size(), no_field);
     if (fields.empty()) return distance;
     const double least = *std::min_element(away.begin(), away.end());
     std::vector<std::uint32_t> front;
@@ -83,26 +83,26 @@ std::vector<std::uint32_t> distances_from(glm::dvec2 centre, const std::vector<F
     for (std::size_t i = 0; i < front.size(); ++i) {
         pulse();
         for (const std::uint32_t other : fields[front[i]].beside) {
-            if (distance[other] != none) continue;
+            if (distance[other] != no_field) continue;
             distance[other] = distance[front[i]] + 1;
             front.push_back(other);
         }
     }
     // Parts of the drawing that are not connected with the centre.
     for (std::uint32_t i = 0; i < fields.size(); ++i) {
-        if (distance[i] == none) distance[i] = fields[i].distance - 1;
+        if (distance[i] == no_field) distance[i] = fields[i].distance - 1;
     }
     return distance;
 }
 
 /// The field of the kind of another one with its centroid at a place, or `none`.
 std::uint32_t field_at(glm::dvec2 place, const Field& like, const std::vector<Field>& fields, const PointGrid& grid) {
-    std::uint32_t found = none;
+    std::uint32_t found = no_field;
     grid.visit(place, 1, [&](std::uint32_t i) {
         const glm::dvec2 gap = fields[i].centroid - place;
         const bool is_alike =
             fields[i].is_odd == like.is_odd && std::fabs(fields[i].area - like.area) <= alike * (1 + like.area);
-        if (found == none && is_alike && std::hypot(gap.x, gap.y) <= alike) found = i;
+        if (found == no_field && is_alike && std::hypot(gap.x, gap.y) <= alike) found = i;
     });
     return found;
 }

@@ -16,7 +16,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t no_mark = std::numeric_limits<std::size_t>::max();
 constexpr double least_area = 1e-9;  // in square steps: smaller fields are rounding
 
@@ -56,17 +56,17 @@ struct Moments {
 
 /// The first edge that a ray downwards from a point meets.
 struct Below {
-    std::uint32_t half = none;  ///< the side that faces upwards
-    double position = 0.0;      ///< on the line
+    std::uint32_t half = no_number;  ///< the side that faces upwards
+    double position = 0.0;           ///< on the line
     double y = -std::numeric_limits<double>::max();
     glm::dvec2 at{0.0};
 };
 
 /// A component that lies in a field: its outer cycle is entered over a line from the edge below it.
 struct Hole {
-    double position = 0.0;      ///< on the line of the edge
-    glm::dvec2 from{0.0};       ///< a point of that edge
-    std::uint32_t half = none;  ///< half-edge of the outer cycle that begins at the component's lowest vertex
+    double position = 0.0;           ///< on the line of the edge
+    glm::dvec2 from{0.0};            ///< a point of that edge
+    std::uint32_t half = no_number;  ///< half-edge of the outer cycle that begins at the component's lowest vertex
 };
 
 /// Half-edge 2e runs along edge e, half-edge 2e + 1 the other way; cycles of half-edges have a face on their left.
@@ -273,9 +273,9 @@ void FieldFinder::sort_around() {
 }
 
 void FieldFinder::find_cycles() {
-    cycle_.assign(count(), none);
+    cycle_.assign(count(), no_number);
     for (std::uint32_t first = 0; first < count(); ++first) {
-        if (cycle_[first] != none) continue;
+        if (cycle_[first] != no_number) continue;
         Moments moments;
         const glm::dvec2 origin = place(tail(first));
         std::uint32_t half = first;
@@ -294,21 +294,21 @@ void FieldFinder::find_cycles() {
 void FieldFinder::find_components() {
     UnionFind joined(vertex_count());
     for (const Edge& edge : edges_) joined.join(edge.tail, edge.head);
-    component_.assign(vertex_count(), none);
-    std::vector<std::uint32_t> number(vertex_count(), none);
+    component_.assign(vertex_count(), no_number);
+    std::vector<std::uint32_t> number(vertex_count(), no_number);
     for (const Edge& edge : edges_) {
         for (const std::uint32_t vertex : {edge.tail, edge.head}) {
             std::uint32_t& own = number[joined.find(vertex)];
-            if (own == none) {
+            if (own == no_number) {
                 own = static_cast<std::uint32_t>(outer_.size());
-                outer_.push_back(none);
+                outer_.push_back(no_number);
             }
             component_[vertex] = own;
         }
     }
     for (std::uint32_t cycle = 0; cycle < begins_.size(); ++cycle) {
         std::uint32_t& outer = outer_[component_[tail(begins_[cycle])]];
-        if (outer == none || areas_[cycle] < areas_[outer]) outer = cycle;
+        if (outer == no_number || areas_[cycle] < areas_[outer]) outer = cycle;
     }
 }
 
@@ -376,12 +376,13 @@ Below FieldFinder::below(glm::dvec2 point, std::uint32_t component) {
 
 /// Finds the field in which each component lies and the parity of all faces, from below.
 void FieldFinder::place_components() {
-    std::vector<std::uint32_t> lowest(outer_.size(), none);  // half-edge of the outer cycle from the lowest vertex
+    std::vector<std::uint32_t> lowest(outer_.size(),
+                                      no_number);  // half-edge of the outer cycle from the lowest vertex
     for (std::uint32_t component = 0; component < outer_.size(); ++component) {
         std::uint32_t half = begins_[outer_[component]];
         do {
             const auto key = [&](std::uint32_t of) { return std::pair(place(tail(of)).y, place(tail(of)).x); };
-            if (lowest[component] == none || key(half) < key(lowest[component])) lowest[component] = half;
+            if (lowest[component] == no_number || key(half) < key(lowest[component])) lowest[component] = half;
             half = next(half);
         } while (half != begins_[outer_[component]]);
     }
@@ -390,7 +391,7 @@ void FieldFinder::place_components() {
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return std::tuple(place(tail(lowest[a])).y, a) < std::tuple(place(tail(lowest[b])).y, b);
     });
-    container_.assign(outer_.size(), none);
+    container_.assign(outer_.size(), no_number);
     odd_.assign(begins_.size(), 0);
     if (outer_.size() > 1) bucket_edges();
     std::vector<char> is_reached(begins_.size(), 0);
@@ -398,18 +399,18 @@ void FieldFinder::place_components() {
         const glm::dvec2 from = place(tail(lowest[component]));
         if (outer_.size() > 1) {
             const Below found = below(from, component);
-            if (found.half != none) {
+            if (found.half != no_number) {
                 const std::uint32_t cycle = cycle_[found.half];
                 const std::uint32_t other = component_[tail(found.half)];
                 container_[component] = cycle == outer_[other] ? container_[other] : cycle;
-                if (container_[component] != none) {
+                if (container_[component] != no_number) {
                     holes_.insert({found.half, {found.position, found.at, lowest[component]}});
                 }
             }
         }
         std::vector<std::uint32_t> front = {outer_[component]};
         is_reached[outer_[component]] = 1;
-        odd_[outer_[component]] = container_[component] == none ? 0 : odd_[container_[component]];
+        odd_[outer_[component]] = container_[component] == no_number ? 0 : odd_[container_[component]];
         while (!front.empty()) {
             const std::uint32_t cycle = front.back();
             front.pop_back();
@@ -504,7 +505,7 @@ void FieldFinder::measure(std::uint32_t cycle, Field& field) {
 
 std::vector<Field> FieldFinder::make_fields() {
     std::vector<Field> fields;
-    std::vector<std::uint32_t> field_of_cycle(begins_.size(), none);
+    std::vector<std::uint32_t> field_of_cycle(begins_.size(), no_number);
     for (std::uint32_t cycle = 0; cycle < begins_.size(); ++cycle) {
         const std::uint32_t first = begins_[cycle];
         if (cycle == outer_[component_[tail(first)]] || areas_[cycle] < least_area) continue;
@@ -518,7 +519,8 @@ std::vector<Field> FieldFinder::make_fields() {
         fields.push_back(std::move(field));
     }
     for (std::uint32_t component = 0; component < outer_.size(); ++component) {
-        if (container_[component] != none) field_of_cycle[outer_[component]] = field_of_cycle[container_[component]];
+        if (container_[component] != no_number)
+            field_of_cycle[outer_[component]] = field_of_cycle[container_[component]];
     }
     find_distances(fields, field_of_cycle);
     return fields;
@@ -530,8 +532,8 @@ void FieldFinder::find_distances(std::vector<Field>& fields, const std::vector<s
         pulse_();
         const std::uint32_t own = field_of_cycle[cycle_[half]];
         const std::uint32_t other = field_of_cycle[cycle_[half ^ 1]];
-        if (own == none || own == other) continue;
-        if (other != none) {
+        if (own == no_number || own == other) continue;
+        if (other != no_number) {
             fields[own].beside.push_back(other);
         } else if (fields[own].distance == 0) {
             fields[own].distance = 1;

@@ -11,7 +11,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_arc = std::numeric_limits<std::uint32_t>::max();
 
 /// Crossings that follow each other along a line; `differ` if their upper strands have different numbers.
 struct Constraint {
@@ -39,7 +39,7 @@ std::vector<Constraint> constraints_of(const LinkDiagram& diagram, Pulse& pulse)
 class Arcs {
 public:
     explicit Arcs(const LinkDiagram& diagram) : diagram_(diagram) {
-        visit_of_.assign(diagram.crossings(), {none, none});
+        visit_of_.assign(diagram.crossings(), {no_arc, no_arc});
         for (const LinkDiagram::Line& line : diagram.lines) {
             const auto first = static_cast<std::uint32_t>(passes_.size());
             const auto count = static_cast<std::uint32_t>(line.passes.size());
@@ -82,10 +82,10 @@ private:
 /// Crossings of which two opposite corners lie in one face.
 std::uint64_t count_nugatory(const LinkDiagram& diagram, Pulse& pulse) {
     const Arcs arcs(diagram);
-    std::vector<std::uint32_t> face(arcs.count(), none);
+    std::vector<std::uint32_t> face(arcs.count(), no_arc);
     std::uint32_t faces = 0;
     for (std::uint32_t first = 0; first < arcs.count(); ++first) {
-        if (face[first] != none) continue;
+        if (face[first] != no_arc) continue;
         std::uint32_t arc = first;
         do {
             pulse();

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view word = "sikku";
+constexpr std::string_view link_word = "sikku";
 constexpr std::string_view prefix = "sikku1.";  // includes the version of the format
 constexpr std::size_t longest_name = 255;       // bytes in a file name
 constexpr std::size_t most_pairs = 1000;        // settings, or options of one command
@@ -185,9 +185,9 @@ std::string_view fragment_of(std::string_view text) {
 
 /// True if the fragment begins with `sikku`, a number and a dot.
 bool has_version(std::string_view fragment) {
-    if (!fragment.starts_with(word)) return false;
-    const std::size_t end = fragment.find_first_not_of("0123456789", word.size());
-    return end != std::string_view::npos && end > word.size() && fragment[end] == '.';
+    if (!fragment.starts_with(link_word)) return false;
+    const std::size_t end = fragment.find_first_not_of("0123456789", link_word.size());
+    return end != std::string_view::npos && end > link_word.size() && fragment[end] == '.';
 }
 
 }  // namespace

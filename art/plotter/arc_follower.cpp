@@ -1,5 +1,7 @@
 #include "art/plotter/arc_follower.h"
 
+#include "engine/geometry/cross.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,10 +17,6 @@ namespace {
 constexpr double fit = 0.0065;
 constexpr double largest_radius = 1000.0;  // controllers count in single precision
 constexpr double largest_sweep = 4.7;      // radians; an arc's ends must not fall together
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 /// The circle through three points; nullopt if they are almost on a line.
 std::optional<PlotArc> arc_through(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {

@@ -32,7 +32,7 @@ double distance_of_segments(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2
                      distance_to_segment(d, a, b)});
 }
 
-struct Interval {
+struct ClearInterval {
     double from = std::numeric_limits<double>::infinity();
     double to = -std::numeric_limits<double>::infinity();
     bool is_empty() const { return !(from < to); }
@@ -43,8 +43,8 @@ struct Interval {
 };
 
 /// The part of the line at that height that lies within an obstacle, in coordinates along and across the hatching.
-Interval part_within(const Obstacle& obstacle, double height) {
-    Interval part;
+ClearInterval part_within(const Obstacle& obstacle, double height) {
+    ClearInterval part;
     const auto disc = [&](glm::dvec2 centre) {
         const double off = height - centre.y;
         if (std::fabs(off) >= obstacle.radius) return;
@@ -153,7 +153,7 @@ private:
                 crossings[row].emplace_back(a.x + share * (b.x - a.x), b.y > a.y ? 1 : -1);
             }
         }
-        std::vector<std::vector<Interval>> kept(rows_.size());
+        std::vector<std::vector<ClearInterval>> kept(rows_.size());
         for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
             const Obstacle& obstacle = obstacles_[i];
             const auto [begin, end] = rows_at(obstacle);
@@ -161,7 +161,7 @@ private:
             for (std::size_t row = begin > 0 ? begin - 1 : 0; row < end; ++row) near_[row].push_back(i);
             for (std::size_t row = begin; row < end; ++row) {
                 pulse_();
-                const Interval part = part_within(obstacle, height(row));
+                const ClearInterval part = part_within(obstacle, height(row));
                 if (!part.is_empty()) kept[row].push_back(part);
             }
         }
@@ -169,13 +169,13 @@ private:
     }
 
     /// The stretches inside the outline and outside all obstacles.
-    static void find_stretches(std::vector<std::pair<double, int>>& crossings, std::vector<Interval>& kept,
+    static void find_stretches(std::vector<std::pair<double, int>>& crossings, std::vector<ClearInterval>& kept,
                                std::vector<Stretch>& stretches) {
         std::sort(crossings.begin(), crossings.end());
-        std::sort(kept.begin(), kept.end(), [](const Interval& a, const Interval& b) {
+        std::sort(kept.begin(), kept.end(), [](const ClearInterval& a, const ClearInterval& b) {
             return a.from != b.from ? a.from < b.from : a.to < b.to;
         });
-        std::vector<Interval> inside;
+        std::vector<ClearInterval> inside;
         int winding = 0;
         double begin = 0;
         for (const auto& [at, turn] : crossings) {
@@ -191,7 +191,7 @@ private:
         }
         auto obstacle = kept.begin();
         double free = -std::numeric_limits<double>::infinity();  // all obstacles before end here
-        for (const Interval& part : inside) {
+        for (const ClearInterval& part : inside) {
             double at = std::max(part.from, free);
             while (obstacle != kept.end() && obstacle->from < part.to) {
                 if (obstacle->from > at) stretches.push_back({at, obstacle->from});
@@ -253,7 +253,7 @@ private:
             moved = false;
             for (const std::uint32_t i : near_[row]) {
                 pulse_();
-                const Interval part = part_within(obstacles_[i], middle.y);
+                const ClearInterval part = part_within(obstacles_[i], middle.y);
                 if (part.is_empty() || !(middle.x > part.from && middle.x < part.to)) continue;
                 middle.x = inwards > 0 ? part.to : part.from;
                 moved = true;

@@ -89,9 +89,9 @@ std::optional<Circle> circle_of(const std::vector<Vertex>& vertices) {
     return circle;
 }
 
-class Writer final : public ArcWriter {
+class DxfWriter final : public ArcWriter {
 public:
-    Writer(const Print& print, Output& file, std::vector<TileKind> kinds)
+    DxfWriter(const Print& print, Output& file, std::vector<TileKind> kinds)
         : ArcWriter(print, file, true, 0.0), kinds_(std::move(kinds)) {
         file_.write("999\nSikku, millimetres\n");
         for (const std::string& piece : recipe_comments(print.pattern, print.made))
@@ -212,7 +212,7 @@ private:
 }  // namespace
 
 std::unique_ptr<PlotWriter> write_dxf(const Print& print, Output& file, std::vector<TileKind> kinds) {
-    return std::make_unique<Writer>(print, file, std::move(kinds));
+    return std::make_unique<DxfWriter>(print, file, std::move(kinds));
 }
 
 }  // namespace sikku

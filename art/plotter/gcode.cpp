@@ -50,9 +50,9 @@ void for_each_word(std::string_view lines, const Visit& visit) {
     }
 }
 
-class Writer final : public ArcWriter {
+class GcodeWriter final : public ArcWriter {
 public:
-    Writer(const Print& print, const GcodeOptions& options, Output& file)
+    GcodeWriter(const Print& print, const GcodeOptions& options, Output& file)
         : ArcWriter(print, file, options.arcs, options.least_arc), options_(options) {
         for (const double feed : {options.drawing_feed, options.travel_feed}) {
             require(std::isfinite(feed) && feed > 0, "feeds must be finite and above 0 mm/min");
@@ -248,7 +248,7 @@ std::optional<glm::dvec2> gcode_home(const GcodeOptions& options) {
 }
 
 std::unique_ptr<PlotWriter> write_gcode(const Print& print, const GcodeOptions& options, Output& file) {
-    return std::make_unique<Writer>(print, options, file);
+    return std::make_unique<GcodeWriter>(print, options, file);
 }
 
 }  // namespace sikku

@@ -56,9 +56,9 @@ glm::dvec2 on_page_at(glm::dvec2 point, const Page& page, const HpglOptions& opt
     return is_turned(page) ? glm::dvec2(at.y, size.y - at.x) : at;
 }
 
-class Writer final : public PlotWriter {
+class HpglWriter final : public PlotWriter {
 public:
-    Writer(const Print& print, const HpglOptions& options, Output& file)
+    HpglWriter(const Print& print, const HpglOptions& options, Output& file)
         : PlotWriter(print, file, chord_units * options.unit, 1), options_(options) {
         has_speeds_ = std::any_of(options.rules.begin(), options.rules.end(),
                                   [](const PenRule& rule) { return rule.settings.speed.has_value(); });
@@ -260,7 +260,7 @@ std::string describe_hpgl(const Page& page, const HpglOptions& options) {
 }
 
 std::unique_ptr<PlotWriter> write_hpgl(const Print& print, const HpglOptions& options, Output& file) {
-    return std::make_unique<Writer>(print, options, file);
+    return std::make_unique<HpglWriter>(print, options, file);
 }
 
 }  // namespace sikku

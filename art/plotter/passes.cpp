@@ -2,6 +2,7 @@
 
 #include "art/plotter/shading.h"
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/cross.h"
 
 #include <glm/geometric.hpp>
 
@@ -15,9 +16,6 @@
 namespace sikku {
 namespace {
 
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
 glm::dvec2 left_of(glm::dvec2 way) {
     return {-way.y, way.x};
 }

@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-constexpr double longest = 10'000;  // millimetres from the origin to a place
+constexpr double farthest_place = 10'000;  // millimetres from the origin to a place
 constexpr int most_pens = 256;
 
 [[noreturn]] void fail(const std::string& message) {
@@ -75,7 +75,8 @@ glm::dvec2 parse_place(std::string_view text, double dpi) {
     const auto x = parse_length(text.substr(0, comma), dpi);
     const auto y = comma == std::string_view::npos ? std::nullopt : parse_length(text.substr(comma + 1), dpi);
     if (!x || !y) fail("expected a place X,Y such as 10mm,20mm, from the bottom left corner of the page");
-    if (!(std::fabs(*x) <= longest && std::fabs(*y) <= longest)) fail("expected a place within 10 m of the page");
+    if (!(std::fabs(*x) <= farthest_place && std::fabs(*y) <= farthest_place))
+        fail("expected a place within 10 m of the page");
     return {*x, *y};
 }
 

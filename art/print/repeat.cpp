@@ -27,14 +27,14 @@ struct Operation {
     double a, b, c, d, e, f;
 };
 
-enum class Lattice { rectangular, square, hexagonal };
+enum class LatticeKind { rectangular, square, hexagonal };
 
 /// A group of the plane. The asymmetric unit of a rectangular one is a rectangle of any proportions, in which
 /// coordinates are measured; the others have a polygon in coordinates of the cell.
 /// Source: International Tables for Crystallography, vol. A, 2002, part 6: the plane groups.
 struct Group {
     std::string_view name;
-    Lattice lattice = Lattice::rectangular;
+    LatticeKind lattice = LatticeKind::rectangular;
     int wide = 1, high = 1;  ///< size of a rectangular cell, in units
     std::vector<Operation> operations{};
     std::vector<glm::dvec2> unit{};  ///< corners of the asymmetric unit
@@ -66,7 +66,7 @@ std::vector<Group> make_groups() {
     const std::vector<Operation> p4g =
         with(p4, {flip_x(0.5, 0.5), flip_y(0.5, 0.5), {0, 1, 0.5, 1, 0, 0.5}, {0, -1, 0.5, -1, 0, 0.5}});
     const std::vector<glm::dvec2> sixth = {{0, 0}, {0.5, 0}, {2. / 3, 1. / 3}, {0.5, 0.5}};
-    using enum Lattice;
+    using enum LatticeKind;
     return {
         {"p1", rectangular, 1, 1, {identity}},
         {"p2", rectangular, 2, 1, {identity, half_turn(2, 1)}},
@@ -301,7 +301,7 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
     Wallpaper wallpaper;
     wallpaper.is_row = group.is_frieze;
     glm::dvec2 a, b, shift;
-    if (group.lattice == Lattice::rectangular) {
+    if (group.lattice == LatticeKind::rectangular) {
         // Copies may overlap, but the vectors between cells keep their directions.
         const glm::dvec2 unit(std::max(size.x + gap, 1e-9), std::max(size.y + gap, 1e-9));
         a = {unit.x, 0};
@@ -311,7 +311,7 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
         shift = unit / 2.0 - (box.low + box.high) / 2.0;
     } else {
         a = {1, 0};
-        b = group.lattice == Lattice::square ? glm::dvec2(0, 1) : glm::dvec2(-0.5, std::sqrt(0.75));
+        b = group.lattice == LatticeKind::square ? glm::dvec2(0, 1) : glm::dvec2(-0.5, std::sqrt(0.75));
         std::vector<glm::dvec2> unit;
         for (const glm::dvec2 corner : group.unit) unit.push_back(corner.x * a + corner.y * b);
         const Fit fit = fit_hull(hull, unit, gap);
@@ -335,7 +335,7 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
         return ring_of(repeat.columns, hull, box, gap);
     }
     const Wallpaper wallpaper = wallpaper_of(repeat, hull, ink);
-    const bool is_hexagonal = find_group(repeat.group)->lattice == Lattice::hexagonal;
+    const bool is_hexagonal = find_group(repeat.group)->lattice == LatticeKind::hexagonal;
     std::vector<glm::dmat3x2> copies;
     copies.reserve(static_cast<std::size_t>(repeat.copies()));
     for (int row = repeat.rows - 1; row >= 0; --row) {

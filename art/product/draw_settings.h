@@ -28,8 +28,8 @@ namespace sikku {
 /// Whether a print is the repeating part of a tiling, and whether the tiling may be turned to make that smaller.
 enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
-/// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
-///
+// Settings of a print. Lengths are millimetres, angles degrees, times seconds.
+
 /// The paper.
 struct PageSettings {
     Page sheet;          ///< A4 with margins of 10 mm

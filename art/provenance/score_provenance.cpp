@@ -13,7 +13,7 @@ namespace sikku {
 namespace {
 
 /// A pattern is at most 64 MB, escaped at most six times as long; the program writes it near the beginning.
-constexpr std::uint64_t most_head_bytes = std::uint64_t{448} << 20;
+constexpr std::uint64_t most_score_bytes = std::uint64_t{448} << 20;
 constexpr std::uint64_t most_lilypond_bytes = most_pattern_bytes + (std::uint64_t{4} << 20);
 
 /// Reads escaped text up to `end`, which it skips. @throws UnreadableFile if it is missing
@@ -43,7 +43,7 @@ std::string read_escaped(InputStream& in, char end) {
 /// The texts after two marks, which come in this order.
 std::optional<Provenance> read_marked(const InputFile& file, std::string_view made_mark, char made_end,
                                       std::string_view pattern_mark) {
-    InputStream in(file, 0, most_head_bytes);
+    InputStream in(file, 0, most_score_bytes);
     Provenance found;
     if (!in.skip_past(made_mark)) return std::nullopt;
     found.made = read_escaped(in, made_end);

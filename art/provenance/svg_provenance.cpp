@@ -14,14 +14,14 @@ namespace {
 /// Bytes at the beginning in which the writer declares its namespace.
 constexpr std::size_t name_space_bytes = 4096;
 /// A pattern is at most 64 MB, escaped up to six times as long, or twice that in hexadecimal digits.
-constexpr std::uint64_t most_head_bytes = std::uint64_t{640} << 20;
+constexpr std::uint64_t most_svg_bytes = std::uint64_t{640} << 20;
 /// Maximum number of tags, comments and characters within tags; the writer's head has 500.
 constexpr int most_steps = 1'000'000;
 
 /// Finds the texts of the relevant elements in a stream.
 class Scan {
 public:
-    explicit Scan(const InputFile& file) : in_(file, 0, most_head_bytes) {}
+    explicit Scan(const InputFile& file) : in_(file, 0, most_svg_bytes) {}
 
     /// Reads to the end of `desc` and `metadata`; false if they are missing.
     bool run() {

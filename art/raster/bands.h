@@ -3,12 +3,8 @@
 
 #include "engine/base/threads.h"
 
-#include <oneapi/tbb/concurrent_queue.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 namespace sikku {
@@ -28,42 +24,14 @@ void in_bands(int bands, int threads, Make&& make, Draw&& draw, Deliver&& delive
         }
         return;
     }
-    using Workplace = typename Owned::element_type;
-    const int workplaces = std::min(threads + 1, bands);
-    std::vector<Owned> owned;
-    oneapi::tbb::concurrent_queue<Workplace*> idle;
-    for (int i = 0; i < workplaces; ++i) {
-        owned.push_back(make());
-        idle.push(owned.back().get());
-    }
-    struct Job {
-        Workplace* workplace;
-        int band;
-    };
-    int next = 0;
-    using oneapi::tbb::filter_mode;
-    const auto begin = oneapi::tbb::make_filter<void, Job>(filter_mode::serial_in_order,
-                                                           [&](oneapi::tbb::flow_control& control) -> Job {
-                                                               if (next == bands) {
-                                                                   control.stop();
-                                                                   return {};
-                                                               }
-                                                               Job job{nullptr, next++};
-                                                               // Never empty: the pipeline limits the bands under way
-                                                               // to the number of workplaces.
-                                                               idle.try_pop(job.workplace);
-                                                               return job;
-                                                           });
-    const auto work = oneapi::tbb::make_filter<Job, Job>(filter_mode::parallel, [&](Job job) {
-        draw(*job.workplace, job.band);
-        return job;
+    std::vector<Owned> workplaces;
+    for (int i = 0; i < std::min(threads + 1, bands); ++i) workplaces.push_back(make());
+    on_threads(threads, [&] {
+        in_order(
+            static_cast<std::size_t>(bands), workplaces.size(),
+            [&](std::size_t band, std::size_t place) { draw(*workplaces[place], static_cast<int>(band)); },
+            [&](std::size_t band, std::size_t place) { deliver(*workplaces[place], static_cast<int>(band)); });
     });
-    const auto hand_on = oneapi::tbb::make_filter<Job, void>(filter_mode::serial_in_order, [&](Job job) {
-        deliver(*job.workplace, job.band);
-        idle.push(job.workplace);
-    });
-    on_threads(threads,
-               [&] { oneapi::tbb::parallel_pipeline(static_cast<std::size_t>(workplaces), begin & work & hand_on); });
 }
 
 }  // namespace sikku

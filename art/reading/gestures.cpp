@@ -15,7 +15,7 @@
 namespace sikku {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_gestures(const std::string& what) {
     throw std::runtime_error("gestures: " + what);
 }
 
@@ -25,26 +25,27 @@ void check_gesture(const std::string& gesture, std::size_t loop, std::size_t num
     if (is_known || (gesture.size() == 2 && gesture[0] == 'o' && gesture[1] >= '1' && gesture[1] <= '4')) return;
     const std::string place = fmt::format("loop {}, gesture {}: '{}'", loop, number, printable(gesture, 20));
     if (!gesture.empty() && (gesture[0] == 'd' || gesture[0] == 't')) {
-        refuse(place + " passes through the middle of four dots, where a grid of gaps has no crossing");
+        refuse_gestures(place + " passes through the middle of four dots, where a grid of gaps has no crossing");
     }
     if (!gesture.empty() && (gesture[0] == 'c' || gesture[0] == 'h')) {
-        refuse(place + " is a decoration, which a grid of gaps cannot represent");
+        refuse_gestures(place + " is a decoration, which a grid of gaps cannot represent");
     }
-    refuse(place + " is unknown; expected O1 to O4, C1, H3L, H3R or OP");
+    refuse_gestures(place + " is unknown; expected O1 to O4, C1, H3L, H3R or OP");
 }
 
 void check_loop(const GestureLoop& loop, std::size_t number) {
     const GridDot start = *loop.start;
     if ((start.x % 2 != 0) == (start.y % 2 != 0)) {
-        refuse(fmt::format("loop {} does not start midway between two dots", number));
+        refuse_gestures(fmt::format("loop {} does not start midway between two dots", number));
     }
     if (loop.heading % 90 != 45) {
-        refuse(fmt::format("loop {} starts with the heading {}; expected 45, 135, 225 or 315", number, loop.heading));
+        refuse_gestures(
+            fmt::format("loop {} starts with the heading {}; expected 45, 135, 225 or 315", number, loop.heading));
     }
     for (std::size_t i = 0; i < loop.gestures.size(); ++i) {
         check_gesture(loop.gestures[i], number, i + 1);
         if (loop.gestures[i] == "c1" && loop.gestures.size() != 1) {
-            refuse(fmt::format("loop {}: C1 must be the only gesture of its loop", number));
+            refuse_gestures(fmt::format("loop {}: C1 must be the only gesture of its loop", number));
         }
     }
 }

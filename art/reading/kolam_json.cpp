@@ -15,12 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuse_json(const std::string& what) {
     throw std::runtime_error("not a valid .kolam.json file: " + what);
 }
 
 const Json& member(const Json& object, const char* key) {
-    if (!object.is_object() || !object.contains(key)) refuse(fmt::format("'{}' is missing", key));
+    if (!object.is_object() || !object.contains(key)) refuse_json(fmt::format("'{}' is missing", key));
     return object.at(key);
 }
 
@@ -28,7 +28,7 @@ std::size_t whole(const Json& design, const char* key) {
     const Json& value = member(design, key);
     if (!value.is_number_integer() || value.get<std::int64_t>() < 1 ||
         value.get<std::int64_t>() > static_cast<std::int64_t>(DotGrid::most_dots)) {
-        refuse(fmt::format("'{}' is not a whole number from 1 to {}", key, DotGrid::most_dots));
+        refuse_json(fmt::format("'{}' is not a whole number from 1 to {}", key, DotGrid::most_dots));
     }
     return static_cast<std::size_t>(value.get<std::int64_t>());
 }
@@ -38,19 +38,20 @@ std::vector<std::string> texts(const Json& design, const char* key, std::size_t 
                                std::string_view letters) {
     const Json& value = member(design, key);
     if (!value.is_array() || value.size() != count) {
-        refuse(fmt::format("'{}' is not a list of {} texts", key, count));
+        refuse_json(fmt::format("'{}' is not a list of {} texts", key, count));
     }
     std::vector<std::string> rows;
     for (std::size_t r = 0; r < count; ++r) {
-        if (!value[r].is_string()) refuse(fmt::format("'{}', row {}: not a text", key, r + 1));
+        if (!value[r].is_string()) refuse_json(fmt::format("'{}', row {}: not a text", key, r + 1));
         rows.push_back(value[r].get<std::string>());
         if (rows.back().size() != length) {
-            refuse(fmt::format("'{}', row {}: {} letters instead of {}", key, r + 1, rows.back().size(), length));
+            refuse_json(
+                fmt::format("'{}', row {}: {} letters instead of {}", key, r + 1, rows.back().size(), length));
         }
         const std::size_t wrong = rows.back().find_first_not_of(letters);
         if (wrong != std::string::npos) {
-            refuse(fmt::format("'{}', row {}, letter {}: '{}'; expected one of '{}'", key, r + 1, wrong + 1,
-                               printable(rows.back().substr(wrong, 1)), letters));
+            refuse_json(fmt::format("'{}', row {}, letter {}: '{}'; expected one of '{}'", key, r + 1, wrong + 1,
+                                    printable(rows.back().substr(wrong, 1)), letters));
         }
     }
     return rows;
@@ -63,27 +64,27 @@ ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
     try {
         whole_file = read_json(text);
     } catch (const JsonError& error) {
-        refuse(fmt::format("byte {}: {}", error.byte, error.what()));
+        refuse_json(fmt::format("byte {}: {}", error.byte, error.what()));
     }
     const bool is_list = whole_file.is_array();
-    if (!is_list && !whole_file.is_object()) refuse("neither an object nor a list");
+    if (!is_list && !whole_file.is_object()) refuse_json("neither an object nor a list");
     const std::size_t count = is_list ? whole_file.size() : 1;
-    if (count == 0) refuse("the list is empty");
+    if (count == 0) refuse_json("the list is empty");
     if (number < 1 || number > count) {
         throw std::runtime_error(fmt::format("no kolam {}; the file contains {}", number, counted(count, "kolam")));
     }
     const Json& file = is_list ? whole_file[number - 1] : whole_file;
-    if (!file.is_object()) refuse(fmt::format("kolam {} of the list is not an object", number));
+    if (!file.is_object()) refuse_json(fmt::format("kolam {} of the list is not an object", number));
     const Json& format = member(file, "format");
-    if (!format.is_string() || format.get<std::string>() != "kolam") refuse("'format' is not \"kolam\"");
+    if (!format.is_string() || format.get<std::string>() != "kolam") refuse_json("'format' is not \"kolam\"");
     const Json& version = member(file, "version");
     if (!version.is_number_integer() || version.get<std::int64_t>() != 1) {
-        refuse("'version' is not 1, the only supported version");
+        refuse_json("'version' is not 1, the only supported version");
     }
     const Json& design = member(file, "design");
     const std::size_t rows = whole(design, "rows");
     const std::size_t columns = whole(design, "cols");
-    if (rows * columns > DotGrid::most_dots) refuse(fmt::format("more than {} dots", DotGrid::most_dots));
+    if (rows * columns > DotGrid::most_dots) refuse_json(fmt::format("more than {} dots", DotGrid::most_dots));
     const auto mask = texts(design, "mask", rows, columns, "01");
     const auto within = texts(design, "h", rows, columns - 1, "xpj.");
     const auto below = texts(design, "v", rows - 1, columns, "xpj.");
@@ -95,7 +96,7 @@ ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
                 places.push_back({2 * static_cast<std::int32_t>(c), -2 * static_cast<std::int32_t>(r)});
         }
     }
-    if (places.empty()) refuse("the mask has no dots");
+    if (places.empty()) refuse_json("the mask has no dots");
     const PlacedGrid placed = place_grid(DotLattice::square, std::move(places));
     ReadKolam kolam{placed.grid, {}, {}, {}, {}, {}};
     std::size_t used = 0;
@@ -106,7 +107,8 @@ ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
         const bool is_within = gap.side == 0;
         const auto state = state_of_letter(is_within ? within[r][c] : below[r][c]);
         if (!state) {
-            refuse(fmt::format("'{}', row {}, letter {}: '.' between two dots", is_within ? "h" : "v", r + 1, c + 1));
+            refuse_json(
+                fmt::format("'{}', row {}, letter {}: '.' between two dots", is_within ? "h" : "v", r + 1, c + 1));
         }
         kolam.states.push_back(*state);
         ++used;
@@ -117,7 +119,7 @@ ReadKolam read_kolam_json(const std::string& text, std::size_t number) {
             for (const char letter : row) given += letter != '.';
         }
     }
-    if (given != used) refuse(fmt::format("{} gaps have a state, but {} lie between two dots", given, used));
+    if (given != used) refuse_json(fmt::format("{} gaps have a state, but {} lie between two dots", given, used));
     if (file.contains("title") && file["title"].is_string()) {
         kolam.title = printable(file["title"].get<std::string>(), 200);
     }

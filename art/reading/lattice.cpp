@@ -16,7 +16,7 @@
 namespace sikku {
 namespace {
 
-using Place = std::pair<std::int32_t, std::int32_t>;  // steps along the two vectors of a basis
+using LatticePlace = std::pair<std::int32_t, std::int32_t>;  // steps along the two vectors of a basis
 
 /// Converts a whole number to an integer, limited to ±10^8, because wrong fits can reach infinity.
 std::int32_t whole(double number) {
@@ -73,12 +73,12 @@ class Patch {
 public:
     Patch(const std::vector<glm::dvec2>& points, const PointGrid& index) : points_(points), index_(index) {}
 
-    std::map<Place, std::uint32_t> grow(std::uint32_t seed, glm::dvec2 first, glm::dvec2 second) const {
-        std::map<Place, std::uint32_t> places{{{0, 0}, seed}};
+    std::map<LatticePlace, std::uint32_t> grow(std::uint32_t seed, glm::dvec2 first, glm::dvec2 second) const {
+        std::map<LatticePlace, std::uint32_t> places{{{0, 0}, seed}};
         std::vector<char> is_used(points_.size());
         is_used[seed] = 1;
         struct Step {
-            Place place;
+            LatticePlace place;
             glm::dvec2 first, second;  // steps at the point
         };
         std::vector<Step> queue = {{{0, 0}, first, second}};
@@ -88,8 +88,8 @@ public:
             for (int side = 0; side < 4; ++side) {
                 const int sign = side < 2 ? 1 : -1;
                 const bool along_first = side % 2 == 0;
-                const Place to = along_first ? Place{at.place.first + sign, at.place.second}
-                                             : Place{at.place.first, at.place.second + sign};
+                const LatticePlace to = along_first ? LatticePlace{at.place.first + sign, at.place.second}
+                                                    : LatticePlace{at.place.first, at.place.second + sign};
                 if (places.contains(to)) continue;
                 const glm::dvec2 way = along_first ? at.first : at.second;
                 const std::int64_t found =
@@ -113,7 +113,7 @@ private:
 };
 
 /// Points between the places of a patch: many of them mean that its steps are multiples of those of the lattice.
-std::size_t points_between(const std::map<Place, std::uint32_t>& patch, const std::vector<glm::dvec2>& points,
+std::size_t points_between(const std::map<LatticePlace, std::uint32_t>& patch, const std::vector<glm::dvec2>& points,
                            const PointGrid& index) {
     std::vector<char> is_place(points.size());
     for (const auto& [place, point] : patch) is_place[point] = 1;
@@ -186,12 +186,12 @@ std::vector<std::uint32_t> seeds(const std::vector<glm::dvec2>& points) {
 }
 
 /// The largest patch that grows from any of the seeds.
-std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& points, std::optional<double> step,
-                                             const Monitor& monitor) {
+std::map<LatticePlace, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& points, std::optional<double> step,
+                                                    const Monitor& monitor) {
     const double distance = typical_distance(points);
     const PointGrid index(points, 2 * distance);
     const Patch patch(points, index);
-    std::map<Place, std::uint32_t> best;
+    std::map<LatticePlace, std::uint32_t> best;
     std::size_t best_size = 0;
     double best_area = 0;
     for (const std::uint32_t seed : seeds(points)) {
@@ -223,10 +223,10 @@ std::map<Place, std::uint32_t> largest_patch(const std::vector<glm::dvec2>& poin
 }
 
 /// Dots in one row: the other step is at right angles.
-std::map<Place, std::uint32_t> row_of(const std::vector<glm::dvec2>& points) {
+std::map<LatticePlace, std::uint32_t> row_of(const std::vector<glm::dvec2>& points) {
     const double distance = typical_distance(points);
     const PointGrid index(points, 2 * distance);
-    std::map<Place, std::uint32_t> best;
+    std::map<LatticePlace, std::uint32_t> best;
     for (const std::uint32_t seed : seeds(points)) {
         for (const std::uint32_t near : index.neighbours(seed, 2)) {
             const glm::dvec2 first = points[near] - points[seed];
@@ -243,13 +243,13 @@ struct PatchSteps {
     glm::dvec2 second{0.0};
     bool is_row = false;  ///< only one of them is known; the other is at right angles
 };
-PatchSteps steps_of(const std::map<Place, std::uint32_t>& patch, const std::vector<glm::dvec2>& points) {
+PatchSteps steps_of(const std::map<LatticePlace, std::uint32_t>& patch, const std::vector<glm::dvec2>& points) {
     PatchSteps steps;
     double firsts = 0;
     double seconds = 0;
     for (const auto& [place, point] : patch) {
         const glm::dvec2 from = points[point];
-        const auto add = [&](const Place& next, glm::dvec2& sum, double& count) {
+        const auto add = [&](const LatticePlace& next, glm::dvec2& sum, double& count) {
             const auto found = patch.find(next);
             if (found == patch.end()) return;
             sum += points[found->second] - from;
@@ -295,7 +295,7 @@ struct Axes {
         first_ = coordinates(first);
         second_ = coordinates(second);
     }
-    GridDot place(const Place& patch_place) const {
+    GridDot place(const LatticePlace& patch_place) const {
         const glm::dvec2 steps =
             static_cast<double>(patch_place.first) * first_ + static_cast<double>(patch_place.second) * second_;
         const std::int32_t a = whole(steps.x), b = whole(steps.y);
@@ -318,14 +318,14 @@ bool assign_places(const std::vector<glm::dvec2>& points, LatticeFit& fit, std::
     if (!back) return false;
     fit.places.assign(points.size(), std::nullopt);
     fit.fitted = 0;
-    std::map<Place, std::pair<double, std::uint32_t>> taken;
+    std::map<LatticePlace, std::pair<double, std::uint32_t>> taken;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const glm::dvec2 at = (*back)(points[i]);
         if (!(std::fabs(at.x) < 1e6 && std::fabs(at.y) < 1e6)) continue;
         const GridDot place = nearest_place(fit.lattice, at);
         const double off = glm::distance(lattice_point(fit.lattice, place), at);
         if (off > 0.22) continue;
-        const auto [found, is_new] = taken.emplace(Place{place.x, place.y}, std::pair(off, i));
+        const auto [found, is_new] = taken.emplace(LatticePlace{place.x, place.y}, std::pair(off, i));
         if (!is_new && off < found->second.first) found->second = {off, i};
     }
     from.clear();

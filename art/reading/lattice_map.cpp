@@ -9,7 +9,7 @@
 namespace sikku {
 namespace {
 
-constexpr double reach = 2.1;
+constexpr double search_radius = 2.1;
 /// Weight of no deviation: without neighbours the perspective holds.
 constexpr double prior = 0.15;
 
@@ -26,11 +26,11 @@ glm::dvec2 LatticeMap::deviation(glm::dvec2 point, const GridDot* without) const
     if (!(std::fabs(point.x) < 1e8 && std::fabs(point.y) < 1e8)) return glm::dvec2(0.0);
     glm::dvec2 sum(0.0);
     double weights = prior;
-    const auto low = static_cast<std::int32_t>(std::ceil((point.y - reach) / rows));
-    const auto high = static_cast<std::int32_t>(std::floor((point.y + reach) / rows));
+    const auto low = static_cast<std::int32_t>(std::ceil((point.y - search_radius) / rows));
+    const auto high = static_cast<std::int32_t>(std::floor((point.y + search_radius) / rows));
     for (std::int32_t row = low; row <= high; ++row) {
-        const auto left = static_cast<std::int32_t>(std::ceil(2 * (point.x - reach)));
-        const auto right = static_cast<std::int32_t>(std::floor(2 * (point.x + reach)));
+        const auto left = static_cast<std::int32_t>(std::ceil(2 * (point.x - search_radius)));
+        const auto right = static_cast<std::int32_t>(std::floor(2 * (point.x + search_radius)));
         for (auto each = deviations_.lower_bound({2 * row, left}); each != deviations_.end(); ++each) {
             const auto& [place, deviation] = *each;
             if (place.first != 2 * row || place.second > right) break;

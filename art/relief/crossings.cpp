@@ -81,29 +81,30 @@ private:
     std::vector<std::uint32_t> entries_;
 };
 
-std::int64_t side_of(const OutlineEdge& line, Micrometres point) {
+std::int64_t line_side(const OutlineEdge& line, Micrometres point) {
     return (std::int64_t{line.to.x} - line.from.x) * (std::int64_t{point.y} - line.from.y) -
            (std::int64_t{line.to.y} - line.from.y) * (std::int64_t{point.x} - line.from.x);
 }
 
-struct Place {
+struct CrossingPlace {
     double x = 0, y = 0;
 };
 
 /// The place where two segments cross within both.
-std::optional<Place> crossing(const OutlineEdge& a, const OutlineEdge& b) {
+std::optional<CrossingPlace> crossing(const OutlineEdge& a, const OutlineEdge& b) {
     if (std::max(a.from.x, a.to.x) < std::min(b.from.x, b.to.x) ||
         std::max(b.from.x, b.to.x) < std::min(a.from.x, a.to.x) ||
         std::max(a.from.y, a.to.y) < std::min(b.from.y, b.to.y) ||
         std::max(b.from.y, b.to.y) < std::min(a.from.y, a.to.y)) {
         return std::nullopt;
     }
-    const std::int64_t from = side_of(a, b.from), to = side_of(a, b.to);
+    const std::int64_t from = line_side(a, b.from), to = line_side(a, b.to);
     if (!((from < 0 && to > 0) || (from > 0 && to < 0))) return std::nullopt;
-    const std::int64_t left = side_of(b, a.from), right = side_of(b, a.to);
+    const std::int64_t left = line_side(b, a.from), right = line_side(b, a.to);
     if (!((left < 0 && right > 0) || (left > 0 && right < 0))) return std::nullopt;
     const double share = static_cast<double>(from) / (static_cast<double>(from) - static_cast<double>(to));
-    return Place{b.from.x + share * (double(b.to.x) - b.from.x), b.from.y + share * (double(b.to.y) - b.from.y)};
+    return CrossingPlace{b.from.x + share * (double(b.to.x) - b.from.x),
+                         b.from.y + share * (double(b.to.y) - b.from.y)};
 }
 
 std::size_t without_repetitions(std::vector<std::uint64_t>& places) {

@@ -167,7 +167,7 @@ void find_regions(const ConstrainedTriangulation& triangulation, Windings& windi
 }
 
 /// The neighbours of a point along outlines: two of them, and their number.
-struct Meeting {
+struct EdgeMeeting {
     std::array<std::uint32_t, 2> others{};
     std::uint32_t count = 0;
 
@@ -208,7 +208,7 @@ std::vector<LayerEdge> outlines_of(const PlaneRegions& plane, const std::functio
         std::int32_t region;
     };
     std::vector<Side> sides;  // sides of regions, which lie on the left
-    std::vector<Meeting> meetings(plane.points.size());
+    std::vector<EdgeMeeting> meetings(plane.points.size());
     const auto region_of = [&](std::uint32_t triangle) {
         if (triangle == PlaneRegions::none) return PlaneRegions::outside;
         const std::int32_t region = plane.triangles[triangle].region;
@@ -226,7 +226,7 @@ std::vector<LayerEdge> outlines_of(const PlaneRegions& plane, const std::functio
         }
     }
     const auto is_left_out = [&](std::uint32_t point) {
-        const Meeting& meeting = meetings[point];
+        const EdgeMeeting& meeting = meetings[point];
         return !keeps_points && meeting.count == 2 &&
                is_straight(plane.points[meeting.others[0]], plane.points[point], plane.points[meeting.others[1]]);
     };

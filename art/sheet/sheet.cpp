@@ -19,8 +19,6 @@
 #include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,7 +191,7 @@ void Sheet::measure() {
         if (i > 0 && !cells_[i].heading.empty()) ++row;
         subjects_[i].row = row;
     }
-    oneapi::tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+    for_each_index(cells_.size(), [&](std::size_t i) {
         const SheetCell& cell = cells_[i];
         named_cell(cell, [&] {
             DrawOptions drawing = cell_options(cell, options_);
@@ -670,7 +668,6 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
     const Room room = this->room(all, static_cast<double>(stride));
     const bool is_one_channel = options_.press.bits == 1 && options_.press.screen == Screen{};
     Picture picture(print_, drawing, is_one_channel ? 1 : channels, output, file);
-    oneapi::tbb::task_arena readers(room.readers);
     for (const Strip& strip : all) {
         if (strip.bottom == strip.top) continue;
         Print print = print_;
@@ -686,8 +683,8 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
             SheetBand band{top, std::min(top + rows, strip.bottom), {}};
             band.pixels.resize(stride * static_cast<std::size_t>(band.bottom - band.top));
             render_part(*texts, 0, strip.top, strip.bottom - strip.top, channels, stride, band);
-            readers.execute([&] {
-                oneapi::tbb::parallel_for(std::size_t{0}, strip.cells.size(), [&](std::size_t i) {
+            on_threads(room.readers, [&] {
+                for_each_index(strip.cells.size(), [&](std::size_t i) {
                     const CellPicture& cell = strip.cells[i];
                     if (cell.bottom <= band.top || cell.top >= band.bottom) return;
                     named_cell(cells_[cell.cell], [&] {
@@ -715,7 +712,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
 /// Computes how many drawings and rows fit in memory: whole strips, rendered one drawing at a time; otherwise bands
 /// of strips, with all drawings of the strip in memory. @throws std::runtime_error if there is too little memory
 Room Sheet::room(const std::vector<Strip>& strips, double stride) const {
-    const int threads = oneapi::tbb::this_task_arena::max_concurrency();
+    const int threads = available_threads();
     if (!(options_.memory > 0)) return {threads, 0};
     double most = 1, thread = 1;
     double memory = options_.memory;  // excluding the memory that drawings keep
@@ -752,9 +749,10 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
     SheetOptions options = given;
     load_inks(options.press, options.format);
     if (!is_vector(options.format)) prepare_images(options.threads);
-    return on_threads(options.threads, [&] {
+    SheetLayout layout;
+    on_threads(options.threads, [&] {
         Sheet sheet(cells, options);
-        SheetLayout layout = sheet.arrange().layout;
+        layout = sheet.arrange().layout;
         const auto opened = destination.open(file);
         Output& output = *opened;
         if (options.plot || is_for_plotters(options.format)) {
@@ -771,8 +769,8 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         output.commit();
         layout.reports = sheet.reports();
         layout.missing_letters = sheet.missing();
-        return layout;
     });
+    return layout;
 }
 
 }  // namespace sikku

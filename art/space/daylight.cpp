@@ -5,7 +5,6 @@
 #include "art/space/triangles.h"
 #include "engine/base/threads.h"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -275,7 +274,7 @@ void Daylight::build(int threads, const std::function<void()>& watch) {
         sun_.push_back(framed(towards, side_));
     }
     on_threads(threads, [&] {
-        oneapi::tbb::parallel_for(std::size_t{0}, sky_.size() + sun_.size(), [&](std::size_t i) {
+        for_each_index(sky_.size() + sun_.size(), [&](std::size_t i) {
             if (watch) watch();
             draw(i < sky_.size() ? sky_[i] : sun_[i - sky_.size()]);
         });

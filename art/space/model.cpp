@@ -21,7 +21,7 @@
 namespace sikku {
 namespace {
 
-constexpr int sides = 8;         // sides of a tube
+constexpr int tube_sides = 8;    // sides of a tube
 constexpr int sphere_rings = 8;  // from pole to pole
 constexpr int sphere_sides = 12;
 constexpr double sharpest = -0.5;  // cosine of the sharpest turn that a tube makes without ending
@@ -121,14 +121,14 @@ private:
             across = glm::dot(turned, turned) > 1e-12 ? glm::normalize(turned) : any_across(tangent);
             const glm::dvec3 third = glm::cross(tangent, across);
             std::uint32_t first = 0;
-            for (int side = 0; side < sides; ++side) {
-                const double angle = 2 * std::numbers::pi * side / sides;
+            for (int side = 0; side < tube_sides; ++side) {
+                const double angle = 2 * std::numbers::pi * side / tube_sides;
                 const glm::dvec3 out = across * std::cos(angle) + third * std::sin(angle);
                 const std::uint32_t corner = mesh.add(nodes[i].at + out * nodes[i].radius, out);
                 if (side == 0) first = corner;
             }
-            for (std::uint32_t side = 0; i > 0 && side < sides; ++side) {
-                const std::uint32_t next = (side + 1) % sides;
+            for (std::uint32_t side = 0; i > 0 && side < tube_sides; ++side) {
+                const std::uint32_t next = (side + 1) % tube_sides;
                 mesh.triangle(before + side, before + next, first + next);
                 mesh.triangle(before + side, first + next, first + side);
             }
@@ -140,12 +140,12 @@ private:
     static void add_end(const Node& node, const glm::dvec3& outwards, const glm::dvec3& across, Mesh& mesh) {
         const glm::dvec3 third = glm::cross(outwards, across);
         const std::uint32_t centre = mesh.add(node.at, outwards);
-        for (int side = 0; side < sides; ++side) {
-            const double angle = 2 * std::numbers::pi * side / sides;
+        for (int side = 0; side < tube_sides; ++side) {
+            const double angle = 2 * std::numbers::pi * side / tube_sides;
             mesh.add(node.at + (across * std::cos(angle) + third * std::sin(angle)) * node.radius, outwards);
         }
-        for (std::uint32_t side = 0; side < sides; ++side) {
-            mesh.triangle(centre, centre + 1 + side, centre + 1 + (side + 1) % sides);
+        for (std::uint32_t side = 0; side < tube_sides; ++side) {
+            mesh.triangle(centre, centre + 1 + side, centre + 1 + (side + 1) % tube_sides);
         }
     }
 

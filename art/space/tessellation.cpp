@@ -140,11 +140,11 @@ bool are_neighbours(const Surface& surface, std::size_t a, std::size_t b) {
 }
 
 /// A point on the rim of a patch.
-struct Meeting {
+struct PatchMeeting {
     glm::dvec3 cell;  ///< equal for points that differ only by rounding
     std::size_t patch;
     std::size_t point;
-    bool operator<(const Meeting& other) const {
+    bool operator<(const PatchMeeting& other) const {
         return std::tie(cell.x, cell.y, cell.z, patch, point) <
                std::tie(other.cell.x, other.cell.y, other.cell.z, other.patch, other.point);
     }
@@ -154,7 +154,7 @@ struct Meeting {
 void join(const Surface& surface, int n, std::vector<Grid>& grids) {
     constexpr std::size_t most_meeting = 64;  // patches in a point; more keep their own normals
     const std::vector<std::size_t> edge = rim(n);
-    std::vector<Meeting> meetings;
+    std::vector<PatchMeeting> meetings;
     for (std::size_t patch = 0; patch < grids.size(); ++patch) {
         const Grid& grid = grids[patch];
         const double side = std::max(100 * grid.near, 1e-300);
@@ -164,7 +164,7 @@ void join(const Surface& surface, int n, std::vector<Grid>& grids) {
     for (std::size_t first = 0, end = 0; first < meetings.size(); first = end) {
         std::vector<std::pair<std::size_t, glm::dvec3>> normals;  // one for each patch
         for (; end < meetings.size() && meetings[end].cell == meetings[first].cell; ++end) {
-            const Meeting& here = meetings[end];
+            const PatchMeeting& here = meetings[end];
             if (!normals.empty() && normals.back().first == here.patch) continue;
             normals.emplace_back(here.patch, grids[here.patch].normals[here.point]);
         }

@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::string_view expected =
+constexpr std::string_view decorations_expected =
     "kolam, truchet, worms, dots, strands, or 'tile NUMBER … arc FROM TO line FROM TO dot colour NUMBER'";
 constexpr int most_colour = 4095;
 
@@ -24,7 +24,7 @@ public:
 
     TileDecoration read() {
         if (!advance()) {
-            complain(key_.name_at, fmt::format("'{}:' is empty: expected {}", key_.name, expected));
+            complain(key_.name_at, fmt::format("'{}:' is empty: expected {}", key_.name, decorations_expected));
             return {};
         }
         if (text_ == "none") {
@@ -67,8 +67,9 @@ private:
         const std::string_view near = nearest(
             text_, {"kolam", "truchet", "worms", "dots", "strands", "tile", "colour", "arc", "line", "dot", "none"});
         return complain(
-            word_, near.empty() ? fmt::format("unexpected {}: expected {}", quoted_value(word_.view()), expected)
-                                : fmt::format("unexpected {}; did you mean '{}'?", quoted_value(word_.view()), near));
+            word_, near.empty()
+                       ? fmt::format("unexpected {}: expected {}", quoted_value(word_.view()), decorations_expected)
+                       : fmt::format("unexpected {}; did you mean '{}'?", quoted_value(word_.view()), near));
     }
 
     bool set(bool& value) {

@@ -6,6 +6,7 @@
 #include "art/tiles/united_lines.h"
 #include "engine/base/chance.h"
 #include "engine/derivation/derivation.h"
+#include "engine/geometry/cross.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -21,10 +22,6 @@ namespace {
 
 glm::dvec2 turned_left(glm::dvec2 vector) {
     return {-vector.y, vector.x};
-}
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
 }
 
 double twice_area(std::span<const glm::dvec2> vertices) {

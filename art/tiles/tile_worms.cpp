@@ -2,6 +2,7 @@
 
 #include "art/plotter/plot_layer.h"
 #include "engine/base/union_find.h"
+#include "engine/geometry/cross.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,10 +15,6 @@ namespace sikku {
 namespace {
 
 constexpr double accuracy = 1e-6;  // relative, for sides; in radians, for angles
-
-double cross(glm::dvec2 a, glm::dvec2 b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 /// A corner of a rhomb, and the nodes to which its two sides lead.
 struct RhombCorner {

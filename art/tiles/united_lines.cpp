@@ -19,7 +19,7 @@ constexpr double direction_tolerance = 1e-8;  // radians
 constexpr double place_tolerance = 1e-9;      // share of the drawing's size
 
 /// A piece as an interval of the infinite line on which it lies.
-struct Interval {
+struct CoveredInterval {
     double direction = 0;  ///< radians, 0 to pi, later the number of its line
     double offset = 0;     ///< distance of the line from the origin, to the left of its direction
     double begin = 0, end = 0;
@@ -27,8 +27,8 @@ struct Interval {
     bool is_reversed = false;
 };
 
-Interval interval_of(glm::dvec2 from, glm::dvec2 to, std::uint32_t piece) {
-    Interval interval;
+CoveredInterval interval_of(glm::dvec2 from, glm::dvec2 to, std::uint32_t piece) {
+    CoveredInterval interval;
     glm::dvec2 along = glm::normalize(to - from);
     double direction = std::atan2(along.y, along.x);
     if (direction < -direction_tolerance) {
@@ -49,8 +49,8 @@ Interval interval_of(glm::dvec2 from, glm::dvec2 to, std::uint32_t piece) {
 
 /// Sorts by a value and replaces it by the number of its group: values within the tolerance of the least one.
 template <class Iterator>
-void group(Iterator begin, Iterator end, double Interval::*value, double tolerance) {
-    std::sort(begin, end, [value](const Interval& a, const Interval& b) {
+void group(Iterator begin, Iterator end, double CoveredInterval::*value, double tolerance) {
+    std::sort(begin, end, [value](const CoveredInterval& a, const CoveredInterval& b) {
         return a.*value != b.*value ? a.*value < b.*value : a.piece < b.piece;
     });
     double least = 0;
@@ -65,9 +65,10 @@ void group(Iterator begin, Iterator end, double Interval::*value, double toleran
 }
 
 template <class Iterator, class Visit>
-void for_each_group(Iterator begin, Iterator end, double Interval::*value, Visit&& visit) {
+void for_each_group(Iterator begin, Iterator end, double CoveredInterval::*value, Visit&& visit) {
     while (begin != end) {
-        auto next = std::find_if(begin, end, [&](const Interval& other) { return other.*value != (*begin).*value; });
+        auto next =
+            std::find_if(begin, end, [&](const CoveredInterval& other) { return other.*value != (*begin).*value; });
         visit(begin, next);
         begin = next;
     }
@@ -76,7 +77,7 @@ void for_each_group(Iterator begin, Iterator end, double Interval::*value, Visit
 struct Event {
     double at = 0;
     bool ends = false;
-    const Interval* interval = nullptr;
+    const CoveredInterval* interval = nullptr;
 };
 
 /// A united piece, numbered by the line that drew it first.
@@ -122,7 +123,7 @@ void UnitedLines::add_tile(std::span<const glm::dvec2> corners) {
 UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const {
     Pulse pulse(monitor);
     double size = 0;
-    std::vector<Interval> intervals;
+    std::vector<CoveredInterval> intervals;
     intervals.reserve(pieces_.size());
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
         pulse();
@@ -138,7 +139,7 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
     // Pieces over the place of the sweep: lines, edges of tiles to the left, edges of tiles to the right.
     std::set<std::uint32_t> lines, left, right;
     const auto take = [&](const Event& event) {
-        const Interval& interval = *event.interval;
+        const CoveredInterval& interval = *event.interval;
         auto& over = !pieces_[interval.piece].is_edge ? lines : interval.is_reversed ? right : left;
         if (event.ends) {
             over.erase(interval.piece);
@@ -201,10 +202,10 @@ UnitedLines::Result UnitedLines::unite(Kept kept, const Monitor& monitor) const 
         left.clear();
         right.clear();
     };
-    group(intervals.begin(), intervals.end(), &Interval::direction, direction_tolerance);
-    for_each_group(intervals.begin(), intervals.end(), &Interval::direction, [&](auto begin, auto end) {
-        group(begin, end, &Interval::offset, tolerance);
-        for_each_group(begin, end, &Interval::offset, sweep);
+    group(intervals.begin(), intervals.end(), &CoveredInterval::direction, direction_tolerance);
+    for_each_group(intervals.begin(), intervals.end(), &CoveredInterval::direction, [&](auto begin, auto end) {
+        group(begin, end, &CoveredInterval::offset, tolerance);
+        for_each_group(begin, end, &CoveredInterval::offset, sweep);
     });
 
     const auto make_set = [](auto& values) {

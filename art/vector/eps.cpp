@@ -14,7 +14,7 @@ namespace sikku {
 namespace {
 
 /// Printers of level 2 support paths of 1,500 points.
-constexpr int most_path_points = 1000;
+constexpr int most_eps_points = 1000;
 
 /// A text of a comment: printable ASCII, at most 200 characters.
 std::string comment_text(std::string_view text) {
@@ -24,11 +24,11 @@ std::string comment_text(std::string_view text) {
     return result;
 }
 
-using Layer = OperatorLayer;
+using EpsLayer = OperatorLayer;
 
-class Writer final : public OperatorWriter<Layer> {
+class EpsWriter final : public OperatorWriter<EpsLayer> {
 public:
-    Writer(const Print& print, Output& file) : OperatorWriter(print, file, most_path_points) {
+    EpsWriter(const Print& print, Output& file) : OperatorWriter(print, file, most_eps_points) {
         write_head();
         write_ground(print.style.ground, window_);
         begin_layers();
@@ -97,13 +97,13 @@ private:
     }
 
     void end_part() {
-        write_layers([](Layer& layer) { end_path(layer); });
+        write_layers([](EpsLayer& layer) { end_path(layer); });
         if (has_part_) file_.write("grestore\n");
         has_part_ = false;
         paper_ = mixed(print_.style.ground.value_or(white), white);
     }
 
-    void begin_layer(Layer& layer, LayerOrder order, Colour colour) override {
+    void begin_layer(EpsLayer& layer, LayerOrder order, Colour colour) override {
         take_layer(layer);
         layer.text.append("% " + label_of(order, colour) + "\n");
     }
@@ -117,7 +117,7 @@ private:
 }  // namespace
 
 std::unique_ptr<PrintWriter> write_eps(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+    return std::make_unique<EpsWriter>(print, file);
 }
 
 }  // namespace sikku

@@ -29,7 +29,7 @@ constexpr double most_units = 14400.0;  // maximum side of a page, in its units:
 
 constexpr std::size_t pack_bytes = std::size_t{1} << 16;
 /// Readers keep a whole path in memory.
-constexpr int most_path_points = 8192;
+constexpr int most_pdf_points = 8192;
 
 /// Compresses pieces of streams separately, so that one compressor serves any number of streams at once.
 class Deflater {
@@ -62,7 +62,7 @@ private:
     z_stream stream_{};
 };
 
-struct Layer : OperatorLayer {
+struct PdfLayer : OperatorLayer {
     std::string label;
     int stream = 0;            ///< number of the object with the drawing
     int length = 0;            ///< number of the object with its length, unless known in advance
@@ -75,16 +75,16 @@ struct Layer : OperatorLayer {
 };
 
 /// Appends an empty last block, and the checksum.
-void end_packed(Layer& layer) {
+void end_packed(PdfLayer& layer) {
     layer.packed += std::string_view("\x03\x00", 2);
     for (const int shift : {24, 16, 8, 0}) layer.packed += static_cast<char>(layer.checksum >> shift & 0xFF);
     layer.packed_bytes += 6;
 }
 
-class Writer final : public OperatorWriter<Layer, PagesWriter> {
+class PdfWriter final : public OperatorWriter<PdfLayer, PagesWriter> {
 public:
-    Writer(const Print& print, Output& file)
-        : OperatorWriter(print, file, most_path_points),
+    PdfWriter(const Print& print, Output& file)
+        : OperatorWriter(print, file, most_pdf_points),
           colours_(print.press),
           size_(print.page),
           edge_(press_edge(print.press)) {
@@ -200,7 +200,7 @@ private:
     static constexpr std::size_t no_kind = ~std::size_t{0};
 
     /// Assigns the following content to a kind of tiles, or to none.
-    void show_kind(Layer& layer, std::size_t kind) {
+    void show_kind(PdfLayer& layer, std::size_t kind) {
         if (kind == kind_) return;
         if (kind_ != no_kind) layer.text.append("EMC\n");
         kind_ = kind;
@@ -373,7 +373,7 @@ private:
         return fmt::format("{} 0 0 -{} {} {} cm", scale, scale, user(edge_), user(edge_ + size_.height));
     }
 
-    std::string stream_head(const Layer& layer, const std::string& length) const {
+    std::string stream_head(const PdfLayer& layer, const std::string& length) const {
         const std::string form =
             layer.translucent ? fmt::format(
                                     "/Type /XObject /Subtype /Form /BBox [0 0 {} {}] "
@@ -386,7 +386,7 @@ private:
 
     /// The first layer of all is written to the file at once, the others wait in memory. One whose `colour` is
     /// translucent is painted as a whole, so that nothing darkens where it overlaps or where paths are cut.
-    void begin_layer(Layer& layer, LayerOrder order, Colour colour) override {
+    void begin_layer(PdfLayer& layer, LayerOrder order, Colour colour) override {
         layer.label = label_of(order, colour);
         layer.colour = order.first == LayerKind::polygons ? Colour{} : colour;
         layer.translucent = layer.colour.alpha != 255;
@@ -407,16 +407,16 @@ private:
         const std::string text = ink(colour, kind == LayerKind::strokes, kind != LayerKind::polygons);
         return kind == LayerKind::polygons ? text + " " + set_alpha(colour.alpha) : text;
     }
-    void begin_polygon(Layer& layer, std::span<const glm::dvec2> vertices, Colour colour) override {
+    void begin_polygon(PdfLayer& layer, std::span<const glm::dvec2> vertices, Colour colour) override {
         if (!print_.names_tiles) return;
         show_kind(layer, vertices.empty() ? no_kind : kinds_.kind_of(vertices, colour));
     }
 
-    void flush(Layer& layer) override {
+    void flush(PdfLayer& layer) override {
         if (layer.text.size() >= flush_bytes) pack(layer);
     }
     /// Compresses the text of the layer.
-    void pack(Layer& layer) {
+    void pack(PdfLayer& layer) {
         const std::string_view text = layer.text.view();
         const std::size_t before = layer.packed.size();
         layer.checksum = adler32_z(layer.checksum, reinterpret_cast<const Bytef*>(text.data()), text.size());
@@ -567,11 +567,11 @@ private:
 }  // namespace
 
 std::unique_ptr<PrintWriter> write_pdf(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+    return std::make_unique<PdfWriter>(print, file);
 }
 
 std::unique_ptr<PagesWriter> write_pdf_pages(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+    return std::make_unique<PdfWriter>(print, file);
 }
 
 }  // namespace sikku

@@ -105,7 +105,7 @@ double curve_length(const std::array<glm::dvec2, 4>& b) {
     return length;
 }
 
-struct Layer : VectorLayer {
+struct SvgLayer : VectorLayer {
     std::uint64_t path_begin = 0;  ///< position() of the open path's attribute d
     std::string path_width;        ///< stroke-width of the open path
     Micrometres at;                ///< end of the open path
@@ -131,9 +131,9 @@ constexpr std::string_view lesson_style =
     "to { stroke-dasharray: 1 2; stroke-dashoffset: 0 } }\n"
     "@media (prefers-reduced-motion: reduce) { .s, .w, .n { animation: none } }\n";
 
-class Writer final : public VectorWriter<Layer> {
+class SvgWriter final : public VectorWriter<SvgLayer> {
 public:
-    Writer(const Print& print, Output& file) : VectorWriter(print, file) {
+    SvgWriter(const Print& print, Output& file) : VectorWriter(print, file) {
         write_head();
         written_ = file_.size();
         begin_layers();
@@ -166,7 +166,7 @@ public:
 
 private:
     void end_part() {
-        write_layers([](Layer& layer) {
+        write_layers([](SvgLayer& layer) {
             end_path(layer);
             if (layer.run) layer.text.append("</g>\n");
             layer.text.append("</g>\n");
@@ -249,9 +249,9 @@ private:
 
     /// The layer of that order, begun with its group on first use. @param attributes  returns those of the group
     template <typename Attributes>
-    Layer& open_layer(LayerOrder order, Colour colour, Attributes&& attributes) {
+    SvgLayer& open_layer(LayerOrder order, Colour colour, Attributes&& attributes) {
         const auto [found, is_new] = layers_.try_emplace(order);
-        Layer& layer = found->second;
+        SvgLayer& layer = found->second;
         if (!is_new) return layer;
         take_layer(layer);
         const PartMotion* motion = part_->motion;
@@ -273,8 +273,8 @@ private:
     }
 
     /// Polygons keep their order whatever their colours, as they may cover each other.
-    Layer& polygon_run(Colour colour) {
-        Layer& layer = open_layer({LayerKind::polygons, 0}, colour, [] { return ""; });
+    SvgLayer& polygon_run(Colour colour) {
+        SvgLayer& layer = open_layer({LayerKind::polygons, 0}, colour, [] { return ""; });
         if (layer.run != colour) {
             if (layer.run) layer.text.append("</g>\n");
             layer.text.append(group_of(colour));
@@ -297,7 +297,7 @@ private:
     }
 
     void write_polygon(std::span<const glm::dvec2> vertices, Colour colour) override {
-        Layer& layer = polygon_run(colour);
+        SvgLayer& layer = polygon_run(colour);
         const std::string name = print_.names_tiles ? tile_name(vertices, colour)
                                  : part_->motion    ? part_->motion->each.at(moved_++)
                                                     : "";
@@ -325,7 +325,7 @@ private:
     }
 
     void write_area(std::span<const glm::dvec2> outline, Colour colour) override {
-        Layer& layer = polygon_run(colour);
+        SvgLayer& layer = polygon_run(colour);
         // Pieces of lines drawn by hand appear one after the other.
         const bool appears = print_.animation && part_->style.hand > 0;
         char* out = layer.text.room(outline.size() / 3 * curve_room + line_room + 32);
@@ -357,7 +357,7 @@ private:
     }
 
     void write_disc(Micrometres centre, double radius, Colour colour, int slot) override {
-        Layer& layer = open_layer({LayerKind::discs, slot}, colour, [&] {
+        SvgLayer& layer = open_layer({LayerKind::discs, slot}, colour, [&] {
             return fmt::format(" fill=\"{}\"{}", hex(colour), opacity("opacity", colour));
         });
         layer.text.append(fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", centre.x, centre.y,
@@ -365,9 +365,9 @@ private:
         flush(layer);
     }
 
-    Layer& stroke_layer() override {
+    SvgLayer& stroke_layer() override {
         // The opacity is the layer's, so that lines do not darken where they cross or where paths are cut.
-        Layer& layer = open_layer({LayerKind::strokes, slot_}, colour_, [&] {
+        SvgLayer& layer = open_layer({LayerKind::strokes, slot_}, colour_, [&] {
             return fmt::format(
                 " fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\" "
                 "stroke-linecap=\"round\" stroke-linejoin=\"round\"",
@@ -460,7 +460,7 @@ private:
         }
     }
 
-    static void end_path(Layer& layer) {
+    static void end_path(SvgLayer& layer) {
         if (layer.path_open) layer.text.append("\"/>\n");
         layer.path_open = false;
     }
@@ -504,7 +504,7 @@ private:
 }  // namespace
 
 std::unique_ptr<PrintWriter> write_svg(const Print& print, Output& file) {
-    return std::make_unique<Writer>(print, file);
+    return std::make_unique<SvgWriter>(print, file);
 }
 
 }  // namespace sikku

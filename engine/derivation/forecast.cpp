@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-constexpr double most_work = 5e7;  // table entries visited
+constexpr double most_entries_visited = 5e7;  // table entries visited
 
 /// Productions of a table as pairs of successor symbol and multiplicity.
 struct Sparse {
@@ -74,7 +74,7 @@ struct Steps {
             count += steps;
             work += static_cast<double>(steps) * static_cast<double>(1 + symbols.size() + tables[table].terms.size());
         }
-        if (work > most_work) {
+        if (work > most_entries_visited) {
             throw BudgetError(
                 fmt::format("{} steps of {} symbols are too much even to forecast", count, symbols.size()));
         }
@@ -330,7 +330,7 @@ void require_affordable(const Grammar& grammar, bool interpreted, double budget)
     Forecast found = rough_forecast(grammar, steps);
     if (found.nodes <= budget) return;
     // If exact counts would take seconds, only the size of the word is reported.
-    if (found.log10_length < most_digits && steps.work * (1 + found.log10_length / 100) < most_work) {
+    if (found.log10_length < most_digits && steps.work * (1 + found.log10_length / 100) < most_entries_visited) {
         found.counts = exact_counts(grammar, steps);
     }
     std::string advice;

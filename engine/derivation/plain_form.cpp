@@ -11,7 +11,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_modules = 100'000;
-constexpr std::size_t most_work = 50'000'000;  // modules of all steps and symbols of all successors
+constexpr std::size_t most_rewriting = 50'000'000;  // modules of all steps and symbols of all successors
 
 /// Numbers modules by their letters and values, and writes productions between the numbers.
 class PlainWriter {
@@ -80,7 +80,7 @@ private:
             if (is_reached[number]) numbers.push_back(number);
         }
         work_ += is_reached.size();
-        if (work_ > most_work) is_too_much_ = true;
+        if (work_ > most_rewriting) is_too_much_ = true;
     }
 
     /// Applies a table to modules. New productions go to `productions`.
@@ -125,7 +125,7 @@ private:
             word.push_back(number(symbol, values));
         }
         work_ += word.size();
-        if (work_ > most_work) is_too_much_ = true;
+        if (work_ > most_rewriting) is_too_much_ = true;
         return word;
     }
 

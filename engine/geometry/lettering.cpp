@@ -135,31 +135,31 @@ constexpr NamedGlyph further_glyphs[] = {
 };
 
 /// Marks above stand on the line `R`, over the letter; marks below hang from it, at the foot of the letter.
-enum class Place { above, below };
+enum class MarkPlace { above, below };
 struct Mark {
     char32_t combining;
-    Place place;
+    MarkPlace place;
     std::string_view glyph;
     std::string_view bases;
     std::u32string_view composed;  ///< composed character of each base
 };
 constexpr Mark marks[] = {
-    {0x300, Place::above, "SRPN", "AEIOUaeiouNnWwYy", U"ÀÈÌÒÙàèìòùǸǹẀẁỲỳ"},
-    {0x301, Place::above, "QRTN", "AEIOUYCLNRSZaeiouyclnrszGgMmPpWw", U"ÁÉÍÓÚÝĆĹŃŔŚŹáéíóúýćĺńŕśźǴǵḾḿṔṕẂẃ"},
-    {0x302, Place::above, "ORRNUR", "AEIOUaeiouCcGgHhJjSsWwYy", U"ÂÊÎÔÛâêîôûĈĉĜĝĤĥĴĵŜŝŴŵŶŷ"},
-    {0x303, Place::above, "MQOOQOSQUQWO", "AENOaenoIiUuYy", U"ÃẼÑÕãẽñõĨĩŨũỸỹ"},
-    {0x304, Place::above, "NPVP", "AEIOUaeiouYy", U"ĀĒĪŌŪāēīōūȲȳ"},
-    {0x306, Place::above, "NNOPQQSQUPVN", "AEGIOUaegiou", U"ĂĔĞĬŎŬăĕğĭŏŭ"},
-    {0x307, Place::above, "QPRQSPROQP", "CcEeGgIZzNnMmSsRrHhYy", U"ĊċĖėĠġİŻżṄṅṀṁṠṡṘṙḢḣẎẏ"},
-    {0x308, Place::above, "MPNQOPNOMP RUPVQWPVOUP", "AEIOUaeiouyYWw", U"ÄËÏÖÜäëïöüÿŸẄẅ"},
-    {0x30A, Place::above, "RRTQUOTMRLPMOOPQRR", "AaUu", U"ÅåŮů"},
-    {0x30B, Place::above, "ORQN RTRVN", "OUou", U"ŐŰőű"},
-    {0x30C, Place::above, "ONRRUN", "CDENRSTZcdenrstzGg", U"ČĎĚŇŘŠŤŽčďěňřšťžǦǧ"},
-    {0x323, Place::below, "QVRWSVRUQV", "DHKLMNRSTZdhklmnrstzAEIOUaeiou", U"ḌḤḲḶṂṆṚṢṬẒḍḥḳḷṃṇṛṣṭẓẠẸỊỌỤạẹịọụ"},
-    {0x326, Place::below, "RUQX", "STstGKLNRgklnr", U"ȘȚșțĢĶĻŅŖģķļņŗ"},
-    {0x327, Place::below, "RRQTSUTWRYPX", "CSTcst", U"ÇŞŢçşţ"},
-    {0x328, Place::below, "RRPTOVPXRXSW", "AEIUaeiu", U"ĄĘĮŲąęįų"},
-    {0x331, Place::below, "NVVV", "DLNRTZdlnrtz", U"ḎḺṈṞṮẔḏḻṉṟṯẕ"},
+    {0x300, MarkPlace::above, "SRPN", "AEIOUaeiouNnWwYy", U"ÀÈÌÒÙàèìòùǸǹẀẁỲỳ"},
+    {0x301, MarkPlace::above, "QRTN", "AEIOUYCLNRSZaeiouyclnrszGgMmPpWw", U"ÁÉÍÓÚÝĆĹŃŔŚŹáéíóúýćĺńŕśźǴǵḾḿṔṕẂẃ"},
+    {0x302, MarkPlace::above, "ORRNUR", "AEIOUaeiouCcGgHhJjSsWwYy", U"ÂÊÎÔÛâêîôûĈĉĜĝĤĥĴĵŜŝŴŵŶŷ"},
+    {0x303, MarkPlace::above, "MQOOQOSQUQWO", "AENOaenoIiUuYy", U"ÃẼÑÕãẽñõĨĩŨũỸỹ"},
+    {0x304, MarkPlace::above, "NPVP", "AEIOUaeiouYy", U"ĀĒĪŌŪāēīōūȲȳ"},
+    {0x306, MarkPlace::above, "NNOPQQSQUPVN", "AEGIOUaegiou", U"ĂĔĞĬŎŬăĕğĭŏŭ"},
+    {0x307, MarkPlace::above, "QPRQSPROQP", "CcEeGgIZzNnMmSsRrHhYy", U"ĊċĖėĠġİŻżṄṅṀṁṠṡṘṙḢḣẎẏ"},
+    {0x308, MarkPlace::above, "MPNQOPNOMP RUPVQWPVOUP", "AEIOUaeiouyYWw", U"ÄËÏÖÜäëïöüÿŸẄẅ"},
+    {0x30A, MarkPlace::above, "RRTQUOTMRLPMOOPQRR", "AaUu", U"ÅåŮů"},
+    {0x30B, MarkPlace::above, "ORQN RTRVN", "OUou", U"ŐŰőű"},
+    {0x30C, MarkPlace::above, "ONRRUN", "CDENRSTZcdenrstzGg", U"ČĎĚŇŘŠŤŽčďěňřšťžǦǧ"},
+    {0x323, MarkPlace::below, "QVRWSVRUQV", "DHKLMNRSTZdhklmnrstzAEIOUaeiou", U"ḌḤḲḶṂṆṚṢṬẒḍḥḳḷṃṇṛṣṭẓẠẸỊỌỤạẹịọụ"},
+    {0x326, MarkPlace::below, "RUQX", "STstGKLNRgklnr", U"ȘȚșțĢĶĻŅŖģķļņŗ"},
+    {0x327, MarkPlace::below, "RRQTSUTWRYPX", "CSTcst", U"ÇŞŢçşţ"},
+    {0x328, MarkPlace::below, "RRPTOVPXRXSW", "AEIUaeiu", U"ĄĘĮŲąęįų"},
+    {0x331, MarkPlace::below, "NVVV", "DLNRTZdlnrtz", U"ḎḺṈṞṮẔḏḻṉṟṯẕ"},
 };
 
 using Polyline = std::vector<glm::dvec2>;
@@ -210,7 +210,7 @@ Glyph glyph_of(std::string_view text) {
 /// Adds a mark to a glyph. An accent replaces the dot on i and j.
 void add_mark(Glyph& glyph, const Mark& mark) {
     const double middle = (glyph.low + glyph.high) / 2;
-    const double line = mark.place == Place::below ? 0.0 : glyph.top + mark_gap;
+    const double line = mark.place == MarkPlace::below ? 0.0 : glyph.top + mark_gap;
     for (Polyline& stroke : strokes_of(mark.glyph, {middle, line})) glyph.strokes.push_back(std::move(stroke));
 }
 
@@ -270,7 +270,7 @@ const std::map<char32_t, Glyph>& font() {
             for (std::size_t i = 0; i < mark.bases.size(); ++i) {
                 const char base = mark.bases[i];
                 Glyph glyph = glyphs[static_cast<char32_t>(base)];
-                if (mark.place == Place::above && (base == 'i' || base == 'j')) take_dot(glyph);
+                if (mark.place == MarkPlace::above && (base == 'i' || base == 'j')) take_dot(glyph);
                 add_mark(glyph, mark);
                 measure(glyph);
                 glyphs[mark.composed[i]] = std::move(glyph);
@@ -356,7 +356,7 @@ void each_glyph(std::string_view text, See&& see) {
             if (glyph != &marked) {
                 marked = *glyph;
                 glyph = &marked;
-                if (mark->place == Place::above && (code == U'i' || code == U'j')) take_dot(marked);
+                if (mark->place == MarkPlace::above && (code == U'i' || code == U'j')) take_dot(marked);
             }
             add_mark(marked, *mark);
             measure(marked);

@@ -8,7 +8,7 @@ namespace sikku::fractint {
 namespace {
 
 constexpr std::size_t most_levels = 20;                           // that differ
-constexpr double most_digits = 300;                               // of a length, before or after the point
+constexpr double most_length_digits = 300;                        // of a length, before or after the point
 constexpr std::int64_t whole_turn = 360'000'000'000;              // billionths of degrees
 constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
 
@@ -118,7 +118,7 @@ void Effects::compose() {
                 if (std::abs(effect.halves[i]) > largest_exponent) is_small = false;
             }
             // Lengths may become 0, as in Fractint.
-            if (!(digits < most_digits)) is_small = false;
+            if (!(digits < most_length_digits)) is_small = false;
         }
         is_settled_ = next == levels_.back();
         if (is_settled_ || levels_.size() >= most_levels || !is_small) return;

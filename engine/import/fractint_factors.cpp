@@ -12,7 +12,7 @@
 namespace sikku::fractint {
 namespace {
 
-constexpr std::size_t most_digits = 18;  // that an integer of 64 bits holds
+constexpr std::size_t most_integer_digits = 18;  // that an integer of 64 bits holds
 
 /// A fraction above 0 in lowest terms.
 struct Fraction {
@@ -35,7 +35,7 @@ std::optional<Fraction> fraction_of(const std::string& text) {
     for (std::size_t i = 0; i < end; ++i) {
         if (text[i] == '.') continue;
         if (digits > 0 || text[i] != '0') ++digits;
-        if (digits > most_digits || (i > point && i - point > most_digits)) return std::nullopt;
+        if (digits > most_integer_digits || (i > point && i - point > most_integer_digits)) return std::nullopt;
         fraction.over = 10 * fraction.over + static_cast<std::uint64_t>(text[i] - '0');
         if (i > point) fraction.under *= 10;
     }

@@ -29,7 +29,7 @@ constexpr std::size_t most_keys = 1024;  // together with those that settings ad
 constexpr std::size_t most_defines = std::size_t{1} << 18;
 constexpr std::size_t most_productions = std::size_t{1} << 20;  // of all tables together
 constexpr std::size_t most_tables = std::size_t{1} << 16;
-constexpr std::size_t most_patches = 4096;
+constexpr std::size_t most_pattern_patches = 4096;
 constexpr std::size_t most_variants = std::size_t{1} << 16;
 constexpr std::size_t most_settings = std::size_t{1} << 16;  // of all variants together
 
@@ -457,7 +457,7 @@ private:
     void patch(const Span& whole, std::size_t colon) {
         const Span name = whole.part(5, colon - 5).trimmed();
         if (name.empty()) return diagnostics_.error(whole, "expected the surface's name: 'patch NAME:'");
-        if (!has_room(name, pattern_.patches.size(), most_patches, "patches")) return;
+        if (!has_room(name, pattern_.patches.size(), most_pattern_patches, "patches")) return;
         const Span rest = whole.part(colon + 1).trimmed();
         if (!rest.empty()) diagnostics_.error(rest, "the points of a patch stand on the lines after its name");
         pattern_.patches.push_back({name, {}});

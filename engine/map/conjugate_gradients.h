@@ -28,7 +28,7 @@ inline double dot(const VertexVector& a, const VertexVector& b) {
 /// Source: Steihaug 1983, without the trust region.
 template <class Apply>
 VertexVector conjugate_gradients(Apply apply, const std::vector<glm::dmat2>& inverses, const VertexVector& b,
-                                 double tolerance, std::size_t most_steps, const Monitor& monitor) {
+                                 double tolerance, std::size_t most_rounds, const Monitor& monitor) {
     const std::size_t size = b.size();
     VertexVector x(size, glm::dvec2(0.0));
     VertexVector residual = b;
@@ -41,7 +41,7 @@ VertexVector conjugate_gradients(Apply apply, const std::vector<glm::dmat2>& inv
     double norm = condition();
     const double wanted = norm * tolerance * tolerance;
     VertexVector direction = conditioned;
-    for (std::size_t step = 0; step < most_steps && norm > wanted && norm > 0; ++step) {
+    for (std::size_t step = 0; step < most_rounds && norm > wanted && norm > 0; ++step) {
         monitor.check();
         apply(direction, image);
         const double curvature = dot(direction, image);

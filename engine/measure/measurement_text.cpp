@@ -13,7 +13,7 @@
 namespace sikku {
 namespace {
 
-std::string number(double value) {
+std::string plain_number(double value) {
     if (!std::isfinite(value)) return "null";
     if (value == 0) return "0";  // never -0
     if (value == std::floor(value) && std::fabs(value) < 0x1p53) return fmt::format("{:.0f}", value);
@@ -21,7 +21,7 @@ std::string number(double value) {
 }
 
 JsonText json(const Quantity& quantity) {
-    return quantity.digits.empty() ? JsonText::raw(number(quantity.value)) : quantity.digits;
+    return quantity.digits.empty() ? JsonText::raw(plain_number(quantity.value)) : quantity.digits;
 }
 
 /// Geometry of a drawing in the plane or in space, with two or three axes.
@@ -59,7 +59,7 @@ std::optional<Geometry> geometry_of(const Measurement& m) {
 
 std::string plain(const Quantity& quantity) {
     if (!quantity.digits.empty()) return quantity.digits;
-    if (quantity.value == std::floor(quantity.value)) return number(quantity.value);
+    if (quantity.value == std::floor(quantity.value)) return plain_number(quantity.value);
     return fmt::format("{:.6g}", quantity.value);
 }
 
@@ -84,7 +84,7 @@ std::string measurement_json(const std::string& title, const Measurement& m) {
                             JsonText::object_of(counts), "drawn", json(m.drawn), "moves", json(m.moves), "length",
                             length, "polygons", json(m.polygons), "box", g ? list(g->box) : nullptr, "ink",
                             g && !g->ink.empty() ? list(g->ink) : nullptr, "end", g ? list(g->end) : nullptr,
-                            "heading", g && g->heading ? JsonText::raw(number(*g->heading)) : nullptr, "closed",
+                            "heading", g && g->heading ? JsonText::raw(plain_number(*g->heading)) : nullptr, "closed",
                             g ? JsonText(g->closed) : nullptr, "depth", g ? JsonText(g->depth) : nullptr, "derived",
                             m.derived)
         .line();

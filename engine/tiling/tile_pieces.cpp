@@ -1,10 +1,10 @@
 #include "engine/tiling/tile_pieces.h"
 
+#include "engine/base/threads.h"
 #include "engine/derivation/derivation.h"
 #include "engine/tiling/place_grid.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -90,7 +90,8 @@ std::vector<Cut> find_cuts(const TilePlane& plane, const TileSet& tiles, const M
     };
     constexpr std::uint32_t share = 1 << 14;
     std::vector<std::vector<Cut>> found(tiles.tiles() / share + 1);
-    oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(found.size()), [&](std::uint32_t i) {
+    for_each_index(found.size(), [&](std::size_t part) {
+        const auto i = static_cast<std::uint32_t>(part);
         find(i * share, std::min(tiles.tiles(), (i + 1) * share), found[i]);
     });
     if (cuts_found > most_cuts) {

@@ -6,7 +6,6 @@
 #include "engine/tiling/vertex_figures.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_invoke.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -104,8 +103,8 @@ void examine_pieces(TilingPatch& patch, const TilingOptions& options, TilingExam
     result.inner_edges = (pieces.sides() - result.border_edges) / 2;
     result.edges = result.inner_edges + result.border_edges;
     result.edges_cut = pieces.edges_cut;
-    oneapi::tbb::parallel_invoke([&] { examine_vertices(patch, options.monitor, result); },
-                                 [&] { examine_neighbours(patch, options, result); });
+    run_both([&] { examine_vertices(patch, options.monitor, result); },
+             [&] { examine_neighbours(patch, options, result); });
     // Tiles that do not overlap are countries of a map (Appel & Haken 1977).
     if (result.has_border) result.most_colours = std::min(result.most_colours, 4);
 }
@@ -131,8 +130,8 @@ void examine(TilingResult& both, const TilingOptions& options) {
 
     // Both only read the points and tiles.
     on_threads(0, [&] {
-        oneapi::tbb::parallel_invoke([&] { examine_pieces(patch, options, result); },
-                                     [&] { result.symmetry = find_symmetry(patch.plane, tiles, options.monitor); });
+        run_both([&] { examine_pieces(patch, options, result); },
+                 [&] { result.symmetry = find_symmetry(patch.plane, tiles, options.monitor); });
     });
 }
 

@@ -22,12 +22,12 @@ namespace {
 constexpr std::size_t most_listed = 10;  // violations, gaps, figures in a text
 
 /// Formats a number to a millionth.
-std::string number(double value) {
+std::string millionths(double value) {
     const double rounded = std::round(value * 1e6) / 1e6;
     return fmt::format("{}", rounded == 0 ? 0.0 : rounded);  // never -0
 }
 std::string place(glm::dvec2 at) {
-    return number(at.x) + ' ' + number(at.y);
+    return millionths(at.x) + ' ' + millionths(at.y);
 }
 /// Formats degrees to a hundredth.
 std::string degrees(double value) {
@@ -85,7 +85,7 @@ std::string angles_of(const TileShape& shape) {
     return listed(period(least(shape.angles, angle_slack(shape)), angle_slack(shape)), degrees);
 }
 std::string sides_of(const TileShape& shape) {
-    return listed(period(least(shape.sides, side_slack(shape)), side_slack(shape)), number);
+    return listed(period(least(shape.sides, side_slack(shape)), side_slack(shape)), millionths);
 }
 
 /// `170 rhombs 36 144`: sides are listed if angles do not distinguish the shape.
@@ -191,7 +191,7 @@ std::vector<std::string> kind_names(const std::vector<TileShape>& shapes) {
 std::string with_closed_form(double value, const std::string& unit) {
     const std::string form = closed_form(value);
     const bool is_plain = form.find_first_not_of("0123456789") == std::string::npos;
-    return number(value) + unit + (form.empty() || is_plain ? "" : ", " + form);
+    return millionths(value) + unit + (form.empty() || is_plain ? "" : ", " + form);
 }
 
 /// `0.381966 rhombs 36 144; 0.618034 rhombs 72 108`, with tiles of the other hand, and with colours where shapes
@@ -202,13 +202,14 @@ std::string shares_text(const TileGrowth& growth) {
     const auto is_none = [](double share) { return share < 1e-9; };
     const auto reflected = [&](std::size_t shape) {
         const bool is_known = shape < growth.reflected.size() && !is_none(growth.reflected[shape]);
-        return is_known ? number(growth.reflected[shape]) + " reflected" : "";
+        return is_known ? millionths(growth.reflected[shape]) + " reflected" : "";
     };
     if (shapes > 1 && !growth.frequencies.empty()) {
         const std::vector<std::string> names = kind_names(growth.shapes);
         for (std::size_t i = 0; i < shapes; ++i) {
             const std::string hand = reflected(i);
-            parts.push_back(number(growth.frequencies[i]) + ' ' + names[i] + (hand.empty() ? "" : " (" + hand + ")"));
+            parts.push_back(millionths(growth.frequencies[i]) + ' ' + names[i] +
+                            (hand.empty() ? "" : " (" + hand + ")"));
         }
     } else if (shapes == 1 && !reflected(0).empty()) {
         parts.push_back(reflected(0));
@@ -221,7 +222,7 @@ std::string shares_text(const TileGrowth& growth) {
     const bool says_more =
         std::any_of(colours.begin(), colours.end(), [](const auto& each) { return each.second.size() > 1; });
     for (const auto& [colour, share] : growth.colours) {
-        if (says_more && !is_none(share)) parts.push_back(fmt::format("{} colour {}", number(share), colour));
+        if (says_more && !is_none(share)) parts.push_back(fmt::format("{} colour {}", millionths(share), colour));
     }
     return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -309,7 +310,7 @@ std::string tiling_text(const std::string& title, std::optional<std::int64_t> n,
     }
     if (t.violations.count > most_listed) line("", fmt::format("… {} in all", violations_text(t.violations.count)));
     for (std::size_t i = 0; i < std::min(t.gaps.size(), most_listed); ++i) {
-        line("gap", fmt::format("of area {} around {}", number(t.gaps[i].area), place(t.gaps[i].centre)));
+        line("gap", fmt::format("of area {} around {}", millionths(t.gaps[i].area), place(t.gaps[i].centre)));
     }
     if (t.gaps.size() > most_listed) line("", fmt::format("… {} in all", t.gaps.size()));
     if (t.tiles == 0) return text;

@@ -12,7 +12,7 @@
 namespace sikku::live {
 namespace {
 
-constexpr int patience_milliseconds = 1000;
+constexpr int queue_patience = 1000;
 constexpr std::size_t largest_event = 64;
 /// Longer than a thread waits for its turn on a busy machine; changes are heard that much later.
 constexpr Nanoseconds sent_ahead = second / 10;
@@ -202,7 +202,7 @@ private:
     void await_room() const {
         std::array<pollfd, 4> polled{};
         const int count = snd_seq_poll_descriptors(handle(), polled.data(), polled.size(), POLLOUT);
-        if (poll(polled.data(), static_cast<nfds_t>(count), patience_milliseconds) == 0) {
+        if (poll(polled.data(), static_cast<nfds_t>(count), queue_patience) == 0) {
             fail("it takes no messages");
         }
     }

@@ -15,7 +15,7 @@
 namespace sikku::live {
 namespace {
 
-constexpr int patience_milliseconds = 1000;
+constexpr int device_patience = 1000;
 
 class DevicePort final : public Port {
 public:
@@ -77,7 +77,7 @@ private:
 
     void await_room() const {
         pollfd polled{descriptor_, POLLOUT, 0};
-        if (poll(&polled, 1, patience_milliseconds) == 0) fail("the port takes no messages", 0);
+        if (poll(&polled, 1, device_patience) == 0) fail("the port takes no messages", 0);
     }
 
     std::string path_;

@@ -7,7 +7,7 @@
 namespace sikku::mapping {
 
 DegreeRange::DegreeRange(const Melody& melody) : is_mirror_(melody.range == Range::reflect) {
-    constexpr std::int64_t farthest = 10'000;
+    constexpr std::int64_t most_degrees = 10'000;
     const auto is_within = [&](double key) { return key >= melody.lowest && key <= melody.highest; };
     const auto fits = [&](std::int64_t degree) {
         const auto up = melody.key(degree, false);
@@ -16,10 +16,10 @@ DegreeRange::DegreeRange(const Melody& melody) : is_mirror_(melody.range == Rang
     };
     const auto tonic = melody.key(0, false);
     const std::int64_t towards = tonic && *tonic > melody.highest ? -1 : 1;
-    while (std::abs(low_) < farthest && !fits(low_)) low_ += towards;
+    while (std::abs(low_) < most_degrees && !fits(low_)) low_ += towards;
     high_ = low_;
-    while (high_ < farthest && fits(high_ + 1)) ++high_;
-    while (low_ > -farthest && fits(low_ - 1)) --low_;
+    while (high_ < most_degrees && fits(high_ + 1)) ++high_;
+    while (low_ > -most_degrees && fits(low_ - 1)) --low_;
 }
 
 std::int64_t DegreeRange::inside(std::int64_t degree) const {

@@ -104,11 +104,11 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
             --distance;
             continue;
         }
-        const std::int64_t farthest = goal + (from_above ? distance : -distance);
+        const std::int64_t last = goal + (from_above ? distance : -distance);
         if (distance <= 1) {
-            note.degree = farthest;
+            note.degree = last;
         } else {
-            note.degree = std::clamp(note.degree, std::min(goal, farthest), std::max(goal, farthest));
+            note.degree = std::clamp(note.degree, std::min(goal, last), std::max(goal, last));
         }
         if (range_) note.degree = range_->inside(note.degree);
         --distance;

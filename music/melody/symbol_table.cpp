@@ -335,9 +335,10 @@ private:
         } else if (first == "octave") {
             // `octave up`, `octave down 2`, `octave -1`, or `octave` alone for up.
             row.change = SoundChange::octave;
-            const bool has_direction = words.size() > 1 && (words[1] == "up" || words[1] == "down");
-            const auto number = words.size() > 1 ? whole_number(words[1]) : std::nullopt;
-            sign = (has_direction && words[1] == "down") || (number && *number < 0) ? -1 : 1;
+            const std::string_view second = words.size() > 1 ? words[1] : std::string_view();
+            const bool has_direction = second == "up" || second == "down";
+            const auto number = whole_number(second);
+            sign = second == "down" || (number && *number < 0) ? -1 : 1;
             if (number) row.amount = std::fabs(static_cast<double>(*number));
             at = has_direction || number ? 2 : 1;
             if (number && words.size() > at) return fmt::format("unexpected '{}'", words[at]);

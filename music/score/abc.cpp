@@ -77,9 +77,9 @@ std::string meter_name(const Meter& meter) {
     return fmt::format("{}/{}", meter.groups[0] == 0 ? beats_text(meter) : "(" + beats_text(meter) + ")", meter.unit);
 }
 
-class Writer : private TextWriter {
+class AbcWriter : private TextWriter {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, Output& out)
+    AbcWriter(const Notation& notation, const ScoreHead& head, Output& out)
         : TextWriter(out), notation_(notation), head_(head) {}
 
     void write() {
@@ -324,7 +324,7 @@ private:
 }  // namespace
 
 void write_abc(const Notation& notation, const ScoreHead& head, Output& out) {
-    Writer(notation, head, out).write();
+    AbcWriter(notation, head, out).write();
 }
 
 }  // namespace sikku

@@ -10,7 +10,7 @@ namespace {
 
 using enum NoteHead;
 
-constexpr std::array<Drum, 47> table = {{
+constexpr std::array<Drum, 47> drum_table = {{
     {35, "Acoustic Bass Drum", "", "acousticbassdrum", "bd", 2, 4, normal},
     {36, "Bass Drum 1", "bass drum", "bassdrum", "bd", 3, 4, normal},
     {37, "Side Stick", "", "sidestick", "rim", 0, 5, cross},
@@ -71,20 +71,21 @@ std::string plain(std::string_view name) {
 }  // namespace
 
 std::span<const Drum> drums() {
-    return table;
+    return drum_table;
 }
 
 const Drum& drum_of(int key) {
-    return table[static_cast<std::size_t>(std::clamp(key, table.front().key, table.back().key) - table.front().key)];
+    return drum_table[static_cast<std::size_t>(std::clamp(key, drum_table.front().key, drum_table.back().key) -
+                                               drum_table.front().key)];
 }
 
 const Drum* find_drum(std::string_view name) {
     const std::string wanted = plain(name);
-    const auto* found = std::find_if(table.begin(), table.end(), [&](const Drum& drum) {
+    const auto* found = std::find_if(drum_table.begin(), drum_table.end(), [&](const Drum& drum) {
         return plain(drum.name) == wanted || (!drum.alias.empty() && plain(drum.alias) == wanted) ||
                std::to_string(drum.key) == wanted;
     });
-    return found == table.end() ? nullptr : found;
+    return found == drum_table.end() ? nullptr : found;
 }
 
 }  // namespace sikku

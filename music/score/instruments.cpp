@@ -7,7 +7,7 @@
 namespace sikku {
 namespace {
 
-constexpr std::array<Instrument, 128> table = {{
+constexpr std::array<Instrument, 128> instrument_table = {{
     {"Acoustic Grand Piano", "Piano", "Pno.", "acoustic grand"},
     {"Bright Acoustic Piano", "Piano", "Pno.", "bright acoustic"},
     {"Electric Grand Piano", "Electric Grand", "E. Pno.", "electric grand"},
@@ -141,7 +141,7 @@ constexpr std::array<Instrument, 128> table = {{
 }  // namespace
 
 const Instrument& instrument_of(int program) {
-    return table[static_cast<std::size_t>(std::clamp(program, 0, 127))];
+    return instrument_table[static_cast<std::size_t>(std::clamp(program, 0, 127))];
 }
 
 }  // namespace sikku

@@ -68,9 +68,9 @@ std::string key_name(const KeySignature& key) {
                        mode_name(key.mode));
 }
 
-class Writer : private TextWriter {
+class LilypondWriter : private TextWriter {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, Output& sink)
+    LilypondWriter(const Notation& notation, const ScoreHead& head, Output& sink)
         : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
@@ -505,7 +505,7 @@ std::string lilypond_string(std::string_view text) {
 }
 
 void write_lilypond(const Notation& notation, const ScoreHead& head, Output& sink) {
-    Writer(notation, head, sink).write();
+    LilypondWriter(notation, head, sink).write();
 }
 
 }  // namespace sikku

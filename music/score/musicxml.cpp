@@ -23,7 +23,7 @@
 namespace sikku {
 namespace {
 
-constexpr int voices_per_staff = 4;
+constexpr int voice_numbers_per_staff = 4;
 
 /// Name of a note value. @param divisor  a power of two
 std::string_view type_name(int divisor) {
@@ -61,9 +61,9 @@ struct StaffState {
     std::size_t mark = 0;
 };
 
-class Writer : private TextWriter {
+class MusicXmlWriter : private TextWriter {
 public:
-    Writer(const Notation& notation, const ScoreHead& head, Output& sink)
+    MusicXmlWriter(const Notation& notation, const ScoreHead& head, Output& sink)
         : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
@@ -194,7 +194,7 @@ private:
             for (std::size_t staff = 0; staff < part.staves.size(); ++staff) {
                 for (std::size_t voice = 0; voice < part.staves[staff].voices.size(); ++voice) {
                     staff_ = part.staves.size() > 1 ? staff + 1 : 0;
-                    voice_ = static_cast<int>(staff) * voices_per_staff + static_cast<int>(voice) + 1;
+                    voice_ = static_cast<int>(staff) * voice_numbers_per_staff + static_cast<int>(voice) + 1;
                     write_bar(part.staves[staff].voices[voice], next[staff][voice], bar,
                               voice == 0 ? &states[staff] : nullptr, part);
                 }
@@ -433,7 +433,7 @@ private:
 }  // namespace
 
 void write_musicxml(const Notation& notation, const ScoreHead& head, Output& sink) {
-    Writer(notation, head, sink).write();
+    MusicXmlWriter(notation, head, sink).write();
 }
 
 }  // namespace sikku

@@ -20,7 +20,7 @@ struct Stretch {
 };
 
 /// A part of the score, with the bars in which it sounds.
-struct Source {
+struct TurnSource {
     std::size_t index = 0;
     int first_voice = 0;
     std::span<const std::vector<Note>> voices;
@@ -30,7 +30,7 @@ struct Source {
 
 /// Sources that take turns.
 struct Line {
-    std::vector<const Source*> sources;
+    std::vector<const TurnSource*> sources;
     std::vector<Stretch> bars;
     double keys = 0;  ///< sum of the heights of the sources
     double height() const { return keys / static_cast<double>(sources.size()); }
@@ -39,7 +39,7 @@ struct Line {
 /// A source and the bars in which it has the staves.
 struct Turn {
     Stretch bars;
-    const Source* source = nullptr;
+    const TurnSource* source = nullptr;
 };
 
 /// Sorts stretches and joins those that touch.
@@ -64,8 +64,9 @@ bool share_a_bar(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
     return false;
 }
 
-Source source_of(std::size_t index, int first_voice, std::span<const std::vector<Note>> voices, std::int64_t bar) {
-    Source source{index, first_voice, voices, {}, 60};
+TurnSource source_of(std::size_t index, int first_voice, std::span<const std::vector<Note>> voices,
+                     std::int64_t bar) {
+    TurnSource source{index, first_voice, voices, {}, 60};
     double sum = 0;
     for (const auto& voice : voices) {
         for (const Note& note : voice) {
@@ -83,9 +84,9 @@ bool is_same_instrument(const Part& a, const Part& b) {
     return a.name == b.name && a.program == b.program && a.is_drums == b.is_drums;
 }
 
-std::vector<Line> lines_of(std::span<const Part> parts, const std::vector<Source>& sources) {
+std::vector<Line> lines_of(std::span<const Part> parts, const std::vector<TurnSource>& sources) {
     std::vector<Line> lines;
-    for (const Source& source : sources) {
+    for (const TurnSource& source : sources) {
         Line* best = nullptr;
         for (Line& line : lines) {
             if (!is_same_instrument(parts[line.sources.front()->index], parts[source.index]) ||
@@ -107,7 +108,7 @@ std::vector<Line> lines_of(std::span<const Part> parts, const std::vector<Source
 
 std::vector<Turn> turns_of(const Line& line) {
     std::vector<Turn> all;
-    for (const Source* source : line.sources) {
+    for (const TurnSource* source : line.sources) {
         for (const Stretch& bars : source->bars) all.push_back({bars, source});
     }
     std::sort(all.begin(), all.end(), [](const Turn& a, const Turn& b) { return a.bars.first < b.bars.first; });
@@ -147,7 +148,7 @@ struct DueChange {
 std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, std::size_t index, std::int64_t bar,
                                std::vector<DueChange>& due) {
     const std::vector<Turn> turns = turns_of(line);
-    const auto key_of = [&](const Source& source, std::int64_t onset) {
+    const auto key_of = [&](const TurnSource& source, std::int64_t onset) {
         const Part& part = parts[source.index];
         return KeyOfBars{onset, printed_key(part), part.spelling};
     };
@@ -190,7 +191,7 @@ std::vector<std::vector<Note>> voices_of(const Line& line) {
         return {voices.begin(), voices.end()};
     }
     std::vector<std::vector<Note>> result;
-    for (const Source* source : line.sources) {
+    for (const TurnSource* source : line.sources) {
         std::vector<const std::vector<Note>*> order;
         for (const auto& voice : source->voices) {
             if (!voice.empty()) order.push_back(&voice);
@@ -298,7 +299,7 @@ const KeyOfBars& PrintedPart::key_at(std::int64_t onset) const {
 
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
                                      std::int64_t bar_length) {
-    std::vector<Source> sources;
+    std::vector<TurnSource> sources;
     std::size_t first_voice = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto count = static_cast<std::size_t>(parts[i].voices);
@@ -310,14 +311,14 @@ std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<cons
     std::vector<DueChange> due;
     for (const Line& line : lines_of(parts, sources)) {
         const auto* const sounding = std::find_if(line.sources.data(), line.sources.data() + line.sources.size(),
-                                                  [](const Source* source) { return !source->bars.empty(); });
+                                                  [](const TurnSource* source) { return !source->bars.empty(); });
         PrintedPart one;
         one.part =
             parts[(sounding == line.sources.data() + line.sources.size() ? line.sources.front() : *sounding)->index];
         one.first_voice = line.sources.front()->first_voice;
         one.voices = voices_of(line);
         one.part.voices = static_cast<int>(one.voices.size());
-        for (const Source* source : line.sources) {
+        for (const TurnSource* source : line.sources) {
             one.sources.push_back(source->index);
             one.part.has_chords = one.part.has_chords || parts[source->index].has_chords;
         }

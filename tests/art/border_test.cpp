@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::border_test {
 
 /// Collects all points in millimetres, and checks that closed strokes end where they began.
 class Points : public PathSink {
@@ -156,5 +155,4 @@ TEST(Borders, OfPatternFilesAreRepeatsOfTheirDrawing) {
     EXPECT_EQ(count_of(made("border: none\n"), "<path"), count_of(plain, "<path"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::border_test

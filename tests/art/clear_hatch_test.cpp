@@ -19,8 +19,7 @@
 #include <numbers>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::clear_hatch_test {
 
 double distance_to(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b) {
     const glm::dvec2 way = b - a;
@@ -289,5 +288,4 @@ TEST(ClearHatch, PensDrawInTheOrderOfFieldsLinesAndDots) {
     EXPECT_TRUE(has(svg, "style=\"background:"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::clear_hatch_test

@@ -9,8 +9,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::cost_test {
 
 Document bundled_pattern(const std::string& name) {
     const PatternFile file = find_pattern(name, PatternLibrary(std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns"));
@@ -114,5 +113,4 @@ TEST(Refusals, ViewsAreRefusedBeforeTheWalk) {
                          "png", {{"window", "0,0,40,30"}, {"size", "40x30mm"}}));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::cost_test

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::crossings_test {
 
 std::int64_t cross(Micrometres a, Micrometres b, Micrometres c) {
     return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
@@ -90,5 +89,4 @@ TEST(Relief, TooManyCrossingsAreRefusedAtOnce) {
     EXPECT_LT(processor_seconds() - start, sanitized ? 30 : 3) << "a release build takes a third of that";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::crossings_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::cutting_test {
 
 using Polygon = std::vector<glm::dvec2>;
 
@@ -96,8 +95,6 @@ double share(const Polygon& piece, double side) {
     const LaidPieces pieces = PieceRows(piece, false, area, {}).fill(area, 1'000'000);
     return static_cast<double>(pieces.copies.size()) * polygon_area(piece) / (side * side);
 }
-
-}  // namespace
 
 TEST(PieceRows, ReachTheDensitiesOfTheLiterature) {
     // Tiles fill the plane, except at the border of a sheet 100 pieces wide.
@@ -289,4 +286,4 @@ TEST(CuttingSheets, FilesAppearInAllFormats) {
     EXPECT_EQ(sheet_files("b.svg", 1)[0], std::filesystem::path("b.svg"));
 }
 
-}  // namespace sikku
+}  // namespace sikku::cutting_test

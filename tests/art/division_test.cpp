@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::division_test {
 
 Document pattern(const std::string& name, int n, const std::string& variant = "") {
     return load(name, {variant, {{"-n", "derivation length", std::to_string(n)}}});
@@ -233,5 +232,4 @@ TEST(Division, IsRefusedWithAReason) {
               "animate: cannot be combined with 'divide', which has its own times");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::division_test

@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::dot_grid_test {
 
 GapStates state_of(const DotGrid& grid, std::uint64_t bits) {
     GapStates crossings(grid.gaps().size());
@@ -762,5 +761,4 @@ TEST(DotGridPattern, TellsItsCrossings) {
               crossings);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::dot_grid_test

@@ -5,8 +5,7 @@
 
 #include <pugixml.hpp>
 
-namespace sikku {
-namespace {
+namespace sikku::draw_test {
 
 /// The drawing of a pattern on a page of 100 x 60 mm with margins of 5 mm.
 class Draw : public ::testing::Test {
@@ -150,10 +149,10 @@ TEST_F(Draw, FilledSplinesCoverTheSamePixelsInEveryFormat) {
     draw(text, "print.png");
     draw(text, "print.pdf");
     ASSERT_TRUE(
-        run("rsvg-convert -w 100 '" + folder_.file("print.svg") + "' -o '" + folder_.file("svg.png") + "'").ok);
+        run_tool("rsvg-convert -w 100 '" + folder_.file("print.svg") + "' -o '" + folder_.file("svg.png") + "'").ok);
     const auto pixels = [&](const std::string& name) {
         const std::string ppm = folder_.file(name + ".ppm");
-        EXPECT_TRUE(run("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'").ok);
+        EXPECT_TRUE(run_tool("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'").ok);
         return read_ppm(ppm);
     };
     const PixelGrid page = pixels("svg.png");
@@ -209,5 +208,4 @@ TEST_F(Draw, LinesBetweenUnseenOnesHaveColoursOfTheirOwn) {
     EXPECT_NE(colours[0], colours[1]);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::draw_test

@@ -14,8 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::dxf_test {
 
 /// The entities of a drawing; anything that the writer has no reason to write is an error.
 struct Dxf {
@@ -261,7 +260,7 @@ TEST(Dxf, SettingsOfPensAreRefused) {
 }
 
 TEST(Dxf, OtherSoftwareReadsIt) {
-    if (!run("/usr/bin/python3 -c 'import ezdxf'").ok) GTEST_SKIP() << "python3-ezdxf is not installed";
+    if (!run_tool("/usr/bin/python3 -c 'import ezdxf'").ok) GTEST_SKIP() << "python3-ezdxf is not installed";
     const ScratchFolder folder;
     const std::string file = folder.write(
         "kolam.dxf", dxf_of("kolams/snake-kolam", {{"border", "kaavi"}, {"dots", "1mm"}, {"size", "200x200mm"}}));
@@ -285,10 +284,9 @@ for line in space.query('POLYLINE'):
             high[axis] = max(high[axis], vertex[axis])
 print(len(space.query('POLYLINE')), all(10 <= value for value in low), all(value <= 190 for value in high))
 )");
-    const ToolOutcome outcome = run("/usr/bin/python3 '" + script + "' '" + file + "'");
+    const ToolOutcome outcome = run_tool("/usr/bin/python3 '" + script + "' '" + file + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_TRUE(outcome.text.ends_with(" True True\n")) << outcome.text;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::dxf_test

@@ -11,8 +11,7 @@
 #include <sstream>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::eps_test {
 
 constexpr const char* flower =
     "title: A (flower\nangle factor: 6\nderivation length: 2\naxiom: {X}[;{X}]@O(2)\nX --> "
@@ -29,7 +28,8 @@ protected:
     std::string pixels(const std::string& file) const {
         const std::string picture = (folder_.path() / "page.ppm").string();
         EXPECT_EQ(
-            run("gs -q -dNOPAUSE -dBATCH -dSAFER -dEPSCrop -sDEVICE=ppmraw -r100 -o " + picture + " " + file).text,
+            run_tool("gs -q -dNOPAUSE -dBATCH -dSAFER -dEPSCrop -sDEVICE=ppmraw -r100 -o " + picture + " " + file)
+                .text,
             "");
         return contents(picture);
     }
@@ -73,7 +73,7 @@ TEST_F(Eps, HasTheBoxOfThePage) {
     for (const char byte : eps) ASSERT_TRUE(byte == '\n' || (byte >= 0x20 && byte < 0x7F));
     // The ground covers the page.
     const std::string box =
-        run("gs -q -dNOPAUSE -dBATCH -sDEVICE=bbox " + (folder_.path() / "print.eps").string()).text;
+        run_tool("gs -q -dNOPAUSE -dBATCH -sDEVICE=bbox " + (folder_.path() / "print.eps").string()).text;
     EXPECT_TRUE(has(box, "%%BoundingBox: 0 0 171 227\n"));
     EXPECT_EQ(eps, contents(file("eps", document, {})));
 }
@@ -96,5 +96,4 @@ TEST_F(Eps, RefusesPages) {
     EXPECT_THROW(draw(document, "eps", {{"plotter", "true"}, {"profile", "axidraw"}}), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::eps_test

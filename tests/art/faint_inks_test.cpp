@@ -11,8 +11,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::faint_inks_test {
 
 /// The warnings about a print.
 std::string warnings(const Document& document, const OptionValues& values, const std::string& format = "svg") {
@@ -124,5 +123,4 @@ TEST(FaintInks, NoBundledPatternHasAny) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::faint_inks_test

@@ -10,8 +10,7 @@
 #include <random>
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::fields_test {
 
 using namespace line_tools;
 
@@ -204,5 +203,4 @@ TEST(FieldClasses, ByDistanceChangeByOneAtMost) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::fields_test

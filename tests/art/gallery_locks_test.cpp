@@ -17,8 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_locks_test {
 
 /// Makes the system answer all locks of this process with an error. False if it cannot.
 bool deny_locks(int error) {
@@ -57,5 +56,4 @@ TEST(GalleryLocks, LocksThatAreDeniedAreNotThoseOfAnotherRun) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_locks_test

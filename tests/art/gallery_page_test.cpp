@@ -13,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_page_test {
 
 class Memory : public MemoryOutput {
 public:
@@ -193,5 +192,4 @@ TEST(GalleryPage, ThrowsWhatItsFileThrows) {
     EXPECT_THROW(write_gallery_page("Kolams", some(), full), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_page_test

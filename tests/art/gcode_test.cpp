@@ -7,8 +7,7 @@
 #include <charconv>
 #include <map>
 
-namespace sikku {
-namespace {
+namespace sikku::gcode_test {
 
 constexpr double spacing = 0.004;
 
@@ -310,5 +309,4 @@ TEST_F(Gcode, ALaserIsOffUnlessItMovesAndNeverWaits) {
     EXPECT_EQ(commands[commands.size() - 3], "M5");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gcode_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gif_writer_test {
 
 using Picture = std::vector<std::uint8_t>;
 
@@ -142,5 +141,4 @@ TEST(GifWriter, PicturesThatAreTooLargeAreRefused) {
     EXPECT_THROW(GifWriter(output, 20'000, 20'000), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gif_writer_test

@@ -24,8 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::hand_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -444,8 +443,8 @@ TEST_F(Hand, OutlinesAreValidAndCompact) {
     Print print = kolam_print(snake, 200, 0.5);
     draw_file(snake, print, PrintFormat::svg, "hand.svg");
     const std::string file = folder_.file("hand.svg");
-    EXPECT_TRUE(run("xmllint --noout '" + file + "'").ok);
-    EXPECT_TRUE(run("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
+    EXPECT_TRUE(run_tool("xmllint --noout '" + file + "'").ok);
+    EXPECT_TRUE(run_tool("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
     const std::string svg = contents(file);
     EXPECT_FALSE(has(svg, "stroke="));
     print.style.hand = 0;
@@ -470,7 +469,7 @@ TEST_F(Hand, AppearsPieceByPieceInAnAnimation) {
     Print print = kolam_print(snake, 200, 0.5);
     print.animation = 5;
     draw_file(snake, print, PrintFormat::svg, "hand.svg");
-    EXPECT_TRUE(run("xmllint --noout '" + folder_.file("hand.svg") + "'").ok);
+    EXPECT_TRUE(run_tool("xmllint --noout '" + folder_.file("hand.svg") + "'").ok);
     const std::string svg = contents(folder_.file("hand.svg"));
     double last = -1;
     int pieces = 0;
@@ -523,5 +522,4 @@ TEST_F(Hand, RefusesWhatItCannotKeep) {
     EXPECT_THROW(make_drawing(solid.grammar(), kolam_print(solid, 100, 0.5).style, options), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::hand_test

@@ -9,8 +9,7 @@
 #include <cstdio>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::hpgl_test {
 
 /// What a plotter would draw; anything that the writer has no reason to write is an error.
 struct Plot {
@@ -304,5 +303,4 @@ TEST_F(Hpgl, RedundantMovesAreOmitted) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::hpgl_test

@@ -11,8 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::icc_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -91,8 +90,8 @@ protected:
     Bytes inks(const std::filesystem::path& file) {
         const auto read = [&](const std::string& channels) {
             const std::string picture = (folder_ / "inks.ppm").string();
-            const ToolOutcome outcome = run("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
-                                            channels + " -d uint8 -o '" + picture + "'");
+            const ToolOutcome outcome = run_tool("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
+                                                 channels + " -d uint8 -o '" + picture + "'");
             EXPECT_TRUE(outcome.ok) << outcome.text;
             return read_ppm(picture).bytes;
         };
@@ -174,7 +173,7 @@ TEST_F(Icc, OthersFindNoFault) {
     NEEDS("pngcheck");
     for (const int channels : {1, 3, 4}) {
         flat("png", channels);
-        const ToolOutcome outcome = run("pngcheck -v '" + folder_.file("flat.png") + "'");
+        const ToolOutcome outcome = run_tool("pngcheck -v '" + folder_.file("flat.png") + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         EXPECT_TRUE(has(outcome.text, "chunk iCCP"));
     }
@@ -182,7 +181,7 @@ TEST_F(Icc, OthersFindNoFault) {
     for (const std::string format : {"png", "tif", "jpg"}) {
         flat(format, 3);
         const std::string told =
-            run("exiftool -ICC_Profile:ProfileDescription -s3 '" + folder_.file("flat." + format) + "'").text;
+            run_tool("exiftool -ICC_Profile:ProfileDescription -s3 '" + folder_.file("flat." + format) + "'").text;
         EXPECT_EQ(told, "sRGB built-in\n") << format;
     }
 }
@@ -255,7 +254,7 @@ TEST_F(Icc, PixelsBecomeInks) {
     }
     EXPECT_EQ(at(0, 30), at(20, 0));
     NEEDS("tiffinfo");
-    const std::string told = run("tiffinfo '" + file.string() + "'").text;
+    const std::string told = run_tool("tiffinfo '" + file.string() + "'").text;
     for (const std::string part : {"Photometric Interpretation: separated", "Samples/Pixel: 4", "Bits/Sample: 8"}) {
         EXPECT_TRUE(has(told, part));
     }
@@ -302,7 +301,8 @@ TEST_F(Icc, OneBitIsALuminanceOfAHalf) {
         image->rows(32, 8, std::span(pixels).subspan(split));
         image->close();
         const std::string picture = folder_.file("bits.ppm");
-        const ToolOutcome outcome = run("oiiotool '" + path.string() + "' --ch 0,0,0 -d uint8 -o '" + picture + "'");
+        const ToolOutcome outcome =
+            run_tool("oiiotool '" + path.string() + "' --ch 0,0,0 -d uint8 -o '" + picture + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
         const PixelGrid found = read_ppm(picture);
         ASSERT_EQ(found.width, 259);
@@ -329,5 +329,4 @@ TEST_F(Icc, OtherFormatsHaveNeitherInksNorSingleBits) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::icc_test

@@ -16,8 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::image_file_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -62,7 +61,7 @@ TEST(ImageFile, EveryFormatKeepsItsTextAndResolution) {
         }
     }
     if (has_program("oiiotool")) {
-        const ToolOutcome info = run("oiiotool --info -v" + files);
+        const ToolOutcome info = run_tool("oiiotool --info -v" + files);
         EXPECT_TRUE(info.ok) << info.text;
         for (const std::string& line : lines) EXPECT_TRUE(has(info.text, line)) << line;
         std::size_t resolutions = 0;
@@ -72,7 +71,7 @@ TEST(ImageFile, EveryFormatKeepsItsTextAndResolution) {
         EXPECT_FALSE(has(info.text, "DateTime"));
     }
     if (has_program("pngcheck")) {
-        const ToolOutcome check = run("pngcheck -v '" + (folder / "picture3.png.tmp").string() + "'");
+        const ToolOutcome check = run_tool("pngcheck -v '" + (folder / "picture3.png.tmp").string() + "'");
         EXPECT_TRUE(check.ok) << check.text;
         EXPECT_TRUE(has(check.text, "10000x10000 pixels/meter"));
     }
@@ -86,7 +85,7 @@ TEST(ImageFile, ThePixelsComeBack) {
         const auto path = folder / ("picture." + format);
         write_image(path, image_spec(format, 70, 200, 3), pixels);
         const auto ppm = folder / (format + ".ppm");
-        const ToolOutcome outcome = run("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
+        const ToolOutcome outcome = run_tool("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
         const PixelGrid back = read_ppm(ppm);
         EXPECT_EQ(back.width, 70);
@@ -104,8 +103,8 @@ TEST(ImageFile, AlphaIsStraightInPngAssociatedAndLinearInExrAndPaperInJpeg) {
     const auto dump = [&](const std::string& format) {
         const auto path = folder / ("picture." + format);
         write_image(path, image_spec(format, 16, 16, 4), pixels);
-        return run("oiiotool " + std::string(format == "png" ? "--iconfig oiio:UnassociatedAlpha 1 " : "") +
-                   "--dumpdata '" + path.string() + "'")
+        return run_tool("oiiotool " + std::string(format == "png" ? "--iconfig oiio:UnassociatedAlpha 1 " : "") +
+                        "--dumpdata '" + path.string() + "'")
             .text;
     };
     EXPECT_TRUE(has(dump("png"), "188 0 255 102"));
@@ -191,7 +190,7 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     EXPECT_NE(image_module_version("0.1.0"), image_module_version("0.1.1"));
     const ScratchFolder folder;
     const std::filesystem::path program = SIKKU_PROGRAM;
-    const std::string said = run("'" + program.string() + "' --version").text;
+    const std::string said = run_tool("'" + program.string() + "' --version").text;
     ASSERT_TRUE(said.starts_with("sikku ") && said.ends_with("\n")) << said;
     const std::string version = said.substr(6, said.size() - 7);
     // The program and its module, with another number in it.
@@ -217,15 +216,14 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     ASSERT_NE(at, std::string::npos);
     const auto save = [&] { std::ofstream(copied_module, std::ios::binary) << bytes; };
     save();
-    const auto same = run(draw);
+    const auto same = run_tool(draw);
     EXPECT_TRUE(same.ok) << same.text;
     bytes[at] ^= 1;
     save();
-    const auto other = run(draw);
+    const auto other = run_tool(draw);
     // Where sikku is installed as well, its module serves.
     if (other.ok) GTEST_SKIP() << "an installed module was found";
     EXPECT_TRUE(has(other.text, "made for another version of sikku"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::image_file_test

@@ -18,8 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::kolam_families_test {
 
 // Dots lie on whole numbers. Nodes, where strands cross or turn back, lie between neighbouring dots and are counted
 // in halves: a dot (x, y) has the nodes (2x + 1, 2y), (2x, 2y + 1), (2x - 1, 2y), (2x, 2y - 1). A strand runs from
@@ -359,5 +358,4 @@ std::string name_of(const ::testing::TestParamInfo<Family>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Patterns, KolamFamilies, ::testing::ValuesIn(families()), name_of);
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::kolam_families_test

@@ -14,8 +14,7 @@
 #include <set>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::kolam_library_test {
 
 std::string behind(const std::string& text, const std::string& mark) {
     const std::size_t at = text.find(mark);
@@ -69,5 +68,4 @@ TEST(KolamLibrary, IsCertified) {
     EXPECT_EQ(codes.size() + radial, 100u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::kolam_library_test

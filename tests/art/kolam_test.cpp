@@ -14,8 +14,7 @@
 #include <set>
 #include <tuple>
 
-namespace sikku {
-namespace {
+namespace sikku::kolam_test {
 
 using reference::grammar_of;
 using reference::Recorder;
@@ -656,5 +655,4 @@ TEST(Kolam, BadInput) {
     EXPECT_THROW(examine_kolam(known("kolams/snake-kolam", "3").grammar, stopped), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::kolam_test

@@ -20,8 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::lesson_test {
 
 const std::string snake =
     "title: Snake\naxiom: f+Xf+f+Xf\nX --> Xf-f-f+Xf+f+Xf-f-f+X\nderivation length: 2\nangle factor: 4\n"
@@ -102,7 +101,7 @@ TEST_F(Lesson, PdfHasAPageForEachStep) {
     const std::string info = run("pdfinfo '" + pdf + "'").text;
     const int pages = std::stoi(info.substr(info.find("Pages:") + 6));
     EXPECT_GE(pages, 6);
-    ASSERT_TRUE(run("pdftoppm -r 40 '" + pdf + "' '" + pdf + ".p'").ok);
+    ASSERT_TRUE(run_tool("pdftoppm -r 40 '" + pdf + "' '" + pdf + ".p'").ok);
     std::vector<PixelGrid> grids;
     for (int page = 1; page <= pages; ++page) {
         const std::string digits = std::to_string(page);
@@ -235,5 +234,4 @@ TEST_F(Lesson, RefusesWhatHasNoSteps) {
     EXPECT_THROW(make(snake, "glb"), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lesson_test

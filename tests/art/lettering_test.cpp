@@ -288,5 +288,4 @@ TEST(Tamil, CurvesAreSmoothWhereAStrokeGoesOn) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lettering_test

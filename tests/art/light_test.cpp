@@ -12,8 +12,7 @@
 #include <numbers>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::light_test {
 
 using reference::grammar_of;
 
@@ -277,5 +276,4 @@ TEST(Sway, TurnsBranchesByAtMostItsDegrees) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(more.segments()[i].to, swayed.segments()[i].to);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::light_test

@@ -14,8 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace sikku {
-namespace {
+namespace sikku::line_bands_test {
 
 using namespace line_tools;
 
@@ -243,5 +242,4 @@ TEST(LineWork, ReportsWhatHasNoEffectOrDoesNotFit) {
                     "need lines, and 'stroke' is none"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::line_bands_test

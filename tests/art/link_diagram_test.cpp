@@ -11,8 +11,7 @@
 #include <numbers>
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::link_diagram_test {
 
 using namespace line_tools;
 
@@ -194,5 +193,4 @@ TEST(LinkDiagram, ReportsWhyThereIsNone) {
     EXPECT_TRUE(has(drawn_pattern("kolams/mango-leaves", "").examination.no_diagram, "more than two"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::link_diagram_test

@@ -11,8 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::link_test {
 
 SharedWork rich_work() {
     SharedWork work;
@@ -184,5 +183,4 @@ TEST(Link, ChangedLinksAreReadOrRefused) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::link_test

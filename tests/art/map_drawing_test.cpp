@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::map_drawing_test {
 
 Document cell_layer(int steps, const std::string& keys = {}) {
     return parse("layer.lsys", fmt::format("derivation length: {}\n{}{}", steps, keys, maps::layer));
@@ -193,5 +192,4 @@ TEST(MapDrawing, RefusesWhatNeedsATurtle) {
     EXPECT_EQ(error("size", "A5", "svg"), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::map_drawing_test

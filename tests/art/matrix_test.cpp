@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::matrix_test {
 
 constexpr const char* cmyk_profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
@@ -412,5 +411,4 @@ TEST_F(Matrix, EveryFeatureIsDrawnOrRefusedForAReason) {
     EXPECT_EQ(contents(file), text) << "SIKKU_WRITE_DOCS=1 writes it";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::matrix_test

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::options_test {
 
 struct Drawing {
     std::string name, text;
@@ -271,5 +270,4 @@ TEST(Options, NoneIsIgnoredInSilence) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::options_test

@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::page_test {
 
 TEST(Length, HasUnits) {
     EXPECT_DOUBLE_EQ(parse_length("15mm", 300).value(), 15.0);
@@ -255,5 +254,4 @@ TEST(Place, APenWiderThanThePageIsAnError) {
     EXPECT_NO_THROW(place(box, {100.0, 60.0, 5.0}, options, 0.0, 450.0));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::page_test

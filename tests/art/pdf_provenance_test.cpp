@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_provenance_test {
 
 /// A print from `pattern`.
 void write(const std::filesystem::path& path, const std::string& pattern, const std::string& made,
@@ -49,7 +48,8 @@ TEST(PdfProvenance, WhatOthersRewriteIsReadRightOrNotAtAll) {
         write(folder / "print.pdf", text, "sikku");
         for (const std::string options : {"", "--qdf", "--linearize", "--object-streams=generate"}) {
             ASSERT_TRUE(
-                run("qpdf " + options + " '" + folder.file("print.pdf") + "' '" + folder.file("other.pdf") + "'").ok);
+                run_tool("qpdf " + options + " '" + folder.file("print.pdf") + "' '" + folder.file("other.pdf") + "'")
+                    .ok);
             const auto provenance = provenance_of(folder / "other.pdf");
             if (provenance) {
                 EXPECT_EQ(provenance->pattern, text) << options;
@@ -97,5 +97,4 @@ TEST(PdfProvenance, OtherFilesHoldNoPattern) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_provenance_test

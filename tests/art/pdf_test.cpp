@@ -11,8 +11,7 @@
 #include <random>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_test {
 
 using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
@@ -41,7 +40,7 @@ TEST_F(Pdf, IsSoundAndHasItsBoxes) {
         });
         EXPECT_EQ(pdf_complaints(path), "");
         EXPECT_TRUE(contents(path).starts_with("%PDF-1.6\n"));
-        const std::string boxes = run("pdfinfo -box '" + path.string() + "'").text;
+        const std::string boxes = run_tool("pdfinfo -box '" + path.string() + "'").text;
         for (const std::string name : {"MediaBox", "CropBox", "BleedBox", "TrimBox"}) {
             EXPECT_TRUE(has(boxes, name));
         }
@@ -256,7 +255,7 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     const auto svg = folder_ / "print.svg";
     write_print(svg, print, write_svg, draw);
     const auto from_svg = folder_ / "svg.pdf";
-    ASSERT_TRUE(run("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
+    ASSERT_TRUE(run_tool("rsvg-convert -f pdf -o '" + from_svg.string() + "' '" + svg.string() + "'").ok);
     const PixelGrid one = render_pdf(pdf, 150);
     const PixelGrid other = render_pdf(from_svg, 150);
     ASSERT_EQ(one.width, other.width);
@@ -271,5 +270,4 @@ TEST_F(Pdf, LooksLikeTheSvg) {
     EXPECT_LT(difference, 0.02 * ink);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_test

@@ -11,8 +11,7 @@
 #include <regex>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::pdf_x_test {
 
 constexpr const char* profile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
@@ -37,12 +36,13 @@ protected:
     double ink(const std::filesystem::path& pdf, const std::string& plate) {
         const std::string stem = (folder_ / pdf.stem().string()).string();
         if (!std::filesystem::exists(stem + ".tif")) {
-            const ToolOutcome outcome = run("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=tiffsep -r50 -o '" + stem +
-                                            ".tif' '" + pdf.string() + "'");
+            const ToolOutcome outcome = run_tool("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=tiffsep -r50 -o '" + stem +
+                                                 ".tif' '" + pdf.string() + "'");
             EXPECT_TRUE(outcome.ok) << outcome.text;
         }
         const std::string picture = stem + ".ppm";
-        EXPECT_TRUE(run("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok) << plate;
+        EXPECT_TRUE(run_tool("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok)
+            << plate;
         const PixelGrid pixels = read_ppm(picture);
         double sum = 0;
         for (const char byte : pixels.bytes) sum += 255 - static_cast<unsigned char>(byte);
@@ -66,7 +66,7 @@ TEST_F(PdfX, SaysWhatItIs) {
     for (const char* part : {"/ArtBox", "/AS ", "/JavaScript", "/Annots", "/Encrypt", "/Font"}) {
         EXPECT_FALSE(has(text, part)) << part;
     }
-    const ToolOutcome info = run("pdfinfo -box '" + path.string() + "'");
+    const ToolOutcome info = run_tool("pdfinfo -box '" + path.string() + "'");
     EXPECT_TRUE(has(info.text, "PDF subtype:    PDF/X-4"));
     // 100 mm are 283.46 points; bleed and marks take 8 mm.
     EXPECT_TRUE(has(info.text, "TrimBox:            22.68    22.68   306.14   306.14"));
@@ -76,7 +76,7 @@ TEST_F(PdfX, SaysWhatItIs) {
 TEST_F(PdfX, MetadataAndInformationAgree) {
     NEEDS("pdfinfo");
     const auto path = write({});
-    const std::string packet = run("pdfinfo -meta '" + path.string() + "'").text;
+    const std::string packet = run_tool("pdfinfo -meta '" + path.string() + "'").text;
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(packet.c_str())) << packet;
     const pugi::xml_node about = document.child("x:xmpmeta").child("rdf:RDF").child("rdf:Description");
@@ -91,7 +91,7 @@ TEST_F(PdfX, MetadataAndInformationAgree) {
     for (const char* date : {"xmp:CreateDate", "xmp:ModifyDate", "xmp:MetadataDate"}) {
         EXPECT_EQ(value(date), "2010-01-01T00:00:00Z") << "the same on every day";
     }
-    const std::string info = run("pdfinfo -isodates '" + path.string() + "'").text;
+    const std::string info = run_tool("pdfinfo -isodates '" + path.string() + "'").text;
     EXPECT_TRUE(has(info, "Title:           A <kolam> & more"));
     EXPECT_TRUE(has(info, "CreationDate:    2010-01-01T00:00:00Z"));
     EXPECT_TRUE(has(info, "ModDate:         2010-01-01T00:00:00Z"));
@@ -207,5 +207,4 @@ TEST_F(PdfX, OtherProfilesAreRefused) {
     EXPECT_EQ(refused(text), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pdf_x_test

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::photograph_marks_test {
 
 MadePhotograph made_of(const std::string& grid, std::uint32_t seed, double level = 0.7) {
     DotGrid dots = parse_dot_grid(grid);
@@ -320,5 +319,4 @@ TEST(PhotographMarks, RefusalsReportFindings) {
     EXPECT_TRUE(has(refusal_of(woven), "no kolam found"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::photograph_marks_test

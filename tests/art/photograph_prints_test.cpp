@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::photograph_prints_test {
 
 struct PrintedKolam {
     std::string grid;
@@ -139,5 +138,4 @@ TEST(PhotographPrints, AllKolamsOfASheetAreReadable) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::photograph_prints_test

@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::photograph_test {
 
 /// A picture of one of eight grids, in all ways that the seed chooses.
 MadePhotograph made_photograph(std::uint32_t number, double level) {
@@ -342,5 +341,4 @@ TEST(Photograph, ChecksSizesBeforePixels) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::photograph_test

@@ -29,8 +29,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::picture_process_test {
 
 constexpr std::uint64_t most_pixels = 100'000'000;
 
@@ -374,5 +373,4 @@ TEST(PictureProcess, TheCorpusGoesThroughTheFuzzTarget) {
     EXPECT_GE(files, 12U);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::picture_process_test

@@ -6,8 +6,7 @@
 
 #include <fstream>
 
-namespace sikku {
-namespace {
+namespace sikku::pixels_test {
 
 /// The pixels of the same print as a PNG file, with an alpha channel added where there is none.
 std::vector<std::uint8_t> pixels_of_png(const Document& document, const OptionValues& values) {
@@ -66,5 +65,4 @@ TEST(PixelsInMemory, StopOnRequest) {
     EXPECT_THROW(draw_pixels(load("hilbert"), {}, stopped), Stopped);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pixels_test

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::plot_fills_test {
 
 using Points = std::vector<glm::dvec2>;
 using reference::Line;
@@ -386,5 +385,4 @@ TEST(Home, IsPartOfTheTravel) {
                 glm::distance({30., 40.}, glm::dvec2(0, 60)), 1e-9);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plot_fills_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::plot_scene_test {
 
 using reference::Line;
 using reference::Recorder;
@@ -234,5 +233,4 @@ TEST(HiddenLines, BallsHideWhatIsInsideAndBehind) {
     EXPECT_EQ(hidden.visible(std::array{glm::dvec3(-6, 0, -7), glm::dvec3(10, 0, -7)}, 1, 2.0).size(), 1u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plot_scene_test

@@ -8,8 +8,7 @@
 #include <set>
 #include <tuple>
 
-namespace sikku {
-namespace {
+namespace sikku::plot_test {
 
 using Points = std::vector<glm::dvec2>;
 using reference::Line;
@@ -572,5 +571,4 @@ TEST(Plot, LimitsAndNothing) {
     EXPECT_EQ(tiny->report().after.lifts, 1u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plot_test

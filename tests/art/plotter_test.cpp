@@ -18,8 +18,7 @@
 #include <regex>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::plotter_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -495,5 +494,4 @@ TEST_F(Plotter, ArrangingNeverMakesAPlotWorse) {
     EXPECT_GT(improved, 100) << "it is not merely left as it was";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plotter_test

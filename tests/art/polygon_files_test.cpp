@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::polygon_files_test {
 
 std::string svg(const std::string& body) {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\">\n" + body + "\n</svg>\n";
@@ -435,5 +434,4 @@ TEST(PolygonFiles, RefuseTolerancesThatDoNotSuit) {
     EXPECT_THROW(examine_polygons(squares(2, 0), 0.001, few), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::polygon_files_test

@@ -12,8 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::press_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -168,14 +167,14 @@ protected:
         const std::string stem = (folder_ / "plates").string();
         if (!std::filesystem::exists(stem + ".tif")) {
             const ToolOutcome outcome =
-                run("gs -q -dNOPAUSE -dBATCH -dSAFER -dMaxSpots=8 -sDEVICE=tiffsep -r127 -o '" + stem + ".tif' '" +
-                    pdf.string() + "'");
+                run_tool("gs -q -dNOPAUSE -dBATCH -dSAFER -dMaxSpots=8 -sDEVICE=tiffsep -r127 -o '" + stem +
+                         ".tif' '" + pdf.string() + "'");
             EXPECT_TRUE(outcome.ok) << outcome.text;
         }
         const std::string file = stem + "(" + name + ").tif";
         if (!std::filesystem::exists(file)) return std::nullopt;
         const std::string picture = stem + ".ppm";
-        const ToolOutcome outcome = run("oiiotool '" + file + "' --ch 0,0,0 -o '" + picture + "'");
+        const ToolOutcome outcome = run_tool("oiiotool '" + file + "' --ch 0,0,0 -o '" + picture + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return read_ppm(picture);
     }
@@ -207,7 +206,7 @@ TEST_F(PressPdf, BoxesAreThoseOfTheSheetAndItsBleed) {
             const auto path = write(print, draw_sampler);
             const std::string text = contents(path);
             static_cast<void>(plain_text(path));
-            const std::string told = run("pdfinfo -box '" + path.string() + "'").text;
+            const std::string told = run_tool("pdfinfo -box '" + path.string() + "'").text;
             const double edge = marks ? std::max(bleed, 2.0) + 5.0 : bleed;
             const auto expect = [&](const std::string& name, double around) {
                 const double corner = points(edge - around);
@@ -461,8 +460,8 @@ protected:
     /// 3 channels, by another program.
     PixelGrid pixels(const std::filesystem::path& file, const std::string& channels = "0,0,0") {
         const std::string picture = (folder_ / "pixels.ppm").string();
-        const ToolOutcome outcome = run("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
-                                        channels + " -d uint8 -o '" + picture + "'");
+        const ToolOutcome outcome = run_tool("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
+                                             channels + " -d uint8 -o '" + picture + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return read_ppm(picture);
     }
@@ -491,7 +490,7 @@ TEST_F(PressDraw, OneBitIsBlackWhereHalfIsCovered) {
     NEEDS("tiffinfo");
     const std::string style = "ground: #ffe6b4\nstroke: 1.234mm #b3452c\n";
     const auto file = draw("a.tif", {.bits = 1}, style, 600.0);
-    const std::string told = run("tiffinfo '" + file.string() + "'").text;
+    const std::string told = run_tool("tiffinfo '" + file.string() + "'").text;
     EXPECT_TRUE(has(told, "Bits/Sample: 1\n"));
     EXPECT_TRUE(has(told, "Photometric Interpretation: min-is-black"));
     EXPECT_TRUE(has(told, "600, 600 pixels/inch"));
@@ -521,5 +520,4 @@ TEST_F(PressDraw, OneBitWithoutGroundIsOnPaper) {
     EXPECT_EQ(bits.at(bits.width / 2, bits.height / 2), black);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::press_test

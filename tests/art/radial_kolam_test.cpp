@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::radial_kolam_test {
 
 std::string error_of(const char* size, const char* order = "") {
     return sikku::error_of<std::runtime_error>([&] { parse_radial_kolam(size, order); });
@@ -139,5 +138,4 @@ TEST(RadialKolam, ReadsOrders) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::radial_kolam_test

@@ -16,8 +16,7 @@
 #include <numeric>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::raster_test {
 
 using Points = std::vector<glm::dvec2>;
 using Bytes = std::vector<std::uint8_t>;
@@ -659,5 +658,4 @@ TEST(Raster, AWatcherMayStopItWithinABand) {
                  Stop);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::raster_test

@@ -22,8 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::reading_test {
 
 const std::vector<std::string>& square_grids() {
     static const std::vector<std::string> grids = {"1x1", "1x4", "4x1",           "3x3",
@@ -521,5 +520,4 @@ TEST(KolamFile, KnowsTextsByTheirContent) {
     EXPECT_TRUE(has(error_of([] { read_kolam_text("<html/>"); }), "not an SVG"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::reading_test

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::recipe_test {
 
 TEST(Recipe, AnyTextComesBack) {
     std::string all;
@@ -60,5 +59,4 @@ TEST(Recipe, PlotsModelsAndAnimationsGiveTheirPatternBack) {
     EXPECT_FALSE(read_provenance(folder.write("bush.mtl", "newmtl a\n")));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::recipe_test

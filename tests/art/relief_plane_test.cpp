@@ -15,8 +15,7 @@
 #include <random>
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::relief_plane_test {
 
 std::int64_t twice_area(Micrometres a, Micrometres b, Micrometres c) {
     return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
@@ -414,5 +413,4 @@ TEST(Outlines, PolygonsKeepWhatIsFarFromTheirOutline) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::relief_plane_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sikku {
-namespace {
+namespace sikku::relief_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -352,5 +351,4 @@ TEST(Relief, IsClosedForTilingsAndKolams) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::relief_test

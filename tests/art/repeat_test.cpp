@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::repeat_test {
 
 using Points = std::vector<glm::dvec2>;
 
@@ -482,5 +481,4 @@ TEST(Repeat, RefusesTooMuch) {
     EXPECT_THROW(draw(large, "svg", {{"repeat", "ring:3"}, {"window", "0,0,1,1"}}), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::repeat_test

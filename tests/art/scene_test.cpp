@@ -26,8 +26,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::scene_test {
 
 using reference::grammar_of;
 
@@ -648,5 +647,4 @@ TEST(Model, WhatHasNoWidthIsRefusedAndLeavesNothing) {
     EXPECT_FALSE(print_format("x.gltf"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::scene_test

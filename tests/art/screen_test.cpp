@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace sikku {
-namespace {
+namespace sikku::screen_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -80,5 +79,4 @@ TEST(Screen, BadOnesAreRefused) {
     EXPECT_THROW(Screener(parse_screen("halftone,1"), 10, 9600), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::screen_test

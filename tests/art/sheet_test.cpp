@@ -11,8 +11,7 @@
 #include <pugixml.hpp>
 #include <regex>
 
-namespace sikku {
-namespace {
+namespace sikku::sheet_test {
 
 constexpr std::string_view kolam =
     "axiom: F+F+F+F\nF --> F+F-F-FF+F+F-F\nderivation length: 2\n"
@@ -56,13 +55,14 @@ protected:
 
     PixelGrid svg_pixels(const std::string& name) {
         const auto pdf = folder_ / (name + ".pdf");
-        const ToolOutcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + folder_.file(name) + "'");
+        const ToolOutcome outcome =
+            run_tool("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + folder_.file(name) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return render_pdf(pdf, static_cast<int>(options_.dpi));
     }
     PixelGrid image_pixels(const std::string& name) {
         const std::string ppm = folder_.file(name + ".ppm");
-        const ToolOutcome outcome = run("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'");
+        const ToolOutcome outcome = run_tool("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return read_ppm(ppm);
     }
@@ -182,7 +182,7 @@ TEST_F(Sheets, CellsLieSideBySideWithinTheMargins) {
 TEST_F(Sheets, SvgHasALayerForEachCell) {
     write(four(), "sheet.svg");
     if (has_program("xmllint")) {
-        const ToolOutcome outcome = run("xmllint --noout '" + folder_.file("sheet.svg") + "'");
+        const ToolOutcome outcome = run_tool("xmllint --noout '" + folder_.file("sheet.svg") + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
     }
     pugi::xml_document document;
@@ -287,14 +287,14 @@ TEST_F(Sheets, ATransparentSheetStaysSo) {
     if (!has_program("oiiotool")) GTEST_SKIP() << "no oiiotool on this machine";
     options_.ground.reset();
     write(four(), "sheet.png");
-    const ToolOutcome info = run("oiiotool --info '" + folder_.file("sheet.png") + "'");
+    const ToolOutcome info = run_tool("oiiotool --info '" + folder_.file("sheet.png") + "'");
     EXPECT_TRUE(has(info.text, "4 channel"));
 }
 
 TEST_F(Sheets, PdfIsSound) {
     if (!has_program("qpdf")) GTEST_SKIP() << "no qpdf on this machine";
     write(four(), "sheet.pdf");
-    const ToolOutcome outcome = run("qpdf --check '" + folder_.file("sheet.pdf") + "'");
+    const ToolOutcome outcome = run_tool("qpdf --check '" + folder_.file("sheet.pdf") + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -446,5 +446,4 @@ TEST_F(Sheets, AWatcherMayStopIt) {
     EXPECT_EQ(folder_.names(), std::vector<std::string>{"sheet.png"});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::sheet_test

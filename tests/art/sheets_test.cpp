@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::sheets_test {
 
 const std::string square =
     "title: Square\naxiom: F-F-F-F\nangle increment: 90\nstroke: 0.5mm #204060\nground: #ffeedd\n";
@@ -161,7 +160,7 @@ TEST(SeveralDrawings, LookTheSameInPicturesAndVectors) {
     write("a.png");
     const PixelGrid pdf = render_pdf(folder / "a.pdf", 72);
     const ToolOutcome converted =
-        run("oiiotool '" + folder.file("a.png") + "' --ch R,G,B -o '" + folder.file("a.ppm") + "'");
+        run_tool("oiiotool '" + folder.file("a.png") + "' --ch R,G,B -o '" + folder.file("a.ppm") + "'");
     ASSERT_TRUE(converted.ok) << converted.text;
     const PixelGrid png = read_ppm(folder / "a.ppm");
     ASSERT_EQ(pdf.width, png.width);
@@ -205,5 +204,4 @@ TEST(SeveralDrawings, ShareAScaleOrADotSpacing) {
     EXPECT_GT(count_of(spaced, "<circle"), 20u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::sheets_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::style_test {
 
 struct Read {
     Style style;
@@ -314,5 +313,4 @@ TEST(Style, ReadsWeaveAndParallelLines) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::style_test

@@ -12,8 +12,7 @@
 #include <random>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::svg_test {
 
 using namespace std::string_literals;
 using Points = std::vector<glm::dvec2>;
@@ -375,7 +374,7 @@ TEST_F(Svg, LongPathsAreCutBelowFourMegabytes) {
     EXPECT_NEAR(drawn.back().x, last.x, 0.5001);
     EXPECT_NEAR(drawn.back().y, last.y, 0.5001);
     if (!has_program("xmllint")) GTEST_SKIP() << "no xmllint on this machine";
-    EXPECT_TRUE(run("xmllint --noout '" + (folder_ / "print.svg").string() + "'").ok);
+    EXPECT_TRUE(run_tool("xmllint --noout '" + (folder_ / "print.svg").string() + "'").ok);
 }
 
 TEST_F(Svg, AlphaOfLinesIsTheLayersAndOfFillsTheirOwn) {
@@ -422,7 +421,7 @@ TEST_F(Svg, TextsWithSpecialCharactersStayThemselves) {
     EXPECT_EQ(provenance->pattern, print.pattern);
     EXPECT_EQ(provenance->made, print.made);
     if (!has_program("xmllint")) GTEST_SKIP() << "no xmllint on this machine";
-    const ToolOutcome outcome = run("xmllint --noout '" + path.string() + "'");
+    const ToolOutcome outcome = run_tool("xmllint --noout '" + path.string() + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -439,7 +438,7 @@ TEST_F(Svg, TextsThatXmlCannotHoldAreStillGivenBack) {
     write(print, draw_sampler);
     EXPECT_FALSE(provenance_of(folder_ / "print.svg")) << "a print without a pattern";
     if (!has_program("xmllint")) GTEST_SKIP() << "no xmllint on this machine";
-    const ToolOutcome outcome = run("xmllint --noout '" + (folder_ / "print.svg").string() + "'");
+    const ToolOutcome outcome = run_tool("xmllint --noout '" + (folder_ / "print.svg").string() + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -477,7 +476,7 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
         sink.end_stroke(false);
     });
     const auto pdf = folder_ / "print.pdf";
-    const ToolOutcome outcome = run("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + path.string() + "'");
+    const ToolOutcome outcome = run_tool("rsvg-convert -f pdf -o '" + pdf.string() + "' '" + path.string() + "'");
     ASSERT_TRUE(outcome.ok) << outcome.text;
     const PixelGrid pixels = render_pdf(pdf, 254);  // 10 pixels a millimetre
     ASSERT_NEAR(pixels.width, 1000, 1);
@@ -498,5 +497,4 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
     for (int x = 560; x < 850; x += 3) ASSERT_TRUE(near(pixels.at(x, 200), half_blue)) << x;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::svg_test

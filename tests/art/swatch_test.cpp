@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::swatch_test {
 
 const std::vector<Setting> by_neighbours = {{"test", "tile colours", "neighbours"}};
 
@@ -351,5 +350,4 @@ TEST(Swatch, IsRefusedWithAReason) {
               "border: a swatch is part of an endless tiling, with nothing around it");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::swatch_test

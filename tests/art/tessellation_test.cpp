@@ -10,8 +10,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::tessellation_test {
 
 using reference::grammar_of;
 
@@ -179,5 +178,4 @@ TEST(Solids, ExtentsOfSurfacesAreThoseOfWhatIsSeen) {
     EXPECT_NEAR(box.high.y - box.low.y, 3, 1e-5);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tessellation_test

@@ -21,8 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_decorator_test {
 
 struct Stroke {
     double length = 0;
@@ -109,8 +108,6 @@ Strokes on_squares(const Style& style, int columns, int rows, int shift = 0) {
 std::string complaint(const std::string& value) {
     return error_of<PatternError>([&] { style_of("axiom: F\ndecorate: " + value + "\n"); });
 }
-
-}  // namespace
 
 /// Mirror curves: a by b squares have gcd(a, b) closed strands. Jablan 1996, "Mirror curves".
 TEST(TileDecorator, KolamsOfSquaresHaveAsManyStrandsAsTheGreatestCommonDivisor) {
@@ -228,4 +225,4 @@ TEST(TileDecorator, MistakesInTheKeyAreNamed) {
     EXPECT_EQ(complaint("tile 1 2 arc 0.5 1.5; line 0 2 colour 3; dot tile 4 dot"), "");
 }
 
-}  // namespace sikku
+}  // namespace sikku::tile_decorator_test

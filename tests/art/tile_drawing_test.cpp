@@ -23,8 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_drawing_test {
 
 using Kept = UnitedLines::Kept;
 
@@ -418,5 +417,4 @@ TEST(TileDrawing, WhatHasNoTilesIsRefused) {
     EXPECT_TRUE(has(message("tilings/chair", {{"tile-edges", "twice"}}), "each, once, border or none"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tile_drawing_test

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_templates_test {
 
 TilingResult examined(const std::string& tiling, const std::string& steps) {
     return examine_tiling(
@@ -38,8 +37,6 @@ double distance_to(const std::vector<glm::dvec2>& outline, glm::dvec2 point) {
     }
     return least;
 }
-
-}  // namespace
 
 TEST(CutList, CountsPiecesByShapeHandAndColour) {
     const std::vector<CutKind> rhombs = cut_list(examined("penrose-rhombs", "5"), 10);
@@ -114,4 +111,4 @@ TEST(TileTemplates, FilesContainOneOutlineForEachShapeAndHand) {
     EXPECT_THROW(write_templates({}, {}, writing, "a.svg", memory), std::runtime_error);
 }
 
-}  // namespace sikku
+}  // namespace sikku::tile_templates_test

@@ -19,8 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_worms_test {
 
 Grammar grammar_of(const std::string& tiling, int n) {
     return reference::grammar_of(contents(bundled("tilings/" + tiling)),
@@ -158,5 +157,4 @@ TEST(TileWorms, MissingWormsAreReported) {
     EXPECT_EQ(warnings("tilings/chair", {{"tile-colours", "direction"}}), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tile_worms_test

@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tiles_test {
 
 constexpr Page a1{594.0, 841.0, 10.0};
 constexpr Page a4{210.0, 297.0, 5.0};
@@ -159,5 +158,4 @@ TEST(Tiles, OtherFormatsHaveAFileForEachSheet) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tiles_test

@@ -22,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::view_test {
 
 using reference::grammar_of;
 
@@ -495,5 +494,4 @@ TEST(View, CostsWhatIsSeen) {
     EXPECT_THROW(view->read(sight, sink, 1e5, {}), BudgetError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::view_test

@@ -27,8 +27,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::window_drawing_test {
 
 struct Tile {
     std::vector<glm::dvec2> corners;
@@ -304,5 +303,4 @@ TEST(WindowDrawing, SaysWhyPartsCannotBeFound) {
     EXPECT_EQ(message("axiom: A\nA --> [{F+F+F}]fA\n" + square), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::window_drawing_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <system_error>
 
-namespace sikku {
-namespace {
+namespace sikku::decimal_test {
 
 struct Read {
     std::size_t bytes;
@@ -60,5 +59,4 @@ TEST(Decimal, WritesTheFewestDigits) {
     EXPECT_EQ(shortest_decimal(0.1 + 0.2), "0.30000000000000004");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::decimal_test

@@ -11,8 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::derivation_test {
 
 using reference::derived;
 using reference::derived_text;
@@ -417,5 +416,4 @@ TEST(Limits, TheWatchSeesEverySymbolAndMayStop) {
     EXPECT_EQ(steps, 5);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::derivation_test

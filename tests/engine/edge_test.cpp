@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::edge_test {
 
 using reference::expect_mistakes;
 using reference::grammar_of;
@@ -207,5 +206,4 @@ TEST(Edges, AreNamedBySymbolsOfSeveralLetters) {
     EXPECT_EQ(survey_of(grammar).end, glm::dvec2(3, 0));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::edge_test

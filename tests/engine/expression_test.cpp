@@ -11,8 +11,7 @@
 #include <random>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::expression_test {
 
 struct Compiled {
     std::optional<Expression> expression;
@@ -219,5 +218,4 @@ TEST(Expression, WholePowersAreCorrectlyRounded) {
     EXPECT_EQ(value("10^-3"), 1e-3);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::expression_test

@@ -9,8 +9,7 @@
 #include <map>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::extent_test {
 
 using reference::grammar_of;
 
@@ -167,5 +166,4 @@ TEST(Measure, UnbalancedWordsAreErrors) {
     EXPECT_NO_THROW(measure(grammar_of("axiom: L[F]R\nderivation length: 3\nL --> [L\nR --> R]\n"), budget));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::extent_test

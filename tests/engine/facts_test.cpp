@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::facts_test {
 
 /// The words after each name of the `// expect:` line.
 std::map<std::string, std::vector<std::string>> expectations(const std::string& text) {
@@ -186,5 +185,4 @@ TEST(PatternFiles, EveryKindOfPatternComesAlong) {
     for (const char* kind : {"kolams", "tilings", "curves", "plants", "words"}) EXPECT_GT(kinds[kind], 0) << kind;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::facts_test

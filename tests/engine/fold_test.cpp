@@ -12,8 +12,7 @@
 #include <map>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::fold_test {
 
 using reference::grammar_of;
 using reference::Kind;
@@ -492,5 +491,4 @@ TEST(Quantity, HasDigitsFrom2To53On) {
     EXPECT_EQ(Quantity::of(0.5).digits, "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::fold_test

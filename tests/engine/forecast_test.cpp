@@ -10,8 +10,7 @@
 #include <map>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::forecast_test {
 
 using reference::grammar_of;
 using reference::Kind;
@@ -196,5 +195,4 @@ TEST(RequireAffordable, TellsTheLengthAndTheLargestThatFits) {
     EXPECT_TRUE(has(refusal(scheduled, 1000), "fits is 7"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::forecast_test

@@ -380,5 +380,4 @@ TEST(ForeignText, OtherProgramsAreRecognised) {
     expect_mistakes("Lsystem: 1\nAxiom: F\nF --> FF\nendlsystem\n", {{{1, 1}, "this is an L-system of cpfg"}});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::foreign_text_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace sikku::fractint {
-namespace {
+namespace sikku::fractint::fractint_factors_test {
 
 TEST(FractintFactors, AreIndependent) {
     const auto exponents = [](const std::vector<std::string>& numbers) { return find_factors(numbers).exponents; };
@@ -47,5 +46,4 @@ TEST(FractintFactors, AreIndependent) {
     EXPECT_EQ(product_of_powers({2}, {-20'000}), 0);
 }
 
-}  // namespace
-}  // namespace sikku::fractint
+}  // namespace sikku::fractint::fractint_factors_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::grammar_test {
 
 using reference::derived_text;
 using reference::diagnostics_of;
@@ -525,5 +524,4 @@ TEST(Grammar, KnowsTheLastStepThatNeedsWholeWords) {
     EXPECT_EQ(steps("words free*n", 4), 0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::grammar_test

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::import_cpfg_statements_test {
 
 using namespace import_tools;
 
@@ -137,5 +136,4 @@ TEST(ImportCpfg, PatternsThatDrawNothingAreReported) {
     EXPECT_FALSE(cpfg(system_with("A(t) : {t = f(t);} 1 --> F(t)\n")).draws);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_cpfg_statements_test

@@ -16,8 +16,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::import_cpfg_test {
 
 using namespace import_tools;
 
@@ -473,5 +472,4 @@ TEST(ImportCpfg, MistakesAreTold) {
     expect("Lsystem: 1\nAxiom: F(1" + repeated_text("%1.5", 40) + ")\nendlsystem\n", {{{2, 71}, "longer than 1 MB"}});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_cpfg_test

@@ -14,8 +14,7 @@
 #include <cmath>
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::import_test {
 
 using namespace import_tools;
 
@@ -197,7 +196,7 @@ void expect_same_picture(const std::string& entry, const std::string& pattern, i
 }
 
 std::string imported(const std::string& entry) {
-    const auto systems = fractint(entry);
+    const auto systems = systems_of(entry);
     EXPECT_EQ(systems.size(), 1U);
     return systems.empty() ? "" : systems.front().pattern;
 }
@@ -286,7 +285,7 @@ TEST(ImportFractint, Colours) {
     const std::string pattern = imported(erased);
     EXPECT_EQ(word_of(pattern, 1), ";(15)F C12 FXFF");
     for (int order = 0; order < 4; ++order) expect_same_picture(erased, pattern, order, true);
-    const auto stepped = fractint("A {\nangle 6\naxiom F<1F>2F\n}\n");
+    const auto stepped = systems_of("A {\nangle 6\naxiom F<1F>2F\n}\n");
     ASSERT_EQ(stepped[0].losses.size(), 1U);
     EXPECT_TRUE(has(stepped[0].losses[0], "line 3: cycles of colours that skip colour 0"));
     EXPECT_TRUE(has(stepped[0].pattern, "Not supported: line 3: cycles"));
@@ -320,21 +319,21 @@ TEST(ImportFractint, TwoHeadings) {
          {"A {\nangle 6\naxiom F+D\\20D/5F|D[-D\\3F]D!+D\\7D\n}\n",
           "A {\nangle 4\naxiom F+F+F\nF=D[+F\\10]D!F-\nD=\\42D!\\84D!/42D\n}\n",
           "A {\nangle 5\naxiom X\nX=F|X+@.5D\\30!X@2M\n}\n", "A {\nangle 7\naxiom DXF\nX=+X\\7.25G-!D\n}\n"}) {
-        const auto systems = fractint(entry);
+        const auto systems = systems_of(entry);
         EXPECT_TRUE(systems[0].losses.empty());
         for (int order = 0; order < 6; ++order) expect_same_picture(entry, systems[0].pattern, order);
     }
     // Turns of the heading that no step takes do nothing in either program.
     for (const char* entry :
          {"A {\nangle 6\naxiom F+F\\20F/3F\nF=F+F\\5F\n}\n", "A {\nangle 6\naxiom D+D\\20|DM/3D\nD=D\\5M-D\n}\n"}) {
-        EXPECT_TRUE(fractint(entry)[0].losses.empty());
+        EXPECT_TRUE(systems_of(entry)[0].losses.empty());
         for (int order = 0; order < 4; ++order) expect_same_picture(entry, imported(entry), order);
     }
 }
 
 TEST(ImportFractint, PatternsThatDrawNothingAreReported) {
-    EXPECT_FALSE(fractint("A {\nangle 4\naxiom X\nX=G+X\n}\n")[0].draws);
-    EXPECT_TRUE(fractint("A {\nangle 4\naxiom X\nX=F+X\n}\n")[0].draws);
+    EXPECT_FALSE(systems_of("A {\nangle 4\naxiom X\nX=G+X\n}\n")[0].draws);
+    EXPECT_TRUE(systems_of("A {\nangle 4\naxiom X\nX=F+X\n}\n")[0].draws);
 }
 
 TEST(ImportFractint, CharactersThatWordsOfPatternsDoNotHold) {
@@ -380,7 +379,7 @@ TEST(ImportFractint, RandomSystems) {
 }
 
 TEST(ImportFractint, Collections) {
-    const auto systems = fractint(
+    const auto systems = systems_of(
         "; of others { no }\ncomment {\n Angle 1 }\n{ nobody's }\n"
         "Kites&Darts(x) { ; by somebody; else\n ; after a book\n ANGLE 10\n AXIOM f ; }\n}\n"
         "plain text\nkites&darts {\nangle 3\naxiom F\n}  Third{\nangle 4\naxiom F}\n");
@@ -426,5 +425,4 @@ TEST(ImportFractint, MistakesAreTold) {
     EXPECT_TRUE(has(all_of(diagnostics), "test.l:2:10: warning: ']' without '['"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_test

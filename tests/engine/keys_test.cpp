@@ -11,8 +11,7 @@
 
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::keys_test {
 
 TEST(Keys, HaveOneRowEach) {
     std::set<std::string_view> names;
@@ -85,5 +84,4 @@ TEST(Document, IsLoadedByNameOrPath) {
               "no file or pattern named 'snake-kolan'; did you mean 'snake-kolam'?");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::keys_test

@@ -157,5 +157,4 @@ TEST(Labels, AreCheckedWithTheirPlaces) {
     EXPECT_TRUE(has(error_of<WordError>([&] { drawn("axiom: N(1/0)\nlabel N: {1}\n"); }), "not finite"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::label_test

@@ -9,8 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace sikku {
-namespace {
+namespace sikku::lattice_test {
 
 using reference::grammar_of;
 using Complex = std::complex<long double>;
@@ -157,5 +156,4 @@ TEST(FoldTurn, IsTheNearestAxisAndTheRest) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lattice_test

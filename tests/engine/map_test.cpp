@@ -14,8 +14,7 @@
 #include <array>
 #include <map>
 
-namespace sikku {
-namespace {
+namespace sikku::map_test {
 
 const std::vector<Setting> all = {{"--set", "divide", "all"}};
 
@@ -427,5 +426,4 @@ TEST(MapLanguage, SettingsAreRead) {
     EXPECT_EQ(document.with({{"set", "divide", "once"}}).map()->divides_all, false);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::map_test

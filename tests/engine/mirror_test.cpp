@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::mirror_test {
 
 using reference::expect_mistakes;
 using reference::grammar_of;
@@ -85,5 +84,4 @@ TEST(Mirror, SaysWhatIsWrong) {
     expect_mistakes("mirror: A, a\naxiom: A\n", {{{1, 10}, "symbols are separated by blanks, not by commas"}});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::mirror_test

@@ -11,8 +11,7 @@
 #include <chrono>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::modules_test {
 
 using reference::derived_modules;
 using reference::diagnostics_of;
@@ -622,5 +621,4 @@ TEST(ModuleTurtle, TheSnowflakeOfEquation8) {
     EXPECT_TRUE(measured.geometry->closed);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::modules_test

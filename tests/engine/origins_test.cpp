@@ -8,8 +8,7 @@
 #include <numeric>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::origins_test {
 
 class Keeper : public SymbolSink {
 public:
@@ -95,5 +94,4 @@ TEST(Origins, ContextsParametersAndChanceAreRefused) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::origins_test

@@ -12,8 +12,7 @@
 #include <csignal>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::output_file_test {
 
 namespace fs = std::filesystem;
 
@@ -329,5 +328,4 @@ TEST(OutputFile, ASignalLeavesNothingIfTheHandlerAsks) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{"done"});
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::output_file_test

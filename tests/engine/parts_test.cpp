@@ -12,8 +12,7 @@
 #include <cmath>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::parts_test {
 
 using reference::grammar_of;
 
@@ -116,5 +115,4 @@ TEST(Parts, AreRefusedWhereTheyWouldLie) {
     EXPECT_FALSE(Parts<double>::make(grammar_of("axiom: A\nA --> B\nB --> C\n"))->whole().draws());
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::parts_test

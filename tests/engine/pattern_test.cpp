@@ -8,8 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::pattern_test {
 
 using reference::diagnostics_of;
 using reference::expect_mistakes;
@@ -466,5 +465,4 @@ TEST(ReadNumber, TakesTheWholeFieldOrNothing) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::pattern_test

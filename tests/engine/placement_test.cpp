@@ -11,8 +11,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace sikku {
-namespace {
+namespace sikku::placement_test {
 
 using Settings = std::vector<Setting>;
 
@@ -242,5 +241,4 @@ TEST(Placement, StopsOnRequest) {
     EXPECT_THROW(PlacedMap(document.grammar(), {}, Monitor([](void*) { return true; })), Stopped);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::placement_test

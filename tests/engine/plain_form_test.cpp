@@ -14,8 +14,7 @@
 #include <filesystem>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::plain_form_test {
 
 using reference::derived_text;
 using reference::grammar_of;
@@ -95,5 +94,4 @@ TEST(PlainForm, DoesNotExistForChanceContextsAndTooManyModules) {
     EXPECT_EQ(derived_text(*plain_form(same)), derived_text(same));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plain_form_test

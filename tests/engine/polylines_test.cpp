@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::polylines_test {
 
 using reference::grammar_of;
 
@@ -82,5 +81,4 @@ TEST(Polylines, LimitsAndStops) {
     EXPECT_THROW(traced("F]"), WordError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::polylines_test

@@ -9,8 +9,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::public_cases_test {
 
 using reference::derived_modules;
 using reference::diagnostics_of;
@@ -81,5 +80,4 @@ TEST(PublicCases, NoStepsAreTheAxiom) {
     EXPECT_EQ(measure(grammar_of("axiom: X\nX --> F[+X]X\n"), 1e6).drawn.value, 0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::public_cases_test

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::space_facts_test {
 
 Grammar pattern_of(const std::string& name, const std::vector<Setting>& settings = {},
                    std::string_view variant = {}) {
@@ -416,5 +415,4 @@ TEST(SpaceWords, ShootAndRootComeIntoBalanceAgain) {
     expect_apices_counted(word_of(pattern_of("plants/shoot-and-root", {after_steps(70)}, "pruned-5")));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::space_facts_test

@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::space_turtle_test {
 
 using reference::expect_mistakes;
 using reference::grammar_of;
@@ -399,5 +398,4 @@ TEST(SpaceTurtle, SurfacesStandWhereTheTurtleStandsAndTurnWithIt) {
                 {2, 9, 2}, "three factors that a module computes");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::space_turtle_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::spline_test {
 
 using reference::Dice;
 using reference::Line;
@@ -391,5 +390,4 @@ TEST(StrokeCensus, NotesWhichStrokesAreClosed) {
     EXPECT_EQ(census.closed, (std::vector{true, false, true}));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::spline_test

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::surface_test {
 
 using reference::expect_mistakes;
 using reference::grammar_of;
@@ -166,5 +165,4 @@ TEST(Surface, TheEndPointMovesTheTurtle) {
     expect("axiom: F+(90)~leaf", glm::dvec3(4, 4 + 7, 10) / 4.0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::surface_test

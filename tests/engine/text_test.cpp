@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::text_test {
 
 const std::vector<std::string> hostile = {"Lotus\nstroke: none\n//",
                                           "a\r\nborder: /etc/passwd\r\n",
@@ -110,5 +109,4 @@ TEST(Text, KeysSayWhichValuesNameFiles) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::text_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_division_test {
 
 std::vector<TileGeneration> generations(const std::string& name, std::int64_t last) {
     return tile_generations(load(name).grammar(), 0, last, {}, {});
@@ -201,5 +200,4 @@ TEST(InnerMiddle, IsThatOfTheLargestDisc) {
     EXPECT_NEAR(inner_middle(chair).y, 2 - std::sqrt(2.0), 0.01);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tile_division_test

@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_growth_test {
 
 TilingExamination examined(const std::string& name, int n) {
     const std::filesystem::path file =
@@ -224,5 +223,4 @@ TEST(TileGrowth, CountsWithoutDeriving) {
     EXPECT_EQ(rhombs.counts[1].count, thick);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tile_growth_test

@@ -17,8 +17,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tile_periods_test {
 
 TilingResult examined(const std::string& name, std::int64_t steps) {
     TilingOptions options;
@@ -173,5 +172,4 @@ TEST(LatticeRectangles, DoNotExistInObliqueLattices) {
     EXPECT_FALSE(least_rectangle(a, b));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tile_periods_test

@@ -18,8 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tiling_gaps_test {
 
 using Cell = std::pair<int, int>;
 
@@ -349,5 +348,4 @@ TEST(TilingGaps, AgreeWithCountingTriangles) {
     EXPECT_GT(with_gaps, 500);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tiling_gaps_test

@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tiling_test {
 
 std::string report(const std::string& title, std::int64_t n, const TilingExamination& t) {
     return tiling_text(title, n, t, TileGrowth());
@@ -621,5 +620,4 @@ TEST(TilingExamination, FindsTheSameInDoubles) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tiling_test

@@ -20,8 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tilings_test {
 
 using Counts = std::vector<int>;  ///< tiles by colour index, from 1 on
 using Corners = std::vector<int>;
@@ -462,5 +461,4 @@ TEST(TilingCounts, OfRowsAndCells) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tilings_test

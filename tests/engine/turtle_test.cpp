@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::turtle_test {
 
 using reference::derived_text;
 using reference::expect_mistakes;
@@ -465,5 +464,4 @@ TEST(TurtleErrors, NothingWraps) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::turtle_test

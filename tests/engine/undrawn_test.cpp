@@ -12,8 +12,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::undrawn_test {
 
 using reference::diagnostics_of;
 using reference::grammar_of;
@@ -183,5 +182,4 @@ TEST(Undrawn, OnlyTheStepsOfTheDerivationCount) {
     EXPECT_TRUE(may_draw(grammar_of("axiom: A\nB < A --> F\nderivation length: 1\n")));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::undrawn_test

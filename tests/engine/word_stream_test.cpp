@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::word_stream_test {
 
 using namespace std::chrono_literals;
 using reference::grammar_of;
@@ -79,5 +78,4 @@ TEST(WordStream, ErrorsReachTheReader) {
     EXPECT_EQ(stream.next(piece, 0ms), WordStream::Next::end);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::word_stream_test

@@ -19,8 +19,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::arrangement_test {
 
 // Degrees 0 1 2 1 in notes of 1, 1, 1 and 2 steps: a bar of 5/8.
 const std::string steps = "heading: 0\nturn: left\nangle factor: 4\naxiom: F+F-F+F-F-F+FF\n";
@@ -675,5 +674,4 @@ TEST(Counterpoint, StrictPartsGiveWay) {
     EXPECT_EQ(told(notes_of(track("counterpoint = \"strict\"\n", "hilbert"))), told(notes_of(track("", "hilbert"))));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::arrangement_test

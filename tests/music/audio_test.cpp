@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::audio_test {
 
 /// Sets an environment variable, or takes it away, for as long as this lives.
 class Environment {
@@ -176,9 +175,9 @@ TEST(Audio, FlacHoldsTheSamplesOfTheWav) {
     EXPECT_EQ(flac.substr(0, 4), "fLaC");
     EXPECT_LT(flac.size(), contents(folder / "x.wav").size() * 3 / 4);
     NEEDS("flac");
-    ToolOutcome outcome = run("flac --warnings-as-errors -s -t '" + folder.file("x.flac") + "'");
+    ToolOutcome outcome = run_tool("flac --warnings-as-errors -s -t '" + folder.file("x.flac") + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
-    outcome = run("flac -s -d -o '" + folder.file("back.wav") + "' '" + folder.file("x.flac") + "'");
+    outcome = run_tool("flac -s -d -o '" + folder.file("back.wav") + "' '" + folder.file("x.flac") + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_TRUE(contents(folder / "back.wav") == contents(folder / "x.wav"));
 }
@@ -231,7 +230,7 @@ TEST(Audio, SilenceStaysSilent) {
     render_audio(folder / "x.mid", folder / "x.flac", AudioFormat::flac);
     EXPECT_LT(contents(folder / "x.flac").size(), samples.size() / 50);
     if (has_program("flac")) {
-        const ToolOutcome outcome = run("flac --warnings-as-errors -s -t '" + folder.file("x.flac") + "'");
+        const ToolOutcome outcome = run_tool("flac --warnings-as-errors -s -t '" + folder.file("x.flac") + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
     }
 }
@@ -363,5 +362,4 @@ TEST(Audio, IsWrittenWholeOrTheFailureIsTold) {
             "/dev/full"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::audio_test

@@ -13,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::emphasis_test {
 
 const std::string table =
     "mapping: symbols\nnote A: C4 1/4 mf\nnote B: C4 1/4 p\nnote C: C4 1/4 ff\nnote D: C4 1/4\n";
@@ -144,5 +143,4 @@ TEST(Emphasis, AccentsAreAddedToCurves) {
     EXPECT_EQ(accents_of(rhythm, {{"velocity", "by x 40-120"}}), ">.>.>.>.");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::emphasis_test

@@ -19,8 +19,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::expression_test {
 
 /// Degrees 0, 1, 2, 1 in notes of 1, 1, 1 and 2 steps; x goes from 0 to 5.
 const std::string steps = "heading: 0\nturn: left\nangle factor: 4\naxiom: F+F-F+F-F-F+FF\n";
@@ -416,5 +415,4 @@ TEST(Expression, ErrorsSayWhatIsExpected) {
     EXPECT_THROW(play(parse("e.lsys", steps + "gamaka: meend all\n"), "mid", {{"tuning", "mts"}}), SettingError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::expression_test

@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::far_bars_test {
 
 constexpr std::int64_t unit = 240;
 constexpr std::int64_t breath = 240;
@@ -147,5 +146,4 @@ TEST(FarBars, EqualAnExactWalk) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::far_bars_test

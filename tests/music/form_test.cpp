@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::form_test {
 
 const std::string hilbert = "title: H\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\n";
 const std::string hilbert_4 = hilbert + "derivation length: 4\n";
@@ -429,5 +428,4 @@ TEST(Basses, OfWordsAnglesAndForms) {
     EXPECT_THROW(notes_of("axiom: F[+F]F\nF --> FF\nderivation length: 3\nharmony: bass\n"), ScoreError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::form_test

@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::glissando_test {
 
 constexpr std::int64_t quarter = ticks_per_quarter;
 const std::string head =
@@ -283,5 +282,4 @@ TEST(Glissando, WhatCannotSlideIsReported) {
     EXPECT_THROW(make_midi(score, mts), ScoreError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::glissando_test

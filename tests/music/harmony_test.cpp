@@ -12,8 +12,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::harmony_test {
 
 const std::string hilbert =
     "title: H\naxiom: X\nderivation length: 5\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nrange: reflect "
@@ -297,5 +296,4 @@ TEST(Counterpoint, AdaptsToItsOwnChords) {
     EXPECT_EQ(faults(notes_of(text + "counterpoint: strict\n")), 0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::harmony_test

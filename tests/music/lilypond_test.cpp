@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::lilypond_test {
 
 std::string lilypond_of(const TestScore& score) {
     MemorySink sink;
@@ -343,12 +342,11 @@ TEST(LilyPond, CompilesWithoutWarnings) {
     score.head.tempo = 92.5;
     score.head.parts[0].name = "a \"b\" \\c";
     const std::string file = folder.write("score.ly", lilypond_of(score));
-    const auto outcome = run("cd '" + folder.path().string() + "' && lilypond --loglevel=WARNING score.ly");
+    const auto outcome = run_tool("cd '" + folder.path().string() + "' && lilypond --loglevel=WARNING score.ly");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_EQ(outcome.text, "");
     EXPECT_GT(contents(folder / "score.pdf").size(), 1000u);
     EXPECT_GT(contents(folder / "score.midi").size(), 100u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::lilypond_test

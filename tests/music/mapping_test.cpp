@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::mapping_test {
 
 using reference::grammar_of;
 
@@ -1055,5 +1054,4 @@ TEST(Runs, MistakesOfTheWord) {
     EXPECT_THROW(played(hilbert(40), plain()), BudgetError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::mapping_test

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::midi_check_test {
 
 // A header of 14 bytes, a conductor whose events begin at byte 22 and fill 19 bytes, a melody that begins at 41, its
 // events at 49: two quarters C4 and D4.
@@ -416,5 +415,4 @@ TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
     EXPECT_TRUE(has(outcome.errors, "folder.mid is a folder"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::midi_check_test

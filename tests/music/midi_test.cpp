@@ -20,8 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::midi_test {
 
 /// Fails with the message of a ScoreError that holds `part`.
 template <typename Work>
@@ -501,7 +500,7 @@ TEST(Midi, TheForecastIsNearAndNeverTooSmall) {
 TEST(MidiReaders, MidicsvReadsTheTinyScore) {
     NEEDS("midicsv");
     const ScratchFolder folder;
-    const ToolOutcome outcome = run("midicsv '" + folder.write("tiny.mid", make_midi(tiny_score())) + "'");
+    const ToolOutcome outcome = run_tool("midicsv '" + folder.write("tiny.mid", make_midi(tiny_score())) + "'");
     EXPECT_TRUE(outcome.ok);
     EXPECT_EQ(outcome.text,
               "0, 0, Header, 1, 2, 480\n"
@@ -554,7 +553,7 @@ for name in sys.argv[1:]:
 )";
 
 TEST(MidiReaders, MidoReadsRandomScores) {
-    if (!run("/usr/bin/python3 -c 'import mido'").ok) GTEST_SKIP() << "python3-mido is not installed";
+    if (!run_tool("/usr/bin/python3 -c 'import mido'").ok) GTEST_SKIP() << "python3-mido is not installed";
     const ScratchFolder folder;
     std::mt19937 chance(11);
     std::vector<MidiScore> scores;
@@ -568,7 +567,7 @@ TEST(MidiReaders, MidoReadsRandomScores) {
                        "'";
         }
     }
-    const ToolOutcome outcome = run(command);
+    const ToolOutcome outcome = run_tool(command);
     ASSERT_TRUE(outcome.ok) << outcome.text.substr(0, 2000);
     std::istringstream text(outcome.text);
     for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -640,8 +639,8 @@ TEST(MidiReaders, FluidsynthSoundsMicrotones) {
         score.end = 480 * 5;
         const std::string raw = folder.file("sound.raw");
         const ToolOutcome outcome =
-            run("fluidsynth -ni -q -g 2 -r 44100 -R 0 -C 0 -O s16 -T raw -F '" + raw + "' " + soundfont + " '" +
-                folder.write("sound.mid", make_midi(score, microtonal(tuning))) + "'");
+            run_tool("fluidsynth -ni -q -g 2 -r 44100 -R 0 -C 0 -O s16 -T raw -F '" + raw + "' " + soundfont + " '" +
+                     folder.write("sound.mid", make_midi(score, microtonal(tuning))) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         const std::string bytes = contents(raw);
         std::vector<double> samples;
@@ -694,5 +693,4 @@ TEST(MidiTempo, FallsTowardsTheEnd) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::midi_test

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::mpe_test {
 
 MidiOptions mpe(int format = 1) {
     MidiOptions options;
@@ -198,13 +197,14 @@ assert members == 15
 )";
 
 TEST(MpeReaders, MidoHearsTheSamePitches) {
-    if (!run("/usr/bin/python3 -c 'import mido'").ok) GTEST_SKIP() << "python3-mido is not installed";
+    if (!run_tool("/usr/bin/python3 -c 'import mido'").ok) GTEST_SKIP() << "python3-mido is not installed";
     const ScratchFolder folder;
     std::mt19937 chance(6);
     for (const int format : {0, 1}) {
         const MidiScore score = random_midi_score(chance, 9, 500, true);
         const std::string file = folder.write("x.mid", make_midi(score, mpe(format)));
-        const ToolOutcome outcome = run("/usr/bin/python3 '" + folder.write("read.py", script) + "' '" + file + "'");
+        const ToolOutcome outcome =
+            run_tool("/usr/bin/python3 '" + folder.write("read.py", script) + "' '" + file + "'");
         ASSERT_TRUE(outcome.ok) << outcome.text;
         std::istringstream text(outcome.text);
         std::vector<std::pair<std::int64_t, double>> found;
@@ -224,5 +224,4 @@ TEST(MpeReaders, MidoHearsTheSamePitches) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::mpe_test

@@ -19,8 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::music_page_test {
 
 class Memory : public MemoryOutput {
 public:
@@ -266,7 +265,7 @@ TEST(MusicSvg, TextsAreTexts) {
     const ScratchFolder folder;
     NEEDS("xmllint");
     const ToolOutcome outcome =
-        run("xmllint --nonet --noout '" + folder.write("x.svg", svg(about, hilbert(), 1920)) + "'");
+        run_tool("xmllint --nonet --noout '" + folder.write("x.svg", svg(about, hilbert(), 1920)) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_EQ(outcome.text, "");
 }
@@ -281,7 +280,7 @@ TEST(MusicSvg, HoldsVeryMany) {
     ASSERT_TRUE(document.load_string(text.c_str()));
     EXPECT_EQ(children(group(document, "roll"), "rect").size(), 100'000U);
     NEEDS("xmllint");
-    const ToolOutcome outcome = run("xmllint --nonet --noout '" + folder.write("x.svg", text) + "'");
+    const ToolOutcome outcome = run_tool("xmllint --nonet --noout '" + folder.write("x.svg", text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -410,5 +409,4 @@ TEST(MusicPage, WithoutNotesIsAPage) {
     EXPECT_TRUE(has(text, "\"end\":1,"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::music_page_test

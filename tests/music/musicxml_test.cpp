@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::musicxml_test {
 
 std::string xml_of(const TestScore& score) {
     MemorySink sink;
@@ -380,7 +379,8 @@ TEST(MusicXml, IsWellFormedToOthers) {
     for (unsigned seed = 0; seed < 8; ++seed) {
         TestScore score = random_score(seed, true);
         score.head.title = "<&\" \x02 \xC3";
-        const auto outcome = run("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
+        const auto outcome =
+            run_tool("xmllint --nonet --noout '" + folder.write("score.musicxml", xml_of(score)) + "'");
         EXPECT_TRUE(outcome.ok) << outcome.text;
         EXPECT_EQ(outcome.text, "");
     }
@@ -408,5 +408,4 @@ TEST(MusicXml, IsTheSameInAnyLocale) {
     EXPECT_FALSE(has(before, "1,234"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::musicxml_test

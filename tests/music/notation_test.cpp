@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::notation_test {
 
 /// What is printed, joined again at its ties.
 std::vector<PlainNote> joined(const Notation& notation) {
@@ -880,5 +879,4 @@ TEST(Notation, RefusesWhatNobodyPrints) {
     EXPECT_THROW(stranger.notes({&note, 1}), ScoreError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::notation_test

@@ -15,8 +15,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::note_stream_test {
 
 const std::string hilbert =
     "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 5\nunit: 1/16\n";
@@ -321,5 +320,4 @@ TEST(NoteStream, SaysWhyItHasToBeReadFirst) {
     EXPECT_GT(collect(*stream_notes({&document, 1}, {{"bars", "4"}})).size(), 20u);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::note_stream_test

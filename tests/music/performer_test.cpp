@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku::live {
-namespace {
+namespace sikku::live::performer_test {
 
 constexpr Nanoseconds millisecond = second / 1000;
 
@@ -780,5 +779,4 @@ TEST(Performer, IsInTimeByARealClock) {
     EXPECT_EQ(report.notes, 200u);
 }
 
-}  // namespace
-}  // namespace sikku::live
+}  // namespace sikku::live::performer_test

@@ -10,8 +10,7 @@
 #include <alsa/asoundlib.h>
 #endif
 
-namespace sikku::live {
-namespace {
+namespace sikku::live::ports_test {
 
 const std::vector<PortInfo> ports = {
     {14, 0, "Midi Through", "Midi Through Port-0", true, true},
@@ -112,5 +111,4 @@ TEST(Ports, AlsaDeliversAndReportsTheEnd) {
 }
 #endif
 
-}  // namespace
-}  // namespace sikku::live
+}  // namespace sikku::live::ports_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::scala_test {
 
 /// What a reader made of a text.
 template <typename What>
@@ -481,5 +480,4 @@ TEST(MappedKey, EndsWithItsKeys) {
     EXPECT_FALSE(mapped_key(equal(12), map, 60));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::scala_test

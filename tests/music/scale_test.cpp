@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::scale_test {
 
 const Scale& scale_of(std::string_view name) {
     const Scale* scale = find_scale(name);
@@ -740,5 +739,4 @@ TEST(ScalesCommand, ShowsScalaFiles) {
     EXPECT_TRUE(has(none.errors, "none.scl: No such file or directory"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::scale_test

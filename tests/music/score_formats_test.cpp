@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::score_formats_test {
 
 std::string abc_of(const TestScore& score) {
     MemorySink sink;
@@ -225,7 +224,7 @@ TEST(Csound, PlaysTheFile) {
     MemorySink sink;
     write_csound_file(score.head, score.notes, score.end, sink);
     const auto outcome =
-        run("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
+        run_tool("cd '" + folder.path().string() + "' && csound -n '" + folder.write("x.csd", sink.text) + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     EXPECT_TRUE(has(outcome.text, "0 errors in performance"));
     EXPECT_FALSE(has(outcome.text, "WARNING"));
@@ -259,10 +258,10 @@ TEST(Mxl, IsReadByOthers) {
     folder.write("x.mxl", packed.text);
     folder.write("x.musicxml", xml.text);
     const auto outcome =
-        run("cd '" + folder.path().string() +
-            "' && python3 -c \"import zipfile; z = zipfile.ZipFile('x.mxl'); assert z.testzip() is None; "
-            "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
-            "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
+        run_tool("cd '" + folder.path().string() +
+                 "' && python3 -c \"import zipfile; z = zipfile.ZipFile('x.mxl'); assert z.testzip() is None; "
+                 "assert z.read('score.musicxml') == open('x.musicxml', 'rb').read(); "
+                 "assert b'score.musicxml' in z.read('META-INF/container.xml')\"");
     EXPECT_TRUE(outcome.ok) << outcome.text;
 }
 
@@ -287,5 +286,4 @@ TEST(ScoreFormats, LossesOfCommentsAreReported) {
     for (const char* lost : {"// \u2028\n", "// \x1b[0m\n"}) EXPECT_FALSE(is_reported(plain + lost, "mid"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::score_formats_test

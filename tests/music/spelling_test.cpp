@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::spelling_test {
 
 Scale scale_of(const std::string& id, const std::vector<double>& semitones, std::vector<double> descent = {}) {
     Scale scale;
@@ -243,5 +242,4 @@ TEST(Spelling, PrintHasSignaturesForMoreScales) {
     EXPECT_EQ(signature("shruti", "C"), "none");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::spelling_test

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::symbol_table_test {
 
 const std::string head = "mapping: symbols\nunit: 1/8\n";
 
@@ -324,5 +323,4 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
     EXPECT_TRUE(has(error_of("note A: C4\naxiom: X\n"), "no symbol of the word sounds"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::symbol_table_test

@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::unisons_test {
 
 class Collector : public NoteSink {
 public:
@@ -146,5 +145,4 @@ TEST(Unisons, HasALimit) {
     EXPECT_THROW(merger.notes(score.notes), ScoreError);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::unisons_test

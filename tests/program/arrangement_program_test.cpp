@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::arrangement_program_test {
 
 using Arguments = std::vector<std::string>;
 
@@ -152,5 +151,4 @@ TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::arrangement_program_test

@@ -13,8 +13,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::arrows_test {
 
 struct Include {
     std::string file;  ///< relative to the source folder
@@ -75,23 +74,23 @@ const std::vector<Room>& rooms() {
         {"engine/map", "engine/base engine/language engine/derivation", ""},
         {"engine/geometry", "engine/base engine/language engine/derivation", "boost"},
         {"engine/measure", "engine/base engine/language engine/derivation engine/geometry", "boost"},
-        {"engine/tiling", "engine/base engine/language engine/derivation engine/geometry", "boost tbb"},
+        {"engine/tiling", "engine/base engine/language engine/derivation engine/geometry", "boost"},
         {"engine", "engine/*", ""},
         {"art/style", "engine/*", ""},
         {"art/print", "engine/* art/style", ""},
-        {"art/kolam", "engine/* art/style art/print", "boost tbb"},
+        {"art/kolam", "engine/* art/style art/print", "boost"},
         {"art/hand", "engine/* art/style art/print", ""},
         {"art/vector", "engine/* art/style art/print", "zlib"},
         {"art/provenance", "engine/* art/print art/vector", "zlib"},
-        {"art/raster", "engine/* art/style art/print", "tbb"},
+        {"art/raster", "engine/* art/style art/print", ""},
         {"art/plotter", "engine/* art/style art/print", ""},
-        {"art/space", "engine/* art/style art/print art/raster", "tbb"},
+        {"art/space", "engine/* art/style art/print art/raster", ""},
         {"art/relief", "engine/* art/style art/print art/kolam art/plotter art/space", ""},
         {"art/image", "engine/*", "oiio lcms posix"},
         {"art/decoder", "art/image", "oiio heif posix zlib"},
         {"art/drawing", "engine/* art/style art/print art/kolam art/hand art/raster art/plotter art/space", ""},
         {"art/tiles", "engine/* art/style art/print art/plotter art/drawing", ""},
-        {"art/deep", "engine/* art/style art/print art/raster art/drawing art/tiles", "tbb"},
+        {"art/deep", "engine/* art/style art/print art/raster art/drawing art/tiles", ""},
         {"art/writer",
          "engine/* art/style art/print art/vector art/raster art/plotter art/space art/relief art/image art/drawing "
          "art/tiles art/deep",
@@ -99,13 +98,13 @@ const std::vector<Room>& rooms() {
         {"art/motion", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", ""},
         {"art/cutting",
          "engine/* art/style art/print art/vector art/plotter art/image art/drawing art/tiles art/writer", ""},
-        {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", "tbb"},
+        {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", ""},
         {"art/product",
          "engine engine/* art/style art/print art/raster art/plotter art/relief art/image art/drawing art/writer "
          "art/motion art/sheet",
          ""},
         {"art", "engine engine/* art/*", ""},
-        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet art/product", "tbb json posix"},
+        {"art/gallery", "engine engine/* art art/style art/print art/image art/sheet art/product", "json posix"},
         {"art/link", "engine/*", "json"},
         {"art/reading", "engine/* art art/kolam art/image", "json pugixml"},
         {"music/scale", "engine/*", ""},
@@ -114,7 +113,7 @@ const std::vector<Room>& rooms() {
         {"music/form", "engine/* music/scale music/score music/melody", ""},
         {"music", "engine engine/* music/*", ""},
         {"music/live", "engine/* music music/score", "alsa posix"},
-        {"cli", "engine engine/* art art/* music music/*", "cli11 tbb json toml posix"},
+        {"cli", "engine engine/* art art/* music music/*", "cli11 json toml posix"},
         {"python", "engine engine/* art art/kolam music music/score", "pybind11 posix"},
         {"studio", "engine engine/* art art/* music music/*", "json"},
         {"studio/tests", "studio", ""},
@@ -290,5 +289,4 @@ TEST(Arrows, QuotedNamesStartAtTheSourceFolder) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::arrows_test

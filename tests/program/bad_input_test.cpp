@@ -6,8 +6,7 @@
 
 #include <random>
 
-namespace sikku {
-namespace {
+namespace sikku::bad_input_test {
 
 /// Of processor time, on a machine that does other things as well: what would take for ever takes longer.
 constexpr double most_seconds = sanitized ? 60 : 8;
@@ -698,5 +697,4 @@ TEST(BadInput, PicturesAreNotPatterns) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::bad_input_test

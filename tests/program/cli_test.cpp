@@ -8,8 +8,7 @@
 #include <set>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::cli_test {
 
 using Json = nlohmann::json;
 
@@ -616,5 +615,4 @@ TEST(Program, DrawsPicturesAndWindowsOfAnyOrder) {
     EXPECT_EQ(colours.status, 0) << "several pens are read from the word: " << colours.errors;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::cli_test

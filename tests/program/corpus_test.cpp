@@ -16,8 +16,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace sikku {
-namespace {
+namespace sikku::corpus_test {
 
 /// Compiled, and its word measured without a mistake?
 bool is_good(const std::string& text) {
@@ -181,5 +180,4 @@ TEST(Corpus, BadFilesAreBad) {
     for (const auto& file : pattern_files("tests/corpus/bad")) EXPECT_FALSE(is_good(contents(file))) << file;
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::corpus_test

@@ -16,8 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::docs_test {
 
 const std::filesystem::path root = SIKKU_SOURCE_DIR;
 
@@ -202,5 +201,4 @@ TEST(Docs, ManPagesAreWritten) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "sikku-manual.1"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::docs_test

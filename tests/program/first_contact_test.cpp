@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::first_contact_test {
 
 const char* const koch = "Koch {\n  Angle 6\n  Axiom F--F--F\n  F=F+F--F+F\n}\n";
 
@@ -197,5 +196,4 @@ TEST(FirstContact, ManyFilesAreWrittenTogether) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "blocked"), {}), 1);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::first_contact_test

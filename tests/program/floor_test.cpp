@@ -17,8 +17,7 @@
 #include <set>
 #include <span>
 
-namespace sikku {
-namespace {
+namespace sikku::floor_test {
 
 const char* const koch = "title: Koch\naxiom: F\nF --> F-F++F-F\nangle factor: 6\nderivation length: 3\n";
 
@@ -257,5 +256,4 @@ TEST(Floor, EveryOptionOfTheTablesIsInTheHelp) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::floor_test

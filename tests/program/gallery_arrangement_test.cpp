@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_arrangement_test {
 
 class GalleryArrangement : public GalleryTest {
 protected:
@@ -126,5 +125,4 @@ TEST_F(GalleryArrangement, RefusesWhatItCannotHave) {
     EXPECT_TRUE(has(gallery({"pieces/piece.toml", "-o", "two"}).errors, "standard input"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_arrangement_test

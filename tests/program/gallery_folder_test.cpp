@@ -11,8 +11,7 @@
 #include <iterator>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -209,5 +208,4 @@ TEST_F(GalleryFolderTest, ProfilesOfInksBelongToTheJob) {
     EXPECT_TRUE(has(gallery(asked).errors, "0 made"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_folder_test

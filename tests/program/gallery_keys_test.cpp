@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_keys_test {
 
 const GalleryKeys& keys() {
     static const GalleryKeys known({&prints(), &scores()});

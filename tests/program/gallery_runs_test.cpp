@@ -12,8 +12,7 @@
 #include <set>
 #include <thread>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_runs_test {
 
 namespace fs = std::filesystem;
 
@@ -151,5 +150,4 @@ TEST_F(GalleryRunsTest, RunsThatAreKilledAgainAndAgainGetOn) {
     EXPECT_EQ(tree(folder / "out").size(), 5U) << "nothing is left";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_runs_test

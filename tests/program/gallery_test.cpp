@@ -14,8 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::gallery_test {
 
 TEST_F(GalleryTest, MakesWhatTheFileSays) {
     const Outcome outcome = small("out");
@@ -610,5 +609,4 @@ TEST_F(GalleryTest, ForecastsTellWhatWillFail) {
     EXPECT_FALSE(has(gallery({"hilbert", "--dry-run"}).output, "may be refused"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_test

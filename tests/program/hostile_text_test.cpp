@@ -11,8 +11,7 @@
 #include <regex>
 #include <sstream>
 
-namespace sikku {
-namespace {
+namespace sikku::hostile_text_test {
 
 const std::string pattern = SIKKU_SOURCE_DIR "/tests/corpus/good/hostile-title.lsys";
 
@@ -217,5 +216,4 @@ TEST_F(HostileTitle, InASlurmScriptIsAWord) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::hostile_text_test

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace sikku {
-namespace {
+namespace sikku::import_program_test {
 
 using namespace import_tools;
 
@@ -143,5 +142,4 @@ TEST(ImportCorpus, EveryFileGoesThroughTheFuzzTarget) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::import_program_test

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::kolam_grid_test {
 
 class KolamGrid : public ::testing::Test {
 protected:
@@ -192,5 +191,4 @@ TEST(KolamCommand, TellsInWordsAndAsJson) {
     EXPECT_TRUE(has(large.errors, "budget"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::kolam_grid_test

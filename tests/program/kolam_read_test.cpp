@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::kolam_read_test {
 
 class KolamRead : public ::testing::Test {
 protected:
@@ -177,5 +176,4 @@ TEST_F(KolamRead, MistakesAreNamed) {
     expect({"-o", "a.lsys"}, 2, "-o needs PATTERN");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::kolam_read_test

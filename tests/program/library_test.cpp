@@ -84,5 +84,4 @@ TEST(Library, AMonitorStopsTheWork) {
     EXPECT_TRUE(memory.outputs().empty());
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::library_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::limits_test {
 
 /// Processor time on a machine that does other things as well.
 constexpr double most_seconds = sanitized ? 60 : 5;
@@ -349,5 +348,4 @@ TEST(Limits, OfDronesGenerationsAndWindows) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::limits_test

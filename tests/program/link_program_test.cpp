@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::link_program_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -269,5 +268,4 @@ TEST(LinkProgram, TheStudioReadsItsLinks) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::link_program_test

@@ -21,8 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::live_test {
 
 /// A pair of a device and its other end.
 class Device {
@@ -395,5 +394,4 @@ TEST(Live, NeedsASequencer) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::live_test

@@ -9,8 +9,7 @@
 
 #include <cstdlib>
 
-namespace sikku {
-namespace {
+namespace sikku::low_limits_test {
 
 bool can_run_as_nobody() {
     const std::string command = "setpriv --reuid=65534 --regid=65534 --clear-groups '" + std::string(SIKKU_PROGRAM) +
@@ -126,5 +125,4 @@ TEST(StartableThreads, AreThoseAskedForWhereNothingLimitsThem) {
     EXPECT_EQ(startable_threads(20), 20);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::low_limits_test

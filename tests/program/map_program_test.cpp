@@ -7,8 +7,7 @@
 
 #include <filesystem>
 
-namespace sikku {
-namespace {
+namespace sikku::map_program_test {
 
 TEST(MapCommands, DerivePrintsEdgesAndCells) {
     const ScratchFolder folder;
@@ -70,5 +69,4 @@ TEST(MapCommands, CheckReportsEveryError) {
     EXPECT_EQ(run({"check", SIKKU_SOURCE_DIR "/tests/corpus/good/map.lsys"}).status, 0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::map_program_test

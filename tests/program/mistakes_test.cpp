@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::mistakes_test {
 
 struct Mistake {
     std::vector<std::string> words;
@@ -191,5 +190,4 @@ TEST_F(Mistakes, NumbersOfManyDigitsAreRounded) {
     expect_refused({{"draw", "hilbert", "-n", "1000", "-o", "m.svg"}, "sikku: a word of about 10^602 symbols"}, 1);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::mistakes_test

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::play_test {
 
 /// Plays `pattern` into a file that must not be there after a failure.
 Outcome played(const std::string& pattern, std::vector<std::string> arguments, const std::string& name = "x.mid") {
@@ -164,5 +163,4 @@ TEST(Play, ScalesOfFiles) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("y.mid")));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::play_test

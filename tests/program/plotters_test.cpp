@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::plotters_test {
 
 TEST(Plotters, AreListedAndPrinted) {
     const Outcome list = run({"plotters"});
@@ -105,5 +104,4 @@ TEST(Plotters, AFileBelongsToTheJobsOfAGallery) {
     EXPECT_TRUE(has(run(asked).errors, "1 made"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::plotters_test

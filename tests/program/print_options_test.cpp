@@ -6,8 +6,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-namespace sikku {
-namespace {
+namespace sikku::print_options_test {
 
 class PrintOptions : public ::testing::Test {
 protected:
@@ -142,5 +141,4 @@ TEST(BlankPicture, IsReportedWithItsRemedy) {
     EXPECT_EQ(draw({"hilbert", "-n", "60", "--window", window}), "");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::print_options_test

@@ -19,8 +19,7 @@
 #include <thread>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::provenance_test {
 
 using namespace std::string_literals;
 
@@ -374,5 +373,4 @@ TEST_F(ShowBombs, PatternsDevicesAndPipes) {
     writer.join();
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::provenance_test

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::sheet_test {
 
 class SheetProgram : public ::testing::Test {
 protected:
@@ -121,5 +120,4 @@ TEST_F(SheetProgram, BordersOfPatternsThatAreNotDrawnAreReported) {
     EXPECT_FALSE(has(errors({"--window", "0,0,1,1", "--border", "none", "-o", "w.svg"}), "border"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::sheet_test

@@ -11,8 +11,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace sikku {
-namespace {
+namespace sikku::signals_test {
 
 /// Says yes when it is asked for the n-th time.
 struct StopAfter {
@@ -180,5 +179,4 @@ TEST(Signals, LongWorkEndsSoonAndLeavesNothing) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::signals_test

@@ -10,8 +10,7 @@
 #include <system_error>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::studio_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -164,5 +163,4 @@ TEST_F(Studio, XdgOpenOpensIt) {
     EXPECT_EQ(studio({}, ":0").output, address(page_) + '\n');
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::studio_test

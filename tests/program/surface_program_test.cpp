@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::surface_program_test {
 
 const std::filesystem::path corpus = std::filesystem::path(SIKKU_SOURCE_DIR) / "tests/corpus/surfaces";
 
@@ -110,5 +109,4 @@ TEST(SurfaceProgram, GalleriesAreMadeAgainWhenAFileChanges) {
     EXPECT_NE(contents(folder / "out/leafy-big.svg"), before);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::surface_program_test

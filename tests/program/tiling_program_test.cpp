@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::tiling_program_test {
 
 using Json = nlohmann::json;
 
@@ -130,5 +129,4 @@ TEST(TilingCommand, RefusesInOneLine) {
     EXPECT_EQ(run({"tiling", "no-such-pattern"}).status, 2);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tiling_program_test

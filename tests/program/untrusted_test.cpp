@@ -10,8 +10,7 @@
 #include <functional>
 #include <tuple>
 
-namespace sikku {
-namespace {
+namespace sikku::untrusted_test {
 
 constexpr double most_seconds = 8;  // of processor time; the faults tested here take much longer
 constexpr long most_kilobytes = 200'000;
@@ -192,5 +191,4 @@ TEST(Untrusted, ADefaultFolderThatIsALinkIsRefused) {
     EXPECT_EQ(run({"-q", "gallery", "koch-island", "-o", "gallery"}, {.folder = folder.path()}).status, 0);
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::untrusted_test

@@ -7,8 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace sikku {
-namespace {
+namespace sikku::bridge_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -283,5 +282,4 @@ TEST(Bridge, WarnsOfLettersThatDrawNothing) {
     EXPECT_TRUE(has(pasted.dump(), "write 'F --> F+F'"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::bridge_test
