@@ -16,14 +16,14 @@ PixelGrid read_ppm(const std::filesystem::path& path) {
 }
 
 std::string pdf_complaints(const std::filesystem::path& pdf) {
-    const ToolOutcome outcome = run("qpdf --check '" + pdf.string() + "'");
+    const ToolOutcome outcome = run_tool("qpdf --check '" + pdf.string() + "'");
     return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
 }
 
 std::string plain_text(const std::filesystem::path& pdf) {
     EXPECT_EQ(pdf_complaints(pdf), "");
     const std::string plain = pdf.string() + ".plain";
-    const ToolOutcome outcome = run("qpdf --stream-data=uncompress '" + pdf.string() + "' '" + plain + "'");
+    const ToolOutcome outcome = run_tool("qpdf --stream-data=uncompress '" + pdf.string() + "' '" + plain + "'");
     EXPECT_TRUE(outcome.ok) << outcome.text;
     return contents(plain);
 }

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::growth_test {
 
 const std::string bush =
     "title: Bush\nangle increment: 22.5\nturn: left\nsymbols: A S L\naxiom: A\nderivation length: 4\n"
@@ -63,7 +62,7 @@ TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     ASSERT_EQ(draw("bush", {{"n", "4"}, {"dpi", "40"}}, "alone.png").error, "");
     const ScratchFolder folder;
     const auto pixels = [&](const std::string& name) {
-        const std::string told = run("iinfo --hash '" + folder.write(name, files_.at(name)) + "'").text;
+        const std::string told = run_tool("iinfo --hash '" + folder.write(name, files_.at(name)) + "'").text;
         const std::size_t hash = told.find("SHA-1: ");
         return hash == std::string::npos ? std::string() : told.substr(hash);
     };
@@ -194,5 +193,4 @@ TEST_F(Growth, WhatCannotBeDrawnIsRefused) {
     }
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::growth_test

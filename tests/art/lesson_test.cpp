@@ -97,8 +97,8 @@ TEST_F(Lesson, PdfHasAPageForEachStep) {
     NEEDS("pdftoppm");
     NEEDS("qpdf");
     const std::string pdf = folder_.write("lesson.pdf", make(snake, "pdf").at("lesson.pdf"));
-    EXPECT_TRUE(run("qpdf --check '" + pdf + "'").ok);
-    const std::string info = run("pdfinfo '" + pdf + "'").text;
+    EXPECT_TRUE(run_tool("qpdf --check '" + pdf + "'").ok);
+    const std::string info = run_tool("pdfinfo '" + pdf + "'").text;
     const int pages = std::stoi(info.substr(info.find("Pages:") + 6));
     EXPECT_GE(pages, 6);
     ASSERT_TRUE(run_tool("pdftoppm -r 40 '" + pdf + "' '" + pdf + ".p'").ok);
@@ -130,8 +130,8 @@ TEST_F(Lesson, SvgShowsOneStepAfterTheOther) {
     NEEDS("rsvg-convert");
     const std::string svg = make(snake, "svg").at("lesson.svg");
     const std::string file = folder_.write("lesson.svg", svg);
-    EXPECT_TRUE(run("xmllint --noout '" + file + "'").ok);
-    EXPECT_TRUE(run("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
+    EXPECT_TRUE(run_tool("xmllint --noout '" + file + "'").ok);
+    EXPECT_TRUE(run_tool("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
     const std::size_t steps = count_of(svg, "class=\"s\"");
     EXPECT_GE(steps, 5u);
     EXPECT_EQ(count_of(svg, "class=\"w\""), 1u);

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-namespace sikku {
-namespace {
+namespace sikku::lettering_test {
 
 /// Everything that was written, flattened to its control points.
 class Written : public PathSink {

@@ -191,7 +191,7 @@ TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
         print.made = "sikku 0.1.0, -n 4; " + title;
         const auto path = write(print, draw_sampler);
         EXPECT_EQ(pdf_complaints(path), "");
-        const std::string information = run("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
+        const std::string information = run_tool("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
         EXPECT_TRUE(has(information, title + "\n"));
         EXPECT_TRUE(has(information, print.made + "\n"));
         EXPECT_TRUE(has(information, "Sikku"));

@@ -113,8 +113,8 @@ TEST_F(PdfX, TheProfileIsTheOneGiven) {
     std::smatch match;
     ASSERT_TRUE(std::regex_search(text, match, reference));
     const std::string icc = folder_.file("out.icc");
-    ASSERT_TRUE(run("qpdf --show-object=" + match[1].str() + " --filtered-stream-data '" + path.string() +
-                    ".plain' > '" + icc + "'")
+    ASSERT_TRUE(run_tool("qpdf --show-object=" + match[1].str() + " --filtered-stream-data '" + path.string() +
+                         ".plain' > '" + icc + "'")
                     .ok);
     EXPECT_EQ(contents(icc), contents(profile));
 }

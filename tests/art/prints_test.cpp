@@ -17,8 +17,7 @@
 #include <set>
 #include <tuple>
 
-namespace sikku {
-namespace {
+namespace sikku::prints_test {
 
 MadeWork drawn(const std::string& pattern, const std::string& format, const OptionValues& values) {
     return made_work(prints(), load(pattern), format, values);
@@ -142,7 +141,7 @@ TEST(Prints, AnAnimationTakesItsTimeAndIsWholeWithoutIt) {
     const ScratchFolder folder;
     const auto picture = [&](const OptionValues& values) {
         const std::string file = folder.write("print.svg", draw(load("tree-in-voices"), "svg", values));
-        EXPECT_TRUE(run("rsvg-convert " + file + " -o " + file + ".png").ok);
+        EXPECT_TRUE(run_tool("rsvg-convert " + file + " -o " + file + ".png").ok);
         return contents(file + ".png");
     };
     EXPECT_EQ(picture({{"n", "3"}, {"animate", "12"}}), picture({{"n", "3"}}));
@@ -338,5 +337,4 @@ TEST(Prints, NamesOfTilesNeedTiles) {
     EXPECT_FALSE(has(empty, warning));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::prints_test

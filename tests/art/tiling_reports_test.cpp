@@ -13,8 +13,7 @@
 #include <set>
 #include <utility>
 
-namespace sikku {
-namespace {
+namespace sikku::tiling_reports_test {
 
 using Json = nlohmann::json;
 using Point = std::pair<double, double>;
@@ -271,5 +270,4 @@ TEST(TilingReports, ListsOriginsOfFaults) {
     EXPECT_TRUE(tiling(pattern("chair", 1))["violation_list"].empty());
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::tiling_reports_test

@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::foreign_text_test {
 
 using reference::diagnostics_of;
 using reference::expect_mistakes;

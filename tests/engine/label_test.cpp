@@ -10,8 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::label_test {
 
 using reference::expect_mistakes;
 

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::measurement_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -127,5 +126,4 @@ TEST(Measurement, OfMaps) {
                     "the largest derivation length that fits is"));
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::measurement_test

@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace sikku {
-namespace {
+namespace sikku::play_test {
 
 const std::string hilbert = "axiom: X\nderivation length: 3\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\n";
 const std::vector<std::string> scores_in_lines = {"abc", "csd", "sco", "strudel", "ly"};
@@ -206,5 +205,4 @@ TEST(Play, LongScoresAndPatternsWithoutMelodyAreRefused) {
     EXPECT_EQ(played(branches + "\n", {}).error, "") << "on one channel";
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::play_test

@@ -182,5 +182,4 @@ TEST(GalleryMistakes, HavePlaces) {
     refused_line("{\"pattern\":\"hilbert\",\"n\":1,\"n\":2}", "bad.jsonl:1:28: duplicate key 'n'");
 }
 
-}  // namespace
-}  // namespace sikku
+}  // namespace sikku::gallery_keys_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sikku {
-namespace {
+namespace sikku::library_test {
 
 Document curve() {
     return parse("curve", "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 3\ndefine width = 2\n");

@@ -131,9 +131,9 @@ TEST(Show, OtherProgramsAgree) {
     for (const std::string format : {"png", "tif", "jpg", "exr"}) {
         const std::string file = folder.write("a." + format, draw(parse("x", text), format, {{"dpi", "10"}}));
         const std::string tag = format == "png" ? "Description" : format == "exr" ? "Comments" : "ImageDescription";
-        EXPECT_EQ(run("exiftool -b -" + tag + " '" + file + "'").text, text) << format;
+        EXPECT_EQ(run_tool("exiftool -b -" + tag + " '" + file + "'").text, text) << format;
         EXPECT_EQ(provenance_of(file).value().pattern, text) << format;
-        const std::string made = run("exiftool -b -Software '" + file + "'").text;
+        const std::string made = run_tool("exiftool -b -Software '" + file + "'").text;
         EXPECT_EQ(provenance_of(file).value().made, made) << format;
     }
 }
