@@ -81,8 +81,8 @@ TEST_F(GalleryTest, PatternsByGlobKindFolderAndFile) {
     EXPECT_TRUE(has(gallery({"kolams/*", "--list"}).output, "snake-kolam"));
     EXPECT_EQ(gallery({"kolams", "--list"}).output, gallery({"kolams/*", "--list"}).output);
     std::filesystem::create_directories(folder / "mine/deep");
-    folder.write("mine/a.lsys", square);
-    folder.write("mine/deep/b.lsys", square);
+    folder.write("mine/a.lsys", square_text);
+    folder.write("mine/deep/b.lsys", square_text);
     EXPECT_EQ(lines_of(gallery({"mine", "--list"}).output), 2U);
     EXPECT_EQ(lines_of(gallery({"mine/*.lsys", "--list"}).output), 1U);
     EXPECT_EQ(lines_of(gallery({"mine/a.lsys", "mine", "--list"}).output), 2U) << "each only once";
@@ -121,12 +121,12 @@ TEST_F(GalleryTest, ResumesAndRedoesWhatChanged) {
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     EXPECT_TRUE(has(small("out", {"--only", "square-n2"}).errors, "2 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
-    folder.write("square.lsys", square + "stroke: 1mm #123\n");
+    folder.write("square.lsys", square_text + "stroke: 1mm #123\n");
     EXPECT_TRUE(has(small("out").errors, "19 up to date"));
     EXPECT_EQ(std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg"), made_at);
-    folder.write("square.lsys", square + "stroke: 1mm #456\n");
+    folder.write("square.lsys", square_text + "stroke: 1mm #456\n");
     EXPECT_TRUE(has(small("out").errors, "19 up to date")) << "files of the same size";
-    folder.write("square.lsys", square);
+    folder.write("square.lsys", square_text);
     EXPECT_TRUE(has(small("out").errors, "8 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     EXPECT_TRUE(has(small("out", {"--force"}).errors, "27 made"));
@@ -563,8 +563,8 @@ TEST_F(GalleryTest, FoldersThatAreCalledAsOthers) {
     ASSERT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
     EXPECT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
     std::filesystem::create_directories(folder / "a[b]*");
-    folder.write("a[b]*/x.lsys", square);
-    folder.write("a[b]*/y[1].lsys", square);
+    folder.write("a[b]*/x.lsys", square_text);
+    folder.write("a[b]*/y[1].lsys", square_text);
     EXPECT_EQ(lines_of(gallery({"a[b]*", "--list"}).output), 2U);
     EXPECT_EQ(lines_of(gallery({"a[b]*/y[1].lsys", "--list"}).output), 1U);
     folder.write("a[b]*/g.toml", "pattern = '*.lsys'\n");
