@@ -304,9 +304,7 @@ TEST_P(KolamFamilies, AreOneStroke) {
         const Grammar grammar = grammar_of(GetParam(), n);
         Strokes strokes;
         const auto turtle = Turtle::drawing(grammar, strokes, true);
-        DerivationOptions options;
-        options.interpreted = true;
-        derive(grammar, *turtle, options);
+        derive(grammar, *turtle, reference::interpreting());
         EXPECT_EQ(strokes.begun, 1) << n;
         EXPECT_EQ(strokes.closed, 1) << n;
         EXPECT_EQ(static_cast<std::int64_t>(strokes.points), value(GetParam().steps, n)) << n;

@@ -207,8 +207,7 @@ TEST_F(Pdf, OthersDrawItAsItIsMeant) {
     print.style.palette[2].alpha = 128;
     const auto path = write(print, [](PathSink& sink) {
         draw_sampler(sink);
-        Pen blue;
-        blue.colour = 2;
+        Pen blue{.colour = 2};
         sink.begin_stroke({55, 40}, blue);
         sink.lines(Points{{85, 40}});
         sink.end_stroke(false);

@@ -35,9 +35,7 @@ struct Outlines : PolygonSink {
 TileOutlines outlines(const std::string& tiling, int n) {
     const Grammar grammar = grammar_of(tiling, n);
     Outlines result;
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *Turtle::drawing(grammar, result, false), options);
+    derive(grammar, *Turtle::drawing(grammar, result, false), reference::interpreting());
     return result.tiles;
 }
 

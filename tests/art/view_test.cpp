@@ -229,12 +229,10 @@ TEST(View, SplinesThroughAWindowAreThoseOfTheWholeDrawing) {
     for (const std::string& pattern : patterns) {
         const Grammar grammar = grammar_of(pattern);
         StrokeCensus census;
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *Turtle::drawing(grammar, census, true), interpreted);
+        derive(grammar, *Turtle::drawing(grammar, census, true), reference::interpreting());
         BezierSink whole;
         SplineSink spline(whole, census.closed);
-        derive(grammar, *Turtle::drawing(grammar, spline, true), interpreted);
+        derive(grammar, *Turtle::drawing(grammar, spline, true), reference::interpreting());
         const auto folded = fold(grammar);
         Box box;
         for (const glm::dvec2 corner : folded.value().box_hull) box.add(corner);
@@ -383,9 +381,7 @@ Picture picture_of(const Grammar& grammar, int side, double pen, bool look) {
         picture.report = view->read(sight, *raster, 1e9, {});
     } else {
         const auto turtle = Turtle::drawing(grammar, *raster, false);
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *turtle, interpreted);
+        derive(grammar, *turtle, reference::interpreting());
     }
     raster->render(
         1, [&](int, int, std::span<const std::uint8_t> rows) { picture.pixels.append(rows.begin(), rows.end()); });

@@ -47,9 +47,7 @@ LabelRecorder drawn(const std::string& text, bool moves_draw = false) {
     const Grammar grammar = reference::grammar_of(text);
     LabelRecorder recorder;
     const auto turtle = Turtle::drawing(grammar, recorder, moves_draw);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, reference::interpreting());
     return recorder;
 }
 

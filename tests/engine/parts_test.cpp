@@ -55,9 +55,7 @@ TEST(Parts, TellOfEveryPatternWhatWalkingTells) {
         const DrawnPart<double>& whole = parts->whole();
         MassSink mass;
         const auto turtle = Turtle::drawing(grammar, mass, false);
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *turtle, interpreted);
+        derive(grammar, *turtle, {.interpreted = true});
         const double size = 1e-9 * (1 + whole.extent);
         EXPECT_NEAR(whole.ink, mass.length, 1e-9 * mass.length);
         const glm::dvec2 centre = mass.sum / mass.length;

@@ -270,9 +270,7 @@ TEST(Glissando, WhatCannotSlideIsReported) {
     EXPECT_THROW(play(parse("g.lsys", steps), "mid", {{"tuning", "mts"}}), SettingError);
     EXPECT_TRUE(has(made_work(scores(), parse("g.lsys", steps), "strudel").remarks, "do not slide"));
     // The writer refuses what its options cannot bend.
-    MidiScore score;
-    score.head = midi_head();
-    score.notes = {midi_note(0, 480, 60)};
+    MidiScore score{.head = midi_head(), .notes = {midi_note(0, 480, 60)}};
     score.notes.front().glide = {240, 2, 0};
     score.end = 480;
     EXPECT_THROW(make_midi(score), ScoreError);

@@ -28,13 +28,7 @@ public:
 
 Note note(std::int64_t onset, std::int64_t duration, double key, glm::dvec2 from, glm::dvec2 to,
           std::int16_t voice = 0) {
-    Note result;
-    result.onset = onset;
-    result.duration = duration;
-    result.key = key;
-    result.from = from;
-    result.to = to;
-    result.voice = voice;
+    Note result{.onset = onset, .duration = duration, .key = key, .voice = voice, .from = from, .to = to};
     return result;
 }
 

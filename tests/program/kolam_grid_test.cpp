@@ -16,8 +16,7 @@ class KolamGrid : public ::testing::Test {
 protected:
     Outcome kolam(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "kolam");
-        Surroundings here;
-        here.folder = folder_.path();
+        Surroundings here{.folder = folder_.path()};
         return run(arguments, here);
     }
     ScratchFolder folder_;
