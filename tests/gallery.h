@@ -44,7 +44,7 @@ inline std::size_t lines_of(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-inline const std::string square = "axiom: F-F-F-F\nderivation length: 2\nF --> F-F+F+FF-F-F+F\n";
+inline const std::string square_text = "axiom: F-F-F-F\nderivation length: 2\nF --> F-F+F+FF-F-F+F\n";
 
 inline const std::string small_gallery =
     "size = '50x50mm'\n"
@@ -68,7 +68,7 @@ constexpr std::size_t small_count = 8 + 16 + 3;
 class GalleryTest : public ::testing::Test {
 protected:
     GalleryTest() {
-        folder.write("square.lsys", square);
+        folder.write("square.lsys", square_text);
         folder.write("gallery.toml", small_gallery);
     }
     Outcome gallery(std::vector<std::string> arguments,

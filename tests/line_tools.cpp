@@ -22,17 +22,14 @@ CurvedLines joined(const std::vector<CurvedLines>& parts) {
 
 Drawn drawn(const Grammar& grammar, bool is_spline) {
     Drawn result;
-    KolamOptions options;
-    options.spline = is_spline;
+    KolamOptions options{.spline = is_spline};
     result.examination = examine_kolam(grammar, options);
     CurveReader reader([](const Pen&) { return true; }, 1'000'000);
     StrokeCensus census;
     SplineSink spline(reader, census.closed);
-    DerivationOptions derivation;
-    derivation.interpreted = true;
-    derive(grammar, *Turtle::drawing(grammar, census, is_spline), derivation);
+    derive(grammar, *Turtle::drawing(grammar, census, is_spline), {.interpreted = true});
     PathSink& sink = is_spline ? static_cast<PathSink&>(spline) : reader;
-    derive(grammar, *Turtle::drawing(grammar, sink, is_spline), derivation);
+    derive(grammar, *Turtle::drawing(grammar, sink, is_spline), {.interpreted = true});
     result.lines = reader.finish(result.examination);
     return result;
 }

@@ -124,13 +124,12 @@ private:
     }
 
     void begin(const MidiEvent& event, const MidiChannel& channel) {
-        MidiNote note;
-        note.onset = event.tick;
-        note.key = byte(event, 0);
-        note.velocity = byte(event, 1);
-        note.channel = event.status & 0x0F;
-        note.track = event.track;
-        note.bend = channel.bend * channel.bend_range / 8192.0;
+        MidiNote note{.onset = event.tick,
+                      .key = byte(event, 0),
+                      .bend = channel.bend * channel.bend_range / 8192.0,
+                      .velocity = byte(event, 1),
+                      .channel = event.status & 0x0F,
+                      .track = event.track};
         if (const auto found = tunings_.find({channel.tuning, note.key}); found != tunings_.end()) {
             note.bend += found->second - note.key;
         }

@@ -40,12 +40,11 @@ ScoreHead midi_head(int voices) {
 }
 
 Note midi_note(std::int64_t onset, std::int64_t duration, double key, int voice, int velocity) {
-    Note note;
-    note.onset = onset;
-    note.duration = duration;
-    note.key = key;
-    note.voice = static_cast<std::int16_t>(voice);
-    note.velocity = static_cast<std::uint8_t>(velocity);
+    Note note{.onset = onset,
+              .duration = duration,
+              .key = key,
+              .voice = static_cast<std::int16_t>(voice),
+              .velocity = static_cast<std::uint8_t>(velocity)};
     return note;
 }
 

@@ -41,10 +41,7 @@ TestScore line(const Meter& meter, const std::vector<std::int64_t>& lengths, dou
     score.head.parts.push_back(plain_part("Voice", 1));
     for (const std::int64_t length : lengths) {
         if (length > 0) {
-            Note note;
-            note.onset = score.end;
-            note.duration = length;
-            note.key = key;
+            Note note{.onset = score.end, .duration = length, .key = key};
             score.notes.push_back(note);
         }
         score.end += std::abs(length);
@@ -95,11 +92,11 @@ TestScore random_score(unsigned seed, bool quarter_tones) {
             for (std::size_t n = 0; n < count; ++n) {
                 const std::int64_t length = unit * static_cast<std::int64_t>(1 + below(n % 3 ? 3 : 9));
                 if (below(5) > 0) {
-                    Note note;
-                    note.onset = here;
-                    note.duration = length;
-                    note.key = low + static_cast<double>(below(range)) + (quarter_tones && below(3) == 0 ? 0.5 : 0.0);
-                    note.voice = voice;
+                    Note note{
+                        .onset = here,
+                        .duration = length,
+                        .key = low + static_cast<double>(below(range)) + (quarter_tones && below(3) == 0 ? 0.5 : 0.0),
+                        .voice = voice};
                     score.notes.push_back(note);
                 }
                 here += length;

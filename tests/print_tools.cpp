@@ -15,6 +15,19 @@ PixelGrid read_ppm(const std::filesystem::path& path) {
     return pixels;
 }
 
+std::string pdf_complaints(const std::filesystem::path& pdf) {
+    const ToolOutcome outcome = run_tool("qpdf --check '" + pdf.string() + "'");
+    return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
+}
+
+std::string plain_text(const std::filesystem::path& pdf) {
+    EXPECT_EQ(pdf_complaints(pdf), "");
+    const std::string plain = pdf.string() + ".plain";
+    const ToolOutcome outcome = run_tool("qpdf --stream-data=uncompress '" + pdf.string() + "' '" + plain + "'");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    return contents(plain);
+}
+
 PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi) {
     const std::string stem = pdf.string() + ".page";
     const ToolOutcome outcome =
@@ -41,8 +54,7 @@ Print plain_print() {
     Box box;
     box.add({0.0, 0.0});
     box.add({100.0, 60.0});
-    PlacementOptions options;
-    options.step = 1.0;
+    PlacementOptions options{.step = 1.0};
     print.placement = place(box, print.page, options, 0.0, 0.0);
     print.title = "A test";
     print.pattern = "axiom: F\n";
@@ -61,10 +73,8 @@ std::optional<Provenance> provenance_of(const std::filesystem::path& file) {
 void draw_sampler(PathSink& sink) {
     using Points = std::vector<glm::dvec2>;
     const Pen black;
-    Pen red;
-    red.colour = 1;
-    Pen blue;
-    blue.colour = 2;
+    Pen red{.colour = 1};
+    Pen blue{.colour = 2};
     sink.begin_stroke({10, 10}, red);
     sink.lines(Points{{90, 10}});
     sink.disc({50, 10}, 3.0, blue);

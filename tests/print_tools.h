@@ -35,6 +35,12 @@ struct PixelGrid {
 };
 PixelGrid read_ppm(const std::filesystem::path& path);
 
+/// What qpdf finds wrong with a PDF.
+std::string pdf_complaints(const std::filesystem::path& pdf);
+
+/// A PDF, found sound by qpdf, with its streams uncompressed.
+std::string plain_text(const std::filesystem::path& pdf);
+
 /// The first page of a PDF.
 PixelGrid render_pdf(const std::filesystem::path& pdf, int dpi);
 

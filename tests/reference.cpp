@@ -90,9 +90,7 @@ std::string derived_text(const std::string& text, bool interpreted) {
 
 Survey survey_of(const Grammar& grammar) {
     const auto turtle = Turtle::surveying(grammar);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, {.interpreted = true});
     return turtle->survey();
 }
 

@@ -4,13 +4,11 @@
 #include "art/prints.h"
 #include "tests/checks.h"
 #include "tests/files.h"
-#include "tests/tools.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>

@@ -9,8 +9,8 @@
 #include "art/prints.h"
 #include "art/product/draw_settings.h"
 #include "engine/base/output.h"
-#include "tests/checks.h"
 #include "tests/plot_tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
@@ -163,11 +163,7 @@ TEST(ClearHatch, WaysToHolesAreNotInk) {
 
 /// The facts and warnings about a plot, a line each.
 std::string draw_report(const Document& document, const OptionValues& values) {
-    MemoryDestination memory;
-    const Made made = prints().plan(document, "gcode", values, {})->make(memory, "plot.gcode", {}, 1);
-    std::string text;
-    for (const Remark& remark : made.remarks) text += remark.text + "\n";
-    return text;
+    return remarks_of(remarks_about(prints(), document, "gcode", values));
 }
 
 /// Two loops around dots, an open line across one of them, and the dots.

@@ -7,9 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 

@@ -8,7 +8,6 @@
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -190,9 +189,7 @@ TEST(Profile, SlidesUntilOutlinesTouch) {
 }
 
 TEST(CuttingPlan, LaysEveryPieceOnceOnSheetsOfItsColour) {
-    CuttingOptions options;
-    options.sheet = {297, 420, 10};
-    options.kerf = 0.2;
+    CuttingOptions options{.sheet = {297, 420, 10}, .kerf = 0.2};
     for (const bool grain : {false, true}) {
         options.grain = grain;
         for (const std::string tiling : {"hat", "penrose-rhombs", "snub-square", "pinwheel"}) {
@@ -220,8 +217,7 @@ TEST(CuttingPlan, LaysEveryPieceOnceOnSheetsOfItsColour) {
 }
 
 TEST(CuttingPlan, ManyPiecesNeedFewDifferentSheets) {
-    CuttingOptions options;
-    options.sheet = {297, 420, 10};
+    CuttingOptions options{.sheet = {297, 420, 10}};
     std::vector<CutKind> kinds = kinds_of("chair", "2", 10);
     for (CutKind& kind : kinds) kind.pieces = 1'000'000;
     const CuttingPlan plan = plan_cutting(kinds, options, {});
@@ -230,9 +226,7 @@ TEST(CuttingPlan, ManyPiecesNeedFewDifferentSheets) {
 }
 
 TEST(CuttingPlan, NeighboursKeepTheirGap) {
-    CuttingOptions options;
-    options.sheet = {200, 200, 5};
-    options.gap = 3;
+    CuttingOptions options{.sheet = {200, 200, 5}, .gap = 3};
     const CuttingPlan plan = plan_cutting(kinds_of("sphinx", "2", 8), options, {});
     for (const CuttingSheet& sheet : plan.sheets) {
         std::vector<Polygon> grown;
@@ -247,8 +241,7 @@ TEST(CuttingPlan, NeighboursKeepTheirGap) {
 }
 
 TEST(CuttingPlan, RefusesPiecesThatDoNotFit) {
-    CuttingOptions options;
-    options.sheet = {100, 80, 10};
+    CuttingOptions options{.sheet = {100, 80, 10}};
     EXPECT_EQ(error_of<std::runtime_error>([&] { plan_cutting(kinds_of("chair", "1", 45), options, {}); }),
               "piece A needs 90.0 x 90.0 mm, but the sheets are 80 x 60 mm within their margins");
     EXPECT_THROW(plan_cutting({}, options, {}), std::runtime_error);
@@ -259,9 +252,7 @@ TEST(CuttingPlan, RefusesPiecesThatDoNotFit) {
 }
 
 TEST(CuttingSheets, FilesAppearInAllFormats) {
-    CuttingOptions options;
-    options.sheet = {120, 90, 8};
-    options.seam = 2;
+    CuttingOptions options{.sheet = {120, 90, 8}, .seam = 2};
     const CuttingPlan plan = plan_cutting(kinds_of("penrose-rhombs", "2", 12), options, {});
     ASSERT_GT(plan.sheets.size(), 1U);
     const std::vector<std::string> materials(plan.sheets.size(), "red");

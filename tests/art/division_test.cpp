@@ -12,7 +12,6 @@
 #include <pugixml.hpp>
 
 #include <cmath>
-#include <map>
 #include <regex>
 #include <set>
 #include <string>

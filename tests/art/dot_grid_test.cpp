@@ -19,7 +19,6 @@
 #include <numeric>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace sikku::dot_grid_test {

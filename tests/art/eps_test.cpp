@@ -1,17 +1,15 @@
 // EPS: structure, and the same picture as the PDF in an interpreter of PostScript.
 #include "art/prints.h"
 #include "engine/language/document.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace sikku::eps_test {
 
@@ -84,14 +82,10 @@ TEST_F(Eps, MixesTranslucentColours) {
     const Document document = parse("square.lsys",
                                     "angle factor: 4\nderivation length: 0\naxiom: {F+F+F+F}\nstroke: none\n"
                                     "ground: white\nfill: #ff000080\n");
-    MemoryDestination memory;
-    const Made made = prints().plan(document, "eps", {})->make(memory, "print.eps", {});
-    const std::string eps = memory.outputs().begin()->second;
+    const MadeWork made = made_work(prints(), document, "eps");
     // Half of red and half of white.
-    EXPECT_TRUE(has(eps, "\n1 0.498 0.498 k\n"));
-    bool warns = false;
-    for (const Remark& remark : made.remarks) warns = warns || remark.text.find("an EPS has no opacity") == 0;
-    EXPECT_TRUE(warns);
+    EXPECT_TRUE(has(made.bytes(), "\n1 0.498 0.498 k\n"));
+    EXPECT_TRUE(has(made.remarks, "warning: an EPS has no opacity"));
 }
 
 TEST_F(Eps, RefusesPages) {

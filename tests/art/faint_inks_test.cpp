@@ -3,9 +3,9 @@
 #include "art/sheets.h"
 #include "art/style/contrast.h"
 #include "engine/base/output.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,9 @@ namespace sikku::faint_inks_test {
 
 /// The warnings about a print.
 std::string warnings(const Document& document, const OptionValues& values, const std::string& format = "svg") {
-    MemoryDestination memory;
     OptionValues all = values;
     all.push_back({"size", "60x60mm"});
-    const Made made = prints().plan(document, format, all, {})->make(memory, "print." + format, {}, 1);
-    std::string text;
-    for (const Remark& remark : made.remarks) {
-        if (remark.is_warning) text += remark.text + "\n";
-    }
-    return text;
+    return warnings_of(remarks_about(prints(), document, format, all));
 }
 
 bool is_told(const std::string& text) {
@@ -81,9 +75,7 @@ TEST(FaintInks, SheetsNameTheDrawings) {
     MemoryDestination memory;
     const std::vector<SheetItem> items = {{parse("a.lsys", "title: Seen\n" + kolam), {}},
                                           {parse("b.lsys", "title: Unseen\n" + kolam), {{"ground", "snow"}}}};
-    const Made made = plan_sheet(items, "svg", {})->make(memory, "sheet.svg", {}, 1);
-    std::string text;
-    for (const Remark& remark : made.remarks) text += remark.text + "\n";
+    const std::string text = remarks_of(plan_sheet(items, "svg", {})->make(memory, "sheet.svg", {}, 1));
     EXPECT_TRUE(has(text, "'Unseen': lines in floralwhite"));
     EXPECT_FALSE(has(text, "'Seen'"));
 }

@@ -2,8 +2,8 @@
 
 #include "art/prints.h"
 #include "engine/base/output.h"
-#include "tests/checks.h"
 #include "tests/plot_tools.h"
+#include "tests/works.h"
 
 #include <charconv>
 #include <cstdio>
@@ -247,11 +247,8 @@ TEST_F(Hpgl, WhatLiesOffThePageIsRefused) {
 
 /// The HP-GL plot of a document and its report.
 std::pair<std::string, std::string> plotted(const Document& document, const OptionValues& values) {
-    MemoryDestination memory;
-    const Made made = prints().plan(document, "hpgl", values, {})->make(memory, "plot.hpgl", {}, 1);
-    std::string report;
-    for (const Remark& remark : made.remarks) report += remark.text + "\n";
-    return {memory.outputs().begin()->second, report};
+    const MadeWork made = made_work(prints(), document, "hpgl", values);
+    return {made.bytes(), made.remarks};
 }
 
 TEST_F(Hpgl, TheUnitIsThatOfTheMachine) {

@@ -289,12 +289,10 @@ TEST_P(KolamFamilies, AreSymmetric) {
 }
 
 TEST_P(KolamFamilies, AreOneStroke) {
-    class Strokes : public PathSink {
+    class Strokes : public PolygonSink {
     public:
         void begin_stroke(glm::dvec2, const Pen&) override { ++begun; }
         void lines(std::span<const glm::dvec2> ends) override { points += ends.size(); }
-        void curves(std::span<const glm::dvec2>) override {}
-        void change_pen(const Pen&) override {}
         void end_stroke(bool is_closed) override { closed += is_closed ? 1 : 0; }
         void polygon(std::span<const glm::dvec2>, const Pen&) override { ADD_FAILURE(); }
         void disc(glm::dvec2, double, const Pen&) override { ADD_FAILURE(); }
@@ -306,9 +304,7 @@ TEST_P(KolamFamilies, AreOneStroke) {
         const Grammar grammar = grammar_of(GetParam(), n);
         Strokes strokes;
         const auto turtle = Turtle::drawing(grammar, strokes, true);
-        DerivationOptions options;
-        options.interpreted = true;
-        derive(grammar, *turtle, options);
+        derive(grammar, *turtle, reference::interpreting());
         EXPECT_EQ(strokes.begun, 1) << n;
         EXPECT_EQ(strokes.closed, 1) << n;
         EXPECT_EQ(static_cast<std::int64_t>(strokes.points), value(GetParam().steps, n)) << n;

@@ -2,7 +2,6 @@
 
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
 
@@ -10,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -24,8 +22,7 @@ using reference::Recorder;
 using Points = std::vector<glm::dvec2>;
 
 KolamExamination examined(const Grammar& grammar, bool spline) {
-    KolamOptions options;
-    options.spline = spline;
+    KolamOptions options{.spline = spline};
     return examine_kolam(grammar, options);
 }
 std::string keys(const std::string& angle, const std::string& axiom) {
@@ -67,11 +64,9 @@ Recorder recorded(const Known& pattern, bool as_spline) {
     StrokeCensus census;
     Recorder recorder;
     SplineSink spline(recorder, census.closed);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, census, pattern.spline), options);
+    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, census, pattern.spline), reference::interpreting());
     PathSink& sink = as_spline ? static_cast<PathSink&>(spline) : recorder;
-    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, sink, pattern.spline), options);
+    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, sink, pattern.spline), reference::interpreting());
     return recorder;
 }
 
@@ -636,8 +631,7 @@ TEST(Kolam, BadInput) {
     EXPECT_THROW(examined("90", "f+f"), std::runtime_error);
     EXPECT_THROW(examined("90", "F(0)"), std::runtime_error);
     EXPECT_THROW(examined("90", "F]"), WordError);
-    KolamOptions options;
-    options.budget = 1000;
+    KolamOptions options{.budget = 1000};
     EXPECT_THROW(examine_kolam(known("kolams/snake-kolam", "12").grammar, options), BudgetError);
     EXPECT_THROW(examine_kolam(known("kolams/anklets-of-krishna", "4").grammar, {true, 3000, {}}), BudgetError);
     EXPECT_NO_THROW(examine_kolam(known("kolams/anklets-of-krishna", "4").grammar, {true, 30000, {}}));

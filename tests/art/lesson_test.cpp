@@ -14,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -40,13 +39,7 @@ protected:
         MemoryDestination memory;
         const Document document = parse("lesson.lsys", pattern);
         remarks_ = prints().plan(document, format, values)->make(memory, "lesson." + format, {}).remarks;
-        std::map<std::string, std::string> outputs;
-        for (const auto& [name, bytes] : memory.outputs()) outputs[name] = bytes;
-        return outputs;
-    }
-    std::string save(const std::string& name, const std::string& bytes) const {
-        std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
-        return folder_.file(name);
+        return memory.outputs();
     }
     ScratchFolder folder_;
     mutable std::vector<Remark> remarks_;
@@ -103,7 +96,7 @@ TEST_F(Lesson, PdfHasAPageForEachStep) {
     NEEDS("pdfinfo");
     NEEDS("pdftoppm");
     NEEDS("qpdf");
-    const std::string pdf = save("lesson.pdf", make(snake, "pdf").at("lesson.pdf"));
+    const std::string pdf = folder_.write("lesson.pdf", make(snake, "pdf").at("lesson.pdf"));
     EXPECT_TRUE(run_tool("qpdf --check '" + pdf + "'").ok);
     const std::string info = run_tool("pdfinfo '" + pdf + "'").text;
     const int pages = std::stoi(info.substr(info.find("Pages:") + 6));
@@ -136,7 +129,7 @@ TEST_F(Lesson, SvgShowsOneStepAfterTheOther) {
     NEEDS("xmllint");
     NEEDS("rsvg-convert");
     const std::string svg = make(snake, "svg").at("lesson.svg");
-    const std::string file = save("lesson.svg", svg);
+    const std::string file = folder_.write("lesson.svg", svg);
     EXPECT_TRUE(run_tool("xmllint --noout '" + file + "'").ok);
     EXPECT_TRUE(run_tool("rsvg-convert '" + file + "' -o '" + file + ".png'").ok);
     const std::size_t steps = count_of(svg, "class=\"s\"");

@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <cmath>
-
 namespace sikku::lettering_test {
 
 /// Everything that was written, flattened to its control points.

@@ -4,9 +4,9 @@
 #include "art/writer/draw.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/language/document.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/line_tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -19,7 +19,7 @@ namespace sikku::line_bands_test {
 using namespace line_tools;
 
 /// Strokes as a start and three control points for each curve.
-class StrokeSink : public PathSink {
+class StrokeSink : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         strokes.push_back({start});
@@ -34,10 +34,8 @@ public:
     void curves(std::span<const glm::dvec2> controls) override {
         strokes.back().insert(strokes.back().end(), controls.begin(), controls.end());
     }
-    void change_pen(const Pen&) override {}
     void end_stroke(bool is_closed) override { closed.push_back(is_closed); }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     std::vector<std::vector<glm::dvec2>> strokes;
     std::vector<Pen> pens;
@@ -225,13 +223,7 @@ TEST(LineWork, RefusesMoreThanTheBudgetAllows) {
 
 /// The warnings of a print.
 std::string warnings_of(const std::string& text) {
-    MemoryDestination memory;
-    std::string warnings;
-    const Document document = parse("work.lsys", text);
-    for (const Remark& remark : prints().plan(document, "svg", {})->make(memory, "work.svg", {}).remarks) {
-        if (remark.is_warning) warnings += remark.text + "\n";
-    }
-    return warnings;
+    return sikku::warnings_of(remarks_about(prints(), parse("work.lsys", text), "svg"));
 }
 
 TEST(LineWork, ReportsWhatHasNoEffectOrDoesNotFit) {

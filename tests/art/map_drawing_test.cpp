@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <string>
@@ -23,7 +22,7 @@ Document cell_layer(int steps, const std::string& keys = {}) {
 }
 
 /// What a drawing hands to a writer.
-class Recorder : public PathSink {
+class Recorder : public PolygonSink {
 public:
     struct Stroke {
         std::vector<glm::dvec2> points;
@@ -35,7 +34,6 @@ public:
         strokes.back().points.insert(strokes.back().points.end(), ends.begin(), ends.end());
     }
     void curves(std::span<const glm::dvec2> controls) override { lines(controls); }
-    void change_pen(const Pen&) override {}
     void end_stroke(bool closed) override { strokes.back().is_closed = closed; }
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         polygons.push_back({{vertices.begin(), vertices.end()}, pen});
@@ -43,7 +41,6 @@ public:
     void area(std::span<const glm::dvec2> outline, const Pen& pen) override {
         areas.push_back({{outline.begin(), outline.end()}, pen});
     }
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     std::vector<Stroke> strokes, polygons, areas;
 };

@@ -6,7 +6,6 @@
 #include "engine/base/output.h"
 #include "tests/checks.h"
 #include "tests/files.h"
-#include "tests/tools.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

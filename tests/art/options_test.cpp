@@ -2,7 +2,6 @@
 // accepted option is silently ignored.
 #include "art/prints.h"
 #include "engine/base/output.h"
-#include "tests/files.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -193,8 +192,7 @@ TEST(Place, YGoesDownAndTheStepIsAsAsked) {
     Box box;
     box.add({0.0, 0.0});
     box.add({4.0, 2.0});
-    PlacementOptions options;
-    options.step = 5.0;
+    PlacementOptions options{.step = 5.0};
     options.scale = 0.5;  // of fitted drawings only
     const Placement placement = place(box, {210.0, 297.0, 10.0}, options, 0.1, 0.4);
     EXPECT_EQ(placement.step, 5.0);
@@ -205,10 +203,7 @@ TEST(Place, YGoesDownAndTheStepIsAsAsked) {
 }
 
 TEST(Place, TakesPatternUnitsAndABoxAlreadyTurned) {
-    PlacementOptions options;
-    options.rotate = 90.0;
-    options.mirror = true;
-    options.step = 1.0;
+    PlacementOptions options{.rotate = 90.0, .mirror = true, .step = 1.0};
     Box box;
     box.add(turned(options, {0.0, 0.0}));
     box.add(turned(options, {10.0, 4.0}));
@@ -250,8 +245,7 @@ TEST(Place, APenWiderThanThePageIsAnError) {
     EXPECT_THROW(place(box, {100.0, 60.0, 50.0}, {}, 0.0, 0.0), std::runtime_error);
     EXPECT_THROW(place(box, {100.0, 60.0, 31.0}, {}, 0.0, 0.0), std::runtime_error);
     EXPECT_NO_THROW(place(box, {100.0, 60.0, 5.0}, {}, 0.0, 24.0));
-    PlacementOptions options;
-    options.step = 1.0;
+    PlacementOptions options{.step = 1.0};
     EXPECT_NO_THROW(place(box, {100.0, 60.0, 5.0}, options, 0.0, 450.0));
 }
 

@@ -25,21 +25,6 @@ protected:
         return path;
     }
 
-    /// Says what is wrong with the file's structure, or nothing.
-    static std::string complaints(const std::filesystem::path& path) {
-        const ToolOutcome outcome = run_tool("qpdf --check '" + path.string() + "'");
-        return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;
-    }
-
-    /// The file with its streams uncompressed.
-    std::string plain_text(const std::filesystem::path& path) {
-        const auto plain = folder_ / "plain.pdf";
-        const ToolOutcome outcome =
-            run_tool("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'");
-        EXPECT_TRUE(outcome.ok) << outcome.text;
-        return contents(plain);
-    }
-
     ScratchFolder folder_;
 };
 
@@ -53,7 +38,7 @@ TEST_F(Pdf, IsSoundAndHasItsBoxes) {
         const auto path = write(print, [&](PathSink& sink) {
             if (!empty) draw_sampler(sink);
         });
-        EXPECT_EQ(complaints(path), "");
+        EXPECT_EQ(pdf_complaints(path), "");
         EXPECT_TRUE(contents(path).starts_with("%PDF-1.6\n"));
         const std::string boxes = run_tool("pdfinfo -box '" + path.string() + "'").text;
         for (const std::string name : {"MediaBox", "CropBox", "BleedBox", "TrimBox"}) {
@@ -71,7 +56,7 @@ TEST_F(Pdf, SheetsBeyondTheLimitHaveALargerUnit) {
     Print print = plain_print();
     print.page = {12'000.0, 3'000.0, 10.0};
     const auto path = write(print, draw_sampler);
-    EXPECT_EQ(complaints(path), "");
+    EXPECT_EQ(pdf_complaints(path), "");
     const std::string text = contents(path);
     EXPECT_TRUE(has(text, "/UserUnit 3\n"));
     EXPECT_TRUE(has(text, "/MediaBox [0 0 11338.5827 2834.6457]"));
@@ -90,7 +75,7 @@ TEST_F(Pdf, PositionsAreWholeMicrometres) {
         sink.curves(std::span<const glm::dvec2>(points).subspan(15'000));
         sink.end_stroke(false);
     });
-    EXPECT_EQ(complaints(path), "");
+    EXPECT_EQ(pdf_complaints(path), "");
     const std::string text = plain_text(path);
     std::istringstream stream(text.substr(text.find(" cm 1 J 1 j")));
     Points drawn;
@@ -141,7 +126,7 @@ TEST_F(Pdf, KindsOfTilesAreLayers) {
         sink.polygon(square, Pen{1.0, false, 2});
     };
     const auto path = write(print, draw);
-    EXPECT_EQ(complaints(path), "");
+    EXPECT_EQ(pdf_complaints(path), "");
     const std::string text = plain_text(path);
     std::vector<std::string> groups;
     for (const std::string name : {"shape 1 red", "shape 1 blue", "shape 2 red", "shape 2 reflected red"}) {
@@ -205,14 +190,14 @@ TEST_F(Pdf, TextsWithSpecialCharactersStayThemselves) {
         print.title = title;
         print.made = "sikku 0.1.0, -n 4; " + title;
         const auto path = write(print, draw_sampler);
-        EXPECT_EQ(complaints(path), "");
+        EXPECT_EQ(pdf_complaints(path), "");
         const std::string information = run_tool("pdfinfo -enc UTF-8 '" + path.string() + "'").text;
         EXPECT_TRUE(has(information, title + "\n"));
         EXPECT_TRUE(has(information, print.made + "\n"));
         EXPECT_TRUE(has(information, "Sikku"));
     }
     print.title = "\x01\x7F broken \xC3 \xED\xA0\x80 \xF8 \0."s;
-    EXPECT_EQ(complaints(write(print, draw_sampler)), "");
+    EXPECT_EQ(pdf_complaints(write(print, draw_sampler)), "");
 }
 
 TEST_F(Pdf, OthersDrawItAsItIsMeant) {
@@ -222,13 +207,12 @@ TEST_F(Pdf, OthersDrawItAsItIsMeant) {
     print.style.palette[2].alpha = 128;
     const auto path = write(print, [](PathSink& sink) {
         draw_sampler(sink);
-        Pen blue;
-        blue.colour = 2;
+        Pen blue{.colour = 2};
         sink.begin_stroke({55, 40}, blue);
         sink.lines(Points{{85, 40}});
         sink.end_stroke(false);
     });
-    EXPECT_EQ(complaints(path), "");
+    EXPECT_EQ(pdf_complaints(path), "");
     const PixelGrid pixels = render_pdf(path, 254);  // 10 pixels a millimetre
     ASSERT_NEAR(pixels.width, 1000, 1);
     ASSERT_NEAR(pixels.height, 600, 1);

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace sikku::plot_scene_test {
@@ -28,10 +27,8 @@ Print flat_print() {
 }
 
 Recorder plotted(const std::string& axiom, const Print& print, const PlotPen& options = {}) {
-    DerivationOptions derivation;
-    derivation.interpreted = true;
-    const Scene scene =
-        Scene::of(reference::grammar_of("turn: left\naxiom: " + axiom + "\n"), print.style, derivation, 1e6);
+    const Scene scene = Scene::of(reference::grammar_of("turn: left\naxiom: " + axiom + "\n"), print.style,
+                                  reference::interpreting(), 1e6);
     Recorder recorder;
     plot_scene(scene, print, options, recorder);
     return recorder;
@@ -86,9 +83,7 @@ TEST(PlotScene, AStemHidesTheLeafBehindItWhereItIsWide) {
 }
 
 TEST(PlotScene, HatchingIsHiddenToo) {
-    PlotPen options;
-    options.hatch = Hatch{2.0, 45.0, false};
-    options.pen_width = 0.3;
+    PlotPen options{.pen_width = 0.3, .hatch = Hatch{2.0, 45.0, false}};
     // A large square behind, a small one in front of its middle.
     const std::string large = "[&(90)f(5)^(90);;[f(30)+f(30)|{f(60)-f(60)-f(60)-f(60)}]]";
     const Recorder recorder = plotted(large + front, flat_print(), options);
@@ -107,8 +102,7 @@ TEST(PlotScene, HatchingIsHiddenToo) {
 }
 
 TEST(PlotScene, WideStemsTakeSeveralPasses) {
-    PlotPen options;
-    options.pen_width = 0.3;
+    PlotPen options{.pen_width = 0.3};
     Print print = flat_print();
     print.style.stroke.value = 4;
     const Recorder recorder = plotted("[f(30)|F(30)F(30)]" + behind, print, options);

@@ -4,7 +4,6 @@
 #include "tests/plot_tools.h"
 
 #include <map>
-#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
@@ -197,8 +196,7 @@ TEST(Plot, RandomGraphs) {
         std::vector<Line> given;
         for (int i = 0; i < count; ++i) {
             Line line;
-            Pen pen;
-            pen.colour = static_cast<int>(random() % (1 + round % 2));
+            Pen pen{.colour = static_cast<int>(random() % (1 + round % 2))};
             const int length = 1 + static_cast<int>(random() % 4);
             for (int k = 0; k <= length; ++k) {
                 const int x = static_cast<int>(random()) % side;

@@ -8,7 +8,6 @@
 #include "tests/print_tools.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -161,15 +160,6 @@ protected:
         const auto path = folder_ / name;
         write_print(path, print, write_pdf, draw);
         return path;
-    }
-
-    /// The file with its streams uncompressed, found sound by qpdf.
-    std::string plain_text(const std::filesystem::path& path) {
-        const ToolOutcome check = run_tool("qpdf --check '" + path.string() + "'");
-        EXPECT_TRUE(check.ok && check.text.find("WARNING") == std::string::npos) << check.text;
-        const auto plain = folder_ / "plain.pdf";
-        EXPECT_TRUE(run_tool("qpdf --stream-data=uncompress '" + path.string() + "' '" + plain.string() + "'").ok);
-        return contents(plain);
     }
 
     /// One plate as Ghostscript separates it, 127 pixels an inch; 255 is no ink.

@@ -9,14 +9,12 @@
 #include "tests/print_tools.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
 #include <random>
-#include <thread>
 
 namespace sikku::raster_test {
 
@@ -79,8 +77,7 @@ void stroke(PathSink& sink, const Points& points, Pen pen = {}) {
 }
 
 Pen coloured(int colour) {
-    Pen pen;
-    pen.colour = colour;
+    Pen pen{.colour = colour};
     return pen;
 }
 
@@ -376,8 +373,7 @@ TEST(Raster, ATranslucentColourIsLaidOnOnce) {
     const Image image = render(print, [](PathSink& sink) {
         stroke(sink, {{5, 30}, {55, 30}});
         stroke(sink, {{30, 5}, {30, 55}, {30, 5}});
-        Pen wide;
-        wide.width = 1.5;
+        Pen wide{.width = 1.5};
         stroke(sink, {{5, 5}, {55, 55}}, wide);
         sink.disc({10, 50}, 5, Pen{});
         sink.disc({12, 50}, 5, Pen{});
@@ -454,8 +450,7 @@ TEST(Raster, LinesFarOutsideLeaveThePageAlone) {
 
 TEST(Raster, AChangeOfPenGoesOnFromWhereTheLineIs) {
     const Image image = render(pixel_print(60, 20, 2), [](PathSink& sink) {
-        Pen wide;
-        wide.width = 5;
+        Pen wide{.width = 5};
         sink.begin_stroke({5, 10}, Pen{});
         sink.lines(Points{{30, 10}});
         sink.change_pen(wide);

@@ -2,9 +2,9 @@
 #include "art/prints.h"
 #include "art/provenance/provenance.h"
 #include "engine/base/output.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/solid_reader.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
@@ -255,14 +255,13 @@ TEST(Relief, ModelsHaveAMaterialForEachColour) {
         for (const std::uint32_t corner : glb.triangles[t]) top = std::max(top, glb.points[corner].z);
         EXPECT_LT(top, glb.materials[t] == 0 ? 1.201 : glb.materials[t] == 1 ? 3.201 : 4.201);
     }
-    MemoryDestination memory;
-    prints().plan(drawn, "obj", values)->make(memory, "r.obj", {});
-    const ReadMesh obj = read_obj_mesh(memory.outputs().at("r.obj"));
+    const auto files = made_work(prints(), drawn, "obj", values).outputs;
+    const ReadMesh obj = read_obj_mesh(files.at("x.obj"));
     expect_closed(obj);
     EXPECT_EQ(obj.triangles, glb.triangles);
     EXPECT_EQ(std::set<std::size_t>(obj.materials.begin(), obj.materials.end()).size(), 3u);
-    EXPECT_TRUE(has(memory.outputs().at("r.mtl"), "newmtl relief-30a050"));
-    EXPECT_FALSE(has(memory.outputs().at("r.obj"), "vn "));
+    EXPECT_TRUE(has(files.at("x.mtl"), "newmtl relief-30a050"));
+    EXPECT_FALSE(has(files.at("x.obj"), "vn "));
 }
 
 TEST(Relief, IsTheSameInEveryRun) {
@@ -289,13 +288,7 @@ TEST(Relief, FilesOtherThanStlContainTheirPattern) {
 }
 
 std::string refusal(const Document& drawn, const std::string& format, const OptionValues& values) {
-    try {
-        MemoryDestination memory;
-        prints().plan(drawn, format, values)->make(memory, "r." + format, {});
-        return "made";
-    } catch (const std::exception& error) {
-        return error.what();
-    }
+    return error_of([&] { remarks_about(prints(), drawn, format, values); }, "made");
 }
 
 TEST(Relief, SaysWhatItCannotDo) {
@@ -325,12 +318,10 @@ TEST(Relief, SaysWhatItCannotDo) {
 }
 
 TEST(Relief, MakesEachGeneration) {
-    MemoryDestination memory;
-    prints()
-        .plan(load("penrose-rhombs"), "stl", {{"generations", "1:3"}, {"frames", "true"}, {"size", "80x80mm"}})
-        ->make(memory, "g.stl", {});
-    ASSERT_EQ(memory.outputs().size(), 3u);
-    for (const auto& [name, bytes] : memory.outputs()) expect_closed(read_stl(bytes));
+    const MadeWork made = made_work(prints(), load("penrose-rhombs"), "stl",
+                                    {{"generations", "1:3"}, {"frames", "true"}, {"size", "80x80mm"}});
+    ASSERT_EQ(made.outputs.size(), 3u);
+    for (const auto& [name, bytes] : made.outputs) expect_closed(read_stl(bytes));
 }
 
 /// Every kind of pattern, at a small size.

@@ -5,8 +5,7 @@
 #include "art/prints.h"
 #include "engine/base/output.h"
 #include "engine/derivation/derivation.h"
-#include "tests/checks.h"
-#include "tests/tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -18,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <vector>
@@ -343,10 +341,7 @@ TEST(Repeat, CountsLinesBeforeTheyAreWoven) {
          {OptionValues{}, OptionValues{{"weave", "yes"}}, OptionValues{{"parallel", "3"}}}) {
         OptionValues values = options;
         values.push_back({"repeat", "p1:2x3"});
-        MemoryDestination made;
-        const Made found = prints().plan(kolam, "svg", values, {})->make(made, "k.svg", {}, 1);
-        ASSERT_FALSE(found.remarks.empty());
-        EXPECT_EQ(found.remarks.front().text, "p1: 6 copies, 6 lines");
+        EXPECT_TRUE(made_work(prints(), kolam, "svg", values).remarks.starts_with("p1: 6 copies, 6 lines\n"));
     }
 }
 
@@ -410,11 +405,7 @@ TEST(Repeat, AFriezeFillsItsRow) {
 TEST(Repeat, CopiesInUnitsOfAnotherShapeAreReported) {
     const Document square = parse("square.lsys", "axiom: F+F+F+F\nangle increment: 90\n");
     const auto report = [&](const char* repeat) {
-        MemoryDestination memory;
-        std::string text;
-        const Made made = prints().plan(square, "svg", {{"repeat", repeat}}, {})->make(memory, "s.svg", {}, 1);
-        for (const Remark& remark : made.remarks) text += remark.text + "\n";
-        return text;
+        return made_work(prints(), square, "svg", {{"repeat", repeat}}).remarks;
     };
     for (const char* repeat : {"p4m:3x4", "p4m:fill", "p6m:2x2"}) {
         EXPECT_TRUE(has(report(repeat), "; p1 covers 86 %"));

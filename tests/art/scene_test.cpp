@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -146,9 +145,7 @@ Print pixel_print(int side) {
 
 Scene scene_of(const std::string& text, const Style& style) {
     const Grammar grammar = grammar_of(text);
-    DerivationOptions options;
-    options.interpreted = true;
-    return Scene::of(grammar, style, options, 1e6);
+    return Scene::of(grammar, style, reference::interpreting(), 1e6);
 }
 
 struct Picture {
@@ -456,13 +453,10 @@ TEST(Scene, LettersFaceTheEye) {
 // --- vectors -----------------------------------------------------------------------------------------------------
 
 /// Polygons in the order in which they come.
-class Polygons : public PathSink {
+class Polygons : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2, const Pen&) override { ++strokes; }
     void lines(std::span<const glm::dvec2> ends) override { lines_drawn += ends.size(); }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override {
         shapes.emplace_back(vertices.begin(), vertices.end());
         colours.push_back(pen.colour);
@@ -520,12 +514,10 @@ TEST(Solids, AStemIsAnOutline) {
 
 TEST(Scene, HasALimitAndLeavesOutWhatIsNotSeen) {
     const Grammar grammar = grammar_of("axiom: $A\nA --> FA\nderivation length: 100\n");
-    DerivationOptions options;
-    options.interpreted = true;
     Style style;
     style.palette = {black};
-    EXPECT_EQ(Scene::of(grammar, style, options, 100).segments().size(), 100u);
-    EXPECT_THROW(Scene::of(grammar, style, options, 99), BudgetError);
+    EXPECT_EQ(Scene::of(grammar, style, reference::interpreting(), 100).segments().size(), 100u);
+    EXPECT_THROW(Scene::of(grammar, style, reference::interpreting(), 99), BudgetError);
     EXPECT_THROW(scene_of("axiom: $F(1e30)\n", style), BudgetError);
     style.palette = {black, {0, 0, 0, 0}};
     const Scene seen = scene_of("axiom: $F;F@O{F+F},F\n", style);

@@ -1,8 +1,5 @@
 #include "art/print/screen.h"
 
-#include "tests/checks.h"
-#include "tests/tools.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

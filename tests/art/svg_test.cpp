@@ -3,7 +3,6 @@
 #include "tests/checks.h"
 #include "tests/print_tools.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <charconv>
@@ -273,10 +272,8 @@ TEST_F(Svg, APipeGetsTheSameBytes) {
 }
 
 TEST_F(Svg, APenThatChangesInOnePlaceLeavesNoDot) {
-    Pen red;
-    red.colour = 1;
-    Pen wide;
-    wide.width = 3.0;
+    Pen red{.colour = 1};
+    Pen wide{.width = 3.0};
     const auto root = parse(plain_print(), [&](PathSink& sink) {
         sink.begin_stroke({1, 1}, red);
         sink.change_pen(wide);
@@ -317,8 +314,7 @@ TEST_F(Svg, FewStrokesArePathsOfTheirOwnAndManyShortOnesShare) {
     const auto draw = [](int strokes) {
         return [strokes](PathSink& sink) {
             for (int i = 0; i < strokes; ++i) {
-                Pen pen;
-                pen.width = i % 1000 == 999 ? 2.0 : 1.0;
+                Pen pen{.width = i % 1000 == 999 ? 2.0 : 1.0};
                 const double x = i % 97;
                 sink.begin_stroke({x, 1}, pen);
                 sink.lines(Points{{x + 1, 2}, {x, 1.5}});
@@ -383,8 +379,7 @@ TEST_F(Svg, AlphaOfLinesIsTheLayersAndOfFillsTheirOwn) {
     print.style.palette = {Colour{0, 0, 0, 128}, Colour{255, 0, 0, 0}};
     print.style.fill = Colour{0, 255, 0, 51};
     print.style.ground = Colour{1, 2, 3, 204};
-    Pen unseen;
-    unseen.colour = 1;
+    Pen unseen{.colour = 1};
     const auto root = parse(print, [&](PathSink& sink) {
         sink.polygon(Points{{1, 1}, {2, 1}, {2, 2}}, Pen{});
         sink.polygon(Points{{1, 1}, {2, 1}, {2, 2}}, unseen);
@@ -470,8 +465,7 @@ TEST_F(Svg, OthersDrawItAsItIsMeant) {
     const auto path = write(print, [](PathSink& sink) {
         draw_sampler(sink);
         // Crosses itself and another line of its colour: no darker there.
-        Pen blue;
-        blue.colour = 2;
+        Pen blue{.colour = 2};
         sink.begin_stroke({55, 40}, blue);
         sink.lines(Points{{85, 40}});
         sink.end_stroke(false);

@@ -5,7 +5,6 @@
 #include "art/raster/raster.h"
 #include "art/writer/draw.h"
 #include "tests/checks.h"
-#include "tests/files.h"
 #include "tests/print_tools.h"
 
 #include <fmt/format.h>

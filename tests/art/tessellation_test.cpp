@@ -8,9 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
 namespace sikku::tessellation_test {
 
@@ -19,9 +17,7 @@ using reference::grammar_of;
 Scene scene_of(const std::string& text) {
     Style style;
     style.palette = {Colour{0, 0, 0, 255}, Colour{255, 0, 0, 255}, Colour{0, 255, 0, 255}};
-    DerivationOptions options;
-    options.interpreted = true;
-    return Scene::of(grammar_of(text), style, options, 1e6);
+    return Scene::of(grammar_of(text), style, reference::interpreting(), 1e6);
 }
 
 bool has_vertex(const Scene& scene, const glm::dvec3& wanted) {

@@ -82,9 +82,7 @@ Strokes decorated(const std::string& tiling, const std::string& variant, const s
         reference::grammar_of(contents(bundled("tilings/" + tiling)), {{"-n", "derivation length", steps}});
     TileDecorator decorator(style, 7, 1e7);
     Tiles tiles(decorator);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *Turtle::drawing(grammar, tiles, false), options);
+    derive(grammar, *Turtle::drawing(grammar, tiles, false), reference::interpreting());
     Strokes strokes;
     decorator.draw(strokes, {});
     return strokes;

@@ -58,9 +58,7 @@ Gathered gathered(const std::string& tiling, const std::string& steps) {
     const Grammar grammar =
         reference::grammar_of(contents(bundled("tilings/" + tiling)), {{"-n", "derivation length", steps}});
     Gathered result;
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *Turtle::drawing(grammar, result, false), options);
+    derive(grammar, *Turtle::drawing(grammar, result, false), reference::interpreting());
     return result;
 }
 

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sikku::tile_templates_test {
@@ -104,12 +103,7 @@ TEST(TileTemplates, FilesContainOneOutlineForEachShapeAndHand) {
         const std::string bytes = written();
         EXPECT_EQ(bytes, written());
         if (format != PrintFormat::dxf) continue;
-        std::size_t outlines = 0;
-        for (std::size_t at = bytes.find("POLYLINE\n8\nCUT\n"); at != std::string::npos;
-             at = bytes.find("POLYLINE\n8\nCUT\n", at + 1)) {
-            ++outlines;
-        }
-        EXPECT_EQ(outlines, 2U);
+        EXPECT_EQ(count_of(bytes, "POLYLINE\n8\nCUT\n"), 2U);
         EXPECT_TRUE(has(bytes, "\nSEAM\n"));
         EXPECT_TRUE(has(bytes, "\nLABEL\n"));
     }

@@ -4,9 +4,9 @@
 #include "engine/derivation/derivation.h"
 #include "engine/geometry/turtle.h"
 #include "engine/tiling/tiling.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/reference.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -35,9 +35,7 @@ struct Outlines : PolygonSink {
 TileOutlines outlines(const std::string& tiling, int n) {
     const Grammar grammar = grammar_of(tiling, n);
     Outlines result;
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *Turtle::drawing(grammar, result, false), options);
+    derive(grammar, *Turtle::drawing(grammar, result, false), reference::interpreting());
     return result.tiles;
 }
 
@@ -145,15 +143,7 @@ TEST(TileWorms, MissingWormsAreReported) {
     const auto warnings = [](const char* name, const OptionValues& more) {
         OptionValues values = {{"derivation length", "3"}, {"size", "100x100mm"}};
         values.insert(values.end(), more.begin(), more.end());
-        MemoryDestination nowhere;
-        std::string text;
-        const Document document = load(bundled(name));
-        const Assignment assigned = assign(prints(), document, values);
-        for (const Remark& remark :
-             prints().plan(assigned.document, "svg", assigned.options)->make(nowhere, "x.svg", {}).remarks) {
-            if (remark.is_warning) text += remark.text + '\n';
-        }
-        return text;
+        return warnings_of(remarks_about(prints(), load(bundled(name)), "svg", values));
     };
     const std::string none = "no tiles form worms: only rhombs do, three around a vertex\n";
     EXPECT_EQ(warnings("tilings/pinwheel", {{"tile-colours", "worms"}}), none);

@@ -4,14 +4,13 @@
 #include "art/print/clip.h"
 #include "art/prints.h"
 #include "engine/base/output.h"
-#include "tests/checks.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <pugixml.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,7 +21,7 @@ constexpr Page a1{594.0, 841.0, 10.0};
 constexpr Page a4{210.0, 297.0, 5.0};
 
 /// Records the strokes of marks without halos and letters: two points for each stroke.
-class Marks : public PathSink {
+class Marks : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen& pen) override {
         start_ = {start.x, -start.y};
@@ -32,11 +31,7 @@ public:
         const bool is_straight = ends.size() == 1 && std::fabs(pen_.width - 0.2) < 1e-9 && pen_.colour == 1;
         if (is_straight) list.emplace_back(start_, glm::dvec2(ends[0].x, -ends[0].y));
     }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
     std::vector<std::pair<glm::dvec2, glm::dvec2>> list;
 
 private:
@@ -110,13 +105,9 @@ TEST(Tiles, MarksStandOutFromAnyGround) {
 }
 
 TEST(Tiles, ClippingKeepsWhatMayBeSeen) {
-    class Count : public PathSink {
+    class Count : public PolygonSink {
     public:
         void begin_stroke(glm::dvec2, const Pen&) override { ++strokes; }
-        void lines(std::span<const glm::dvec2>) override {}
-        void curves(std::span<const glm::dvec2>) override {}
-        void change_pen(const Pen&) override {}
-        void end_stroke(bool) override {}
         void polygon(std::span<const glm::dvec2>, const Pen&) override { ++areas; }
         void disc(glm::dvec2, double, const Pen&) override { ++discs; }
         int strokes = 0, areas = 0, discs = 0;
@@ -148,31 +139,22 @@ const std::string kolam =
 TEST(Tiles, PdfHasAnOverviewAndAPageForEachSheet) {
     const Document document = parse("kolam.lsys", kolam);
     const OptionValues values = {{"size", "A1"}, {"tile", "A4"}, {"dots", ""}};
-    MemoryDestination memory;
-    const Made made = prints().plan(document, "pdf", values)->make(memory, "kolam.pdf", {});
-    ASSERT_EQ(memory.outputs().size(), 1u);
-    const std::string pdf = memory.take("kolam.pdf");
-    EXPECT_TRUE(has(pdf, "/Count 10 "));
-    const auto count = [&](const std::string& text) {
-        int found = 0;
-        for (std::size_t at = 0; (at = pdf.find(text, at)) != std::string::npos; ++at) ++found;
-        return found;
-    };
-    EXPECT_EQ(count("/Type /Page /Parent"), 10);
-    EXPECT_EQ(count("/Name (discs"), 1) << "the drawing is in the file once";
-    EXPECT_EQ(count("/MediaBox [0 0 595.2756 841.8898]"), 10) << "all of A4";
-    ASSERT_FALSE(made.remarks.empty());
-    EXPECT_EQ(made.remarks.front().text, "9 sheets, 3 x 3");
+    const MadeWork made = made_work(prints(), document, "pdf", values);
+    ASSERT_EQ(made.outputs.size(), 1u);
+    EXPECT_TRUE(has(made.bytes(), "/Count 10 "));
+    EXPECT_EQ(count_of(made.bytes(), "/Type /Page /Parent"), 10u);
+    EXPECT_EQ(count_of(made.bytes(), "/Name (discs"), 1u) << "the drawing is in the file once";
+    EXPECT_EQ(count_of(made.bytes(), "/MediaBox [0 0 595.2756 841.8898]"), 10u) << "all of A4";
+    EXPECT_TRUE(made.remarks.starts_with("9 sheets, 3 x 3\n"));
 }
 
 TEST(Tiles, OtherFormatsHaveAFileForEachSheet) {
     const Document document = parse("kolam.lsys", kolam);
     for (const std::string format : {"svg", "png"}) {
-        MemoryDestination memory;
         const OptionValues values = {{"size", "100x150mm"}, {"tile", "60x60mm"}, {"dpi", "50"}, {"border", "kaavi"}};
-        prints().plan(document, format, values)->make(memory, "kolam." + format, {});
-        EXPECT_EQ(memory.outputs().size(), 6u) << format;
-        EXPECT_TRUE(memory.outputs().contains("kolam-3-2." + format));
+        const MadeWork made = made_work(prints(), document, format, values);
+        EXPECT_EQ(made.outputs.size(), 6u) << format;
+        EXPECT_TRUE(made.outputs.contains("x-3-2." + format));
     }
 }
 

@@ -7,7 +7,6 @@
 #include "engine/geometry/spline.h"
 #include "engine/geometry/turtle.h"
 #include "engine/measure/fold.h"
-#include "tests/files.h"
 #include "tests/reference.h"
 
 #include <fmt/format.h>
@@ -184,7 +183,7 @@ TEST(View, WindowsOfHilbertAreThoseOfAnotherForm) {
 }
 
 /// Every Bézier of a drawing.
-class BezierSink : public PathSink {
+class BezierSink : public PolygonSink {
 public:
     using Bezier = std::array<glm::dvec2, 4>;
     void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
@@ -195,10 +194,7 @@ public:
             at_ = controls[i + 2];
         }
     }
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     /// Those that touch a window, moved and rounded so that they can be compared.
     std::multiset<std::array<std::int64_t, 8>> within(glm::dvec2 low, double side, glm::dvec2 origin) const {
@@ -233,12 +229,10 @@ TEST(View, SplinesThroughAWindowAreThoseOfTheWholeDrawing) {
     for (const std::string& pattern : patterns) {
         const Grammar grammar = grammar_of(pattern);
         StrokeCensus census;
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *Turtle::drawing(grammar, census, true), interpreted);
+        derive(grammar, *Turtle::drawing(grammar, census, true), reference::interpreting());
         BezierSink whole;
         SplineSink spline(whole, census.closed);
-        derive(grammar, *Turtle::drawing(grammar, spline, true), interpreted);
+        derive(grammar, *Turtle::drawing(grammar, spline, true), reference::interpreting());
         const auto folded = fold(grammar);
         Box box;
         for (const glm::dvec2 corner : folded.value().box_hull) box.add(corner);
@@ -313,7 +307,7 @@ TEST(View, WindowsOfOtherAnglesAreWhereTheyShouldBe) {
         Sight sight;
         sight.box.add({0, 0});
         sight.box.add({2, 2});
-        class Nearest : public BlotSink {
+        class Nearest : public WithoutStrokes<BlotSink> {
         public:
             explicit Nearest(glm::dvec2 end) : end_(end) {}
             void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
@@ -323,9 +317,6 @@ TEST(View, WindowsOfOtherAnglesAreWhereTheyShouldBe) {
                     at_ = end;
                 }
             }
-            void curves(std::span<const glm::dvec2>) override {}
-            void change_pen(const Pen&) override {}
-            void end_stroke(bool) override {}
             void polygon(std::span<const glm::dvec2>, const Pen&) override {}
             void disc(glm::dvec2, double, const Pen&) override {}
             std::size_t prepare(const Blot&, const Pen&) override { return 0; }
@@ -390,9 +381,7 @@ Picture picture_of(const Grammar& grammar, int side, double pen, bool look) {
         picture.report = view->read(sight, *raster, 1e9, {});
     } else {
         const auto turtle = Turtle::drawing(grammar, *raster, false);
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *turtle, interpreted);
+        derive(grammar, *turtle, reference::interpreting());
     }
     raster->render(
         1, [&](int, int, std::span<const std::uint8_t> rows) { picture.pixels.append(rows.begin(), rows.end()); });

@@ -42,15 +42,10 @@ public:
     std::uint64_t count = 0;
 };
 
-class PointCounter : public PathSink {
+class PointCounter : public PolygonSink {
 public:
-    void begin_stroke(glm::dvec2, const Pen&) override {}
     void lines(std::span<const glm::dvec2> ends) override { count += ends.size(); }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
     std::uint64_t count = 0;
 };
 

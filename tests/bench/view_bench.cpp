@@ -97,9 +97,7 @@ void read_in_full(benchmark::State& state, const System& system, double pen) {
         const Print print = print_of(smaller, pen);
         const auto raster = make_raster(print);
         const auto turtle = Turtle::drawing(smaller, *raster, false);
-        DerivationOptions options;
-        options.interpreted = true;
-        derive(smaller, *turtle, options);
+        derive(smaller, *turtle, reference::interpreting());
         render(*raster);
     }
     state.counters["order"] = best;
@@ -121,13 +119,9 @@ BOTH(plant_30_two_pixels, plant, 2.0);
 
 /// A window of 2^11 steps a side somewhere in the middle of order 60.
 void window_of_hilbert_60(benchmark::State& state) {
-    class Counter : public BlotSink {
+    class Counter : public WithoutStrokes<BlotSink> {
     public:
-        void begin_stroke(glm::dvec2, const Pen&) override {}
         void lines(std::span<const glm::dvec2> ends) override { count += ends.size(); }
-        void curves(std::span<const glm::dvec2>) override {}
-        void change_pen(const Pen&) override {}
-        void end_stroke(bool) override {}
         void polygon(std::span<const glm::dvec2>, const Pen&) override {}
         void disc(glm::dvec2, double, const Pen&) override {}
         std::size_t prepare(const Blot&, const Pen&) override { return 0; }

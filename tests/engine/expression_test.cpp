@@ -1,5 +1,6 @@
 #include "engine/language/expression.h"
 #include "tests/checks.h"
+#include "tests/module_reference.h"
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -149,115 +150,6 @@ TEST(Expression, MistakesNameTheirPlace) {
     expect_mistake("\xCE\xB1 + \xCE\xB2", 5, "is not defined");
 }
 
-/// A second way: recursive descent, one function for each level of precedence.
-class Descent {
-public:
-    explicit Descent(std::string text) : text_(std::move(text)) {}
-    double run() { return either(); }
-
-private:
-    bool eat(const std::string& sign) {
-        while (at_ < text_.size() && text_[at_] == ' ') ++at_;
-        if (text_.compare(at_, sign.size(), sign) != 0) return false;
-        at_ += sign.size();
-        return true;
-    }
-    double either() {
-        double left = both();
-        while (eat("||")) {
-            const double right = both();
-            left = left != 0 || right != 0;
-        }
-        return left;
-    }
-    double both() {
-        double left = equality();
-        while (eat("&&")) {
-            const double right = equality();
-            left = left != 0 && right != 0;
-        }
-        return left;
-    }
-    double equality() {
-        double left = order();
-        while (true) {
-            if (eat("==")) {
-                left = left == order();
-            } else if (eat("!=")) {
-                left = left != order();
-            } else {
-                return left;
-            }
-        }
-    }
-    double order() {
-        double left = sum();
-        while (true) {
-            if (eat("<=")) {
-                left = left <= sum();
-            } else if (eat(">=")) {
-                left = left >= sum();
-            } else if (eat("<")) {
-                left = left < sum();
-            } else if (eat(">")) {
-                left = left > sum();
-            } else {
-                return left;
-            }
-        }
-    }
-    double sum() {
-        double left = product();
-        while (true) {
-            if (eat("+")) {
-                left += product();
-            } else if (eat("-")) {
-                left -= product();
-            } else {
-                return left;
-            }
-        }
-    }
-    double product() {
-        double left = signed_power();
-        while (true) {
-            if (eat("*")) {
-                left *= signed_power();
-            } else if (eat("/")) {
-                left /= signed_power();
-            } else {
-                return left;
-            }
-        }
-    }
-    double signed_power() {
-        if (eat("-")) return -signed_power();
-        if (eat("!")) return signed_power() == 0;
-        const double base = atom();
-        return eat("^") ? std::pow(base, signed_power()) : base;
-    }
-    double atom() {
-        if (eat("(")) {
-            const double inner = either();
-            eat(")");
-            return inner;
-        }
-        if (eat("max(")) {
-            const double one = either();
-            eat(",");
-            const double other = either();
-            eat(")");
-            return std::fmax(one, other);
-        }
-        std::size_t used = 0;
-        const double number = std::stod(text_.substr(at_), &used);
-        at_ += used;
-        return number;
-    }
-    std::string text_;
-    std::size_t at_ = 0;
-};
-
 TEST(Expression, AgreesWithRecursiveDescent) {
     const std::vector<std::string> operators = {
         "+", "-", "*", "/", "^", "<", "<=", ">", ">=", "==", "!=", "&&", "||"};
@@ -280,7 +172,7 @@ TEST(Expression, AgreesWithRecursiveDescent) {
             }
         };
         const std::string text = make(5);
-        const double expected = Descent(text).run();
+        const double expected = reference::Calculator(text, {}, {}, 0).result();
         const double found = value(text);
         if (std::isnan(expected)) {
             EXPECT_TRUE(std::isnan(found)) << text;

@@ -60,9 +60,7 @@ Told walked(const Grammar& grammar) {
                 survey.closed};
     }
     const auto turtle = SpaceTurtle::make(grammar);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, reference::interpreting());
     const SpaceSurvey& survey = turtle->survey();
     const auto& [low, high] = survey.box;
     return {0,

@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace sikku::foreign_text_test {
 
 using reference::diagnostics_of;

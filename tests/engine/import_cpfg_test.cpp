@@ -13,9 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <map>
 #include <random>
 
 namespace sikku::import_cpfg_test {
@@ -345,9 +343,7 @@ TEST(ImportCpfg, TheTurtleInSpace) {
                                         "Lsystem: 1\nAxiom: A\nhomomorphism\nA --> " + word + "\nendlsystem\n"}) {
             const Grammar grammar = grammar_of(cpfg(text, "angle increment: 20\n").pattern);
             const auto turtle = SpaceTurtle::make(grammar);
-            DerivationOptions options;
-            options.interpreted = true;
-            derive(grammar, *turtle, options);
+            derive(grammar, *turtle, reference::interpreting());
             ASSERT_LT(glm::distance(turtle->survey().end, expected), 1e-9) << word;
         }
     }

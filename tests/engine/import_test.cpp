@@ -12,9 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <glm/geometric.hpp>
-#include <map>
 #include <random>
 
 namespace sikku::import_test {
@@ -165,9 +162,7 @@ std::vector<Segment> picture(const std::string& pattern, int order) {
     EXPECT_TRUE(grammar);
     reference::Recorder recorder;
     const auto turtle = Turtle::drawing(*grammar, recorder, false);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(*grammar, *turtle, options);
+    derive(*grammar, *turtle, reference::interpreting());
     std::vector<Segment> segments;
     for (const auto& stroke : recorder.strokes) {
         for (std::size_t i = 0; i + 1 < stroke.points.size(); ++i) {

@@ -10,8 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace sikku::label_test {
 
 using reference::expect_mistakes;
@@ -49,9 +47,7 @@ LabelRecorder drawn(const std::string& text, bool moves_draw = false) {
     const Grammar grammar = reference::grammar_of(text);
     LabelRecorder recorder;
     const auto turtle = Turtle::drawing(grammar, recorder, moves_draw);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, reference::interpreting());
     return recorder;
 }
 

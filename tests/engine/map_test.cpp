@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 
 namespace sikku::map_test {
 

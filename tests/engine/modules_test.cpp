@@ -89,25 +89,19 @@ void expect_equal(const ModuleKind& kind, unsigned seeds) {
 }
 
 TEST(Modules, ParametersEqualTheReference) {
-    ModuleKind kind;
-    kind.interpreted = true;
+    ModuleKind kind{.interpreted = true};
     expect_equal(kind, 250);
 }
 
 TEST(Modules, ChanceEqualsTheReference) {
-    ModuleKind kind;
-    kind.chance = true;
-    kind.random = true;
-    kind.interpreted = true;
+    ModuleKind kind{.chance = true, .random = true, .interpreted = true};
     expect_equal(kind, 250);
     kind.parameters = false;
     expect_equal(kind, 300);
 }
 
 TEST(Modules, CutsEqualTheReference) {
-    ModuleKind kind;
-    kind.cuts = true;
-    kind.interpreted = true;
+    ModuleKind kind{.cuts = true, .interpreted = true};
     expect_equal(kind, 300);
     kind.chance = true;
     expect_equal(kind, 300);

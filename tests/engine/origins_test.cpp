@@ -26,9 +26,7 @@ std::string unmirrored(std::string symbol) {
 /// The word as derive() gives it, and the texts that the origins of its symbols show.
 void expect_same(const Document& document) {
     Keeper keeper;
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(document.grammar(), keeper, options);
+    derive(document.grammar(), keeper, {.interpreted = true});
     std::vector<std::uint64_t> positions(std::min<std::size_t>(keeper.word.size(), 5000));
     std::iota(positions.begin(), positions.end(), 1);
     const auto found = origins(document, positions);

@@ -11,14 +11,13 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace sikku::parts_test {
 
 using reference::grammar_of;
 
 /// Length, centre of mass and covariance of straight lines.
-class MassSink : public PathSink {
+class MassSink : public PolygonSink {
 public:
     void begin_stroke(glm::dvec2 start, const Pen&) override { at_ = start; }
     void lines(std::span<const glm::dvec2> ends) override {
@@ -33,11 +32,7 @@ public:
             at_ = end;
         }
     }
-    void curves(std::span<const glm::dvec2>) override {}
-    void change_pen(const Pen&) override {}
-    void end_stroke(bool) override {}
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
-    void disc(glm::dvec2, double, const Pen&) override {}
 
     double length = 0;
     glm::dvec2 sum{0.0};
@@ -60,9 +55,7 @@ TEST(Parts, TellOfEveryPatternWhatWalkingTells) {
         const DrawnPart<double>& whole = parts->whole();
         MassSink mass;
         const auto turtle = Turtle::drawing(grammar, mass, false);
-        DerivationOptions interpreted;
-        interpreted.interpreted = true;
-        derive(grammar, *turtle, interpreted);
+        derive(grammar, *turtle, {.interpreted = true});
         const double size = 1e-9 * (1 + whole.extent);
         EXPECT_NEAR(whole.ink, mass.length, 1e-9 * mass.length);
         const glm::dvec2 centre = mass.sum / mass.length;

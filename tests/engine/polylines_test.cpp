@@ -35,8 +35,7 @@ TEST(Polylines, NothingDrawnIsAnEmptyList) {
 }
 
 TEST(Polylines, MovesBelongToControlPolygons) {
-    TraceOptions options;
-    options.moves_draw = true;
+    TraceOptions options{.moves_draw = true};
     EXPECT_EQ(traced("FfF", options).begins, (Begins{0, 4}));
     EXPECT_EQ(traced("FfF").begins, (Begins{0, 2, 4}));
 }
@@ -72,8 +71,7 @@ TEST(Polylines, LinesInSpace) {
 TEST(Polylines, LimitsAndStops) {
     const Grammar grammar = grammar_of("axiom: F\nF --> FF\nderivation length: 40\n");
     EXPECT_THROW(trace(grammar, {}), BudgetError);
-    TraceOptions options;
-    options.budget = 1e18;
+    TraceOptions options{.budget = 1e18};
     EXPECT_THROW(trace(grammar, options), BudgetError);  // 16 TB of points
     const Grammar shorter = grammar_of("axiom: F\nF --> FF\nderivation length: 24\n");
     options.watch = [](std::uint64_t) { throw Stopped(); };

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <regex>
 #include <string>
 #include <vector>

@@ -72,9 +72,7 @@ Recorder drawn(const std::string& text) {
     const Grammar grammar = grammar_of(text);
     Recorder recorder;
     const auto turtle = SpaceTurtle::make(grammar, &recorder);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, {.interpreted = true});
     recorder.survey = turtle->survey();
     return recorder;
 }

@@ -8,7 +8,6 @@
 #include "tests/checks.h"
 
 #include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/vec3.hpp>
 

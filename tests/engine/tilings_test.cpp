@@ -216,9 +216,7 @@ std::vector<reference::Polygon> polygons_of(const std::string& name, const std::
         {{"-n", "derivation length", std::to_string(n)}}, variant);
     reference::Recorder recorder;
     const auto turtle = Turtle::drawing(grammar, recorder, false);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, {.interpreted = true});
     return recorder.polygons;
 }
 

@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -30,9 +29,7 @@ Survey survey_of(const std::string& text) {
 Recorder drawn(const Grammar& grammar, bool moves_draw = false) {
     Recorder recorder;
     const auto turtle = Turtle::drawing(grammar, recorder, moves_draw);
-    DerivationOptions options;
-    options.interpreted = true;
-    derive(grammar, *turtle, options);
+    derive(grammar, *turtle, {.interpreted = true});
     return recorder;
 }
 Recorder drawn(const std::string& axiom, bool moves_draw = false, const std::string& keys = "") {

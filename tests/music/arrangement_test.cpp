@@ -3,8 +3,9 @@
 #include "music/arrangement.h"
 
 #include "music/scores.h"
-#include "tests/checks.h"
+#include "tests/fuzz/file_targets.h"
 #include "tests/midi_tools.h"
+#include "tests/works.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -276,11 +277,7 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
 TEST(Arrangement, KeysOfThePieceThatReplaceThoseOfItsPatternsAreReportedOnce) {
     const auto facts = [](const std::string& text) {
         MemoryDestination memory;
-        std::string all;
-        for (const Remark& remark : plan_score(read(text), "mid", {})->make(memory, "score", {}).remarks) {
-            all += remark.text + "\n";
-        }
-        return all;
+        return remarks_of(plan_score(read(text), "mid", {})->make(memory, "score", {}));
     };
     const std::string drone =
         "[[pattern]]\nname = \"drone\"\ntext = \"\"\"\nheading: 0\naxiom: FF\nscale: major\ntonic: C3\nunit: "
@@ -302,13 +299,7 @@ TEST(ScoreOptions, AreAppliedOrReported) {
     const Document document = parse(
         "h.lsys", "axiom: X\nX --> +YF-XFX-FY+\nY --> -XF+YFY+FX-\nderivation length: 2\nangle increment: 90\n");
     const auto warnings_of = [&](const std::string& format, const OptionValues& values) {
-        MemoryDestination memory;
-        const Made made = plan_score(std::span(&document, 1), format, values)->make(memory, "score." + format, {});
-        std::string warnings;
-        for (const Remark& remark : made.remarks) {
-            if (remark.is_warning) warnings += remark.text + "\n";
-        }
-        return warnings;
+        return sikku::warnings_of(remarks_about(scores(), document, format, values));
     };
     // Names of keys contain blanks, those of options dashes.
     EXPECT_EQ(warnings_of("mid", {{"named-notes", "no"}}),
@@ -516,6 +507,20 @@ TEST(Arrangement, TheTextContainsEveryPattern) {
     }
 }
 
+TEST(Arrangement, EveryScoreContainsIt) {
+    const Arrangement piece =
+        read("title = \"A \\\"piece\\\" #(ly:exit) \\\\ } % --> ]]>\"\ntempo = 100\nscale = \"dorian\"\n" +
+             track("n = 3\n", "hilbert") +
+             track("start = 1\ninversion = true\nloop = \"fill\"\ncounterpoint = \"strict\"\n"));
+    for (const std::string format : {"mid", "musicxml", "mxl", "ly", "abc", "csd", "sco", "strudel", "svg", "html"}) {
+        const MadeWork made = made_work([&](MemoryDestination& memory) {
+            return plan_score(piece, format, {})->make(memory, "x." + format, {});
+        });
+        EXPECT_TRUE(has(made.remarks, "counterpoint: ")) << format;
+        EXPECT_EQ(try_show(made.bytes()), piece.text) << format;
+    }
+}
+
 TEST(Arrangement, MistakesHavePlaces) {
     const auto refused = [](const std::string& text, std::string_view message) {
         EXPECT_TRUE(has(error_of<std::runtime_error>([&] { notes_of(text); }), message));
@@ -532,7 +537,20 @@ TEST(Arrangement, MistakesHavePlaces) {
     refused(track("augmentation = \"1/64\"\nunit = \"1/64\"\n"), "no whole numbers of ticks");
     refused(track("loop = 0\n"), "loop: expected how often");
     refused(track("loop = -3\n"), "loop: expected how often");
-    refused(track("rhythm = \"\"\n"), "a.toml:3:1: rhythm: ");
+    for (const char* rhythm :
+         {"", "~", "~~~~", "E(0,0)", "E(0,8)", "E(3,0)", "E(1,1000000000)", "0+0", "4+0", "-4"}) {
+        refused(track(fmt::format("rhythm = \"{}\"\n", rhythm)), "a.toml:3:1: rhythm: ");
+    }
+    for (const char* unit : {"0", "-1/8", "1/0", "0/8", "999999999999/1", "1/999999999999", "1e300", "nan"}) {
+        refused(track(fmt::format("unit = \"{}\"\n", unit)), "a.toml:3:1: unit: expected a note value");
+    }
+    for (const char* tempo : {"0", "-5", "nan", "inf", "1e30"}) {
+        refused(fmt::format("tempo = \"{}\"\n", tempo) + track(""),
+                "a.toml:1:1: tempo: expected quarter notes a minute");
+    }
+    for (const char* meter : {"0/4", "4/0", "99999999/4", "-3/4"}) {
+        refused(track(fmt::format("meter = \"{}\"\n", meter)), "a.toml:3:1: meter: expected a meter");
+    }
     refused(track("canon = \"2 x\"\n"), "canon: expected bars and an interval");
     refused(track("canon = \"" + std::string(100, ',') + "\"\n"), "canon: expected");
     refused(track("name = \"\"\n"), "name: expected a line of 1 to 100 bytes");

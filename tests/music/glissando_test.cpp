@@ -3,15 +3,14 @@
 #include "music/note_stream.h"
 #include "music/score/glides.h"
 #include "music/scores.h"
-#include "tests/checks.h"
 #include "tests/midi_tools.h"
+#include "tests/works.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -269,18 +268,9 @@ TEST(Glissando, CsoundAndPagesSlide) {
 
 TEST(Glissando, WhatCannotSlideIsReported) {
     EXPECT_THROW(play(parse("g.lsys", steps), "mid", {{"tuning", "mts"}}), SettingError);
-    const Document document = parse("g.lsys", steps);
-    const auto work = plan_score(std::span(&document, 1), "strudel", {}, {});
-    MemoryDestination memory;
-    const Made made = work->make(memory, "x.strudel", {}, 1);
-    ASSERT_FALSE(made.remarks.empty());
-    EXPECT_TRUE(std::any_of(made.remarks.begin(), made.remarks.end(), [](const Remark& remark) {
-        return remark.text.find("do not slide") != std::string::npos;
-    }));
+    EXPECT_TRUE(has(made_work(scores(), parse("g.lsys", steps), "strudel").remarks, "do not slide"));
     // The writer refuses what its options cannot bend.
-    MidiScore score;
-    score.head = midi_head();
-    score.notes = {midi_note(0, 480, 60)};
+    MidiScore score{.head = midi_head(), .notes = {midi_note(0, 480, 60)}};
     score.notes.front().glide = {240, 2, 0};
     score.end = 480;
     EXPECT_THROW(make_midi(score), ScoreError);

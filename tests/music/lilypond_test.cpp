@@ -250,12 +250,11 @@ TEST(LilyPond, DynamicsOfSeveralVoicesAreBelowTheirStaff) {
     score.head.parts[0].is_accompaniment = true;
     for (std::int16_t voice = 0; voice < 2; ++voice) {
         for (int i = 0; i < 4; ++i) {
-            Note note;
-            note.voice = voice;
-            note.onset = i * 960;
-            note.duration = voice == 0 ? 960 : 480;
-            note.key = 60 - 5 * voice;
-            note.velocity = i < 2 ? 80 : 112;
+            Note note{.onset = i * 960,
+                      .duration = voice == 0 ? 960 : 480,
+                      .key = 60 - 5 * voice,
+                      .voice = voice,
+                      .velocity = i < 2 ? 80 : 112};
             score.notes.push_back(note);
         }
     }

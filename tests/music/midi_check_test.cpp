@@ -292,8 +292,7 @@ TEST(MidiCheck, EveryTruncationIsSeen) {
 /// Anything may come; nothing crashes, and what is told has a place in the file and is in order.
 TEST(MidiCheck, MutationsDoNoHarm) {
     std::mt19937 chance(7);
-    MidiOptions options;
-    options.microtonal = true;
+    MidiOptions options{.microtonal = true};
     std::vector<std::string> good = {good_file()};
     for (const Tuning tuning : {Tuning::bend, Tuning::mts}) {
         options.tuning = tuning;

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -45,10 +44,7 @@ MidiScore tiny_score() {
 }
 
 MidiOptions microtonal(Tuning tuning, int format = 1) {
-    MidiOptions options;
-    options.format = format;
-    options.microtonal = true;
-    options.tuning = tuning;
+    MidiOptions options{.format = format, .microtonal = true, .tuning = tuning};
     return options;
 }
 
@@ -111,8 +107,7 @@ TEST(Midi, TextsAreWhole) {
     score.head.pattern.clear();
     for (int i = 0; i < 100'000; ++i) score.head.pattern += "f → \0 \r\n"[i % 11];
     for (const int format : {0, 1}) {
-        MidiOptions options;
-        options.format = format;
+        MidiOptions options{.format = format};
         const std::string bytes = make_midi(score, options);
         const MidiFile file = read_midi(bytes);
         EXPECT_EQ(file.title, score.head.title);
@@ -130,8 +125,7 @@ TEST(Midi, AScoreWithoutNotesIsAFile) {
     score.head = midi_head(3);
     score.end = 1920;
     for (const int format : {0, 1}) {
-        MidiOptions options;
-        options.format = format;
+        MidiOptions options{.format = format};
         const std::string bytes = make_midi(score, options);
         EXPECT_EQ(midi_faults(bytes), "");
         EXPECT_EQ(read_midi(bytes).ends, std::vector<std::int64_t>{1920});
@@ -161,8 +155,7 @@ TEST(Midi, RefusesHeads) {
     refuse([](ScoreHead& head) { head.parts.front().program = -1; }, "program -1");
     refuse([](ScoreHead& head) { head.parts.front().key = KeySignature{8, false}; }, "8 fifths");
     refuse([](ScoreHead& head) { head.title.assign(std::size_t{1} << 28, 'x'); }, "256 MB");
-    MidiOptions options;
-    options.format = 2;
+    MidiOptions options{.format = 2};
     refuse([](ScoreHead&) {}, "format 0 or 1, not 2", options);
     options = microtonal(Tuning::bend);
     for (const int range : {0, 25}) {
@@ -181,12 +174,8 @@ TEST(Midi, RefusesHeads) {
 TEST(Midi, RefusesNotes) {
     const auto refuse = [](const std::vector<Note>& notes, const std::string& part) {
         for (const int format : {0, 1}) {
-            MidiScore score;
-            score.head = midi_head(2);
-            score.notes = notes;
-            score.end = std::int64_t{1} << 40;
-            MidiOptions options;
-            options.format = format;
+            MidiScore score{.head = midi_head(2), .notes = notes, .end = std::int64_t{1} << 40};
+            MidiOptions options{.format = format};
             expect_refused([&] { make_midi(score, options); }, part);
         }
     };
@@ -240,10 +229,7 @@ TEST(Midi, DeltasOfEverySize) {
                                                                      {0x8000000, "C0808000"},
                                                                      {0xFFFFFFF, "FFFFFF7F"}};
     for (const auto& [ticks, digits] : known) {
-        MidiScore score;
-        score.head = midi_head();
-        score.notes = {midi_note(ticks, ticks, 60)};
-        score.end = 2 * ticks;
+        MidiScore score{.head = midi_head(), .notes = {midi_note(ticks, ticks, 60)}, .end = 2 * ticks};
         const std::string bytes = make_midi(score);
         EXPECT_TRUE(bytes.ends_with(hex_bytes("00 C0 49" + digits + "90 3C 50" + digits + "80 3C 40 00 FF 2F 00")))
             << ticks;
@@ -290,8 +276,7 @@ TEST(Midi, PartsNameTheirVoices) {
     score.notes = {midi_note(0, 480, 60, 2), midi_note(0, 480, 72, 1)};
     score.end = 480;
     for (const auto& [format, type] : {std::pair{1, 3}, {0, 4}}) {
-        MidiOptions options;
-        options.format = format;
+        MidiOptions options{.format = format};
         const MidiFile file = read_midi(make_midi(score, options));
         EXPECT_EQ(file.ends.size(), format == 1 ? 3u : 1u);
         std::vector<std::pair<std::string, int>> found;
@@ -468,8 +453,7 @@ TEST(Midi, ScoresMayBeLongerThanADelta) {
     for (std::int64_t i = 0; i < 3; ++i) score.notes.push_back(midi_note(i * 200'000'000, 200'000'000, 60));
     score.end = 600'000'000;
     for (const int format : {0, 1}) {
-        MidiOptions options;
-        options.format = format;
+        MidiOptions options{.format = format};
         const std::string bytes = make_midi(score, options);
         EXPECT_EQ(midi_faults(bytes), "");
         EXPECT_EQ(read_midi(bytes).ends.back(), score.end);
@@ -671,8 +655,7 @@ TEST(MidiTempo, FallsTowardsTheEnd) {
             score.head.ritardando = 3840;
             for (std::int64_t i = 0; i < notes; ++i) score.notes.push_back(midi_note(i * 240, 240, 60, 0));
             score.end = notes * 240;
-            MidiOptions options;
-            options.format = format;
+            MidiOptions options{.format = format};
             const std::string bytes = make_midi(score, options);
             EXPECT_EQ(midi_faults(bytes), "");
             std::vector<std::int64_t> ticks;

@@ -20,9 +20,7 @@
 namespace sikku::mpe_test {
 
 MidiOptions mpe(int format = 1) {
-    MidiOptions options;
-    options.format = format;
-    options.tuning = Tuning::mpe;
+    MidiOptions options{.format = format, .tuning = Tuning::mpe};
     return options;
 }
 
@@ -48,10 +46,7 @@ std::string parameter(int channel, int number, int value) {
 /// The configuration message: registered parameter 6 of channel 1 is 15, the number of channels of notes. Then their
 /// bends range over 48 semitones. (MIDI Polyphonic Expression 1.0, sections 2.1 and 2.4.)
 TEST(Mpe, TheFirstTrackConfiguresTheZone) {
-    MidiScore score;
-    score.head = midi_head();
-    score.notes = {midi_note(0, 480, 60.5)};
-    score.end = 480;
+    MidiScore score{.head = midi_head(), .notes = {midi_note(0, 480, 60.5)}, .end = 480};
     std::string digits = parameter(0, 6, 15);
     for (int channel = 1; channel < 16; ++channel) {
         if (channel != 9) digits += parameter(channel, 0, 48);

@@ -2,6 +2,7 @@
 
 #include "tests/checks.h"
 #include "tests/files.h"
+#include "tests/pages.h"
 #include "tests/print_tools.h"
 
 #include <gtest/gtest.h>
@@ -14,10 +15,8 @@
 #include <map>
 #include <pugixml.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 namespace sikku::music_page_test {
@@ -29,13 +28,7 @@ public:
 
 Note note(std::int64_t onset, std::int64_t duration, double key, glm::dvec2 from, glm::dvec2 to,
           std::int16_t voice = 0) {
-    Note result;
-    result.onset = onset;
-    result.duration = duration;
-    result.key = key;
-    result.from = from;
-    result.to = to;
-    result.voice = voice;
+    Note result{.onset = onset, .duration = duration, .key = key, .voice = voice, .from = from, .to = to};
     return result;
 }
 
@@ -328,17 +321,6 @@ TEST(MusicPage, NeedsNothingFromElsewhere) {
     EXPECT_TRUE(has(text, "default-src 'none'"));
 }
 
-/// The page with what is in its scripts and its style left out.
-std::string markup(std::string text) {
-    for (const std::string name : {"script", "style"}) {
-        for (std::size_t at = text.find("<" + name); at != std::string::npos; at = text.find("<" + name, at + 1)) {
-            const std::size_t begin = text.find('>', at) + 1;
-            text.erase(begin, text.find("</" + name + ">", begin) - begin);
-        }
-    }
-    return text;
-}
-
 TEST(MusicPage, IsWellFormedAndNamesWhatItHas) {
     pugi::xml_document document;
     const pugi::xml_parse_result result =
@@ -361,16 +343,7 @@ TEST(MusicPage, IsWellFormedAndNamesWhatItHas) {
     for (const auto& canvas : html.select_nodes("//canvas")) {
         EXPECT_TRUE(canvas.node().attribute("aria-label") || canvas.node().attribute("aria-hidden"));
     }
-    std::set<std::string> ids;
-    const auto with_id = html.select_nodes("//*[@id]");
-    for (const auto& element : with_id) ids.insert(element.node().attribute("id").value());
-    EXPECT_EQ(ids.size(), with_id.size());
-    // The script asks for no other.
-    const std::string text = page(head(), hilbert(), 1920);
-    for (std::size_t at = text.find("element(\""); at != std::string::npos; at = text.find("element(\"", at + 1)) {
-        const std::size_t begin = at + 9;
-        EXPECT_TRUE(ids.contains(text.substr(begin, text.find('"', begin) - begin))) << text.substr(at, 40);
-    }
+    expect_ids(html, page(head(), hilbert(), 1920));
 }
 
 TEST(MusicPage, TextsAreTexts) {

@@ -9,11 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <clocale>
-#include <cmath>
 #include <map>
 #include <pugixml.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sikku::musicxml_test {
@@ -328,9 +326,7 @@ TEST(MusicXml, StavesOfABracketAreParts) {
     TestScore score;
     score.head.parts = {plain_part("Solo", 1), plain_part("Voices", 6)};
     for (std::int16_t voice = 0; voice < 7; ++voice) {
-        Note note;
-        note.voice = voice;
-        note.duration = 1920;
+        Note note{.duration = 1920, .voice = voice};
         score.head.parts[0].program = score.head.parts[1].program = 40;
         score.notes.push_back(note);
     }

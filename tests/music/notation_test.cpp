@@ -79,11 +79,7 @@ TEST(Notation, ChordsStayInTheirPart) {
     score.head.parts[1].has_chords = true;
     for (const auto& [voice, key] :
          std::vector<std::pair<std::int16_t, double>>{{0, 48}, {1, 60}, {2, 64}, {3, 67}}) {
-        Note note;
-        note.duration = 480;
-        note.voice = voice;
-        note.key = key;
-        note.symbol = 1;
+        Note note{.duration = 480, .key = key, .voice = voice, .symbol = 1};
         score.notes.push_back(note);
     }
     score.end = 480;
@@ -480,10 +476,7 @@ TEST(Notation, VoicesOfAKeyboardAreSharedBetweenTheHands) {
     score.head.parts = {plain_part("Piano", 3)};
     const std::array<double, 3> voice_keys = {48, 67, 72};
     for (std::int16_t voice = 0; voice < 3; ++voice) {
-        Note note;
-        note.duration = 1920;
-        note.key = voice_keys[static_cast<std::size_t>(voice)];
-        note.voice = voice;
+        Note note{.duration = 1920, .key = voice_keys[static_cast<std::size_t>(voice)], .voice = voice};
         score.notes.push_back(note);
     }
     const Notation notation = notate(score);
@@ -499,10 +492,7 @@ TestScore many_voices(int voices) {
     score.head.parts = {plain_part("Many", voices), plain_part("Silent", 2)};
     for (std::int16_t voice = 0; voice < voices; ++voice) {
         if (voice == 3) continue;
-        Note note;
-        note.duration = 1920;
-        note.key = 90 - 2 * voice;
-        note.voice = voice;
+        Note note{.duration = 1920, .key = 90 - 2 * voice, .voice = voice};
         score.notes.push_back(note);
     }
     return score;
@@ -519,11 +509,10 @@ TestScore quarters(Part part, const std::vector<std::tuple<int, double, double>>
     TestScore score;
     score.head.parts = {std::move(part)};
     for (const auto& [voice, onset, key] : list) {
-        Note note;
-        note.voice = static_cast<std::int16_t>(voice);
-        note.onset = static_cast<std::int64_t>(onset * 480);
-        note.duration = 480;
-        note.key = key;
+        Note note{.onset = static_cast<std::int64_t>(onset * 480),
+                  .duration = 480,
+                  .key = key,
+                  .voice = static_cast<std::int16_t>(voice)};
         score.notes.push_back(note);
     }
     score.end = 1920;
@@ -612,11 +601,7 @@ TEST(Notation, LinesThatFitNoGridStayApart) {
     for (std::int16_t voice = 0; voice < 2; ++voice) {
         const std::int64_t step = voice == 0 ? 160 : 120;
         for (std::int64_t onset = 0; onset < 480; onset += step) {
-            Note note;
-            note.voice = voice;
-            note.onset = onset;
-            note.duration = step;
-            note.key = voice == 0 ? ride : snare;
+            Note note{.onset = onset, .duration = step, .key = voice == 0 ? ride : snare, .voice = voice};
             score.notes.push_back(note);
         }
     }
@@ -631,9 +616,7 @@ TEST(Notation, PartsOfOneNameAreNumbered) {
     part.has_instrument_name = true;
     score.head.parts = {part, plain_part("Mridangam of the left", 1), part};
     for (std::int16_t voice = 0; voice < 3; ++voice) {
-        Note note;
-        note.voice = voice;
-        note.duration = 1920;
+        Note note{.duration = 1920, .voice = voice};
         score.notes.push_back(note);
     }
     score.notes[2].key = 40;
@@ -656,11 +639,7 @@ TEST(Notation, PartsOnOneTonicHaveOneSignature) {
     score.head.parts[2].key = KeySignature{1, false};
     const auto add = [&](std::int16_t voice, const std::vector<double>& keys) {
         for (std::size_t i = 0; i < keys.size(); ++i) {
-            Note note;
-            note.voice = voice;
-            note.onset = static_cast<std::int64_t>(i) * 480;
-            note.duration = 480;
-            note.key = keys[i];
+            Note note{.onset = static_cast<std::int64_t>(i) * 480, .duration = 480, .key = keys[i], .voice = voice};
             score.notes.push_back(note);
         }
     };
@@ -872,8 +851,7 @@ TEST(Notation, RefusesWhatNobodyPrints) {
     Notator long_one(score.head);
     EXPECT_THROW(long_one.finish(std::int64_t{1920} * 100'001), ScoreError);
     Notator stranger(score.head);
-    Note note;
-    note.voice = 1;
+    Note note{.voice = 1};
     EXPECT_THROW(stranger.notes({&note, 1}), ScoreError);
     note.voice = -1;
     EXPECT_THROW(stranger.notes({&note, 1}), ScoreError);

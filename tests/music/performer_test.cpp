@@ -266,11 +266,9 @@ TEST(Performer, SlowsDown) {
 
 /// Controllers, bends and tempos of curves come at their times, in each repetition.
 TEST(Performer, PlaysCurves) {
-    Curves curves;
-    curves.tempo = {{0, 0.5}, {960, 1}};
-    curves.controls = {{0, 0, 10, 20}, {240, 0, ControlPoint::bend, 1}, {960, 0, 10, 30}};
-    MidiOptions midi;
-    midi.microtonal = true;
+    Curves curves{.tempo = {{0, 0.5}, {960, 1}},
+                  .controls = {{0, 0, 10, 20}, {240, 0, ControlPoint::bend, 1}, {960, 0, 10, 30}}};
+    MidiOptions midi{.microtonal = true};
     Performance one;
     one.options.times = 2;
     auto music = std::make_unique<FakeStream>(quarters(4), midi);
@@ -344,10 +342,9 @@ TEST(Performer, StopsAndPausesAfterWhatWasSentAhead) {
 }
 
 TEST(Performer, NotesThatLastBeyondWindowsEnd) {
-    MidiScore score;
-    score.head = midi_head(2);
-    score.notes = {midi_note(0, 9600, 40, 1), midi_note(0, 480, 60), midi_note(9600, 480, 60)};
-    score.end = 10080;
+    MidiScore score{.head = midi_head(2),
+                    .notes = {midi_note(0, 9600, 40, 1), midi_note(0, 480, 60), midi_note(9600, 480, 60)},
+                    .end = 10080};
     Performance one;
     one.play(stream(score));
     std::vector<Stroke> ends;
@@ -667,10 +664,7 @@ TEST(Performer, SoundsAsTheFileDoes) {
             return std::tie(a.onset, a.voice) < std::tie(b.onset, b.voice);
         });
         for (const Tuning tuning : {Tuning::bend, Tuning::mts, Tuning::mpe}) {
-            MidiOptions midi;
-            midi.format = 0;
-            midi.tuning = tuning;
-            midi.microtonal = round % 2 == 1;
+            MidiOptions midi{.format = 0, .microtonal = round % 2 == 1, .tuning = tuning};
             Performance one;
             one.play(std::make_unique<FakeStream>(score, midi, 200'000));
             std::map<std::tuple<std::int64_t, int, int>, int> found;
@@ -711,12 +705,10 @@ TEST(Performer, SoundsAsTheFileDoes) {
 
 /// Of voices that share a channel unisons sound once.
 TEST(Performer, UnisonsOnOneChannelAreStruckOnce) {
-    MidiScore score;
-    score.head = midi_head(20);
-    score.notes = {midi_note(0, 480, 60, 0), midi_note(0, 960, 60, 19), midi_note(240, 240, 60, 7)};
-    score.end = 960;
-    MidiOptions midi;
-    midi.share_channels = true;
+    MidiScore score{.head = midi_head(20),
+                    .notes = {midi_note(0, 480, 60, 0), midi_note(0, 960, 60, 19), midi_note(240, 240, 60, 7)},
+                    .end = 960};
+    MidiOptions midi{.share_channels = true};
     Performance one;
     one.play(std::make_unique<FakeStream>(score, midi));
     EXPECT_EQ(one.heard(), (std::vector<Stroke>{{0, 60}, {second / 4, 60}}));

@@ -2,22 +2,19 @@
 #include "music/score/score_formats.h"
 #include "music/score/comments.h"
 #include "music/scores.h"
-#include "tests/checks.h"
 #include "tests/files.h"
 #include "tests/notation_tools.h"
 #include "tests/tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace sikku::score_formats_test {
@@ -273,13 +270,8 @@ TEST(ScoreFormats, LossesOfCommentsAreReported) {
     EXPECT_TRUE(comments_keep("axiom: F\r\n\ttitle: கோலம்\n"));
     for (const char* lost : {"// \x1b[0m", "a\u2028b", "a\u200Fb", "\xff"}) EXPECT_FALSE(comments_keep(lost)) << lost;
     const auto is_reported = [](const std::string& text, const std::string& format) {
-        const Document document = parse("a.lsys", text);
-        MemoryDestination memory;
-        const Made made = plan_score(std::span(&document, 1), format, {}, {})->make(memory, "x", {}, 1);
-        return std::any_of(made.remarks.begin(), made.remarks.end(), [](const Remark& remark) {
-            return remark.text.find("the pattern with blanks") != std::string::npos ||
-                   remark.text.find("the pattern with U+FFFD") != std::string::npos;
-        });
+        const std::string remarks = made_work(scores(), parse("a.lsys", text), format).remarks;
+        return has(remarks, "the pattern with blanks") || has(remarks, "the pattern with U+FFFD");
     };
     const std::string plain = "axiom: F+F\nangle factor: 4\n";
     for (const char* format : {"abc", "ly", "sco", "csd", "strudel"}) {

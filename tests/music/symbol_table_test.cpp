@@ -2,14 +2,13 @@
 // and MusicXML see it.
 #include "music/arrangement.h"
 #include "music/scores.h"
-#include "tests/checks.h"
 #include "tests/midi_tools.h"
+#include "tests/works.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -258,24 +257,19 @@ TEST(SymbolTable, OtherFormatsNameTheDrums) {
 TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
     const Document document =
         parse("d.lsys", head + "note A: C4\nnote Q: D4\naxiom: XAYXA\nX --> XY\nderivation length: 2\n");
-    MemoryDestination files;
-    const Made made = plan_score(std::span(&document, 1), "mid", {})->make(files, "x.mid", {});
-    std::vector<std::string> texts;
-    for (const Remark& remark : made.remarks) texts.push_back(remark.text);
-    ASSERT_EQ(texts.size(), 3u);
-    EXPECT_EQ(texts[1], "skipped: 5 Y, 2 X");
-    EXPECT_EQ(texts[2], "the pattern does not contain the symbol 'Q' of the table");
+    const Made made = remarks_about(scores(), document, "mid");
+    ASSERT_EQ(made.remarks.size(), 3u);
+    EXPECT_EQ(made.remarks[1].text, "skipped: 5 Y, 2 X");
+    EXPECT_EQ(made.remarks[2].text, "the pattern does not contain the symbol 'Q' of the table");
     EXPECT_TRUE(has(describe_score(std::span(&document, 1), {}, {}), "skipped   5 Y, 2 X\n"));
 }
 
 TEST(SymbolTable, SkippedSymbolsAreReportedWithoutATable) {
-    const Document document = parse("d.lsys", head + "axiom: F+(3)F!;CDF-(1)+\n");
-    MemoryDestination files;
-    const Made made = plan_score(std::span(&document, 1), "mid", {})->make(files, "x.mid", {});
+    const Made made = remarks_about(scores(), parse("d.lsys", head + "axiom: F+(3)F!;CDF-(1)+\n"), "mid");
     ASSERT_EQ(made.remarks.size(), 2u);
     EXPECT_EQ(made.remarks[1].text, "skipped: 1 !, 1 ;, 1 C, 1 D, 1 parameter of +, 1 parameter of -");
     const Document plain = parse("d.lsys", head + "axiom: F+F-F[+F]f\n");
-    EXPECT_EQ(plan_score(std::span(&plain, 1), "mid", {})->make(files, "y.mid", {}).remarks.size(), 1u);
+    EXPECT_EQ(remarks_about(scores(), plain, "mid").remarks.size(), 1u);
 }
 
 TEST(SymbolTable, TracksOfArrangements) {

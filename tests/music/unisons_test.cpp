@@ -34,12 +34,11 @@ TestScore random_voices(unsigned seed, int parts, int voices) {
         for (int i = 0; i < voices; ++i, ++voice) {
             std::int64_t here = 0;
             for (int n = 0; n < 30; ++n) {
-                Note note;
-                note.onset = here + static_cast<std::int64_t>(random() % 3) * 60;
-                note.duration = 60 * (1 + static_cast<std::int64_t>(random() % 5));
-                note.key = 60 + static_cast<double>(random() % 6);
-                note.velocity = static_cast<std::uint8_t>(60 + random() % 40);
-                note.voice = voice;
+                Note note{.onset = here + static_cast<std::int64_t>(random() % 3) * 60,
+                          .duration = 60 * (1 + static_cast<std::int64_t>(random() % 5)),
+                          .key = 60 + static_cast<double>(random() % 6),
+                          .voice = voice,
+                          .velocity = static_cast<std::uint8_t>(60 + random() % 40)};
                 here = note.onset + note.duration;
                 score.notes.push_back(note);
             }
@@ -90,8 +89,7 @@ TEST(Unisons, KeysSoundOnceAndNothingIsLost) {
 TEST(Unisons, VoicesOfAPartShareItsChannel) {
     const TestScore score = random_voices(1, 2, 12);
     MemorySink sink;
-    MidiOptions options;
-    options.share_channels = true;
+    MidiOptions options{.share_channels = true};
     const auto writer = write_midi(score.head, sink, options);
     UnisonMerger merger(*writer, score.head, 10'000);
     merger.notes(score.notes);
@@ -112,8 +110,7 @@ TEST(Unisons, PartsOfAnInstrumentShareAChannel) {
     TestScore score = random_voices(2, 40, 1);
     for (std::size_t i = 0; i < 40; ++i) score.head.parts[i].program = static_cast<int>(i % 15);
     MemorySink sink;
-    MidiOptions options;
-    options.share_channels = true;
+    MidiOptions options{.share_channels = true};
     const auto writer = write_midi(score.head, sink, options);
     UnisonMerger merger(*writer, score.head, 10'000);
     merger.notes(score.notes);

@@ -2,7 +2,8 @@
 // includes neither.
 #include "art/prints.h"
 #include "music/scores.h"
-#include "tests/program.h"
+
+#include "tests/files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 // tests/program/corpus_test.cpp: runs the checks of the fuzzers on every file of the corpus and every pattern.
 #include "art/image/image_file.h"
+#include "tests/checks.h"
+#include "tests/files.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/fuzz/grid_targets.h"
 #include "tests/fuzz/link_targets.h"
@@ -8,7 +10,6 @@
 #include "tests/fuzz/surface_targets.h"
 #include "tests/fuzz/svg_targets.h"
 #include "tests/fuzz/targets.h"
-#include "tests/program.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <set>
 #include <span>
-#include <variant>
 
 namespace sikku::floor_test {
 

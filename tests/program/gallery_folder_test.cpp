@@ -8,8 +8,6 @@
 #include <sys/stat.h>
 
 #include <chrono>
-#include <csignal>
-#include <fstream>
 #include <iterator>
 #include <thread>
 

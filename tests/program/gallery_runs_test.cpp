@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <list>
 #include <set>
 #include <thread>
@@ -117,7 +116,7 @@ TEST_F(GalleryRunsTest, AShardWhoseFilesTheWholeHasLeavesNothing) {
     EXPECT_TRUE(has(shard.errors, "0 made"));
     EXPECT_EQ(differences(whole, tree(folder / "out")), "");
     // But its record stays where it says something else.
-    folder.write("square.lsys", square + "stroke: 1mm #123\n");
+    folder.write("square.lsys", square_text + "stroke: 1mm #123\n");
     for (const char* part : {"1/3", "2/3", "3/3"}) ASSERT_EQ(small("out", {"--shard", part}).status, 0);
     EXPECT_TRUE(has(small("out").errors, "0 made, 27 up to date"));
 }

@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
-#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
-#include <map>
 #include <random>
 #include <set>
 #include <sstream>
@@ -83,8 +81,8 @@ TEST_F(GalleryTest, PatternsByGlobKindFolderAndFile) {
     EXPECT_TRUE(has(gallery({"kolams/*", "--list"}).output, "snake-kolam"));
     EXPECT_EQ(gallery({"kolams", "--list"}).output, gallery({"kolams/*", "--list"}).output);
     std::filesystem::create_directories(folder / "mine/deep");
-    folder.write("mine/a.lsys", square);
-    folder.write("mine/deep/b.lsys", square);
+    folder.write("mine/a.lsys", square_text);
+    folder.write("mine/deep/b.lsys", square_text);
     EXPECT_EQ(lines_of(gallery({"mine", "--list"}).output), 2U);
     EXPECT_EQ(lines_of(gallery({"mine/*.lsys", "--list"}).output), 1U);
     EXPECT_EQ(lines_of(gallery({"mine/a.lsys", "mine", "--list"}).output), 2U) << "each only once";
@@ -100,30 +98,10 @@ TEST_F(GalleryTest, MistakesHavePlaces) {
         EXPECT_FALSE(std::filesystem::exists(folder / "out")) << text;
     };
     refused("dpi = 100\nanlge = 3\n", "bad.toml:2:1: unknown key 'anlge'; did you mean 'angle'?");
-    refused("[[item]]\npattern = 'hilbert'\n  marign = '1cm'\n", "bad.toml:3:3: unknown key 'marign'");
-    refused("x = \n", "bad.toml:1:5");
-    refused("pattern = 'hilbert'\nn = 'a'\n", "bad.toml:2:1: n: expected a whole number");
-    refused("pattern = 'hilbert'\nn = -1\n", "bad.toml:2:1: n: expected a whole number");
-    refused("pattern = 'hilbert'\nn = '5:1'\n", "bad.toml:2:1: n: the range 5:1 is empty");
-    refused("pattern = 'hilbert'\nn = []\n", "bad.toml:2:1: n: this list is empty");
-    refused("[[item]]\nn = 3\n", "bad.toml:1:1: this item has no pattern");
-    refused("pattern = 'hilbrt'\n", "bad.toml:1:1: no file or pattern named 'hilbrt'; did you mean 'hilbert'?");
-    refused("format = 'sgv'\n", "bad.toml:1:1: unknown format 'sgv'; did you mean 'svg'?");
-    refused("set = { '' = 1 }\n", "bad.toml:1:9: set: a key is empty");
-    refused("set = { title = \"a\\u001Bb\" }\n", "bad.toml:1:9: title: 'a?b' contains a control character");
-    refused("pattern = 'hilbert'\nsize = '3x'\n", "bad.toml:2:1: size 3x");
-    refused("pattern = 'hilbert'\nn = 2\nname = 'a-{m}'\n", "bad.toml:3:1: name: unknown placeholder {m}");
-    refused("pattern = 'hilbert'\nname = '../x'\n", "bad.toml:2:1: name: '../x' cannot be");
-    refused("pattern = 'hilbert'\nname = '.x'\n", "cannot be the name");
-    refused("pattern = ['hilbert', 'dragon']\nname = 'x'\n", "two jobs are named 'x.svg'");
-    refused("[[item]]\npattern = 'hilbert'\n[[item]]\npattern = 'hilbert'\n",
-            "bad.toml:3:1: two jobs are named 'hilbert.svg' (the other: bad.toml:1:1)");
-    refused("pattern = 'hilbert'\nn = '1:1000000000'\n", "this would make 1000000000 jobs");
-    refused("pattern = 'hilbert'\nset = { a = '0:1:1e-300', b = '1:1000000' }\n", "jobs; at most");
+    refused("pattern = 'hilbert'\nset = { 'angle increment' = [60, 'x'] }\n", "bad.toml:2:9: ");
+    refused("fit = true\nstep = '1mm'\npattern = 'hilbert'\n", "bad.toml:2:1: step: cannot be combined with 'fit'");
     folder.write("bad.jsonl", "{\"pattern\": \"hilbert\"}\n{\"pattern\": \"hilbert\", \"nn\": 3}\n");
     EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:2:24: unknown key 'nn'"));
-    folder.write("bad.jsonl", "{\"pattern\": }\n");
-    EXPECT_TRUE(has(gallery({"--manifest", "bad.jsonl"}).errors, "bad.jsonl:1:13: invalid JSON"));
     EXPECT_EQ(gallery({"--file", "none.toml"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--memory", "much"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--only", "hilbrt"}).status, 2);
@@ -143,12 +121,12 @@ TEST_F(GalleryTest, ResumesAndRedoesWhatChanged) {
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     EXPECT_TRUE(has(small("out", {"--only", "square-n2"}).errors, "2 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
-    folder.write("square.lsys", square + "stroke: 1mm #123\n");
+    folder.write("square.lsys", square_text + "stroke: 1mm #123\n");
     EXPECT_TRUE(has(small("out").errors, "19 up to date"));
     EXPECT_EQ(std::filesystem::last_write_time(folder / "out/hilbert-n2-angle80.svg"), made_at);
-    folder.write("square.lsys", square + "stroke: 1mm #456\n");
+    folder.write("square.lsys", square_text + "stroke: 1mm #456\n");
     EXPECT_TRUE(has(small("out").errors, "19 up to date")) << "files of the same size";
-    folder.write("square.lsys", square);
+    folder.write("square.lsys", square_text);
     EXPECT_TRUE(has(small("out").errors, "8 made"));
     EXPECT_EQ(differences(first, tree(folder / "out")), "");
     EXPECT_TRUE(has(small("out", {"--force"}).errors, "27 made"));
@@ -556,45 +534,14 @@ TEST_F(GalleryTest, RecordsOfOthersStay) {
     EXPECT_EQ(contents(folder / "wall.sbatch"), "mine");
 }
 
-TEST_F(GalleryTest, JsonOfOthers) {
-    const auto refused = [&](const std::string& line, std::string_view message) {
-        folder.write("bad.jsonl", line + "\n");
-        const Outcome outcome = gallery({"--manifest", "bad.jsonl", "--list"});
-        EXPECT_EQ(outcome.status, 2) << line.substr(0, 80);
-        EXPECT_TRUE(has(outcome.errors, message));
-    };
-    refused(std::string(200'000, '['), "bad.jsonl:1:51: too many brackets in each other");
-    refused("{\"pattern\":\"hilbert\",\"dpi\":1e400}", "bad.jsonl:1:");
-    refused("{\"pattern\":\"hilbert\",\"n\":1,\"n\":2}", "bad.jsonl:1:28: duplicate key 'n'");
+TEST_F(GalleryTest, RecordsOfDeepBracketsAreSkipped) {
     std::filesystem::create_directories(folder / "out");
     folder.write("out/gallery.jsonl", "{\"file\":\"a.svg\",\"hash\":\"\",\"bytes\":1,\"content\":\"\",\"job\":" +
                                           std::string(200'000, '[') + std::string(200'000, ']') + "}\n");
     EXPECT_EQ(gallery({"hilbert", "-o", "out"}).status, 0);
 }
 
-TEST_F(GalleryTest, MistakesInValuesHavePlaces) {
-    const auto refused = [&](const std::string& text, std::string_view message) {
-        folder.write("bad.toml", "pattern = 'hilbert'\n" + text);
-        const Outcome outcome = gallery({"--file", "bad.toml", "-o", "out"});
-        EXPECT_EQ(outcome.status, 2) << text << outcome.errors;
-        EXPECT_TRUE(has(outcome.errors, message)) << text;
-        EXPECT_FALSE(std::filesystem::exists(folder / "out")) << text;
-    };
-    refused("palette = 'rad'\n", "bad.toml:2:1: ");
-    refused("n = [1, 2]\nvariant = 'nope'\n", "bad.toml:3:1: ");
-    refused("set = { 'angel increment' = 3 }\n", "bad.toml:2:9: ");
-    refused("set = { 'angle increment' = [60, 'x'] }\n", "bad.toml:2:9: ");
-    refused("angle = ['60:70:5', 'x']\n", "bad.toml:2:1: ");
-    refused("budget = -4\n", "bad.toml:2:1: budget: expected 1 or more, not '-4'");
-    refused("compression = 77\n", "bad.toml:2:1: compression: expected 1 to 9, not '77'");
-    refused("bars = 0\n", "bad.toml:2:1: bars: expected 1 or more");
-    refused("n = '3:-2:-1'\n", "bad.toml:2:1: n: expected whole numbers");
-    refused("fit = true\nstep = '1mm'\n", "bad.toml:3:1: step: cannot be combined with 'fit'");
-    refused("item = []\n", "bad.toml:2:1: item: this list is empty");
-    refused("poster = '3x'\n", "bad.toml:2:1: poster 3x");
-    refused("name = 'a//x'\n", "cannot be the name");
-    refused("name = \"a\\nx\"\n", "cannot be the name");
-    refused("n = '0:1e300'\n", "this would make 1e+300 jobs");
+TEST_F(GalleryTest, MistakesInValuesAreReported) {
     EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "contact 3x"));
     EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 is empty"));
     EXPECT_EQ(gallery({"hilbert", "--json"}).status, 2);
@@ -616,8 +563,8 @@ TEST_F(GalleryTest, FoldersThatAreCalledAsOthers) {
     ASSERT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
     EXPECT_EQ(gallery({"kolams", "-o", "kolams", "--size", "30x30mm"}).status, 0);
     std::filesystem::create_directories(folder / "a[b]*");
-    folder.write("a[b]*/x.lsys", square);
-    folder.write("a[b]*/y[1].lsys", square);
+    folder.write("a[b]*/x.lsys", square_text);
+    folder.write("a[b]*/y[1].lsys", square_text);
     EXPECT_EQ(lines_of(gallery({"a[b]*", "--list"}).output), 2U);
     EXPECT_EQ(lines_of(gallery({"a[b]*/y[1].lsys", "--list"}).output), 1U);
     folder.write("a[b]*/g.toml", "pattern = '*.lsys'\n");

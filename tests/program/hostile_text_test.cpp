@@ -1,9 +1,12 @@
 // tests/program/hostile_text_test.cpp: a title that imitates commands is harmless in every language that the program
 // writes.
 #include "art/plotter/gcode.h"
+#include "art/prints.h"
 #include "engine/base/diagnostic.h"
 #include "music/score/score_formats.h"
+#include "music/scores.h"
 #include "tests/program.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +22,8 @@ class HostileTitle : public ::testing::Test {
 protected:
     /// What `draw` or `play` makes of the pattern.
     std::string made(const std::string& command, const std::string& name) {
-        std::vector<std::string> arguments = {command, pattern, "-o", name};
-        const Outcome outcome = run(arguments, {.folder = folder_.path()});
-        EXPECT_EQ(outcome.status, 0) << outcome.errors;
-        return contents(folder_ / name);
+        const std::string format = name.substr(name.find('.') + 1);
+        return made_work(command == "draw" ? prints() : scores(), load(pattern), format).outputs.at("x." + format);
     }
     /// Nothing that a terminal obeys, and nothing that changes the order of what it shows.
     static void expect_for_terminals(const std::string& text) {
@@ -162,8 +163,7 @@ TEST_F(HostileTitle, InPagesIsText) {
 }
 
 TEST_F(HostileTitle, InMidiAndModelsIsAText) {
-    made("play", "x.mid");
-    EXPECT_EQ(run({"check", folder_.file("x.mid")}).status, 0);
+    EXPECT_EQ(run({"check", folder_.write("x.mid", made("play", "x.mid"))}).status, 0);
     std::istringstream lines(made("draw", "x.obj"));
     for (std::string line; std::getline(lines, line);) {
         EXPECT_TRUE(std::regex_match(line.substr(0, 7), std::regex("(#|mtllib|o|usemtl|v|vn|f) .*"))) << line;

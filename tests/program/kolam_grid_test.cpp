@@ -1,4 +1,5 @@
 // tests/program/kolam_grid_test.cpp: runs the program to make kolams on grids and radial ones.
+#include "art/kolam/dot_grid.h"
 #include "tests/files.h"
 #include "tests/program.h"
 #include "tests/tools.h"
@@ -15,8 +16,7 @@ class KolamGrid : public ::testing::Test {
 protected:
     Outcome kolam(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "kolam");
-        Surroundings here;
-        here.folder = folder_.path();
+        Surroundings here{.folder = folder_.path()};
         return run(arguments, here);
     }
     ScratchFolder folder_;
@@ -37,14 +37,15 @@ TEST_F(KolamGrid, MakesEveryKindOfGrid) {
 }
 
 TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
-    const auto note = [&](const char* grid) { return kolam({"--grid", grid, "-o", "a.lsys"}).errors; };
-    EXPECT_TRUE(has(note("1-15-1"), "three rows of 1, 15 and 1 dots; for 1 up to 15 and back write 15-1"));
-    EXPECT_TRUE(has(note("15 dots"), "one row of 15 dots; for rows from 1 up to 15 and back write 15-1"));
-    EXPECT_TRUE(has(note("8"), "write 8-2"));
-    for (const char* grid :
-         {"7x7", "15-1", "1-3-5-3-1", "3-5-3", "4-9-9-4", "7 to 1", "15-8 idukku pulli", "oo/oo"}) {
-        EXPECT_FALSE(has(note(grid), "note:")) << grid;
+    EXPECT_TRUE(has(kolam({"--grid", "1-15-1", "-o", "a.lsys"}).errors,
+                    "three rows of 1, 15 and 1 dots; for 1 up to 15 and back write 15-1"));
+    EXPECT_FALSE(has(kolam({"--grid", "15-1", "-o", "a.lsys"}).errors, "note:"));
+    EXPECT_TRUE(has(dot_grid_note("15 dots"), "one row of 15 dots; for rows from 1 up to 15 and back write 15-1"));
+    EXPECT_TRUE(has(dot_grid_note("8"), "write 8-2"));
+    for (const char* grid : {"7x7", "15-1", "1-3-5-3-1", "3-5-3", "7 to 1", "15-8 idukku pulli", "oo/oo"}) {
+        EXPECT_EQ(dot_grid_note(grid), "") << grid;
     }
+    EXPECT_ANY_THROW(dot_grid_note("4-9-9-4"));
 }
 
 /// The files of two seeds are the same, except for the seed, where the program reports it.

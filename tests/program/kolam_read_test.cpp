@@ -4,7 +4,6 @@
 #include "tests/program.h"
 #include "tests/tools.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,8 +15,7 @@ class KolamRead : public ::testing::Test {
 protected:
     Outcome kolam(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "kolam");
-        Surroundings here;
-        here.folder = folder_.path();
+        Surroundings here{.folder = folder_.path()};
         return run(arguments, here);
     }
     /// The comment of a pattern that lists its gaps.
@@ -59,8 +57,7 @@ TEST_F(KolamRead, FormatsComeBack) {
 TEST_F(KolamRead, DrawingsComeBack) {
     for (const char* grid : {"5x5", "5-3 idukku"}) {
         ASSERT_EQ(kolam({"--grid", grid, "--joined", "0.3", "-o", "a.lsys"}).status, 0);
-        Surroundings here;
-        here.folder = folder_.path();
+        Surroundings here{.folder = folder_.path()};
         ASSERT_EQ(run({"draw", "a.lsys", "--dots", "-o", "a.svg"}, here).status, 0);
         const Outcome read = kolam({"--read", "a.svg", "-o", "b.lsys"});
         ASSERT_EQ(read.status, 0) << read.errors;

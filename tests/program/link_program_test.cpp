@@ -1,6 +1,7 @@
 // tests/program/link_program_test.cpp: studio links instead of patterns. The program and the studio's libraries make
 // the same bytes from them.
 #include "art/link/link.h"
+#include "studio/bridge.h"
 #include "tests/program.h"
 
 #include <gtest/gtest.h>
@@ -20,19 +21,13 @@ struct Answer {
 };
 
 /// Asks the libraries as the page of the studio does.
-Answer ask(const Json& request) {
-    const std::string json = request.dump();
-    const Outcome outcome = run({}, {.input = std::to_string(json.size()) + " 0\n" + json, .program = SIKKU_BRIDGE});
-    std::size_t size = 0;
-    std::size_t end = 0;
-    EXPECT_EQ(outcome.status, 0) << outcome.errors;
-    size = std::stoul(outcome.output, &end);
-    const std::size_t start = outcome.output.find('\n') + 1;
-    return {Json::parse(outcome.output.substr(start, size)), outcome.output.substr(start + size)};
+Answer ask(const Json& question) {
+    Reply reply = request(question.dump(), "");
+    return {Json::parse(reply.json), std::move(reply.bytes)};
 }
 
 std::string text_of_pattern(const std::string& name) {
-    return run({"show", name}).output;
+    return load(name).source().text();
 }
 
 Json pairs(const OptionValues& values) {

@@ -259,8 +259,7 @@ TEST(Live, APipeThatCloses) {
     EXPECT_EQ(nobody.status, 1);
     EXPECT_TRUE(has(nobody.errors, "no program reads this pipe"));
     // A name alone may be that of a pipe.
-    Surroundings inside;
-    inside.folder = std::filesystem::path(pipe).parent_path();
+    Surroundings inside{.folder = std::filesystem::path(pipe).parent_path()};
     EXPECT_TRUE(has(run({"play", "hilbert", "--port", "pipe"}, inside).errors, "no program reads this pipe"));
     const int end = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     Child child({"play", "hilbert", "--port", pipe, "--repeat"});

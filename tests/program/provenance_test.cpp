@@ -4,6 +4,9 @@
 
 #include "art/image/image_file.h"
 #include "art/print/format.h"
+#include "art/prints.h"
+#include "music/scores.h"
+#include "tests/damaged_pictures.h"
 #include "tests/fuzz/file_targets.h"
 #include "tests/print_tools.h"
 #include "tests/program.h"
@@ -23,16 +26,6 @@ using namespace std::string_literals;
 const std::string awkward =
     "\xEF\xBB\xBF"
     "title: கோலம் \"a\" <b> & 'c' \xF0\x9F\x8C\xBC \xC2\xA0\r\naxiom: F /* ]]> (\\) &amp; --> */\n\n\t";
-
-std::string big_endian(std::uint64_t value, int bytes) {
-    std::string text;
-    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 0xFF);
-    return text;
-}
-std::string little_endian(std::uint64_t value, int bytes) {
-    const std::string text = big_endian(value, bytes);
-    return {text.rbegin(), text.rend()};
-}
 
 std::string chunk(const std::string& type, const std::string& data) {
     const std::string body = type + data;
@@ -64,27 +57,20 @@ std::string svg(const std::string& inside) {
 /// What is wrong with a file of these bytes, or nothing.
 std::string refusal(const std::string& bytes) {
     const MemoryFile file(bytes);
-    try {
-        const auto found = read_provenance(file.path());
-        return found ? "" : "another format";
-    } catch (const std::runtime_error& error) {
-        const std::string what = error.what();
-        EXPECT_TRUE(what.starts_with(file.path().string() + ": ")) << what;
-        return what.substr(file.path().string().size() + 2);
-    }
+    const std::string what = error_of([&] { EXPECT_TRUE(read_provenance(file.path())); });
+    if (what.empty()) return what;
+    EXPECT_TRUE(what.starts_with(file.path().string() + ": ")) << what;
+    return what.substr(file.path().string().size() + 2);
 }
 
-/// The pattern in a file of these bytes.
+/// The pattern in a file of these bytes, if it is read.
 std::string pattern_in(const std::string& bytes) {
-    const MemoryFile file(bytes);
-    const auto found = read_provenance(file.path());
-    return found ? found->pattern : "";
+    return provenance_of(MemoryFile(bytes).path()).value_or(Provenance()).pattern;
 }
 
 // --- what the program writes --------------------------------------------------------------------------------------
 
 TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
-    const ScratchFolder folder;
     const auto padded = [](std::size_t size) {
         std::string text = awkward + "/* ";
         while (text.size() < size) text += "ü கோலம் & < \\ ( ";
@@ -93,39 +79,43 @@ TEST(Show, EveryFormatGivesThePatternBackByteForByte) {
     const std::string longer = padded(longest_short_text - 100);
     const std::string longest = padded(1'000'000);
     for (const std::string& text : {"axiom: F\n"s, awkward, longer, longest}) {
-        const std::string source = folder.write("source.lsys", text);
-        for (const char* name : {"a.svg", "a.pdf", "a.eps", "a.png", "a.tif", "a.jpg", "a.exr", "a.mid", "a.musicxml",
-                                 "a.mxl", "a.html"}) {
-            const bool is_score = !named_format(std::string_view(name).substr(2));
-            const std::string file = folder.file(name);
-            const Outcome made = is_score ? run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file})
-                                          : run({"-q", "draw", source, "-n", "0", "--size", "20x20mm", "--margin",
-                                                 "1mm", "--dpi", "20", "-o", file});
-            if (made.status != 0) {
-                ASSERT_EQ(made.status, 0) << name << made.errors;
+        const Document source = parse("source.lsys", text, {"", {{"-n", "derivation length", "0"}}});
+        for (const std::string format :
+             {"svg", "pdf", "eps", "png", "tif", "jpg", "exr", "mid", "musicxml", "mxl", "html"}) {
+            const std::string bytes =
+                named_format(format) ? draw(source, format, {{"size", "20x20mm"}, {"margin", "1mm"}, {"dpi", "20"}})
+                                     : play(source, format, {{"vertical", "voice"}});
+            const bool is_kept = text.size() <= longest_short_text || (format != "tif" && format != "jpg");
+            EXPECT_TRUE(try_show(bytes).value_or("") == (is_kept ? text : "")) << format << ' ' << text.size();
+            if (is_kept && format != "mid") {
+                EXPECT_TRUE(provenance_of(MemoryFile(bytes).path()).value().made.starts_with("sikku ")) << format;
             }
-            const bool is_kept = text.size() <= longest_short_text || (name != "a.tif"s && name != "a.jpg"s);
-            const Outcome shown = run({"show", file});
-            EXPECT_EQ(shown.status, is_kept ? 0 : 1) << name << shown.errors;
-            EXPECT_TRUE(shown.output == (is_kept ? text : "")) << name << ' ' << text.size();
-            if (is_kept) {
-                EXPECT_TRUE(has(shown.errors, "made with sikku ")) << name;
-            }
-            // The name does not matter.
-            std::filesystem::rename(file, folder.file("b.lsys"));
-            EXPECT_TRUE(run({"-q", "show", folder.file("b.lsys")}).output == (is_kept ? text : "")) << name;
         }
     }
 }
 
-TEST(Show, LilyPondFilesGiveThePatternBackLineByLine) {
+TEST(Show, FilesGiveThePatternBackWhateverTheirNames) {
     const ScratchFolder folder;
-    const std::string source = folder.write("source.lsys", "title:\tகோலம்\r\n\naxiom: F-F\n// %{ no comment\n");
-    const std::string file = folder.file("a.ly");
-    ASSERT_EQ(run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file}).status, 0);
-    const Outcome shown = run({"show", file});
-    EXPECT_EQ(shown.output, "title: கோலம்\n\naxiom: F-F\n// %{ no comment\n") << shown.errors;
-    EXPECT_TRUE(has(shown.errors, "made with sikku "));
+    const std::string source = folder.write("source.lsys", awkward);
+    for (const char* name : {"a.pdf", "a.jpg", "a.mid"}) {
+        const bool is_score = name == "a.mid"s;
+        const std::string file = folder.file(name);
+        const Outcome made =
+            is_score ? run({"-q", "play", source, "-n", "0", "--vertical", "voice", "-o", file})
+                     : run({"-q", "draw", source, "-n", "0", "--size", "20x20mm", "--margin", "1mm", "-o", file});
+        ASSERT_EQ(made.status, 0) << name << made.errors;
+        std::filesystem::rename(file, folder.file("b.lsys"));
+        const Outcome shown = run({"show", folder.file("b.lsys")});
+        EXPECT_EQ(shown.status, 0) << name << shown.errors;
+        EXPECT_TRUE(shown.output == awkward) << name;
+        EXPECT_TRUE(has(shown.errors, "made with sikku ")) << name;
+    }
+}
+
+TEST(Show, LilyPondFilesGiveThePatternBackLineByLine) {
+    const Document source = parse("source.lsys", "title:\tகோலம்\r\n\naxiom: F-F\n// %{ no comment\n");
+    EXPECT_EQ(pattern_in(play(source, "ly", {{"n", "0"}, {"vertical", "voice"}})),
+              "title: கோலம்\n\naxiom: F-F\n// %{ no comment\n");
     EXPECT_EQ(refusal("\\version \"2.24.0\"\n\n{ c }\n"), "this LilyPond file contains no pattern");
     EXPECT_EQ(refusal("<!DOCTYPE html>\n<pre>a</pre>"), "this HTML page contains no pattern");
     EXPECT_EQ(refusal("<?xml version=\"1.0\"?>\n<score-partwise><part/></score-partwise>"),
@@ -135,18 +125,16 @@ TEST(Show, LilyPondFilesGiveThePatternBackLineByLine) {
 }
 
 TEST(Show, OtherProgramsAgree) {
-    if (!has_program("exiftool")) GTEST_SKIP() << "no exiftool on this machine";
+    NEEDS("exiftool");
     const ScratchFolder folder;
     const std::string text = "title: x\naxiom: F /* <&> */\n";
-    const std::string source = folder.write("source.lsys", text);
-    for (const std::string name : {"a.png", "a.tif", "a.jpg", "a.exr"}) {
-        const std::string file = folder.file(name);
-        ASSERT_EQ(run({"-q", "draw", source, "-n", "0", "--dpi", "10", "-o", file}).status, 0);
-        const std::string tag = name == "a.png" ? "Description" : name == "a.exr" ? "Comments" : "ImageDescription";
-        EXPECT_EQ(run_tool("exiftool -b -" + tag + " '" + file + "'").text, text) << name;
-        EXPECT_EQ(provenance_of(file).value().pattern, text) << name;
+    for (const std::string format : {"png", "tif", "jpg", "exr"}) {
+        const std::string file = folder.write("a." + format, draw(parse("x", text), format, {{"dpi", "10"}}));
+        const std::string tag = format == "png" ? "Description" : format == "exr" ? "Comments" : "ImageDescription";
+        EXPECT_EQ(run_tool("exiftool -b -" + tag + " '" + file + "'").text, text) << format;
+        EXPECT_EQ(provenance_of(file).value().pattern, text) << format;
         const std::string made = run_tool("exiftool -b -Software '" + file + "'").text;
-        EXPECT_EQ(provenance_of(file).value().made, made) << name;
+        EXPECT_EQ(provenance_of(file).value().made, made) << format;
     }
 }
 

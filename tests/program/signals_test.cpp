@@ -90,8 +90,7 @@ TEST(Signals, TheExaminationOfAKolamAsksWhereverItIs) {
     const Grammar grammar = reference::grammar_of(
         "angle factor: 4\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nderivation length: 8\n");
     const auto work = [&](StopAfter& stop) {
-        KolamOptions options;
-        options.monitor = stop.monitor();
+        KolamOptions options{.monitor = stop.monitor()};
         examine_kolam(grammar, options);
     };
     StopAfter never(1 << 30);

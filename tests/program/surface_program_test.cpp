@@ -54,24 +54,12 @@ TEST(SurfaceProgram, EveryOutputShowsThem) {
 }
 
 TEST(SurfaceProgram, WhatSpaceLacksIsRefused) {
-    // This pattern neither pitches nor rolls nor bends.
-    const std::string text = leafy.substr(0, leafy.find("surface:")) +
-                             "patch leaf:\n0 0 0, 1 0 0, 2 0 0, 3 0 0\n0 1 0, 1 1 0, 2 1 0, 3 1 0\n"
-                             "0 2 0, 1 2 0, 2 2 0, 3 2 0\n0 3 0, 1 3 0, 2 3 0, 3 3 0\n";
-    const ScratchFolder folder;
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--dots"},
-                                                                                         {"--border", "kaavi"},
-                                                                                         {"--animate", "5"},
-                                                                                         {"--lesson"},
-                                                                                         {"--repeat", "frieze:3"},
-                                                                                         {"--window", "0,0,1,1"}}) {
-        std::vector<std::string> arguments = {"draw", "-", "-o", folder.file("x.svg")};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        const Outcome outcome = run(arguments, {.input = text});
-        EXPECT_EQ(outcome.status, 2) << options[0];
-        EXPECT_TRUE(has(outcome.errors, "this one pitches, rolls, bends or has surfaces"));
-    }
-    EXPECT_TRUE(has(run({"kolam", "-"}, {.input = text}).errors, "or has surfaces"));
+    const Outcome outcome = run({"draw", "generic-plant", "--dots", "-o", "x.svg"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(has(outcome.errors, "this one pitches, rolls, bends or has surfaces"));
+    const Outcome kolam = run({"kolam", "generic-plant"});
+    EXPECT_EQ(kolam.status, 1);
+    EXPECT_TRUE(has(kolam.errors, "a kolam lies in the plane: this drawing pitches, rolls, bends or has surfaces"));
 }
 
 TEST(SurfaceProgram, FilesAreFoundBesideThePattern) {
