@@ -22,12 +22,10 @@ import { byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
-import type { Diagnostic, Failure } from "./protocol";
+import type { Diagnostic, Failure, Place } from "./protocol";
 import { isAnother } from "./versions";
 
 const message_pause = 350; // milliseconds after the last key
-
-type Place = { line: number; column: number; length: number };
 
 const from_outside = Annotation.define<boolean>(); // marks text from an undo, a link or an opened pattern
 

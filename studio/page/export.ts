@@ -4,16 +4,16 @@ import { copyText } from "./clipboard";
 import { commandSource } from "./command_source";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
-import { button, element } from "./elements";
+import { button, checkbox, element, labelled } from "./elements";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import { offered } from "./option_scopes";
+import { optionOf, withOption } from "./options";
 import { isAbort } from "./pictures";
 import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
 import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
-import { optionOf } from "./sheet";
 import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
@@ -212,13 +212,11 @@ class Export {
     }
 
     private windowSwitch(): HTMLElement {
-        const box = element("input", { type: "checkbox" });
-        box.checked = this.isWindow;
-        box.addEventListener("change", () => {
-            this.isWindow = box.checked;
+        const box = checkbox((isChecked) => {
+            this.isWindow = isChecked;
             this.refreshSoon();
-        });
-        const label = element("label", { class: "switch" }, box, "Only the part in view");
+        }, { checked: this.isWindow });
+        const label = labelled(box, "Only the part in view");
         label.hidden = !this.isWindow;
         return label;
     }
@@ -236,9 +234,7 @@ class Export {
         const { store, help } = this.application;
         this.options.hidden = format === pattern_format;
         const act = (name: string, value: string | null) => {
-            const options = store.work[interpreter].filter(([each]) => each !== name);
-            if (value !== null) options.push([name, value]);
-            store.change({ [interpreter]: options });
+            store.change({ [interpreter]: withOption(store.work[interpreter], name, value) });
         };
         const isSpatial = this.application.opened?.facts.is_spatial ?? false;
         const made = optionGroups(
@@ -423,8 +419,7 @@ class Export {
             relief.canvas.hidden = true; // until there is something to show
             this.preview.before(relief.canvas);
         }
-        const options = [...this.optionsNow()];
-        if (optionOf(options, "relief") === undefined) options.push(["relief", ""]);
+        const options = withOption(this.optionsNow(), "relief", optionOf(this.optionsNow(), "relief") ?? "");
         const { generation } = this;
         try {
             const { bytes } = await this.application.engine.request<Made>(

@@ -3,6 +3,7 @@ import type { MakePanel, Studio } from "./context";
 import { exactText } from "./decimal";
 import { decimalsOf } from "./camera";
 import { button, element } from "./elements";
+import { onTheme } from "./layout";
 import { addGestures } from "./map_gestures";
 import { makePlaceBar, stepsText } from "./map_place";
 import { drawing, MapView } from "./map_view";
@@ -87,7 +88,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     }
 
     new ResizeObserver(() => view.resize()).observe(canvas);
-    new MutationObserver(() => view.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+    onTheme(() => view.draw());
     studio.store.subscribe((work) => view.setWork(work));
     studio.onOpened((facts, work) => view.setFacts(facts, work));
     studio.onChecked(() => view.draw()); // with an error the picture of the previous text remains

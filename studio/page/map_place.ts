@@ -1,8 +1,9 @@
 // The position of the map: coordinates, a scale bar, and a form to go to a place.
 import { decimalsOf, limited, pointAt } from "./camera";
 import { exactOf, exactText, grouped, readExact, type Exact } from "./decimal";
-import { button, element } from "./elements";
+import { button, element, field } from "./elements";
 import type { MapView } from "./map_view";
+import { raised } from "./numbers_shown";
 import { sheetOf } from "./sheet";
 import type { Store } from "./context";
 
@@ -28,10 +29,8 @@ function roomFor(width: number): number {
 export function stepsText(steps: number): string {
     if (steps >= 1e6) {
         const exponent = Math.floor(Math.log10(steps));
-        const digits = ["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"];
-        const raised = [...String(exponent)].map((digit) => digits[Number(digit)]).join("");
         const factor = Math.round(steps / 10 ** exponent);
-        return `${factor === 1 ? "" : `${factor} × `}10${raised} steps`;
+        return `${factor === 1 ? "" : `${factor} × `}10${raised(exponent)} steps`;
     }
     const text = grouped(exactText(exactOf(steps), decimalsOf(steps / 10)));
     return text === "1" ? "1 step" : `${text} steps`;
@@ -116,13 +115,13 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
 }
 
 function makeForm(view: MapView, close: () => void) {
-    const field = (id: string, label: string) => {
+    const text = (id: string, label: string) => {
         const input = element("input", { type: "text", id, class: "number", autocomplete: "off", spellcheck: "false" });
-        return { input, row: element("div", { class: "field" }, element("label", { for: id }, label), input) };
+        return { input, row: field(label, input) };
     };
-    const x = field("map-x", "Centre x, in steps");
-    const y = field("map-y", "Centre y, in steps");
-    const scale = field("map-steps", "Steps per pixel");
+    const x = text("map-x", "Centre x, in steps");
+    const y = text("map-y", "Centre y, in steps");
+    const scale = text("map-steps", "Steps per pixel");
     const wrong = element("p", { class: "note error", role: "alert", hidden: true });
     const form = element(
         "form",

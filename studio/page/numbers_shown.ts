@@ -1,7 +1,7 @@
 // Formats numbers for display.
 
-// Digits as superscripts.
-function raised(exponent: number | string): string {
+/// Digits as superscripts.
+export function raised(exponent: number | string): string {
     return [...String(exponent)].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("");
 }
 
@@ -21,7 +21,8 @@ export function count(text: string): string {
 }
 
 /// A count with its noun: "1 symbol", "3,239 symbols".
-export function counted(text: string, noun: string): string {
+export function counted(number: string | number, noun: string): string {
+    const text = String(number);
     return `${count(text)} ${noun}${text === "1" ? "" : "s"}`;
 }
 
@@ -50,4 +51,9 @@ export function rounded(number: number, step: number): string {
 /// The text with its first letter capitalised.
 export function capital(text: string): string {
     return text.slice(0, 1).toUpperCase() + text.slice(1);
+}
+
+/// The same with a full stop, unless it ends a sentence.
+export function sentence(text: string): string {
+    return capital(text) + (/[.!?`]$/.test(text) ? "" : ".");
 }

@@ -1,5 +1,6 @@
 // The page of a print, as set by its options, and the position of the drawing on it.
 import { hasScope } from "./option_scopes";
+import { optionOf } from "./options";
 import type { Help, Opened, Options } from "./protocol";
 import type { Camera, Size } from "./camera";
 import { exactOf, numberOf, readExact } from "./decimal";
@@ -56,10 +57,6 @@ const named: Readonly<Record<string, Sides>> = {
 };
 const joined = (name: string): string => name.trim().toLowerCase().replaceAll(/[\s_-]/g, "");
 const millimetres: Readonly<Record<string, number>> = { mm: 1, cm: 10, in: 25.4, pt: 25.4 / 72, px: 25.4 / 300 };
-
-export function optionOf(options: Options, name: string): string | undefined {
-    return options.find(([each]) => each === name)?.[1];
-}
 
 /// Reads a length such as `12mm`; `unit` is the default unit.
 export function lengthOf(text: string, unit = "mm"): number | null {

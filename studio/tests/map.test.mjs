@@ -9,7 +9,8 @@ import { load } from "./load.mjs";
 const { readExact, exactText, grouped, exactOf, numberOf, wholes } = await load("decimal");
 const { pointAt, cameraWith, pixelOf, fitting, windowOf, panned } = await load("camera");
 const { flight } = await load("flight");
-const { tileGrid, seenTiles, tileBox, tileWindow, tileName, levelScale, PictureCache } = await load("tiles");
+const { tileGrid, seenTiles, tileBox, tileWindow, tileName, levelScale } = await load("tiles");
+const { Recent } = await load("recent");
 const { sheetOf, laidOut, cameraOfSheet } = await load("sheet");
 const { pageOptions, planeOptions, modelOptions, thumbnailOptions, offered } = await load("option_scopes");
 const help = {
@@ -137,7 +138,7 @@ test("tiles cover the view, share their edges, and are found again", () => {
 
 test("the cache keeps the pictures used last", () => {
     const closed = [];
-    const cache = new PictureCache(100);
+    const cache = new Recent(100);
     for (const name of ["a", "b", "c"]) cache.add(name, { bytes: 40, close: () => closed.push(name) });
     assert.deepEqual(closed, ["a"]);
     cache.get("b");
