@@ -38,7 +38,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     let pointer: { left: number; top: number } | null = null;
 
     const view = new MapView(studio, canvas, () => update());
-    const place = makePlaceBar(view, studio.store);
+    const place = makePlaceBar(view, studio);
     const toDrawing = button("Fit the drawing (F)", () => view.showDrawing(), { icon: icons.drawing });
     const toPage = button("Whole page (0)", () => view.showPage(), { icon: icons.page });
     const tools = element(
@@ -121,7 +121,7 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
             facts.cost.segments && facts.cost.segments !== "0" ? `${facts.cost.segments} segments` : "",
             measured?.facts === facts && measured.isClosed ? "closed" : "",
             facts.is_spatial ? "in space" : "",
-            view.mode === "page" ? `whole page, ${sheetOf(studio.store.work.draw).name}` : placeText(view),
+            view.mode === "page" ? `whole page, ${sheetOf(studio.help, studio.store.work.draw).name}` : placeText(view),
         ];
         canvas.setAttribute("aria-label", parts.filter((part) => part !== "").join(", "));
     }

@@ -5,7 +5,7 @@ import { button, element, field } from "./elements";
 import type { MapView } from "./map_view";
 import { raised } from "./numbers_shown";
 import { sheetOf } from "./sheet";
-import type { Store } from "./context";
+import type { Studio } from "./context";
 
 const manyDigits = 40; // written smaller
 
@@ -48,7 +48,7 @@ export interface PlaceBar {
     update(pointer: { left: number; top: number } | null): void;
 }
 
-export function makePlaceBar(view: MapView, store: Store): PlaceBar {
+export function makePlaceBar(view: MapView, { help, store }: Studio): PlaceBar {
     const bar = element("div", { class: "map-scale", "aria-hidden": "true" });
     const barText = element("span", { class: "map-scale-text number" });
     const barLine = element("span", { class: "map-scale-line" });
@@ -95,7 +95,7 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
             sheet.hidden = isPlane || view.isMagnified;
             toggle.hidden = !isPlane;
             if (!isPlane) {
-                sheet.textContent = sheetOf(store.work.draw).name;
+                sheet.textContent = sheetOf(help, store.work.draw).name;
                 if (!form.element.hidden) open(false);
                 return;
             }

@@ -14,6 +14,7 @@ const { Recent } = await load("recent");
 const { sheetOf, laidOut, cameraOfSheet } = await load("sheet");
 const { pageOptions, planeOptions, modelOptions, thumbnailOptions, offered } = await load("option_scopes");
 const help = {
+    sizes: { a3: [297, 420], a4: [210, 297] },
     keys: [{ name: "seed", owner: "engine" }],
     draw: {
         options: [
@@ -150,30 +151,30 @@ test("the cache keeps the pictures used last", () => {
 });
 
 test("pages have the sizes of the program", () => {
-    assert.deepEqual(sheetOf([]), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
+    assert.deepEqual(sheetOf(help, []), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
     assert.equal(
-        sheetOf([
+        sheetOf(help, [
             ["size", "a3"],
             ["landscape", "true"],
         ]).width,
         420,
     );
-    assert.equal(sheetOf([["size", "20cmx30cm"]]).height, 300);
+    assert.equal(sheetOf(help, [["size", "20cmx30cm"]]).height, 300);
     assert.equal(
-        sheetOf([
+        sheetOf(help, [
             ["size", "300x200mm"],
             ["landscape", "true"],
         ]).width,
         300,
     );
     assert.equal(
-        sheetOf([
+        sheetOf(help, [
             ["size", "12x18in"],
             ["margin", "1cm"],
         ]).margin,
         10,
     );
-    assert.equal(sheetOf([["size", "nonsense"]]).width, 210);
+    assert.equal(sheetOf(help, [["size", "nonsense"]]).width, 210);
 });
 
 test("options are selected by their scopes", () => {
@@ -198,7 +199,7 @@ test("the plane lies as the drawing does on the page", () => {
         is_spatial: false,
         keys: [{ name: "stroke", value: "1 step red" }],
     };
-    const sheet = sheetOf([["size", "100x100mm"]]);
+    const sheet = sheetOf(help, [["size", "100x100mm"]]);
     const laid = laidOut(sheet, size);
     const camera = cameraOfSheet(sheet, laid, size, facts, help, []);
     const low = pixelOf(camera, size, readExact("-0.5"), readExact("31.5"));
