@@ -16,11 +16,7 @@ export type Grown = Staged | "empty";
 export class Growth {
     private readonly models = new Recent<{ model: Grown; bytes: number; close(): void }>(mostBytes);
 
-    constructor(
-        private readonly engine: Engine,
-        private readonly help: Help,
-        private readonly stage: Stage,
-    ) {}
+    constructor(private readonly engine: Engine, private readonly help: Help, private readonly stage: Stage) {}
 
     /// Everything that models of the work depend on, except the derivation length.
     static subject(help: Help, work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {

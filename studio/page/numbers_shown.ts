@@ -11,11 +11,7 @@ export function count(text: string): string {
     if (text.length > 15) return `about 10${raised(text.length - 1)}`;
     const number = Number(text);
     if (number < 1e6) return number.toLocaleString("en");
-    const units: [number, string][] = [
-        [1e12, "trillion"],
-        [1e9, "billion"],
-        [1e6, "million"],
-    ];
+    const units: [number, string][] = [[1e12, "trillion"], [1e9, "billion"], [1e6, "million"]];
     const [size, unit] = units.find(([each]) => number >= each)!;
     return `${(number / size).toPrecision(3)} ${unit}`;
 }

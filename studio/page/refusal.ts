@@ -31,10 +31,7 @@ export class Refusal {
     private readonly remedy = element("div", { class: "toolbar" });
 
     /// @param note  is shown and hidden
-    constructor(
-        private readonly studio: Studio,
-        readonly note: HTMLElement,
-    ) {}
+    constructor(private readonly studio: Studio, readonly note: HTMLElement) {}
 
     clear(): void {
         ++this.shown;

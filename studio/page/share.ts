@@ -227,9 +227,7 @@ export function watchLinks(application: Application): void {
 export function askForLink(application: Application): void {
     const dialog = openDialog("Open a link");
     const link = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
-    dialog.body.append(
-        field("A link, or the text of a QR code", link),
-    );
+    dialog.body.append(field("A link, or the text of a QR code", link));
     dialog.footer.append(
         button(
             "Show its contents",

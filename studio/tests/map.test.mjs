@@ -152,28 +152,10 @@ test("the cache keeps the pictures used last", () => {
 
 test("pages have the sizes of the program", () => {
     assert.deepEqual(sheetOf(help, []), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
-    assert.equal(
-        sheetOf(help, [
-            ["size", "a3"],
-            ["landscape", "true"],
-        ]).width,
-        420,
-    );
+    assert.equal(sheetOf(help, [["size", "a3"], ["landscape", "true"]]).width, 420);
     assert.equal(sheetOf(help, [["size", "20cmx30cm"]]).height, 300);
-    assert.equal(
-        sheetOf(help, [
-            ["size", "300x200mm"],
-            ["landscape", "true"],
-        ]).width,
-        300,
-    );
-    assert.equal(
-        sheetOf(help, [
-            ["size", "12x18in"],
-            ["margin", "1cm"],
-        ]).margin,
-        10,
-    );
+    assert.equal(sheetOf(help, [["size", "300x200mm"], ["landscape", "true"]]).width, 300);
+    assert.equal(sheetOf(help, [["size", "12x18in"], ["margin", "1cm"]]).margin, 10);
     assert.equal(sheetOf(help, [["size", "nonsense"]]).width, 210);
 });
 
