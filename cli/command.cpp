@@ -2,6 +2,7 @@
 
 #include "art/prints.h"
 #include "cli/link_argument.h"
+#include "cli/mistakes.h"
 #include "cli/options.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
@@ -62,10 +63,7 @@ std::uint64_t seed_of(const PatternOptions& options) {
 void add_budget_option(CLI::App& command, double& budget) {
     command.add_option("--budget", budget, "maximum number of derivation nodes visited (2e8)")
         ->type_name("NODES")
-        ->check([](const std::string& text) {
-            double value = 0;
-            return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
-        });
+        ->check(above_zero);
 }
 
 void keep_input(std::string_view option, const std::string& output, const std::string& input) {
@@ -232,9 +230,14 @@ void Progress::show() {
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
+    if (path.empty()) return fmt::print("{}", text);
     OutputFile file(path);
     file.write(text);
     file.commit();
+}
+
+std::string extension_of(const std::string& file) {
+    return lower_case(std::filesystem::path(file).extension().string());
 }
 
 }  // namespace sikku

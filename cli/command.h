@@ -81,6 +81,11 @@ std::uint64_t seed_of(const PatternOptions& options);
 /// Adds the options without PATTERN.
 void add_override_options(CLI::App& command, PatternOptions& options);
 
+/// Options of every command that examines a pattern.
+struct ExaminationOptions : PatternOptions {
+    bool as_json = false;
+    double budget = 200e6;
+};
 /// Adds `--budget`, with its default of 200 million nodes.
 void add_budget_option(CLI::App& command, double& budget);
 
@@ -131,8 +136,11 @@ private:
     double last_;
 };
 
-/// Writes a text to a file, which appears whole or not at all.
+/// Writes a text to a file, which appears whole or not at all, or to standard output if the path is empty.
 void write_file(const std::filesystem::path& path, const std::string& text);
+
+/// The extension of a file name in lower case, with its dot.
+std::string extension_of(const std::string& file);
 
 /// Reads the pattern in a MIDI file (a regular file). @throws std::runtime_error, naming the file, if it contains
 /// no pattern or is damaged
@@ -150,15 +158,15 @@ void add_kolam(CLI::App& app, bool& quiet);
 void add_tiling(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);
 void add_gallery(CLI::App& app, bool& quiet);
-void add_scales(CLI::App& app);
+void add_scales(CLI::App& app, bool& quiet);
 void add_import(CLI::App& app, bool& quiet);
-void add_patterns(CLI::App& app);
-void add_plotters(CLI::App& app);
-void add_ports(CLI::App& app);
+void add_patterns(CLI::App& app, bool& quiet);
+void add_plotters(CLI::App& app, bool& quiet);
+void add_ports(CLI::App& app, bool& quiet);
 void add_show(CLI::App& app, bool& quiet);
-void add_check(CLI::App& app);
+void add_check(CLI::App& app, bool& quiet);
 void add_studio(CLI::App& app, bool& quiet);
-void add_completion(CLI::App& app);
+void add_completion(CLI::App& app, bool& quiet);
 void add_manual(CLI::App& app, bool& quiet);
 
 }  // namespace sikku

@@ -49,7 +49,7 @@ complete -o filenames -F _sikku sikku
 
 }  // namespace
 
-void add_completion(CLI::App& app) {
+void add_completion(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand("completion", "Print a completion script for a shell");
     auto shell = std::make_shared<std::string>();
     command->add_option("SHELL", *shell, "bash or zsh")->required()->check(one_of({"bash", "zsh"}));

@@ -386,54 +386,36 @@ void add_gallery(CLI::App& app, bool& quiet) {
     command->add_option(
         "PATTERNS", options->request.patterns,
         "patterns by name, kind, glob, folder or file, and arrangements (all bundled patterns that draw)");
-    auto* output = command->add_option("-o,--output", options->output, "folder of the gallery")
-                       ->type_name("FOLDER")
-                       ->capture_default_str();
-    command
-        ->add_option("--file", options->request.gallery_file,
-                     "gallery file (TOML) that lists what to make, or the name of a bundled one such as figure-2.5")
-        ->type_name("FILE");
-    command->add_option("--manifest", options->request.manifest, "file of jobs, one line of JSON each")
-        ->type_name("FILE");
-    command
-        ->add_option("--poster", options->request.poster,
-                     "make a poster of all prints, with captions: poster.svg, poster.pdf, poster.png")
-        ->type_name("SIZE");
-    command->add_option("--contact", options->request.contact, "make a contact sheet, with names: contact.svg, …")
-        ->type_name("SIZE");
-    auto* list = command->add_flag("--list", options->list, "list the jobs and make nothing");
-    command->add_flag("--json", options->json, "print the list as a manifest (JSON lines)")->needs(list);
-    command->add_flag("--dry-run", options->dry_run, "forecast symbols, time, bytes and memory of each job");
-    command->add_option("--only", options->only, "make only this job, even if it is finished; may be repeated")
-        ->type_name("JOB")
+    const OptionGroup group{*command};
+    auto* output =
+        group.add("-o,--output", options->output, "FOLDER", "folder of the gallery")->capture_default_str();
+    group.add("--file", options->request.gallery_file, "FILE",
+              "gallery file (TOML) that lists what to make, or the name of a bundled one such as figure-2.5");
+    group.add("--manifest", options->request.manifest, "FILE", "file of jobs, one line of JSON each");
+    group.add("--poster", options->request.poster, "SIZE",
+              "make a poster of all prints, with captions: poster.svg, poster.pdf, poster.png");
+    group.add("--contact", options->request.contact, "SIZE", "make a contact sheet, with names: contact.svg, …");
+    auto* list = group.flag("--list", options->list, "list the jobs and make nothing");
+    group.flag("--json", options->json, "print the list as a manifest (JSON lines)")->needs(list);
+    group.flag("--dry-run", options->dry_run, "forecast symbols, time, bytes and memory of each job");
+    group.add("--only", options->only, "JOB", "make only this job, even if it is finished; may be repeated")
         ->allow_extra_args(false);
-    command->add_flag("--force", options->force, "make everything again, and replace files not made by the gallery");
-    command->add_flag("--keep-going", options->keep_going, "continue with other jobs after one failed");
-    command
-        ->add_option("--memory", options->memory,
-                     "maximum memory, such as 1G; jobs wait for it (half of the available memory)")
-        ->type_name("BYTES");
-    command->add_option("-j,--jobs", options->threads, "jobs at a time; 0: one per core (0)")
-        ->check(whole_number(0, 1024))
-        ->type_name("N");
-    command
-        ->add_option("--shard", options->shard,
-                     "make only part I of N, balanced by forecast (set by Slurm, Open MPI or Kubernetes)")
-        ->type_name("I/N");
-    command->add_option("--slurm", options->slurm, "write a script for an array of N tasks, and submit it")
-        ->check(whole_number(1, 100'000))
-        ->type_name("N");
-    command
-        ->add_option("-f,--format", options->texts["format"], gallery_keys().format_list() + "; several with commas")
-        ->type_name("FORMATS");
-    command
-        ->add_option("--name", options->texts["name"], "names of the files: {pattern}-n{n}, with any key in braces")
-        ->type_name("TEXT");
-    command
-        ->add_option(
-            "--set", options->request.overrides,
-            "value of a key or define of the patterns; a range such as 60:90:5 makes several jobs; may be repeated")
-        ->type_name("KEY=VALUE")
+    group.flag("--force", options->force, "make everything again, and replace files not made by the gallery");
+    group.flag("--keep-going", options->keep_going, "continue with other jobs after one failed");
+    group.add("--memory", options->memory, "BYTES",
+              "maximum memory, such as 1G; jobs wait for it (half of the available memory)");
+    group.add("-j,--jobs", options->threads, "N", "jobs at a time; 0: one per core (0)")
+        ->check(whole_number(0, 1024));
+    group.add("--shard", options->shard, "I/N",
+              "make only part I of N, balanced by forecast (set by Slurm, Open MPI or Kubernetes)");
+    group.add("--slurm", options->slurm, "N", "write a script for an array of N tasks, and submit it")
+        ->check(whole_number(1, 100'000));
+    group.add("-f,--format", options->texts["format"], "FORMATS",
+              gallery_keys().format_list() + "; several with commas");
+    group.add("--name", options->texts["name"], "TEXT", "names of the files: {pattern}-n{n}, with any key in braces");
+    group
+        .add("--set", options->request.overrides, "KEY=VALUE",
+             "value of a key or define of the patterns; a range such as 60:90:5 makes several jobs; may be repeated")
         ->allow_extra_args(false);
     for (const GalleryKey& key : gallery_keys().list()) {
         if (!key.is_option) continue;

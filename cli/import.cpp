@@ -158,10 +158,7 @@ void import_file(const ImportOptions& options, bool quiet) {
     const ImportedSystem& first = systems[indices.front()];
     if (to_folder) {
         write_folder(systems, indices, options.output, quiet);
-    } else if (first.pattern.empty()) {
-    } else if (options.output.empty()) {
-        fmt::print("{}", first.pattern);
-    } else {
+    } else if (!first.pattern.empty()) {
         write_file(options.output, first.pattern);
     }
     if (!to_folder && !first.pattern.empty() && !first.draws) {

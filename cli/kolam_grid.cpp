@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/kolam_read.h"
 #include "cli/mistakes.h"
+#include "cli/options.h"
 #include "engine/base/json_text.h"
 #include "engine/base/text.h"
 
@@ -31,14 +32,6 @@ auto of_option(const char* option, Work&& work) {
     } catch (const std::runtime_error& error) {
         throw UsageError(fmt::format("{}: {}", option, error.what()));
     }
-}
-
-void write(const std::string& output, const std::string& text) {
-    if (output.empty()) {
-        fmt::print("{}", text);
-        return;
-    }
-    write_file(output, text);
 }
 
 /// Text of an option, or of the file that it names with `@`.
@@ -130,15 +123,6 @@ std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& st
     return laplacian_nullity(grid, states, stop_monitor());
 }
 
-/// `12 crossed, 3 joined` of the gaps.
-std::string gaps_told(const GapStates& states) {
-    const auto crossed = std::count(states.begin(), states.end(), GapState::crossed);
-    const auto joined = std::count(states.begin(), states.end(), GapState::joined);
-    std::string text = fmt::format("{} of {} crossed", crossed, counted(states.size(), "gap"));
-    if (joined > 0) text += fmt::format(" and {} joined", joined);
-    return text;
-}
-
 /// Refuses outputs that cannot represent the kolam, and JSON on the output of the pattern.
 void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
@@ -185,10 +169,8 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
-    const std::string extension = std::filesystem::path(options.output).extension().string();
-    const auto other =
-        kolam_file_text(extension.empty() ? "" : extension.substr(1), grid, made.states, stop_monitor());
-    write(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
+    const auto other = text_for(options.output, grid, made.states);
+    write_file(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
 
     if (options.as_json) {
         const auto count = [&](GapState state) { return std::count(made.states.begin(), made.states.end(), state); };
@@ -227,106 +209,60 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
     if (!options.as_json && found.kolams.size() < found.distinct && options.limit > 0) {
         text += fmt::format("and {} more (--limit)\n", found.distinct - found.kolams.size());
     }
-    write(options.output, text);
+    write_file(options.output, text);
 }
 
 }  // namespace
 
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
+    const OptionGroup group{command, grid_heading};
     auto* grid =
-        command
-            .add_option(
-                "--grid", options.grid,
-                "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row and "
-                "the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), or a shape of 'o' and "
-                "'.' (oo./ooo/.oo); @FILE reads it from a file")
-            ->type_name("DOTS")
-            ->group(grid_heading);
-    auto* symmetry =
-        command
-            .add_option("--symmetry", options.symmetry,
-                        "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and bottom), "
-                        "diagonal, mirrors (mirror-x and mirror-y), diagonals, D3, D3-y, D4 or D6 (rotations and "
-                        "mirrors); excludes --crossings (the largest that the grid and --single-line permit; "
-                        "with --enumerate none)")
-            ->type_name("GROUP")
-            ->group(grid_heading)
-            ->needs(grid);
-    auto* density = command
-                        .add_option("--density", options.density,
-                                    "share of the gaps in which lines cross, 0 to 1 (0.7, and all dots connected)")
-                        ->type_name("SHARE")
-                        ->check(number_between(0, 1))
-                        ->group(grid_heading)
-                        ->needs(grid);
-    auto* joined = command
-                       .add_option("--joined", options.joined,
-                                   "share of the other gaps in which lines run past both dots, 0 to 1; with "
-                                   "--enumerate, any share above 0 includes such kolams (0)")
-                       ->type_name("SHARE")
-                       ->check(number_between(0, 1))
-                       ->group(grid_heading)
-                       ->needs(grid);
-    auto* crossings =
-        command
-            .add_option("--crossings", options.crossings,
-                        "all, none, or a digit for each gap (0 turned back, 1 crossed, 2 joined): row by row from "
-                        "the top, first "
-                        "the gaps within the row, then the gaps to the next row; @FILE reads them from a file")
-            ->type_name("GAPS")
-            ->group(grid_heading)
-            ->needs(grid)
-            ->excludes(symmetry)
-            ->excludes(density)
-            ->excludes(joined);
-    auto* single =
-        command
-            .add_flag(
-                "--single-line", options.single_line,
-                "make a single line, changing as few gaps as possible; with C4 and C6 the grid needs a dot in its "
-                "middle, with C2 or mirrors a dot or a gap; with D4 at most one dot on each diagonal")
-            ->group(grid_heading)
-            ->needs(grid);
-    command
-        .add_option("--attempts", options.attempts,
-                    "attempts to find a single line with a symmetry, 1 to 1000000 (1000)")
-        ->type_name("N")
-        ->group(grid_heading)
+        group.add("--grid", options.grid, "DOTS",
+                  "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row "
+                  "and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), or a shape of "
+                  "'o' and '.' (oo./ooo/.oo); @FILE reads it from a file");
+    auto* symmetry = group.add("--symmetry", options.symmetry, "GROUP",
+                               "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and "
+                               "bottom), diagonal, mirrors (mirror-x and mirror-y), diagonals, D3, D3-y, D4 or D6 "
+                               "(rotations and mirrors); excludes --crossings (the largest that the grid and "
+                               "--single-line permit; with --enumerate none)");
+    auto* density = group.add("--density", options.density, "SHARE",
+                              "share of the gaps in which lines cross, 0 to 1 (0.7, and all dots connected)");
+    auto* joined = group.add("--joined", options.joined, "SHARE",
+                             "share of the other gaps in which lines run past both dots, 0 to 1; with --enumerate, "
+                             "any share above 0 includes such kolams (0)");
+    auto* crossings = group.add("--crossings", options.crossings, "GAPS",
+                                "all, none, or a digit for each gap (0 turned back, 1 crossed, 2 joined): row by row "
+                                "from the top, first the gaps within the row, then the gaps to the next row; @FILE "
+                                "reads them from a file");
+    auto* single = group.flag("--single-line", options.single_line,
+                              "make a single line, changing as few gaps as possible; with C4 and C6 the grid needs a "
+                              "dot in its middle, with C2 or mirrors a dot or a gap; with D4 at most one dot on each "
+                              "diagonal");
+    for (CLI::Option* option : {symmetry, density, joined, crossings, single}) option->needs(grid);
+    for (CLI::Option* share : {density, joined}) share->check(number_between(0, 1));
+    for (CLI::Option* option : {symmetry, density, joined}) crossings->excludes(option);
+    group
+        .add("--attempts", options.attempts, "N",
+             "attempts to find a single line with a symmetry, 1 to 1000000 (1000)")
         ->needs(single)
         ->check(whole_number(1, 1'000'000));
-    auto* radial =
-        command
-            .add_option("--radial", options.radial,
-                        "make a radial kolam (Hridaya kamalam) instead: arms and dots on each, such as 8x5; "
-                        "its lines go through the dots, from arm to arm")
-            ->type_name("ARMSxDOTS")
-            ->group(grid_heading)
-            ->excludes(grid);
-    command
-        .add_option("--order", options.order,
-                    "order in which a line visits the dots of an arm, 1 next to the centre (1-3-5-…-2-4-…)")
-        ->type_name("DOTS")
-        ->group(grid_heading)
+    auto* radial = group.add("--radial", options.radial, "ARMSxDOTS",
+                             "make a radial kolam (Hridaya kamalam) instead: arms and dots on each, such as 8x5; its "
+                             "lines go through the dots, from arm to arm");
+    radial->excludes(grid);
+    group
+        .add("--order", options.order, "DOTS",
+             "order in which a line visits the dots of an arm, 1 next to the centre (1-3-5-…-2-4-…)")
         ->needs(radial);
-    auto* colours = command
-                        .add_flag("--colours", options.colours,
-                                  "colour the lines; lines that are images of each other share a colour")
-                        ->group(grid_heading);
-    auto* dots = command.add_flag("--dots", options.dots, "draw the dots in the pattern")->group(grid_heading);
-    auto* enumerate = command
-                          .add_flag("--enumerate", options.enumerate,
-                                    "count and list all single-line kolams; with --symmetry, only symmetric ones")
-                          ->group(grid_heading)
-                          ->needs(grid)
-                          ->excludes(crossings)
-                          ->excludes(density)
-                          ->excludes(single)
-                          ->excludes(colours)
-                          ->excludes(dots);
-    command
-        .add_option("--limit", options.limit, "maximum number of kolams that --enumerate lists, up to 10000000 (100)")
-        ->type_name("N")
-        ->group(grid_heading)
+    auto* colours = group.flag("--colours", options.colours,
+                               "colour the lines; lines that are images of each other share a colour");
+    auto* dots = group.flag("--dots", options.dots, "draw the dots in the pattern");
+    auto* enumerate = group.flag("--enumerate", options.enumerate,
+                                 "count and list all single-line kolams; with --symmetry, only symmetric ones");
+    enumerate->needs(grid);
+    for (CLI::Option* option : {crossings, density, single, colours, dots}) enumerate->excludes(option);
+    group.add("--limit", options.limit, "N", "maximum number of kolams that --enumerate lists, up to 10000000 (100)")
         ->needs(enumerate)
         ->check(whole_number(0, 10'000'000));
 }
@@ -343,7 +279,7 @@ void kolam_radial(const KolamGridOptions& options, bool quiet) {
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
-    write(options.output, radial_pattern(kolam, pattern).text);
+    write_file(options.output, radial_pattern(kolam, pattern).text);
     if (options.as_json) {
         fmt::print("{}", JsonText::object("arms", kolam.arms, "dots", kolam.dots(), "lines", kolam.lines(), "order",
                                           kolam.order)

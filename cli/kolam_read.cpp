@@ -7,6 +7,7 @@
 #include "art/reading/kolam_file.h"
 #include "art/reading/photograph.h"
 #include "cli/mistakes.h"
+#include "cli/options.h"
 #include "engine/base/input_file.h"
 #include "engine/base/json_text.h"
 #include "engine/base/output_file.h"
@@ -25,10 +26,6 @@ namespace {
 /// Tables of a hundred large kolams have 30 MB.
 constexpr std::size_t most_text = std::size_t{64} << 20U;
 constexpr std::size_t most_listed = 20;
-
-std::string extension_of(const std::string& output) {
-    return lower_case(std::filesystem::path(output).extension().string());
-}
 
 /// The largest of the named symmetries that the kolam has.
 GridSymmetry symmetry_of(const ReadKolam& kolam) {
@@ -57,9 +54,7 @@ Certificate certify(const ReadKolam& kolam) {
                 fmt::format("{} lines by following them, but {} by the Laplacian", certificate.lines, again));
         }
     }
-    const auto count = [&](GapState state) { return std::count(kolam.states.begin(), kolam.states.end(), state); };
-    certificate.gaps = fmt::format("{} of {} crossed", count(GapState::crossed), counted(kolam.states.size(), "gap"));
-    if (count(GapState::joined) > 0) certificate.gaps += fmt::format(" and {} joined", count(GapState::joined));
+    certificate.gaps = gaps_told(kolam.states);
     certificate.symmetry = symmetry_of(kolam);
     return certificate;
 }
@@ -184,12 +179,7 @@ bool write_gesture_drawing(const KolamReadOptions& options, const std::string& s
         fmt::format("{}, {}", counted(drawing->dots.size(), "dot"), counted(drawing->lines.size(), "line"));
     pattern.title = "Kolam on " + counted(drawing->dots.size(), "dot");
     pattern.description = fmt::format("{}; read from {}", summary, source);
-    const std::string written = gesture_pattern(*drawing, kolam_head(pattern));
-    if (options.output.empty()) {
-        fmt::print("{}", written);
-    } else {
-        write_file(options.output, written);
-    }
+    write_file(options.output, gesture_pattern(*drawing, kolam_head(pattern)));
     std::vector<std::string> notes = {fmt::format("{}: the pattern draws the lines and dots", reason)};
     if (drawing->decorated > 0) {
         notes.push_back(fmt::format("the decoration of {} was left out", counted(drawing->decorated, "gesture")));
@@ -268,18 +258,16 @@ FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
 
 void write(const ReadKolam& kolam, const Certificate& certificate, const std::string& output,
            const std::string& source) {
-    const std::string extension = extension_of(output);
-    const auto other =
-        kolam_file_text(extension.empty() ? "" : extension.substr(1), kolam.grid, kolam.states, stop_monitor());
-    const std::string text = other ? *other : pattern_of(kolam, certificate, source);
-    if (output.empty()) {
-        fmt::print("{}", text);
-    } else {
-        write_file(output, text);
-    }
+    const auto other = text_for(output, kolam.grid, kolam.states);
+    write_file(output, other ? *other : pattern_of(kolam, certificate, source));
 }
 
 }  // namespace
+
+std::optional<std::string> text_for(const std::string& output, const DotGrid& grid, const GapStates& states) {
+    const std::string extension = extension_of(output);
+    return kolam_file_text(extension.empty() ? "" : extension.substr(1), grid, states, stop_monitor());
+}
 
 bool is_pattern_file(const std::string& output) {
     const std::string extension = extension_of(output);
@@ -304,47 +292,35 @@ void check_kolam_output(const std::string& output) {
 }
 
 void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
-    auto* read = command
-                     .add_option("--read", options.file,
-                                 "read a kolam from a photograph (JPEG, PNG, TIFF, WebP, HEIF), a .kolam.json, a CSV "
-                                 "of one-stroke kolams, an SVG, gestures, or a pattern")
-                     ->type_name("FILE")
-                     ->group(read_heading);
-    command
-        .add_option("--number", options.number,
-                    "number of the kolam in a CSV, a list of .kolam.json or a photograph, from 1 (1)")
-        ->type_name("N")
+    const OptionGroup group{command, read_heading};
+    auto* read = group.add("--read", options.file, "FILE",
+                           "read a kolam from a photograph (JPEG, PNG, TIFF, WebP, HEIF), a .kolam.json, a CSV of "
+                           "one-stroke kolams, an SVG, gestures, or a pattern");
+    group
+        .add("--number", options.number, "N",
+             "number of the kolam in a CSV, a list of .kolam.json or a photograph, from 1 (1)")
         ->check(whole_number(1, 1'000'000))
-        ->needs(read)
-        ->group(read_heading);
-    command
-        .add_option("--lattice", options.lattice,
-                    "square or interlaced dots of a photograph or SVG (whichever fits better)")
-        ->type_name("KIND")
+        ->needs(read);
+    group
+        .add("--lattice", options.lattice, "KIND",
+             "square or interlaced dots of a photograph or SVG (whichever fits better)")
         ->check(one_of({"square", "interlaced"}))
-        ->needs(read)
-        ->group(read_heading);
-    command
-        .add_option("--fix", options.fixes,
-                    "set gaps by hand: 'ROW,GAP: STATE', with row and number as in the report and the overlay, and "
-                    "cross, turn or join; separate several by semicolons; may be repeated")
-        ->type_name("GAPS")
+        ->needs(read);
+    group
+        .add("--fix", options.fixes, "GAPS",
+             "set gaps by hand: 'ROW,GAP: STATE', with row and number as in the report and the overlay, and cross, "
+             "turn or join; separate several by semicolons; may be repeated")
         ->allow_extra_args(false)
-        ->needs(read)
-        ->group(read_heading);
-    command
-        .add_option(
-            "--overlay", options.overlay,
-            "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
-            "doubtful ones ringed; lost dots in red rings; also if the photograph is refused")
-        ->type_name("FILE")
-        ->needs(read)
-        ->group(read_heading);
-    command
-        .add_flag("--no-repair", options.no_repair,
-                  "do not replace doubtful gaps of a photograph by their images under its symmetry")
-        ->needs(read)
-        ->group(read_heading);
+        ->needs(read);
+    group
+        .add("--overlay", options.overlay, "FILE",
+             "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
+             "doubtful ones ringed; lost dots in red rings; also if the photograph is refused")
+        ->needs(read);
+    group
+        .flag("--no-repair", options.no_repair,
+              "do not replace doubtful gaps of a photograph by their images under its symmetry")
+        ->needs(read);
 }
 
 void kolam_read(const KolamReadOptions& options, bool quiet) {

@@ -1,6 +1,7 @@
 // cli/kolam_read.h: `sikku kolam --read`, and a pattern's kolam in other formats.
 #pragma once
 
+#include "art/kolam/dot_grid_lines.h"
 #include "cli/command.h"
 
 #include <cstddef>
@@ -28,6 +29,9 @@ struct KolamReadOptions {
 
 /// Adds `--read` and the options that depend on it; the command adds `-o` and `--json`.
 void add_kolam_read_options(CLI::App& command, KolamReadOptions& options);
+
+/// The text of a kolam in the format of `output`, unless that is a pattern file.
+std::optional<std::string> text_for(const std::string& output, const DotGrid& grid, const GapStates& states);
 
 /// True for the name of a pattern file: `.lsys`, or no extension.
 bool is_pattern_file(const std::string& output);

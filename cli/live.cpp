@@ -153,27 +153,23 @@ std::string summary(const live::PerformReport& report) {
 }  // namespace
 
 void add_live_options(CLI::App& command, LiveOptions& options) {
-    command
-        .add_option("--port", options.port,
-                    "play now, to this MIDI port: a name or address from `sikku ports`, or a device or pipe such as "
-                    "/dev/snd/midiC1D0; changes of the pattern files are heard from the next bar on")
-        ->type_name("PORT")
-        ->check([](const std::string& text) { return text.empty() ? "expected a name, an address or a device" : ""; })
-        ->group("Live");
+    const OptionGroup group{command, "Live"};
+    group
+        .add("--port", options.port, "PORT",
+             "play now, to this MIDI port: a name or address from `sikku ports`, or a device or pipe such as "
+             "/dev/snd/midiC1D0; changes of the pattern files are heard from the next bar on")
+        ->check(
+            [](const std::string& text) { return text.empty() ? "expected a name, an address or a device" : ""; });
     options.repeat_option =
-        command.add_option("--repeat", options.repeat, "with --port: how often (until ctrl-C)")
-            ->type_name("[TIMES]")
+        group.add("--repeat", options.repeat, "[TIMES]", "with --port: how often (until ctrl-C)")
             ->expected(0, 1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::Throw)
-            ->check([](const std::string& text) { return text.empty() ? "" : whole_number(1, 1'000'000'000)(text); })
-            ->group("Live");
-    command
-        .add_option("--clock", options.clock,
-                    "with --port: send a MIDI clock, or follow one, with its start, stop and tempo")
-        ->type_name("send|follow")
-        ->check(one_of({"send", "follow"}))
-        ->group("Live");
+            ->check([](const std::string& text) { return text.empty() ? "" : whole_number(1, 1'000'000'000)(text); });
+    group
+        .add("--clock", options.clock, "send|follow",
+             "with --port: send a MIDI clock, or follow one, with its start, stop and tempo")
+        ->check(one_of({"send", "follow"}));
 }
 
 bool is_live(const LiveOptions& options, const std::string& output) {

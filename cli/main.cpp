@@ -34,17 +34,9 @@ int fail(int status, std::string_view message) {
     return status;
 }
 
-using Adder = void (*)(CLI::App& app, bool& quiet);
-
-/// Adapts the commands without messages to suppress.
-template <void (*Add)(CLI::App&)>
-void add_without_quiet(CLI::App& app, bool& /*quiet*/) {
-    Add(app);
-}
-
 struct CommandRow {
     std::string_view name;
-    Adder add;
+    void (*add)(CLI::App& app, bool& quiet);
 };
 
 /// The commands, in the order of the help.
@@ -57,15 +49,15 @@ constexpr CommandRow commands[] = {
     {"gallery", sikku::add_gallery},
     {"derive", sikku::add_derive},
     {"measure", sikku::add_measure},
-    {"patterns", add_without_quiet<sikku::add_patterns>},
-    {"plotters", add_without_quiet<sikku::add_plotters>},
-    {"ports", add_without_quiet<sikku::add_ports>},
+    {"patterns", sikku::add_patterns},
+    {"plotters", sikku::add_plotters},
+    {"ports", sikku::add_ports},
     {"import", sikku::add_import},
-    {"scales", add_without_quiet<sikku::add_scales>},
+    {"scales", sikku::add_scales},
     {"show", sikku::add_show},
-    {"check", add_without_quiet<sikku::add_check>},
+    {"check", sikku::add_check},
     {"studio", sikku::add_studio},
-    {"completion", add_without_quiet<sikku::add_completion>},
+    {"completion", sikku::add_completion},
     {"manual", sikku::add_manual},
 };
 
@@ -95,10 +87,9 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.footer(
         "`sikku COMMAND --help` shows the options of a command, with examples.\n\n"
-        "Exit status: 0 on success; 2 for wrong usage, unknown names and faulty patterns; 1 for other failures; 130, "
-        "143 and 129 "
-        "after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second signal ends it at "
-        "once. Output files appear whole or not at all.");
+        "Exit status: 0 on success; 2 for wrong usage, unknown names and faulty patterns; 1 for other failures; "
+        "130, 143 and 129 after ctrl-C, SIGTERM and SIGHUP, which stop every command within half a second. A second "
+        "signal ends it at once. Output files appear whole or not at all.");
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (!arguments.empty() && arguments.front() == "help") {
         arguments.erase(arguments.begin());

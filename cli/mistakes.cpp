@@ -169,6 +169,11 @@ Check number_between(double least, double most) {
     };
 }
 
+std::string above_zero(const std::string& text) {
+    double value = 0;
+    return read_number(text, value) && value > 0 ? "" : "expected a number above 0, not " + printable(text);
+}
+
 Check one_of(std::vector<std::string> words) {
     return [words = std::move(words)](const std::string& text) {
         if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();

@@ -23,5 +23,6 @@ using Check = std::function<std::string(const std::string&)>;
 Check whole_number(std::int64_t least, std::int64_t most);
 Check number_between(double least, double most);
 Check one_of(std::vector<std::string> words);
+std::string above_zero(const std::string& text);
 
 }  // namespace sikku

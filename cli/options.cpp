@@ -1,7 +1,6 @@
 #include "cli/options.h"
 
 #include "cli/command.h"
-#include "cli/link_argument.h"
 
 #include <fmt/format.h>
 
@@ -100,11 +99,6 @@ std::string pattern_message(const PatternError& error) {
     std::string text;
     for (const Diagnostic& one : list) text += (text.empty() ? "" : "\n") + diagnostic_message(one);
     return text;
-}
-
-void report_compression(std::string_view format, const OptionValues& values, bool quiet) {
-    if (format == "png" || !has_option(values, "compression")) return;
-    tell_unless(quiet, "sikku: warning: --compression has no effect: it applies only to PNG\n");
 }
 
 std::string option_message(const SettingError& error) {

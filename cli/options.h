@@ -1,4 +1,4 @@
-// cli/options.h: adds the options of interpreters to commands.
+// cli/options.h: adds options to commands.
 #pragma once
 
 #include "engine/base/diagnostic.h"
@@ -12,6 +12,24 @@
 #include <vector>
 
 namespace sikku {
+
+/// Adds options below a heading of the help; below the first one if it is empty.
+struct OptionGroup {
+    CLI::App& command;
+    std::string heading{};
+
+    /// @param type  the placeholder of the value
+    template <typename Value>
+    CLI::Option* add(const char* names, Value& value, const char* type, const std::string& help) const {
+        return put(command.add_option(names, value, help)->type_name(type));
+    }
+    CLI::Option* flag(const char* names, bool& value, const std::string& help) const {
+        return put(command.add_flag(names, value, help));
+    }
+
+private:
+    CLI::Option* put(CLI::Option* option) const { return heading.empty() ? option : option->group(heading); }
+};
 
 /// The options of a command that come from a table.
 class TableOptions {
@@ -32,9 +50,6 @@ private:
     using Given = std::vector<std::unique_ptr<One>>;
     std::shared_ptr<Given> given_;
 };
-
-/// Warns of a compression level for a format without compression.
-void report_compression(std::string_view format, const OptionValues& values, bool quiet);
 
 /// Formats a SettingError for the command line: `--size 3x: expected …`. Quoted names of options in the message,
 /// 'plotter', become `--plotter`.

@@ -177,7 +177,7 @@ bool check(const std::string& file) {
 
 }  // namespace
 
-void add_patterns(CLI::App& app) {
+void add_patterns(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand("patterns", "List the bundled patterns");
     auto kind = std::make_shared<std::string>();
     auto names_only = std::make_shared<bool>(false);
@@ -204,7 +204,7 @@ void add_show(CLI::App& app, bool& quiet) {
     command->callback([what, &quiet] { show(*what, quiet); });
 }
 
-void add_check(CLI::App& app) {
+void add_check(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand(
         "check", "Report every error of patterns, arrangements, Scala and MIDI files, with its place");
     auto files = std::make_shared<std::vector<std::string>>();

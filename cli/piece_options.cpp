@@ -137,31 +137,24 @@ public:
 }  // namespace
 
 void add_piece_options(CLI::App& command, PieceOptions& options) {
-    constexpr const char* pieces = "Pieces to cut";
-    command.add_flag("--cut-list", options.lists, "list the pieces by kind: number, hand, colour, area and sides")
-        ->group(pieces);
-    const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
-        command.add_option(name, value, help)->type_name(type)->group(pieces);
-    };
-    add("--templates", options.templates,
-        "draw an outline of each shape with this seam allowance, 0 to 100mm, and write it to -o", "SEAM");
-    add("--cutting-sheet", options.sheet,
-        "lay all pieces on sheets of material of this size, such as A3 or 110x100cm, and write them to -o", "SIZE");
-    add("--step", options.step, "length of a step, or of a unit of a file (10mm)", "LENGTH");
-    add("--seam", options.seam, "seam allowance around each piece on a cutting sheet, 0 to 100mm (0mm)", "LENGTH");
-    add("--kerf", options.kerf, "width of the cut, 0 to 10mm: outlines grow by half of it (0mm)", "LENGTH");
-    add("--gap", options.gap,
-        "distance between pieces on a cutting sheet, 0 to 100mm; at 0mm, neighbours share cuts (0mm)", "LENGTH");
-    add("--margin", options.margin, "margin of a cutting sheet (10mm)", "LENGTH");
-    command
-        .add_flag("--grain", options.grain,
-                  "keep the direction of pieces on a cutting sheet, for material with a grain: turn them only by "
-                  "180 degrees")
-        ->group(pieces);
-    command
-        .add_flag("--labels,!--no-labels", options.labels, "write names on the pieces of a cutting sheet (default)")
-        ->group(pieces);
-    add("-o,--output", options.output, "file of the drawings; its extension selects the format", "FILE");
+    const OptionGroup group{command, "Pieces to cut"};
+    group.flag("--cut-list", options.lists, "list the pieces by kind: number, hand, colour, area and sides");
+    group.add("--templates", options.templates, "SEAM",
+              "draw an outline of each shape with this seam allowance, 0 to 100mm, and write it to -o");
+    group.add("--cutting-sheet", options.sheet, "SIZE",
+              "lay all pieces on sheets of material of this size, such as A3 or 110x100cm, and write them to -o");
+    group.add("--step", options.step, "LENGTH", "length of a step, or of a unit of a file (10mm)");
+    group.add("--seam", options.seam, "LENGTH",
+              "seam allowance around each piece on a cutting sheet, 0 to 100mm (0mm)");
+    group.add("--kerf", options.kerf, "LENGTH", "width of the cut, 0 to 10mm: outlines grow by half of it (0mm)");
+    group.add("--gap", options.gap, "LENGTH",
+              "distance between pieces on a cutting sheet, 0 to 100mm; at 0mm, neighbours share cuts (0mm)");
+    group.add("--margin", options.margin, "LENGTH", "margin of a cutting sheet (10mm)");
+    group.flag("--grain", options.grain,
+               "keep the direction of pieces on a cutting sheet, for material with a grain: turn them only by 180 "
+               "degrees");
+    group.flag("--labels,!--no-labels", options.labels, "write names on the pieces of a cutting sheet (default)");
+    group.add("-o,--output", options.output, "FILE", "file of the drawings; its extension selects the format");
     options.print.add(command, print_options());
 }
 
@@ -246,11 +239,10 @@ std::function<std::string(std::int32_t)> colour_as_drawn(const Document& documen
         print.style = style;
         ColourReader reader;
         drawing->read(print, reader);
-        TileSet& tiles = all;
         // Blades are polygons, but not tiles.
-        if (reader.colours.size() == tiles.polygons) {
-            for (std::uint32_t tile = 0; tile < tiles.tiles(); ++tile) {
-                tiles.colour[tile] = reader.colours[tiles.number[tile] - 1];
+        if (reader.colours.size() == all.polygons) {
+            for (std::uint32_t tile = 0; tile < all.tiles(); ++tile) {
+                all.colour[tile] = reader.colours[all.number[tile] - 1];
             }
         }
     }

@@ -29,7 +29,7 @@ void show(const std::string& name) {
 
 }  // namespace
 
-void add_plotters(CLI::App& app) {
+void add_plotters(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand("plotters", "List the bundled plotters, or print the file of one");
     auto name = std::make_shared<std::string>();
     command->add_option("NAME", *name, "plotter whose file is printed");

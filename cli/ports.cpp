@@ -27,7 +27,7 @@ void print_ports() {
 
 }  // namespace
 
-void add_ports(CLI::App& app) {
+void add_ports(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand("ports", "List the MIDI ports for live music");
     command->footer(
         "Each line has the address of a port of ALSA's sequencer, its name, whether music can be sent to it or comes "

@@ -61,7 +61,7 @@ void show_scales(const ScalesOptions& options) {
 
 }  // namespace
 
-void add_scales(CLI::App& app) {
+void add_scales(CLI::App& app, bool& /*quiet*/) {
     auto* command = app.add_subcommand("scales", "List the bundled scales, or show one");
     auto options = std::make_shared<ScalesOptions>();
     command->add_option("WORDS", options->words, "scale, words to search for, or Scala file (.scl)");

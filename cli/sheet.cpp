@@ -3,6 +3,7 @@
 #include "art/prints.h"
 #include "art/sheets.h"
 #include "cli/command.h"
+#include "cli/link_argument.h"
 #include "cli/options.h"
 
 #include <fmt/format.h>
@@ -85,7 +86,9 @@ void run(const SheetCommand& command, bool quiet) {
     for (const std::string& drawing : command.drawings) items.push_back(read_item(drawing, command.pattern, quiet));
     const auto work = plan_sheet(items, name, values);
     make(*work, command.output, quiet);
-    report_compression(name, values, quiet);
+    if (name != "png" && has_option(values, "compression")) {
+        tell_unless(quiet, "sikku: warning: --compression has no effect: it applies only to PNG\n");
+    }
 }
 
 }  // namespace

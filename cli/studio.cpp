@@ -154,7 +154,7 @@ void run(const StudioCommand& command, bool quiet) {
     for (const std::string& pattern : command.patterns) works.push_back(read_work(pattern));
     const fs::path page = find_page();
     if (!command.output.empty()) {
-        const std::string extension = lower_case(fs::path(command.output).extension().string());
+        const std::string extension = extension_of(command.output);
         if (extension != ".html" && extension != ".htm") {
             throw UsageError(fmt::format("-o {}: the studio page needs the extension .html", command.output));
         }

@@ -2,6 +2,7 @@
 
 #include "art/analysis.h"
 #include "art/kolam/kolam_text.h"
+#include "art/print/paper.h"
 #include "art/prints.h"
 #include "engine/base/json.h"
 #include "engine/base/keys.h"
@@ -109,11 +110,10 @@ Json answer_help() {
             rest.remove_prefix(std::min(end + 1, rest.size()));
         }
     }
-    return {{"version", SIKKU_VERSION},
-            {"keys", std::move(keys)},
-            {"symbols", std::move(symbols)},
-            {"draw", help_of(prints())},
-            {"play", help_of(scores())}};
+    Json sizes = Json::object();
+    for (const PaperSize& paper : paper_sizes()) sizes[std::string(paper.name)] = {paper.size.x, paper.size.y};
+    return {{"version", SIKKU_VERSION},      {"sizes", std::move(sizes)}, {"keys", std::move(keys)},
+            {"symbols", std::move(symbols)}, {"draw", help_of(prints())}, {"play", help_of(scores())}};
 }
 
 Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes) {
@@ -255,10 +255,6 @@ Json failure_of(const std::function<Json()>& work) {
 }
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
-
-}  // namespace
-
-namespace {
 
 Reply answered(const std::string& json, const std::string& bytes) {
     Reply reply;

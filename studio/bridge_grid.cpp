@@ -88,15 +88,6 @@ Json symmetries_of(const DotGrid& grid) {
     return all;
 }
 
-/// `60 of 84 gaps crossed and 4 joined`
-std::string gaps_told(const GapStates& states) {
-    const auto joined = std::count(states.begin(), states.end(), GapState::joined);
-    std::string text = fmt::format("{} of {} crossed", std::count(states.begin(), states.end(), GapState::crossed),
-                                   counted(states.size(), "gap"));
-    if (joined > 0) text += fmt::format(" and {} joined", joined);
-    return text;
-}
-
 /// The lines as points: the midpoints of the sides of dots that they pass, in the units of GridDot.
 Json strands(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
     Json all = Json::array();

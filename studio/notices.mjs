@@ -1,25 +1,6 @@
 // Third-party software in the page, with licences: npm packages from their folders, C++ libraries by name.
-import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-
-const run_time = [
-    "@codemirror/autocomplete",
-    "@codemirror/commands",
-    "@codemirror/language",
-    "@codemirror/lint",
-    "@codemirror/search",
-    "@codemirror/state",
-    "@codemirror/view",
-    "@lezer/common",
-    "@lezer/highlight",
-    "@lezer/lr",
-    "@marijn/find-cluster-break",
-    "crelt",
-    "lean-qr",
-    "pako",
-    "style-mod",
-    "w3c-keyname",
-];
 
 const mit = (holders) => `${holders}
 
@@ -77,15 +58,23 @@ const libraries = [
     },
 ];
 
+const read = (...path) => JSON.parse(readFileSync(join(...path, "package.json"), "utf8"));
+
+// The packages that one depends on, with those that these depend on, and so forth.
+function packagesOf({ dependencies = {} }, folder, found = new Set()) {
+    for (const name of Object.keys(dependencies)) {
+        if (!found.has(name)) packagesOf(read(folder, name), folder, found.add(name));
+    }
+    return found;
+}
+
 /// Returns a list of {name, version, licence, text}.
 export function notices(folder) {
-    const packages = run_time
-        .filter((name) => existsSync(join(folder, name)))
-        .map((name) => {
-            const facts = JSON.parse(readFileSync(join(folder, name, "package.json"), "utf8"));
-            const file = readdirSync(join(folder, name)).find((each) => /^licen[cs]e/i.test(each));
-            const text = file ? readFileSync(join(folder, name, file), "utf8").trim() : "";
-            return { name, what: "", version: facts.version, licence: facts.license, text };
-        });
+    const packages = [...packagesOf(read(folder, ".."), folder)].sort().map((name) => {
+        const { version, license: licence } = read(folder, name);
+        const file = readdirSync(join(folder, name)).find((each) => /^licen[cs]e/i.test(each));
+        const text = file ? readFileSync(join(folder, name, file), "utf8").trim() : "";
+        return { name, what: "", version, licence, text };
+    });
     return [...libraries.map((each) => ({ version: "", ...each })), ...packages];
 }

@@ -53,6 +53,14 @@ std::string gap_states_text(const DotGrid& grid, const GapStates& states) {
     return text;
 }
 
+std::string gaps_told(const GapStates& states) {
+    const auto joined = std::count(states.begin(), states.end(), GapState::joined);
+    std::string text = fmt::format("{} of {} crossed", std::count(states.begin(), states.end(), GapState::crossed),
+                                   counted(states.size(), "gap"));
+    if (joined > 0) text += fmt::format(" and {} joined", joined);
+    return text;
+}
+
 // --- arcs ---------------------------------------------------------------------------------------------------------
 
 namespace {

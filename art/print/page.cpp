@@ -1,5 +1,6 @@
 #include "art/print/page.h"
 
+#include "art/print/paper.h"
 #include "art/style/length.h"
 #include "engine/base/text.h"
 #include "engine/geometry/lattice.h"
@@ -18,13 +19,9 @@ namespace {
 
 constexpr double step_of_a_point = 10.0;  // step of a drawing without extent
 
-struct NamedSize {
-    std::string_view name;
-    glm::dvec2 size;
-};
 /// Upright sizes in millimetres. Sources: ISO 216 (A, B), ISO 269 (C), JIS P 0138 (JIS B), ISO 217 (RA, SRA), ANSI
 /// Y14.1.
-const std::array<NamedSize, 73> named_sizes = {{
+const std::array<PaperSize, 73> named_sizes = {{
     {"4a0", {1682.0, 2378.0}},      {"2a0", {1189.0, 1682.0}},     {"a0", {841.0, 1189.0}},
     {"a1", {594.0, 841.0}},         {"a2", {420.0, 594.0}},        {"a3", {297.0, 420.0}},
     {"a4", {210.0, 297.0}},         {"a5", {148.0, 210.0}},        {"a6", {105.0, 148.0}},
@@ -81,13 +78,17 @@ glm::dvec2 optical_shift(const Balance& balance, const Page& page, glm::dvec2 si
 
 }  // namespace
 
+std::span<const PaperSize> paper_sizes() {
+    return named_sizes;
+}
+
 std::optional<glm::dvec2> parse_size(std::string_view text, double dpi) {
     std::string name = lower_case(trimmed(text));
     std::string joined;  // `ANSI C`, `jis-b4`
     for (const char byte : name) {
         if (byte != ' ' && byte != '-' && byte != '_') joined += byte;
     }
-    for (const NamedSize& named : named_sizes) {
+    for (const PaperSize& named : named_sizes) {
         if (named.name == joined) return named.size;
     }
     for (std::size_t sign = 0; (sign = name.find("×")) != std::string::npos;) {

@@ -1,17 +1,13 @@
 // The studio as its panels use it: the libraries, the work, and the facts of the last valid text.
-import type { Engine, Studio } from "./context";
-import { RequestFailed } from "./context";
-import type { Work } from "./context";
+import { RequestFailed, type CheckedListener, type Engine, type OpenedListener, type Studio, type Work } from "./context";
 import { byId, element } from "./elements";
-import type { Diagnostic, Failure, Help, Opened, PatternEntry } from "./protocol";
+import type { Help, Opened, PatternEntry, Place } from "./protocol";
 import type { History } from "./store";
 import { isAnother } from "./versions";
 
 const patience = 400; // milliseconds until the status bar shows that the libraries are working
 const fact_seconds = 12; // how long a message stays in the status bar
 
-type OpenedListener = (facts: Opened, work: Work) => void;
-type Place = { line: number; column: number; length: number };
 
 export class Application implements Studio {
     help!: Help; // both are set before the first panel is made
@@ -21,7 +17,7 @@ export class Application implements Studio {
     private saying = 0;
     private waiting = 0;
     private readonly listeners = new Set<OpenedListener>();
-    private readonly failed = new Set<(error: Failure["error"] | null, diagnostics: Diagnostic[]) => void>();
+    private readonly failed = new Set<CheckedListener>();
     private readonly marked = new Set<(place: Place | null) => void>();
 
     constructor(
@@ -50,8 +46,7 @@ export class Application implements Studio {
         return () => this.listeners.delete(listener);
     }
 
-    /// Called after each check of the text, with its error or null and all diagnostics.
-    onChecked(listener: (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void): void {
+    onChecked(listener: CheckedListener): void {
         this.failed.add(listener);
     }
 
@@ -83,13 +78,9 @@ export class Application implements Studio {
         const message = byId("message");
         message.dataset["kind"] = kind;
         message.dataset["source"] = "";
-        message.textContent = text;
-        message.title = text;
+        message.textContent = message.title = text;
         clearTimeout(this.saying);
-        if (kind === "fact")
-            this.saying = window.setTimeout(() => {
-                message.textContent = "";
-            }, fact_seconds * 1000);
+        if (kind === "fact") this.saying = window.setTimeout(() => { message.textContent = ""; }, fact_seconds * 1000);
     }
 
     highlight(place: Place | null): void {

@@ -3,15 +3,17 @@
 import { Board, placesAround, type Scene } from "./bench/board";
 import { certificateText, type Examined } from "./bench/certificate";
 import { makeGrid, parseStates, statesText, crossed, joined, turned, type DotGrid, type GridSymmetry, type Place } from "./bench/dot_grid";
-import { changeText, counted, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
+import { changeText, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
 import { Kolam, type Change } from "./bench/kolam";
 import { readKolam, withEditsOf, withLook } from "./bench/kolam_text";
-import { capital, first_chances, Side, type Chances, type Look } from "./bench/side";
+import { first_chances, Side, type Chances, type Look } from "./bench/side";
 import { singleLineNear } from "./bench/symmetry";
-import { Tools, type Tool } from "./bench/tools";
+import { makeTools, type Tool } from "./bench/tools";
 import type { MakePanel, Panel, Studio } from "./context";
 import { RequestFailed } from "./context";
 import { element } from "./elements";
+import { capital, counted, sentence } from "./numbers_shown";
+import { withOption } from "./options";
 import type { Dots, Grid, Request, SymmetryName } from "./protocol";
 import { makeChance } from "./sound/chance";
 
@@ -56,7 +58,7 @@ class BenchPanel implements Panel {
     private readonly board = new Board(this.canvas, () => this.redraw());
     private readonly spoken = element("p", { class: "unseen", role: "status", "aria-live": "assertive" });
     private readonly hover = element("p", { class: "bench-hover", "aria-hidden": "true" });
-    private readonly tools = new Tools((tool) => this.setTool(tool));
+    private readonly tools = makeTools((tool) => this.setTool(tool));
     private readonly side = new Side({
         resize: (rows, columns) => this.resize(rows, columns),
         shape: (text) => this.setGrid(text),
@@ -345,7 +347,7 @@ class BenchPanel implements Panel {
         this.made = made;
         const fresh = { name: "kolam.lsys", variant: "", settings: [] };
         // Only some kolams have productions.
-        const settings = pattern.settings.filter(([name]) => name !== "derivation length");
+        const settings = withOption(pattern.settings, "derivation length", null);
         store.change({ pattern: { ...pattern, ...(isOurs ? { settings } : fresh), text: this.text }, place: null }, merge);
         if (!isOurs) this.studio.say("The kolam has replaced the pattern. Undo restores it.");
         void this.examine();
@@ -486,7 +488,5 @@ class BenchPanel implements Panel {
         this.isShown = false;
     }
 }
-
-const sentence = (text: string): string => `${capital(text)}${text.endsWith(".") ? "" : "."}`;
 
 export const makeBenchPanel: MakePanel = (studio) => new BenchPanel(studio);

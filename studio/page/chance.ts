@@ -1,21 +1,13 @@
 // Repeatable random numbers: the same seed gives the same numbers.
+import { makeChance } from "./sound/chance";
 
 export class Chance {
-    private state: number;
+    /// A number in [0, 1).
+    readonly share: () => number;
 
     constructor(seed: number, index = 0) {
-        this.state = (Math.imul(seed | 0, 0x9e3779b1) ^ Math.imul((index | 0) + 1, 0x85ebca6b)) >>> 0;
+        this.share = makeChance(Math.imul(seed | 0, 0x9e3779b1) ^ Math.imul((index | 0) + 1, 0x85ebca6b));
         for (let round = 0; round < 3; ++round) this.share();
-    }
-
-    /// A number in [0, 1).
-    share(): number {
-        // mulberry32
-        this.state = (this.state + 0x6d2b79f5) >>> 0;
-        let mixed = this.state;
-        mixed = Math.imul(mixed ^ (mixed >>> 15), mixed | 1);
-        mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
-        return ((mixed ^ (mixed >>> 14)) >>> 0) / 4294967296;
     }
 
     /// A whole number from 0 to `count` - 1.

@@ -1,9 +1,10 @@
 // The colours of stroke and ground.
 import type { Application } from "./application";
-import { splitStroke } from "./stroke_value";
 import { element } from "./elements";
+import { optionOf } from "./options";
 import { valueInText } from "./pattern_text";
 import type { Opened } from "./protocol";
+import { joinedStroke, splitStroke } from "./stroke_value";
 
 // A CSS colour as #rrggbb; null if it is not a colour.
 function plain(colour: string): string | null {
@@ -16,9 +17,7 @@ function plain(colour: string): string | null {
 export function makeColours(application: Application): { element: HTMLElement; update(facts: Opened): void } {
     const { store } = application;
     const value = (name: string, absent: string) =>
-        store.work.pattern.settings.find(([each]) => each === name)?.[1] ??
-        valueInText(store.work.pattern, name) ??
-        absent;
+        optionOf(store.work.pattern.settings, name) ?? valueInText(store.work.pattern, name) ?? absent;
 
     const field = (id: string, label: string, write: (colour: string) => void) => {
         const input = element("input", { type: "color", id });
@@ -27,11 +26,7 @@ export function makeColours(application: Application): { element: HTMLElement; u
     };
     const stroke = field("stroke-colour", "Stroke", (colour) => {
         const { width, unit } = splitStroke(value("stroke", "0.4mm black"));
-        store.setting(
-            "stroke",
-            `${width || "0.4"}${unit === "step" ? " step" : unit} ${colour}`,
-            "setting stroke colour",
-        );
+        store.setting("stroke", joinedStroke(width || "0.4", unit, colour), "setting stroke colour");
     });
     const ground = field("ground-colour", "Ground", (colour) => store.setting("ground", colour, "setting ground"));
 

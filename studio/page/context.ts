@@ -1,5 +1,5 @@
 // Interfaces shared by the parts of the page: the libraries, the work, and the panels that show it.
-import type { Diagnostic, Failure, Help, Opened, Options, PatternEntry, PatternRequest, Request } from "./protocol";
+import type { Diagnostic, Failure, Help, Opened, Options, PatternEntry, PatternRequest, Place, Request } from "./protocol";
 
 export interface Answer<T> { json: T; bytes: Uint8Array }
 
@@ -56,6 +56,10 @@ export interface Store {
     subscribe(listener: (work: Work, before: Work) => void): () => void;
 }
 
+export type OpenedListener = (facts: Opened, work: Work) => void;
+/// Called after each check of the text, with its error or null and all diagnostics.
+export type CheckedListener = (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void;
+
 export interface Studio {
     readonly engine: Engine;
     readonly store: Store;
@@ -65,13 +69,12 @@ export interface Studio {
     readonly opened: { facts: Opened; work: Work } | null;
     /// True if the present text has errors.
     readonly hasErrors: boolean;
-    onOpened(listener: (facts: Opened, work: Work) => void): () => void;
-    /// Called after each check of the text, with its error or null and all diagnostics.
-    onChecked(listener: (error: Failure["error"] | null, diagnostics: Diagnostic[]) => void): void;
+    onOpened(listener: OpenedListener): () => void;
+    onChecked(listener: CheckedListener): void;
     /// Shows a message in the status bar, which screen readers announce.
     say(text: string, kind?: "fact" | "warning" | "error"): void;
     /// Highlights a place in the editor, such as the production being played; null removes the highlight.
-    highlight(place: { line: number; column: number; length: number } | null): void;
+    highlight(place: Place | null): void;
     /// Saves a file as a download.
     save(name: string, bytes: Uint8Array, type: string): void;
 }

@@ -3,12 +3,13 @@
 import type { Application } from "./application";
 import { button, byId, element } from "./elements";
 import { count, counted, rounded, span } from "./numbers_shown";
+import { optionOf } from "./options";
 import { valueInText, withSettings } from "./pattern_text";
 import type { Opened } from "./protocol";
 import { makeSeed } from "./seed";
 import { makeSlider, type Slider } from "./slider";
 import { makeColours } from "./colours";
-import { splitStroke } from "./stroke_value";
+import { joinedStroke, splitStroke } from "./stroke_value";
 
 interface Row {
     slider: Slider;
@@ -131,7 +132,7 @@ export class Controls {
     private value(name: string, absent: string): { now: string; base: string; isChanged: boolean } {
         const { pattern } = this.application.store.work;
         const base = valueInText(pattern, name) ?? absent;
-        const chosen = pattern.settings.find(([each]) => each === name)?.[1];
+        const chosen = optionOf(pattern.settings, name);
         return { now: chosen ?? base, base, isChanged: chosen !== undefined };
     }
 
@@ -238,10 +239,7 @@ export class Controls {
         };
         const write = (width: string) => {
             const { now } = parse();
-            this.change(
-                "stroke",
-                `${width}${now.unit === "step" ? " step" : now.unit} ${now.rest === "none" ? "" : now.rest}`.trim(),
-            );
+            this.change("stroke", joinedStroke(width, now.unit, now.rest === "none" ? "" : now.rest));
         };
         const slider = makeSlider("stroke", {
             slide: (number) => write(rounded(number, 0.01)),

@@ -4,7 +4,9 @@ import { defaultKeymap, toggleComment } from "@codemirror/commands";
 import { bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, lintKeymap, nextDiagnostic, setDiagnostics, type Diagnostic as Finding } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, EditorState, type Extension, StateEffect, StateField, type Text } from "@codemirror/state";
+import {
+    Annotation, EditorState, type Extension, type Range, StateEffect, type StateEffectType, StateField, type Text,
+} from "@codemirror/state";
 import {
     Decoration,
     type DecorationSet,
@@ -22,12 +24,10 @@ import { byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
-import type { Diagnostic, Failure } from "./protocol";
+import type { Diagnostic, Failure, Place } from "./protocol";
 import { isAnother } from "./versions";
 
 const message_pause = 350; // milliseconds after the last key
-
-type Place = { line: number; column: number; length: number };
 
 const from_outside = Annotation.define<boolean>(); // marks text from an undo, a link or an opened pattern
 
@@ -42,27 +42,29 @@ function offset(text: Text, line: number, column: number): number {
     return from + at;
 }
 
+// Decorations that an effect replaces.
+function decorated<Value>(
+    effect: StateEffectType<Value>,
+    marks: (doc: Text, value: Value) => Range<Decoration>[],
+): StateField<DecorationSet> {
+    return StateField.define<DecorationSet>({
+        create: () => Decoration.none,
+        update(shown, { changes, effects, state }) {
+            const last = effects.findLast((each) => each.is(effect));
+            return last ? Decoration.set(marks(state.doc, last.value as Value), true) : shown.map(changes);
+        },
+        provide: (field) => EditorView.decorations.from(field),
+    });
+}
+
 // Highlights the production being played, and the symbol in it.
 const light = StateEffect.define<Place | null>();
-const lit = StateField.define<DecorationSet>({
-    create: () => Decoration.none,
-    update(marks, transaction) {
-        marks = marks.map(transaction.changes);
-        for (const effect of transaction.effects) {
-            if (!effect.is(light)) continue;
-            marks = Decoration.none;
-            const { doc } = transaction.state;
-            if (!effect.value || effect.value.line < 1 || effect.value.line > doc.lines) continue;
-            const from = offset(doc, effect.value.line, effect.value.column);
-            const to = offset(doc, effect.value.line, effect.value.column + effect.value.length);
-            const production = Decoration.line({ class: "lit-line" }).range(doc.line(effect.value.line).from);
-            marks = Decoration.set(
-                to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production],
-            );
-        }
-        return marks;
-    },
-    provide: (field) => EditorView.decorations.from(field),
+const lit = decorated(light, (doc, place) => {
+    if (!place || place.line < 1 || place.line > doc.lines) return [];
+    const from = offset(doc, place.line, place.column);
+    const to = offset(doc, place.line, place.column + place.length);
+    const production = Decoration.line({ class: "lit-line" }).range(doc.line(place.line).from);
+    return to > from ? [production, Decoration.mark({ class: "lit" }).range(from, to)] : [production];
 });
 
 // Messages below their lines, shown when typing pauses so that the text does not jump.
@@ -82,27 +84,12 @@ class Message extends WidgetType {
 }
 
 const show_messages = StateEffect.define<Diagnostic[]>();
-const messages = StateField.define<DecorationSet>({
-    create: () => Decoration.none,
-    update(marks, transaction) {
-        marks = marks.map(transaction.changes);
-        for (const effect of transaction.effects) {
-            if (!effect.is(show_messages)) continue;
-            const { doc } = transaction.state;
-            const placed = effect.value.filter((each) => each.line >= 1 && each.line <= doc.lines);
-            marks = Decoration.set(
-                placed.map((each) =>
-                    Decoration.widget({ widget: new Message(each.message, each.warning), block: true, side: 1 }).range(
-                        doc.line(each.line).to,
-                    ),
-                ),
-                true,
-            );
-        }
-        return marks;
-    },
-    provide: (field) => EditorView.decorations.from(field),
-});
+const messages = decorated(show_messages, (doc, diagnostics) =>
+    diagnostics.filter(({ line }) => line >= 1 && line <= doc.lines).map(({ line, message, warning }) => {
+        const widget = new Message(message, warning);
+        return Decoration.widget({ widget, block: true, side: 1 }).range(doc.line(line).to);
+    }),
+);
 
 const look = EditorView.theme({
     "&": { flex: "1", minHeight: "0", fontSize: "13px" },

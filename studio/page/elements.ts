@@ -33,6 +33,49 @@ export function icon(path: string): SVGSVGElement {
     return svg;
 }
 
+/// Makes a field with its label, which refers to the input by its id.
+export function field(label: string, input: HTMLElement, ...more: HTMLElement[]): HTMLElement {
+    return element("div", { class: "field" }, element("label", { for: input.id }, label), input, ...more);
+}
+
+/// Makes a check box. @param change  is called after each change
+export function checkbox(change: (isChecked: boolean) => void, attributes: Attributes = {}): HTMLInputElement {
+    const box = element("input", { type: "checkbox", ...attributes });
+    box.addEventListener("change", () => change(box.checked));
+    return box;
+}
+
+/// Puts a check box before its label.
+export function labelled(box: HTMLInputElement, label: string): HTMLElement {
+    return element("label", { class: "switch" }, box, label);
+}
+
+/// Makes a group of buttons of which one is pressed, the first at the beginning.
+export function choices<Name extends string>(
+    attributes: Attributes, // of the group
+    names: readonly (readonly [Name, label: string])[],
+    choose: (name: Name) => void,
+    kind?: string, // class of the buttons
+): HTMLElement {
+    const buttons = names.map(([name, label], at) => {
+        const made = element("button", { type: "button", class: kind, "aria-pressed": String(at === 0) }, label);
+        made.addEventListener("click", () => {
+            for (const each of buttons) each.setAttribute("aria-pressed", String(each === made));
+            choose(name);
+        });
+        return made;
+    });
+    return element("div", { role: "group", ...attributes }, ...buttons);
+}
+
+/// Moves a slider to a value. @param said  the value for screen readers
+export function slideTo(range: HTMLInputElement, value: number, said?: string): void {
+    range.valueAsNumber = value;
+    const [least, most] = [Number(range.min), Number(range.max)];
+    range.style.setProperty("--at", `${(100 * (range.valueAsNumber - least)) / (most - least || 1)}%`);
+    if (said !== undefined) range.setAttribute("aria-valuetext", said);
+}
+
 /// Makes a button with a text, or with an icon and a text for screen readers and the tooltip.
 export function button(
     label: string,
@@ -42,9 +85,12 @@ export function button(
     const made = element("button", { type: "button", class: `button ${options.kind ?? ""}`.trim() });
     if (options.icon) {
         made.append(icon(options.icon));
-        if (options.shows) made.append(element("span", {}, label));
-        else made.classList.add("icon");
-        if (!options.shows) made.setAttribute("aria-label", label);
+        if (options.shows) {
+            made.append(element("span", {}, label));
+        } else {
+            made.classList.add("icon");
+            made.setAttribute("aria-label", label);
+        }
         made.title = label;
     } else {
         made.append(label);

@@ -87,24 +87,23 @@ export class Pool implements Engine {
         });
     }
 
-    // A later request with this key has arrived.
-    private replace(key: string): void {
+    // Rejects waiting requests.
+    private drop(error: Error, isDropped: (job: Job) => boolean): void {
         for (const lane of [this.waiting.front, this.waiting.back]) {
             for (let index = lane.length; index-- > 0;) {
-                if (lane[index]!.options.key === key) lane.splice(index, 1)[0]!.reject(aborted());
+                if (isDropped(lane[index]!)) lane.splice(index, 1)[0]!.reject(error);
             }
         }
+    }
+
+    // A later request with this key has arrived.
+    private replace(key: string): void {
+        this.drop(aborted(), (job) => job.options.key === key);
         for (const seat of this.seats) if (seat.job?.options.key === key) this.hurry(seat);
     }
 
     private abort(job: Job): void {
-        for (const lane of [this.waiting.front, this.waiting.back]) {
-            const index = lane.indexOf(job);
-            if (index >= 0) {
-                lane.splice(index, 1);
-                job.reject(aborted());
-            }
-        }
+        this.drop(aborted(), (each) => each === job);
         const seat = this.seats.find((each) => each.job === job);
         if (!seat) return;
         job.isUnwanted = true;
@@ -121,10 +120,8 @@ export class Pool implements Engine {
 
     private stop(seat: Seat, error: Error): void {
         clearTimeout(seat.timer);
-        seat.worker.terminate();
-        const job = seat.job;
-        this.seats[this.seats.indexOf(seat)] = this.seat();
-        job?.reject(error);
+        this.renew(seat);
+        seat.job?.reject(error);
         this.next();
     }
 
@@ -141,15 +138,12 @@ export class Pool implements Engine {
         clearTimeout(seat.timer);
         seat.worker.terminate();
         seat.isDead = true;
-        const { job } = seat;
-        seat.job = null;
         const error = new RequestFailed({ kind: "other", message });
-        job?.reject(error);
+        seat.job?.reject(error);
+        seat.job = null;
         if (this.seats.some((each) => !each.isDead)) return this.next();
         this.broken = error;
-        for (const lane of [this.waiting.front, this.waiting.back]) {
-            for (const each of lane.splice(0)) each.reject(error);
-        }
+        this.drop(error, () => true);
     }
 
     // Idle seats for this lane: the front prefers the first, which has its pattern at hand; the back leaves one free.

@@ -4,31 +4,40 @@ import { copyText } from "./clipboard";
 import { commandSource } from "./command_source";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
-import { button, element } from "./elements";
+import { button, checkbox, element, labelled } from "./elements";
 import { bytes as sizeOf, capital } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import { offered } from "./option_scopes";
+import { optionOf, withOption } from "./options";
 import { isAbort } from "./pictures";
-import type { Command, FormatHelp, Made, Options, PatternRequest } from "./protocol";
+import type { Command, FormatHelp, Made, Options, Request } from "./protocol";
 import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
-import { optionOf } from "./sheet";
 import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
+type CommandRequest = Extract<Request, { do: "command" }>;
 interface Choice {
     interpreter: Interpreter;
     format: FormatHelp;
     group: string;
 }
 
-const groups: [string, Interpreter, RegExp][] = [
-    ["Print", "draw", /^(svg|pdf|eps)$/],
-    ["Plotter", "draw", /^(hpgl|plt|gcode|nc|ngc|dxf)$/],
-    ["Picture", "draw", /^(png|tiff?|jpe?g|exr|gif)$/],
-    ["Model", "draw", /^(obj|glb|gltf|stl)$/],
-    ["Score", "play", /./],
+interface Group {
+    name: string;
+    interpreter: Interpreter;
+    formats: RegExp;
+    opens: RegExp; // groups of options that are open at first
+}
+
+const groups: Group[] = [
+    { name: "Print", interpreter: "draw", formats: /^(svg|pdf|eps)$/, opens: /^Page/ },
+    { name: "Plotter", interpreter: "draw", formats: /^(hpgl|plt|gcode|nc|ngc|dxf)$/, opens: /^(Page|Plotter)/ },
+    { name: "Picture", interpreter: "draw", formats: /^(png|tiff?|jpe?g|exr|gif)$/, opens: /^(Page|Picture)/ },
+    { name: "Model", interpreter: "draw", formats: /^(obj|glb|gltf|stl)$/, opens: /^(Page|Reliefs)/ },
+    { name: "Score", interpreter: "play", formats: /./, opens: /^Passage/ },
+    { name: "Other", interpreter: "draw", formats: /./, opens: /^$/ },
 ];
 // Pictures other than PNG, animations and sound files need libraries that the page does without.
 const by_the_program = new Set(["tif", "jpg", "exr", "gif", "wav", "flac", "score.pdf"]);
@@ -48,14 +57,6 @@ const types: Record<string, string> = {
     obj: "model/obj",
     flac: "audio/flac",
 };
-// Groups of options that are open when a format of the group is chosen.
-const openAtFirst: Record<string, RegExp> = {
-    Print: /^Page/,
-    Plotter: /^(Page|Plotter)/,
-    Picture: /^(Page|Picture)/,
-    Model: /^(Page|Reliefs)/,
-    Score: /^Passage/,
-};
 const preview_size = 440; // pixels
 const pause = 200; // milliseconds after a change before the file is made again
 
@@ -65,25 +66,17 @@ let relief: ReliefView | null = null; // one for the page: browsers allow few We
 function choicesOf(application: Application): Choice[] {
     const facts = application.opened?.facts;
     const { draw, play } = application.help;
-    const all = [
-        ...draw.formats.map((format) => ({ interpreter: "draw" as const, format })),
-        ...(facts?.is_melody === false && facts.is_spatial ? [] : play.formats).map((format) => ({
-            interpreter: "play" as const,
-            format,
-        })),
-    ];
-    const rows = all.map((row): Choice => ({
-        ...row,
-        group:
-            groups.find(
-                ([, interpreter, names]) => interpreter === row.interpreter && names.test(row.format.extension),
-            )?.[0] ?? "Other",
-    }));
-    const ordered = groups.flatMap(([group]) => rows.filter((row) => row.group === group));
+    const playable = facts?.is_melody === false && facts.is_spatial ? [] : play.formats;
+    const of = (interpreter: Interpreter, formats: FormatHelp[]): Choice[] =>
+        formats.map((format) => {
+            const fits = (each: Group) => each.interpreter === interpreter && each.formats.test(format.extension);
+            return { interpreter, format, group: groups.find(fits)!.name };
+        });
+    const rows = [...of("draw", draw.formats), ...of("play", playable)];
     return [
         // STL is for reliefs, which are made only of drawings in the plane.
-        ...ordered.filter((row) => row.format.extension !== "stl" || !facts?.is_spatial),
-        ...rows.filter((row) => row.group === "Other"),
+        ...groups.flatMap(({ name }) => rows.filter(({ group, format }) =>
+            group === name && !(format.extension === "stl" && facts?.is_spatial))),
         { interpreter: "draw", format: pattern_format, group: "Pattern" },
     ];
 }
@@ -148,17 +141,9 @@ class Export {
             this.options,
             element("div", { class: "export-page" }, this.preview, this.windowSwitch(), this.remarks),
         );
-        this.dialog.footer.append(
-            element(
-                "div",
-                { class: "command-row" },
-                element("span", { class: "label" }, "As a command"),
-                this.command,
-                copy,
-            ),
-            this.needed,
-            this.save,
-        );
+        const label = element("span", { class: "label" }, "As a command");
+        const row = element("div", { class: "command-row" }, label, this.command, copy);
+        this.dialog.footer.append(row, this.needed, this.save);
         this.showFormats();
         this.choose(this.choice);
         this.dialog.body.querySelector<HTMLElement>("input:checked")?.focus();
@@ -212,13 +197,11 @@ class Export {
     }
 
     private windowSwitch(): HTMLElement {
-        const box = element("input", { type: "checkbox" });
-        box.checked = this.isWindow;
-        box.addEventListener("change", () => {
-            this.isWindow = box.checked;
+        const box = checkbox((isChecked) => {
+            this.isWindow = isChecked;
             this.refreshSoon();
-        });
-        const label = element("label", { class: "switch" }, box, "Only the part in view");
+        }, { checked: this.isWindow });
+        const label = labelled(box, "Only the part in view");
         label.hidden = !this.isWindow;
         return label;
     }
@@ -236,9 +219,7 @@ class Export {
         const { store, help } = this.application;
         this.options.hidden = format === pattern_format;
         const act = (name: string, value: string | null) => {
-            const options = store.work[interpreter].filter(([each]) => each !== name);
-            if (value !== null) options.push([name, value]);
-            store.change({ [interpreter]: options });
+            store.change({ [interpreter]: withOption(store.work[interpreter], name, value) });
         };
         const isSpatial = this.application.opened?.facts.is_spatial ?? false;
         const made = optionGroups(
@@ -247,7 +228,8 @@ class Export {
             act,
             interpreter === "draw" ? "Page" : "Passage",
         );
-        for (const each of made) if (openAtFirst[group]?.test(each.dataset["group"]!)) each.setAttribute("open", "");
+        const opens = groups.find(({ name }) => name === group)?.opens;
+        for (const each of made) if (opens?.test(each.dataset["group"]!)) each.setAttribute("open", "");
         this.options.replaceChildren(...made);
     }
 
@@ -281,12 +263,8 @@ class Export {
         const { interpreter, format } = this.choice;
         const { engine, store } = this.application;
         const { generation } = this;
-        const request = {
-            interpreter,
-            format: format.extension,
-            options: this.optionsNow(),
-            pattern: store.work.pattern,
-        };
+        const { pattern } = store.work;
+        const request = { interpreter, format: format.extension, options: this.optionsNow(), pattern };
         void this.showCommand(request);
         if (by_the_program.has(format.extension)) {
             this.save.textContent = "Save";
@@ -294,24 +272,16 @@ class Export {
             const needs = "A GIF is an animation: set the option “Generations”, such as 0:4, or “Divide”.";
             const moves = request.options.some(([name]) => name === "generations" || name === "divide");
             const isStill = format.extension === "gif" && !moves;
-            this.showRemarks([
-                { is_warning: false, text },
-                ...(isStill ? [{ is_warning: true, text: needs }] : []),
-            ]);
+            this.showRemarks([{ is_warning: false, text }, ...(isStill ? [{ is_warning: true, text: needs }] : [])]);
             return;
         }
         try {
-            const { json, bytes } = await engine.request<Made>(
-                { do: "make", ...request },
-                { key: "export", seconds: 60 },
-            );
+            const once = { key: "export", seconds: 60 };
+            const { json, bytes } = await engine.request<Made>({ do: "make", ...request }, once);
             if (generation !== this.generation) return;
             let from = 0;
             const parts = json.outputs.map(({ size }) => bytes.subarray(from, (from += size)));
-            this.offer(
-                json.outputs.map((output) => output.name),
-                parts,
-            );
+            this.offer(json.outputs.map(({ name }) => name), parts);
             this.showRemarks(json.remarks);
         } catch (error) {
             if (generation !== this.generation || !(error instanceof RequestFailed)) return;
@@ -333,33 +303,18 @@ class Export {
         const { pattern } = this.application.store.work;
         this.command.parentElement!.hidden = true;
         this.needed.hidden = true;
-        this.showRemarks(
-            pattern.settings.length > 0
-                ? [
-                      {
-                          is_warning: false,
-                          text: "The file does not contain changed values; “Write into the text” adds them.",
-                      },
-                  ]
-                : [],
-        );
+        const text = "The file does not contain changed values; “Write into the text” adds them.";
+        this.showRemarks(pattern.settings.length > 0 ? [{ is_warning: false, text }] : []);
         this.offer([pattern.name], [new TextEncoder().encode(pattern.text)]);
     }
 
-    private async showCommand(request: {
-        interpreter: Interpreter;
-        format: string;
-        options: Options;
-        pattern: PatternRequest;
-    }): Promise<void> {
+    private async showCommand(request: Omit<CommandRequest, "do">): Promise<void> {
         const { generation } = this;
         try {
             const { engine, patterns } = this.application;
             const source = await commandSource(engine, patterns, request.pattern);
-            const { json } = await engine.request<Command>(
-                { do: "command", ...request, source },
-                { key: "export-command" },
-            );
+            const asked: CommandRequest = { do: "command", ...request, source };
+            const { json } = await engine.request<Command>(asked, { key: "export-command" });
             if (generation !== this.generation) return;
             this.command.textContent = json.command;
             this.command.parentElement!.hidden = false;
@@ -395,14 +350,9 @@ class Export {
         this.preview.hidden = !isDrawn || isRelief;
         if (this.preview.hidden) return;
         try {
-            await drawInto(
-                this.preview,
-                preview_size,
-                this.application.engine,
-                this.application.store.work.pattern,
-                this.optionsNow(),
-                "export-preview",
-            );
+            const { engine, store } = this.application;
+            const { pattern } = store.work;
+            await drawInto(this.preview, preview_size, engine, pattern, this.optionsNow(), "export-preview");
         } catch (error) {
             if (generation !== this.generation || isAbort(error)) return;
             this.preview.width = this.preview.height = preview_size; // the remarks give the reason
@@ -423,18 +373,13 @@ class Export {
             relief.canvas.hidden = true; // until there is something to show
             this.preview.before(relief.canvas);
         }
-        const options = [...this.optionsNow()];
-        if (optionOf(options, "relief") === undefined) options.push(["relief", ""]);
+        const options = withOption(this.optionsNow(), "relief", optionOf(this.optionsNow(), "relief") ?? "");
         const { generation } = this;
         try {
-            const { bytes } = await this.application.engine.request<Made>(
-                {
-                    do: "make",
-                    interpreter: "draw",
-                    format: "glb",
-                    options,
-                    pattern: this.application.store.work.pattern,
-                },
+            const { engine, store } = this.application;
+            const { pattern } = store.work;
+            const { bytes } = await engine.request<Made>(
+                { do: "make", interpreter: "draw", format: "glb", options, pattern },
                 { lane: "back", key: "export-relief", seconds: 30 },
             );
             if (generation === this.generation) {
@@ -453,10 +398,8 @@ class Export {
         const { made } = this;
         if (!made) return;
         made.names.forEach((name, at) => {
-            const type =
-                types[name.slice(name.lastIndexOf(".") + 1)] ??
-                (this.choice.format.is_text ? "text/plain" : "application/octet-stream");
-            this.application.save(name, made.parts[at]!, type);
+            const other = this.choice.format.is_text ? "text/plain" : "application/octet-stream";
+            this.application.save(name, made.parts[at]!, types[name.slice(name.lastIndexOf(".") + 1)] ?? other);
         });
         this.application.say(`Saved ${made.names.join(", ")}.`);
     }

@@ -45,6 +45,10 @@ export function between(degrees: number): number {
     return turned > 180 ? turned - 360 : turned;
 }
 
+export function turnedEye({ azimuth, elevation, distance }: Eye, right: number, up: number): Eye {
+    return { azimuth: between(azimuth + right), elevation: Math.max(-90, Math.min(90, elevation + up)), distance };
+}
+
 export type Vector = readonly [number, number, number];
 export type Matrix = Float32Array; // 4 x 4, by columns
 

@@ -1,6 +1,6 @@
 // The bundled patterns, with pictures that are drawn when they scroll into view.
 import { type MakePanel, RequestFailed, type Studio } from "./context";
-import { button, element } from "./elements";
+import { button, choices, element } from "./elements";
 import { given_kind, openGiven } from "./given";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
@@ -8,18 +8,12 @@ import type { Options, PatternEntry } from "./protocol";
 import { drawInto } from "./thumbnails";
 
 const picture_size = 256; // pixels
-const square_page: Options = [
-    ["size", "120x120mm"],
-    ["margin", "6mm"],
-];
+const square_page: Options = [["size", "120x120mm"], ["margin", "6mm"]];
 
 class Card {
     readonly element: HTMLButtonElement;
     readonly canvas = element("canvas", {
-        class: "picture",
-        width: picture_size,
-        height: picture_size,
-        "aria-hidden": "true",
+        class: "picture", width: picture_size, height: picture_size, "aria-hidden": "true",
     });
     isDrawn = false;
 
@@ -34,12 +28,8 @@ class Card {
             "button",
             { type: "button", class: "card", title: entry.source },
             this.canvas,
-            element(
-                "span",
-                { class: "caption" },
-                element("strong", {}, entry.title || entry.name),
-                element("small", {}, facts),
-            ),
+            element("span", { class: "caption" }, element("strong", {}, entry.title || entry.name),
+                element("small", {}, facts)),
         );
         this.element.addEventListener("click", () => {
             if (entry.kind === given_kind && openGiven(studio, entry.name)) return;
@@ -72,8 +62,7 @@ class Card {
             await drawInto(this.canvas, picture_size, studio.engine, pattern, square_page);
             this.canvas.classList.add("drawn");
         } catch (error) {
-            if (error instanceof RequestFailed)
-                this.canvas.replaceWith(this.wordCard()); // nothing to draw
+            if (error instanceof RequestFailed) this.canvas.replaceWith(this.wordCard()); // nothing to draw
             else this.isDrawn = false;
         }
     }
@@ -90,19 +79,12 @@ export const makeGalleryPanel: MakePanel = (studio) => {
         placeholder: "Search titles, sources and texts",
         "aria-label": "Search patterns",
     });
-    const chips = ["", ...kinds].map((each) => {
-        const chip = element(
-            "button",
-            { type: "button", class: "chip", "aria-pressed": String(each === "") },
-            each || "all",
-        );
-        chip.addEventListener("click", () => {
-            kind = each;
-            for (const other of chips) other.setAttribute("aria-pressed", String(other === chip));
-            filter();
-        });
-        return chip;
-    });
+    const choose = (chosen: string) => {
+        kind = chosen;
+        filter();
+    };
+    const labels = ["", ...kinds].map((each) => [each, each || "all"] as const);
+    const chips = choices({ class: "toolbar", "aria-label": "Kinds" }, labels, choose, "chip");
     const shown = element("p", { class: "gallery-count", role: "status" });
     const grid = element("div", { class: "cards" }, ...cards.map((card) => card.element));
     const filter = () => {
@@ -140,7 +122,7 @@ export const makeGalleryPanel: MakePanel = (studio) => {
                 "div",
                 { class: "gallery-head" },
                 search,
-                element("div", { class: "toolbar", role: "group", "aria-label": "Kinds" }, ...chips),
+                chips,
                 shown,
                 button("Open a file…", () => askForFile(studio)),
             ),

@@ -3,7 +3,9 @@ import { RequestFailed, type Engine, type Work } from "./context";
 import { readModel } from "./glb";
 import { isAbort } from "./pictures";
 import { modelOptions } from "./option_scopes";
+import { withOption } from "./options";
 import type { Help, Made, PatternRequest } from "./protocol";
+import { Recent } from "./recent";
 import type { Stage, Staged } from "./space_stage";
 
 const mostBytes = 48 * 1024 * 1024;
@@ -12,18 +14,13 @@ const mostBytes = 48 * 1024 * 1024;
 export type Grown = Staged | "empty";
 
 export class Growth {
-    private readonly models = new Map<string, Grown>(); // the most recently used last
-    private used = 0;
+    private readonly models = new Recent<{ model: Grown; bytes: number; close(): void }>(mostBytes);
 
-    constructor(
-        private readonly engine: Engine,
-        private readonly help: Help,
-        private readonly stage: Stage,
-    ) {}
+    constructor(private readonly engine: Engine, private readonly help: Help, private readonly stage: Stage) {}
 
     /// Everything that models of the work depend on, except the derivation length.
     static subject(help: Help, work: Work): { pattern: PatternRequest; options: [string, string][]; name: string } {
-        const settings = work.pattern.settings.filter(([name]) => name !== "derivation length");
+        const settings = withOption(work.pattern.settings, "derivation length", null);
         const options = modelOptions(help, work.draw);
         const pattern = { ...work.pattern, settings };
         return { pattern, options, name: JSON.stringify([pattern, options]) };
@@ -31,13 +28,7 @@ export class Growth {
 
     /// The cached model, if any.
     kept(work: Work, n: number): Grown | undefined {
-        const name = `${n} ${Growth.subject(this.help, work).name}`;
-        const model = this.models.get(name);
-        if (model) {
-            this.models.delete(name);
-            this.models.set(name, model);
-        }
-        return model;
+        return this.models.get(`${n} ${Growth.subject(this.help, work).name}`)?.model;
     }
 
     /// @throws the error of the libraries if the drawing has no model
@@ -45,10 +36,7 @@ export class Growth {
         const kept = this.kept(work, n);
         if (kept) return kept;
         const { pattern, options: settings, name } = Growth.subject(this.help, work);
-        const numbered = {
-            ...pattern,
-            settings: [...pattern.settings!, ["derivation length", String(n)] as [string, string]],
-        };
+        const numbered = { ...pattern, settings: withOption(pattern.settings!, "derivation length", String(n)) };
         let model: Grown;
         try {
             const { bytes } = await this.engine.request<Made>(
@@ -66,15 +54,8 @@ export class Growth {
 
     private keep(name: string, model: Grown): void {
         if (this.models.has(name)) return;
-        this.models.set(name, model);
-        this.used += model === "empty" ? 0 : model.bytes;
-        for (const [oldest, other] of this.models) {
-            if (this.used <= mostBytes || oldest === name) break;
-            this.models.delete(oldest);
-            if (other === "empty") continue;
-            this.used -= other.bytes;
-            this.stage.remove(other);
-        }
+        if (model === "empty") this.models.add(name, { model, bytes: 0, close: () => {} });
+        else this.models.add(name, { model, bytes: model.bytes, close: () => this.stage.remove(model) });
     }
 }
 

@@ -65,10 +65,6 @@ export function completePattern(where: Where): CompletionSource {
     };
 }
 
-function hasSymbols(line: string): boolean {
-    return ["production", "word"].includes(kindOf(line)) || kindOf(line) === "other";
-}
-
 // The help for a column of a line, and the columns that it covers.
 function explain(
     application: Application,
@@ -93,7 +89,8 @@ function explain(
         );
         return { from: identifier.index, to: identifier.index + identifier[0].length, dom };
     }
-    if (!hasSymbols(line) || line.indexOf("-->") === column || line.slice(column - 2, column + 3).includes("-->"))
+    const hasSymbols = ["production", "word", "other"].includes(kindOf(line));
+    if (!hasSymbols || line.indexOf("-->") === column || line.slice(column - 2, column + 3).includes("-->"))
         return null;
     if (name && column < name[0].length) return null;
     const start = line[column - 1] === "@" ? column - 1 : column;

@@ -1,5 +1,5 @@
 // The light on a drawing in space, with its controls.
-import { element } from "./elements";
+import { element, field, slideTo } from "./elements";
 import { between } from "./eye";
 
 /// The direction of the light: degrees around the drawing and upwards.
@@ -11,8 +11,8 @@ export interface Light {
 export const usualLight: Light = { azimuth: -38, elevation: 46 };
 const lowest = 5; // degrees: below this, shadows are endless
 
-export function boundedLight({ azimuth, elevation }: Light): Light {
-    return { azimuth: between(azimuth), elevation: Math.max(lowest, Math.min(90, elevation)) };
+export function turnedLight({ azimuth, elevation }: Light, right: number, up: number): Light {
+    return { azimuth: between(azimuth + right), elevation: Math.max(lowest, Math.min(90, elevation + up)) };
 }
 
 export function makeLamp(change: (light: Light) => void): { element: HTMLElement; show(light: Light): void } {
@@ -23,16 +23,10 @@ export function makeLamp(change: (light: Light) => void): { element: HTMLElement
             light = { ...light, [part]: Number(input.value) };
             change(light);
         });
-        const show = () => {
-            input.value = String(Math.round(light[part]));
-            input.style.setProperty("--at", `${(100 * (light[part] - least)) / (most - least)}%`);
-        };
-        return { input, show };
+        return { input, show: () => slideTo(input, light[part]) };
     };
     const around = slider("space-light-around", -180, 180, "azimuth");
     const height = slider("space-light-height", lowest, 90, "elevation");
-    const field = (label: string, input: HTMLInputElement) =>
-        element("div", { class: "field" }, element("label", { for: input.id }, label), input);
     const fields = element(
         "div",
         { class: "space-light-fields" },

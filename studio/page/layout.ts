@@ -1,5 +1,5 @@
 // The layout of the page: widths, the parts shown on a narrow screen, and the light or dark theme.
-import { byId, element } from "./elements";
+import { byId, choices } from "./elements";
 
 const least_side = 260;
 const storage_key = "sikku-studio-layout";
@@ -26,7 +26,7 @@ function save(change: Layout): void {
     }
 }
 
-const prefers_dark = matchMedia("(prefers-color-scheme: dark)");
+const prefersDark = () => matchMedia("(prefers-color-scheme: dark)");
 
 export function theme(): Theme {
     return saved().theme ?? "system";
@@ -38,13 +38,22 @@ export function setTheme(chosen: Theme): void {
 }
 
 export function applyTheme(): void {
-    const isDark = theme() === "dark" || (theme() === "system" && prefers_dark.matches);
-    document.documentElement.dataset["theme"] = isDark ? "dark" : "light";
+    const becomesDark = theme() === "dark" || (theme() === "system" && prefersDark().matches);
+    document.documentElement.dataset["theme"] = becomesDark ? "dark" : "light";
 }
 
-prefers_dark.addEventListener("change", applyTheme);
+/// True while the page has dark colours.
+export function isDark(): boolean {
+    return document.documentElement.dataset["theme"] === "dark";
+}
+
+/// Calls `act` after each change between light and dark.
+export function onTheme(act: () => void): void {
+    new MutationObserver(act).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+}
 
 export function makeLayout(): void {
+    prefersDark().addEventListener("change", applyTheme);
     makeDivider();
     makeSideTabs();
     for (const skip of document.querySelectorAll<HTMLElement>("[data-skip]")) {
@@ -62,16 +71,11 @@ function makeDivider(): void {
     const set = (width: number) => {
         const side = Math.round(Math.min(Math.max(width, least_side), most()));
         workbench.style.setProperty("--side", `${side}px`);
-        for (const [name, value] of [
-            ["min", least_side],
-            ["max", most()],
-            ["now", side],
-        ] as const) {
-            divider.setAttribute(`aria-value${name}`, String(value));
-        }
+        divider.ariaValueMin = String(least_side);
+        divider.ariaValueMax = String(most());
+        divider.ariaValueNow = String(side);
         save({ side });
     };
-    const now = () => Number(divider.getAttribute("aria-valuenow"));
     set(saved().side ?? Math.min(440, Math.round(innerWidth * 0.34)));
     divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
     divider.addEventListener("pointermove", (event) => {
@@ -81,28 +85,15 @@ function makeDivider(): void {
         const by = { ArrowLeft: -24, ArrowRight: 24 }[event.key];
         if (by === undefined) return;
         event.preventDefault();
-        set(now() + by);
+        set(Number(divider.ariaValueNow) + by);
     });
 }
 
 // A narrow screen shows either the text or the values below the picture.
 function makeSideTabs(): void {
     const side = byId("side-tabs").parentElement!;
-    const group = element("div", { class: "segmented", role: "group", "aria-label": "Below the picture" });
-    const buttons = (
-        [
-            ["values", "Values"],
-            ["text", "Text"],
-        ] as const
-    ).map(([name, label]) => {
-        const choice = element("button", { type: "button", "aria-pressed": String(name === "values") }, label);
-        choice.addEventListener("click", () => {
-            side.dataset["shown"] = name;
-            for (const each of buttons) each.setAttribute("aria-pressed", String(each === choice));
-        });
-        return choice;
-    });
     side.dataset["shown"] = "values";
-    group.append(...buttons);
-    byId("side-tabs").append(group);
+    const attributes = { class: "segmented", "aria-label": "Below the picture" };
+    const show = (name: string) => { side.dataset["shown"] = name; };
+    byId("side-tabs").append(choices(attributes, [["values", "Values"], ["text", "Text"]], show));
 }

@@ -3,6 +3,7 @@ import type { MakePanel, Studio } from "./context";
 import { exactText } from "./decimal";
 import { decimalsOf } from "./camera";
 import { button, element } from "./elements";
+import { onTheme } from "./layout";
 import { addGestures } from "./map_gestures";
 import { makePlaceBar, stepsText } from "./map_place";
 import { drawing, MapView } from "./map_view";
@@ -37,7 +38,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     let pointer: { left: number; top: number } | null = null;
 
     const view = new MapView(studio, canvas, () => update());
-    const place = makePlaceBar(view, studio.store);
+    const place = makePlaceBar(view, studio);
     const toDrawing = button("Fit the drawing (F)", () => view.showDrawing(), { icon: icons.drawing });
     const toPage = button("Whole page (0)", () => view.showPage(), { icon: icons.page });
     const tools = element(
@@ -87,7 +88,7 @@ export const makeMapPanel: MakePanel = (studio) => {
     }
 
     new ResizeObserver(() => view.resize()).observe(canvas);
-    new MutationObserver(() => view.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+    onTheme(() => view.draw());
     studio.store.subscribe((work) => view.setWork(work));
     studio.onOpened((facts, work) => view.setFacts(facts, work));
     studio.onChecked(() => view.draw()); // with an error the picture of the previous text remains
@@ -120,7 +121,7 @@ function describeSoon(studio: Studio, view: MapView, canvas: HTMLCanvasElement):
             facts.cost.segments && facts.cost.segments !== "0" ? `${facts.cost.segments} segments` : "",
             measured?.facts === facts && measured.isClosed ? "closed" : "",
             facts.is_spatial ? "in space" : "",
-            view.mode === "page" ? `whole page, ${sheetOf(studio.store.work.draw).name}` : placeText(view),
+            view.mode === "page" ? `whole page, ${sheetOf(studio.help, studio.store.work.draw).name}` : placeText(view),
         ];
         canvas.setAttribute("aria-label", parts.filter((part) => part !== "").join(", "));
     }

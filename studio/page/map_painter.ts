@@ -1,5 +1,6 @@
 // Paints the map, a page on a desk or the plane, from the pictures that are available.
 import { pixelOf, pointAt, type Camera, type Size } from "./camera";
+import { isDark } from "./layout";
 import type { Bitmap } from "./pictures";
 import type { Laid } from "./sheet";
 
@@ -193,8 +194,4 @@ export class Painter {
         }
         context.restore();
     }
-}
-
-function isDark(): boolean {
-    return document.documentElement.dataset["theme"] === "dark";
 }

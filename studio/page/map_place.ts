@@ -1,10 +1,11 @@
 // The position of the map: coordinates, a scale bar, and a form to go to a place.
 import { decimalsOf, limited, pointAt } from "./camera";
 import { exactOf, exactText, grouped, readExact, type Exact } from "./decimal";
-import { button, element } from "./elements";
+import { button, element, field } from "./elements";
 import type { MapView } from "./map_view";
+import { raised } from "./numbers_shown";
 import { sheetOf } from "./sheet";
-import type { Store } from "./context";
+import type { Studio } from "./context";
 
 const manyDigits = 40; // written smaller
 
@@ -28,10 +29,8 @@ function roomFor(width: number): number {
 export function stepsText(steps: number): string {
     if (steps >= 1e6) {
         const exponent = Math.floor(Math.log10(steps));
-        const digits = ["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"];
-        const raised = [...String(exponent)].map((digit) => digits[Number(digit)]).join("");
         const factor = Math.round(steps / 10 ** exponent);
-        return `${factor === 1 ? "" : `${factor} × `}10${raised} steps`;
+        return `${factor === 1 ? "" : `${factor} × `}10${raised(exponent)} steps`;
     }
     const text = grouped(exactText(exactOf(steps), decimalsOf(steps / 10)));
     return text === "1" ? "1 step" : `${text} steps`;
@@ -49,7 +48,7 @@ export interface PlaceBar {
     update(pointer: { left: number; top: number } | null): void;
 }
 
-export function makePlaceBar(view: MapView, store: Store): PlaceBar {
+export function makePlaceBar(view: MapView, { help, store }: Studio): PlaceBar {
     const bar = element("div", { class: "map-scale", "aria-hidden": "true" });
     const barText = element("span", { class: "map-scale-text number" });
     const barLine = element("span", { class: "map-scale-line" });
@@ -96,7 +95,7 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
             sheet.hidden = isPlane || view.isMagnified;
             toggle.hidden = !isPlane;
             if (!isPlane) {
-                sheet.textContent = sheetOf(store.work.draw).name;
+                sheet.textContent = sheetOf(help, store.work.draw).name;
                 if (!form.element.hidden) open(false);
                 return;
             }
@@ -116,13 +115,13 @@ export function makePlaceBar(view: MapView, store: Store): PlaceBar {
 }
 
 function makeForm(view: MapView, close: () => void) {
-    const field = (id: string, label: string) => {
+    const text = (id: string, label: string) => {
         const input = element("input", { type: "text", id, class: "number", autocomplete: "off", spellcheck: "false" });
-        return { input, row: element("div", { class: "field" }, element("label", { for: id }, label), input) };
+        return { input, row: field(label, input) };
     };
-    const x = field("map-x", "Centre x, in steps");
-    const y = field("map-y", "Centre y, in steps");
-    const scale = field("map-steps", "Steps per pixel");
+    const x = text("map-x", "Centre x, in steps");
+    const y = text("map-y", "Centre y, in steps");
+    const scale = text("map-steps", "Steps per pixel");
     const wrong = element("p", { class: "note error", role: "alert", hidden: true });
     const form = element(
         "form",

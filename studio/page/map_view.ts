@@ -278,13 +278,13 @@ export class MapView {
     // --- motion
 
     private get laid(): Laid {
-        return laidOut(sheetOf(this.work.draw), this.size);
+        return laidOut(sheetOf(this.studio.help, this.work.draw), this.size);
     }
 
     private get pageCamera(): Camera | null {
         const facts = this.known;
         const { laid, size, studio, work } = this;
-        return facts && cameraOfSheet(sheetOf(work.draw), laid, size, facts, studio.help, work.draw);
+        return facts && cameraOfSheet(sheetOf(studio.help, work.draw), laid, size, facts, studio.help, work.draw);
     }
 
     // Changes from the page to the plane; false if there is none, or if it does not match the page.

@@ -1,7 +1,7 @@
 // Formats numbers for display.
 
-// Digits as superscripts.
-function raised(exponent: number | string): string {
+/// Digits as superscripts.
+export function raised(exponent: number | string): string {
     return [...String(exponent)].map((digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]).join("");
 }
 
@@ -11,17 +11,14 @@ export function count(text: string): string {
     if (text.length > 15) return `about 10${raised(text.length - 1)}`;
     const number = Number(text);
     if (number < 1e6) return number.toLocaleString("en");
-    const units: [number, string][] = [
-        [1e12, "trillion"],
-        [1e9, "billion"],
-        [1e6, "million"],
-    ];
+    const units: [number, string][] = [[1e12, "trillion"], [1e9, "billion"], [1e6, "million"]];
     const [size, unit] = units.find(([each]) => number >= each)!;
     return `${(number / size).toPrecision(3)} ${unit}`;
 }
 
 /// A count with its noun: "1 symbol", "3,239 symbols".
-export function counted(text: string, noun: string): string {
+export function counted(number: string | number, noun: string): string {
+    const text = String(number);
     return `${count(text)} ${noun}${text === "1" ? "" : "s"}`;
 }
 
@@ -50,4 +47,9 @@ export function rounded(number: number, step: number): string {
 /// The text with its first letter capitalised.
 export function capital(text: string): string {
     return text.slice(0, 1).toUpperCase() + text.slice(1);
+}
+
+/// The same with a full stop, unless it ends a sentence.
+export function sentence(text: string): string {
+    return capital(text) + (/[.!?`]$/.test(text) ? "" : ".");
 }

@@ -1,6 +1,7 @@
 // Converts the current view to options of `sikku draw`: the options of the work, and the window of the map.
 import { cameraOf, windowOf } from "./camera";
 import type { Studio } from "./context";
+import { withOption } from "./options";
 import type { Options } from "./protocol";
 
 const usual = { width: 1000, height: 800 }; // used before the map has been shown
@@ -15,7 +16,5 @@ export function windowOnScreen(studio: Studio): string | null {
 }
 
 export function drawOptions(studio: Studio, withWindow: boolean): Options {
-    const options = studio.store.work.draw.filter(([name]) => name !== "window");
-    const window = withWindow ? windowOnScreen(studio) : null;
-    return window === null ? options : [...options, ["window", window]];
+    return withOption(studio.store.work.draw, "window", withWindow ? windowOnScreen(studio) : null);
 }

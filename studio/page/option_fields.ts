@@ -1,6 +1,7 @@
 // Fields for the options of prints and scores, made from the libraries' table of names, values, limits and help.
 import { element } from "./elements";
 import { capital } from "./numbers_shown";
+import { optionOf } from "./options";
 import type { OptionHelp, Options } from "./protocol";
 
 export interface OptionAct {
@@ -108,10 +109,8 @@ export function optionGroups(options: OptionHelp[], values: Options, act: Option
         groups.set(group, [...(groups.get(group) ?? []), option]);
     }
     return [...groups].map(([group, members]) => {
-        const fields = members.map((option) =>
-            optionField(option, values.find(([name]) => name === option.name)?.[1], act),
-        );
-        const set = members.filter((option) => values.some(([name]) => name === option.name)).length;
+        const fields = members.map((option) => optionField(option, optionOf(values, option.name), act));
+        const set = members.filter((option) => optionOf(values, option.name) !== undefined).length;
         return element(
             "details",
             { class: "group", "data-group": group },

@@ -33,11 +33,7 @@ interface State {
 
 function readName(stream: StringStream, state: State): string {
     state.isNamed = true;
-    if (state.kind === "define") {
-        stream.match(/^\s*define/);
-        return "patternKey";
-    }
-    stream.match(/^[^:]*:/);
+    stream.match(state.kind === "define" ? /^\s*define/ : /^[^:]*:/);
     return "patternKey";
 }
 

@@ -2,7 +2,8 @@
 import type { Answer, Engine } from "./context";
 import { element } from "./elements";
 import type { Options, PatternRequest, Pixels } from "./protocol";
-import { PictureCache, tileName, tileWindow, type Tile, type TileGrid } from "./tiles";
+import { Recent } from "./recent";
+import { tileName, tileWindow, type Tile, type TileGrid } from "./tiles";
 
 /// Red, green, blue, alpha: 0 to 255.
 export type Colour = readonly [number, number, number, number];
@@ -28,33 +29,37 @@ function isEmpty({ remarks }: Pixels): boolean {
     return remarks.some(({ text }) => text === "the window contains no part of the drawing");
 }
 
-/// Makes a bitmap from the answer to `pixels`.
-export async function bitmapOf({ json, bytes }: Answer<Pixels>): Promise<Bitmap> {
-    const { width, height } = json;
+/// The answer to `pixels` as an image.
+export function imageOf({ json: { width, height }, bytes }: Answer<Pixels>): ImageData {
     const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
-    const source = await createImageBitmap(new ImageData(values, width, height));
-    return { source, width, height, bytes: width * height * 4, isEmpty: isEmpty(json), plain: plainOf(values), close: () => source.close() };
+    return new ImageData(values, width, height);
+}
+
+/// Shows the image in a canvas, which gets its size.
+export function putImage(canvas: HTMLCanvasElement, image: ImageData): void {
+    canvas.width = image.width;
+    canvas.height = image.height;
+    canvas.getContext("2d")!.putImageData(image, 0, 0);
+}
+
+function factsOf(json: Pixels, { width, height, data }: ImageData) {
+    return { width, height, bytes: data.length, isEmpty: isEmpty(json), plain: plainOf(data) };
+}
+
+/// Makes a bitmap from the answer to `pixels`.
+async function bitmapOf(answer: Answer<Pixels>): Promise<Bitmap> {
+    const image = imageOf(answer);
+    const source = await createImageBitmap(image);
+    return { source, ...factsOf(answer.json, image), close: () => source.close() };
 }
 
 /// The same synchronously, for pictures that are needed at once.
-export function bitmapAtOnce({ json, bytes }: Answer<Pixels>): Bitmap {
-    const { width, height } = json;
-    const values = new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, width * height * 4);
-    const source = document.createElement("canvas");
-    source.width = width;
-    source.height = height;
-    source.getContext("2d")!.putImageData(new ImageData(values, width, height), 0, 0);
-    return {
-        source,
-        width,
-        height,
-        bytes: width * height * 4,
-        isEmpty: isEmpty(json),
-        plain: plainOf(values),
-        close: () => {
-            source.width = source.height = 0;
-        },
-    };
+export function bitmapAtOnce(answer: Answer<Pixels>): Bitmap {
+    const image = imageOf(answer);
+    const source = element("canvas");
+    putImage(source, image);
+    const close = () => { source.width = source.height = 0; };
+    return { source, ...factsOf(answer.json, image), close };
 }
 
 /// A colour of CSS as a picture contains it.
@@ -83,7 +88,7 @@ const patience = 400; // milliseconds that a tile may go on for after it has lef
 
 /// Loads the wanted tiles, those in the middle first, and caches the most recently used.
 export class TileLoader {
-    readonly cache = new PictureCache<Bitmap>(mostBytes);
+    readonly cache = new Recent<Bitmap>(mostBytes);
     private readonly running = new Map<string, { stop: AbortController; since: number; subject: string }>();
     private readonly failed = new Set<string>();
     private readonly scales = new Map<string, Map<number, number>>(); // by subject, with times of use
@@ -114,11 +119,6 @@ export class TileLoader {
             if (!names.has(name) && (whose !== subject?.name || now - since > patience)) stop.abort();
         }
         this.next();
-    }
-
-    /// True while a wanted tile is missing.
-    get isBusy(): boolean {
-        return this.running.size > 0;
     }
 
     private next(): void {

@@ -2,6 +2,8 @@
 import type { MakePanel, Panel, Studio, Work } from "./context";
 import { RequestFailed } from "./context";
 import { button, element } from "./elements";
+import { onTheme } from "./layout";
+import { optionOf, withOption } from "./options";
 import { CurveView } from "./play/curve_view";
 import { makeMidiMenu } from "./play/midi_menu";
 import { Player } from "./play/player";
@@ -10,7 +12,7 @@ import { remediesFor, withMovesDrawn } from "./play/remedies";
 import { RollView } from "./play/roll_view";
 import { TransportBar } from "./play/transport_bar";
 import { VoiceList } from "./play/voice_list";
-import type { Made, Notes, Opened, Options } from "./protocol";
+import type { Made, Notes, Opened } from "./protocol";
 import { Refusal } from "./refusal";
 import type { Melody } from "./sound/melody";
 import { barsOf, firstFrom, keyName, placeText, readMelody } from "./sound/melody";
@@ -137,11 +139,11 @@ class PlayPanel implements Panel {
         });
         curveCanvas.addEventListener("pointerleave", () => this.point(null));
         document.addEventListener("keydown", (event) => this.press(event));
-        new MutationObserver(() => {
+        onTheme(() => {
             this.curve.reset();
             this.roll.reset();
             this.voices.update();
-        }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+        });
     }
 
     private press(event: KeyboardEvent): void {
@@ -163,8 +165,8 @@ class PlayPanel implements Panel {
 
     private async load(facts: Opened, work: Work): Promise<void> {
         // The tempo does not change the notes.
-        const isTimed = work.play.some(([name]) => name === "seconds");
-        const options: Options = isTimed ? work.play : work.play.filter(([name]) => name !== "tempo");
+        const isTimed = optionOf(work.play, "seconds") !== undefined;
+        const options = isTimed ? work.play : withOption(work.play, "tempo", null);
         const pattern = this.played(work);
         const what = JSON.stringify([pattern, options]);
         if (what === this.loaded) {
@@ -290,8 +292,7 @@ class PlayPanel implements Panel {
 
     private setOption(name: string, value: string | null, merge?: string): void {
         const { store } = this.studio;
-        const others = store.work.play.filter(([each]) => each !== name);
-        store.change({ play: value === null ? others : [...others, [name, value]] }, merge);
+        store.change({ play: withOption(store.work.play, name, value) }, merge);
     }
 
     // --- the transport --------------------------------------------------------------------------------------------
@@ -306,7 +307,7 @@ class PlayPanel implements Panel {
     }
 
     private applyTempo(): void {
-        const chosen = Number(this.studio.store.work.play.find(([name]) => name === "tempo")?.[1]);
+        const chosen = Number(optionOf(this.studio.store.work.play, "tempo"));
         const tempo = chosen > 0 ? chosen : (this.player.melody?.tempo ?? 120);
         this.player.transport.setTempo(tempo);
         this.bar.showTempo(tempo);

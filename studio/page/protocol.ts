@@ -91,6 +91,7 @@ export interface OptionHelp {
 export interface FormatHelp { extension: string; label: string; alias: string; is_several: boolean; is_text: boolean }
 export interface Help {
     version: string;
+    sizes: Record<string, [width: number, height: number]>; // of sheets by name, upright, in millimetres: `a4`, `jisb4`
     keys: KeyHelp[];
     symbols: SymbolHelp[];
     draw: { options: OptionHelp[]; formats: FormatHelp[] };

@@ -1,12 +1,10 @@
 // Why a drawing was not made, in a note, with a button that sets the largest derivation length that can be drawn.
 import { RequestFailed, type Studio, type Work } from "./context";
 import { button, element } from "./elements";
-import { capital, counted } from "./numbers_shown";
+import { counted, sentence } from "./numbers_shown";
 import type { Affordable } from "./protocol";
 
 const search_seconds = 5; // for the derivation length
-
-const sentence = (text: string): string => `${capital(text)}${/[.!?`]$/.test(text) ? "" : "."}`;
 
 /// The reason for an error about a pattern.
 export function reasonOf(studio: Studio, error: unknown, pattern: Work["pattern"]): string {
@@ -33,10 +31,7 @@ export class Refusal {
     private readonly remedy = element("div", { class: "toolbar" });
 
     /// @param note  is shown and hidden
-    constructor(
-        private readonly studio: Studio,
-        readonly note: HTMLElement,
-    ) {}
+    constructor(private readonly studio: Studio, readonly note: HTMLElement) {}
 
     clear(): void {
         ++this.shown;

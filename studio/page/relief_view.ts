@@ -1,8 +1,9 @@
 // Shows a relief before it is exported, as a small model that can be turned.
 import { element } from "./elements";
-import { between, type Eye } from "./eye";
+import { turnedEye, type Eye } from "./eye";
 import { readModel, type Model } from "./glb";
-import { boundedLight, usualLight } from "./lamp";
+import { turnedLight, usualLight } from "./lamp";
+import { isDark } from "./layout";
 import { addOrbit } from "./orbit";
 import { fittingHalf, Stage, type Staged } from "./space_stage";
 
@@ -55,9 +56,7 @@ export class ReliefView {
     ) {
         addOrbit(canvas, {
             turn: (right, up) => {
-                const { azimuth, elevation, distance } = this.eye;
-                const raised = Math.max(-90, Math.min(90, elevation + up));
-                this.eye = { azimuth: between(azimuth + right), elevation: raised, distance };
+                this.eye = turnedEye(this.eye, right, up);
                 this.draw();
             },
             shift: () => {}, // the model stays centred
@@ -66,8 +65,7 @@ export class ReliefView {
                 this.draw();
             },
             light: (right, up) => {
-                const { azimuth, elevation } = this.light;
-                this.light = boundedLight({ azimuth: azimuth + right, elevation: elevation + up });
+                this.light = turnedLight(this.light, right, up);
                 this.draw();
             },
             reset: () => {
@@ -97,7 +95,7 @@ export class ReliefView {
             zoom: this.zoom,
             shift: [0, 0],
             light: this.light,
-            isDark: document.documentElement.dataset["theme"] === "dark",
+            isDark: isDark(),
         });
     }
 }

@@ -1,6 +1,7 @@
 // The seed, with buttons to lock it and to choose the previous, the next or a random one.
 import type { Application } from "./application";
 import { button, element, icon } from "./elements";
+import { optionOf } from "./options";
 import type { Opened } from "./protocol";
 
 const lock_closed = "M4 7.5h8v6H4zM5.5 7.5V5a2.5 2.5 0 0 1 5 0v2.5";
@@ -16,7 +17,7 @@ export function makeSeed(application: Application): { element: HTMLElement; upda
         if (isLocked()) application.say("The seed is locked.", "warning");
         else store.setting("seed", value, "setting seed");
     };
-    const now = () => store.work.pattern.settings.find(([name]) => name === "seed")?.[1] ?? facts?.seed ?? "0";
+    const now = () => optionOf(store.work.pattern.settings, "seed") ?? facts?.seed ?? "0";
     const step = (by: bigint) => {
         const next = BigInt(now()) + by;
         if (next >= 0n) change(String(next));

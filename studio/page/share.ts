@@ -4,11 +4,12 @@ import type { Application } from "./application";
 import { RequestFailed } from "./context";
 import { copyText } from "./clipboard";
 import { openDialog, type Dialog } from "./dialog";
-import { button, element } from "./elements";
+import { button, checkbox, element, field, labelled } from "./elements";
 import { excerpt, readLocked, readPlace, unknownOptions } from "./link_contents";
 import { count } from "./numbers_shown";
 import { drawOptions, windowOnScreen } from "./on_screen";
 import { openPattern } from "./opening";
+import { withOption } from "./options";
 import { titleOf } from "./pattern_text";
 import type { Link, PatternRequest, ReadLink, Shared } from "./protocol";
 
@@ -34,9 +35,8 @@ export function openShare(application: Application): void {
     const facts = element("p", { role: "status" });
     const code = element("canvas", { class: "code", role: "img", "aria-label": "QR code of the link" });
     const hasView = windowOnScreen(application) !== null;
-    const box = element("input", { type: "checkbox" });
-    box.checked = hasView;
-    const view = element("label", { class: "switch" }, box, "Include the current view");
+    const box = checkbox(() => void make(), { checked: hasView });
+    const view = labelled(box, "Include the current view");
     view.hidden = !hasView;
     const copy = button("Copy the link", () => void copyLink(application, address), { kind: "primary" });
 
@@ -53,7 +53,6 @@ export function openShare(application: Application): void {
             facts.textContent = error instanceof RequestFailed ? error.message : String(error);
         }
     };
-    box.addEventListener("change", () => void make());
     dialog.body.append(
         element("p", {}, "The link contains the pattern, its values, the view and the options. Nothing is uploaded."),
         address,
@@ -157,7 +156,7 @@ export async function inspectLink(application: Application, link: string): Promi
             dialog.close();
             const { draw = [], play = [], page = {} } = contents;
             openPattern(application, { variant: "", settings: [], ...pattern }, page["panel"] ?? "map", {
-                draw: draw.filter(([name]) => name !== "window"),
+                draw: withOption(draw, "window", null),
                 play,
                 place: readPlace(page["place"]),
                 locked: readLocked(page["locked"]),
@@ -227,24 +226,17 @@ export function watchLinks(application: Application): void {
 /// Opens a dialog with a field for a link or the text of a QR code.
 export function askForLink(application: Application): void {
     const dialog = openDialog("Open a link");
-    const field = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
-    dialog.body.append(
-        element(
-            "div",
-            { class: "field" },
-            element("label", { for: field.id }, "A link, or the text of a QR code"),
-            field,
-        ),
-    );
+    const link = element("textarea", { rows: 4, id: "link-to-open", placeholder: "https://…#…" });
+    dialog.body.append(field("A link, or the text of a QR code", link));
     dialog.footer.append(
         button(
             "Show its contents",
             () => {
                 dialog.close();
-                void inspectLink(application, field.value.trim());
+                void inspectLink(application, link.value.trim());
             },
             { kind: "primary" },
         ),
     );
-    field.focus();
+    link.focus();
 }

@@ -1,5 +1,6 @@
 // The page of a print, as set by its options, and the position of the drawing on it.
 import { hasScope } from "./option_scopes";
+import { optionOf } from "./options";
 import type { Help, Opened, Options } from "./protocol";
 import type { Camera, Size } from "./camera";
 import { exactOf, numberOf, readExact } from "./decimal";
@@ -12,54 +13,8 @@ export interface Sheet {
     readonly name: string;
 }
 
-type Sides = readonly [number, number];
-
-// Each size of a series is as wide as the next one is high.
-function series(name: string, heights: readonly number[]): Record<string, Sides> {
-    return Object.fromEntries(
-        heights.slice(0, -1).map((height, at) => [`${name}${at}`, [heights[at + 1]!, height] as Sides]),
-    );
-}
-function inches(sizes: Readonly<Record<string, Sides>>): Record<string, Sides> {
-    return Object.fromEntries(Object.entries(sizes).map(([name, [width, height]]) => [name, [width * 25.4, height * 25.4]]));
-}
-
-// The sizes of art/print/page.cpp, upright.
-const named: Readonly<Record<string, Sides>> = {
-    "4a0": [1682, 2378],
-    "2a0": [1189, 1682],
-    ...series("a", [1189, 841, 594, 420, 297, 210, 148, 105, 74, 52, 37, 26]),
-    ...series("b", [1414, 1000, 707, 500, 353, 250, 176, 125, 88, 62, 44, 31]),
-    ...series("c", [1297, 917, 648, 458, 324, 229, 162, 114, 81, 57, 40, 28]),
-    ...series("jisb", [1456, 1030, 728, 515, 364, 257, 182, 128, 91, 64, 45, 32]),
-    ...series("ra", [1220, 860, 610, 430, 305, 215]),
-    ...series("sra", [1280, 900, 640, 450, 320, 225]),
-    ...inches({
-        letter: [8.5, 11],
-        legal: [8.5, 14],
-        tabloid: [11, 17],
-        ledger: [11, 17],
-        executive: [7.25, 10.5],
-        statement: [5.5, 8.5],
-        ansia: [8.5, 11],
-        ansib: [11, 17],
-        ansic: [17, 22],
-        ansid: [22, 34],
-        ansie: [34, 44],
-        archa: [9, 12],
-        archb: [12, 18],
-        archc: [18, 24],
-        archd: [24, 36],
-        arche: [36, 48],
-        arche1: [30, 42],
-    }),
-};
 const joined = (name: string): string => name.trim().toLowerCase().replaceAll(/[\s_-]/g, "");
 const millimetres: Readonly<Record<string, number>> = { mm: 1, cm: 10, in: 25.4, pt: 25.4 / 72, px: 25.4 / 300 };
-
-export function optionOf(options: Options, name: string): string | undefined {
-    return options.find(([each]) => each === name)?.[1];
-}
 
 /// Reads a length such as `12mm`; `unit` is the default unit.
 export function lengthOf(text: string, unit = "mm"): number | null {
@@ -68,10 +23,8 @@ export function lengthOf(text: string, unit = "mm"): number | null {
     return match && factor !== undefined ? Number(match[1]) * factor : null;
 }
 
-function sizeOf(text: string): Sides | null {
+function sizeOf(text: string): [number, number] | null {
     const clean = text.trim().toLowerCase().replaceAll("×", "x");
-    const known = named[joined(text)];
-    if (known) return known;
     const match = /^([\d.]+)\s*(mm|cm|in|pt|px)?\s*x\s*([\d.]+)\s*(mm|cm|in|pt|px)?$/.exec(clean);
     if (!match) return null;
     const unit = match[4] ?? match[2] ?? "mm";
@@ -81,13 +34,14 @@ function sizeOf(text: string): Sides | null {
 }
 
 /// The page that the options set: by default A4 with a margin of 10 mm.
-export function sheetOf(options: Options): Sheet {
+export function sheetOf({ sizes }: Pick<Help, "sizes">, options: Options): Sheet {
     const text = optionOf(options, "size") ?? "A4";
-    const size = sizeOf(text) ?? named["a4"]!;
+    const named = sizes[joined(text)];
+    const size = named ?? sizeOf(text) ?? [210, 297];
     const isLandscape = optionOf(options, "landscape") !== undefined && size[0] < size[1];
     const [width, height] = isLandscape ? [size[1], size[0]] : size;
     const margin = lengthOf(optionOf(options, "margin") ?? "10mm") ?? 10;
-    const letters = named[joined(text)] ? text.trim().replace(/^[a-c](?=\d)/, (letter) => letter.toUpperCase()) : "";
+    const letters = named ? text.trim().replace(/^[a-c](?=\d)/, (letter) => letter.toUpperCase()) : "";
     const measures = `${round(width)} × ${round(height)} mm`;
     return { width, height, margin, name: letters ? `${letters}, ${measures}` : measures };
 }
@@ -140,7 +94,7 @@ export function cameraOfSheet(
     options: Options,
 ): Camera | null {
     if (hasScope(help, options, "turn") || optionOf(options, "generations") !== undefined) return null;
-    if ( !facts.extent || facts.is_spatial) return null;
+    if (!facts.extent || facts.is_spatial) return null;
     const [x0, y0, x1, y1] = facts.extent.map(readExact);
     if (x0 == null || y0 == null || x1 == null || y1 == null) return null;
     const across = numberOf(x1 - x0);

@@ -2,7 +2,7 @@
 // filters are left out.
 import { hashOf } from "./chance";
 import { RequestFailed, type Engine } from "./context";
-import { isAbort } from "./pictures";
+import { imageOf, isAbort } from "./pictures";
 import { thumbnailOptions } from "./option_scopes";
 import type { Help, Options, Pixels } from "./protocol";
 import type { Variant } from "./variants";
@@ -118,16 +118,12 @@ async function drawn(
     const settings = { lane, seconds, signal: search.signal };
     try {
         if (!(await passes(engine, pattern, search.filters, settings))) return null;
-        const { json, bytes } = await engine.request<Pixels>(
+        const answer = await engine.request<Pixels>(
             { do: "pixels", width: search.side, height: search.side, ratio: search.ratio, options, pattern },
             settings,
         );
-        const values = new Uint8ClampedArray(
-            bytes.buffer as ArrayBuffer,
-            bytes.byteOffset,
-            json.width * json.height * 4,
-        );
-        return isBlank(values) ? null : new ImageData(values, json.width, json.height);
+        const image = imageOf(answer);
+        return isBlank(image.data) ? null : image;
     } catch (error) {
         if (isAbort(error) || error instanceof RequestFailed) return null; // not a valid variant
         throw error;

@@ -1,5 +1,5 @@
 // A name, a slider, a field for the value, and a button that resets it to the value in the text.
-import { button, element } from "./elements";
+import { button, element, slideTo } from "./elements";
 
 const reset_icon = "M3 6h6.5a3.5 3.5 0 0 1 0 7H6M3 6l3-3M3 6l3 3";
 
@@ -77,10 +77,7 @@ export function makeSlider(
             range.min = String(least);
             range.max = String(most);
             range.step = String(state.step);
-            range.valueAsNumber = number;
-            const share = (number - least) / (most - least || 1);
-            range.style.setProperty("--at", `${(share * 100).toFixed(2)}%`);
-            range.setAttribute("aria-valuetext", state.description ?? state.value);
+            slideTo(range, number, state.description ?? state.value);
             if (document.activeElement !== field || field.value === "") field.value = state.value;
             else if (Number(field.value) !== Number(state.value)) field.value = state.value;
             row.classList.toggle("changed", state.isChanged);

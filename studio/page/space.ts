@@ -1,10 +1,12 @@
 // The panel that shows a drawing as a model in space, with controls to turn, light and grow it.
 import type { MakePanel, Studio, Work } from "./context";
-import { button, element } from "./elements";
-import { between, eyeText, readEye, type Eye } from "./eye";
+import { button, checkbox, element, labelled, slideTo } from "./elements";
+import { between, eyeText, readEye, turnedEye, type Eye } from "./eye";
 import { Growth, type Grown } from "./growth";
-import { boundedLight, makeLamp, usualLight } from "./lamp";
+import { makeLamp, turnedLight, usualLight } from "./lamp";
+import { isDark, onTheme } from "./layout";
 import { isStill } from "./map_motion";
+import { withOption } from "./options";
 import { addOrbit } from "./orbit";
 import { Pace } from "./pace";
 import { isAbort } from "./pictures";
@@ -73,7 +75,10 @@ class SpaceView {
     private readonly facts = element("p", { class: "space-facts number" });
     private readonly play: HTMLButtonElement;
     private readonly turn: HTMLButtonElement;
-    private readonly perspective = element("input", { type: "checkbox", id: "space-perspective" });
+    private readonly perspective = checkbox((isChecked) => {
+        this.eye = { ...this.eye, distance: isChecked ? 4 : null };
+        this.draw();
+    });
     private readonly use: HTMLButtonElement;
     private readonly flat = element("p", { class: "space-flat", hidden: true }, flatReason);
     private readonly lamp = makeLamp((light) => {
@@ -155,10 +160,6 @@ class SpaceView {
 
     private makeTools(): HTMLElement {
         const reset = button("Reset the view (0)", () => this.reset(), { icon: icons.reset });
-        this.perspective.addEventListener("change", () => {
-            this.eye = { ...this.eye, distance: this.perspective.checked ? 4 : null };
-            this.draw();
-        });
         return element(
             "div",
             { class: "space-tools" },
@@ -176,7 +177,7 @@ class SpaceView {
                 { class: "toolbar" },
                 this.turn,
                 reset,
-                element("label", { class: "switch", for: "space-perspective" }, this.perspective, "Perspective"),
+                labelled(this.perspective, "Perspective"),
                 this.use,
             ),
             this.flat,
@@ -187,11 +188,7 @@ class SpaceView {
         const { canvas, studio } = this;
         addOrbit(canvas, {
             turn: (right, up) => {
-                this.eye = {
-                    ...this.eye,
-                    azimuth: between(this.eye.azimuth + right),
-                    elevation: Math.max(-90, Math.min(90, this.eye.elevation + up)),
-                };
+                this.eye = turnedEye(this.eye, right, up);
                 this.draw();
             },
             shift: (right, down) => {
@@ -206,8 +203,7 @@ class SpaceView {
                 this.draw();
             },
             light: (right, up) => {
-                const { azimuth, elevation } = this.light;
-                this.light = boundedLight({ azimuth: azimuth + right, elevation: elevation + up });
+                this.light = turnedLight(this.light, right, up);
                 this.draw();
             },
             reset: () => this.reset(),
@@ -222,7 +218,7 @@ class SpaceView {
             this.problem("The graphics driver has lost the model. Reload the page to show it again.");
         });
         new ResizeObserver(() => this.draw()).observe(canvas);
-        new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+        onTheme(() => this.draw());
         studio.onOpened((facts, work) => this.open(facts, work));
         studio.onChecked(() => this.sayWaiting());
         studio.store.subscribe((work, before) => {
@@ -337,8 +333,7 @@ class SpaceView {
 
     private seek(n: number): void {
         this.n = n;
-        this.slider.value = String(n);
-        this.slider.style.setProperty("--at", `${this.most > 0 ? (100 * n) / this.most : 100}%`);
+        slideTo(this.slider, n);
         this.count.textContent = `n = ${n}`;
         this.useLength.hidden = n === this.most;
         void this.load(n);
@@ -453,7 +448,7 @@ class SpaceView {
 
     private advance(now: number): void {
         if (this.isTurning) {
-            this.eye = { ...this.eye, azimuth: between(this.eye.azimuth + Math.min(60, now - this.last) * 0.018) };
+            this.eye = turnedEye(this.eye, Math.min(60, now - this.last) * 0.018, 0);
         }
         if (this.before && now - this.before.since > turning) this.before = null;
         if (this.isGrowing && now - this.grownAt > growing) {
@@ -525,14 +520,13 @@ class SpaceView {
             zoom: this.zoom,
             shift: [this.shift[0], this.shift[1] + covered / height],
             light: this.light,
-            isDark: document.documentElement.dataset["theme"] === "dark",
+            isDark: isDark(),
         });
     }
 
     private useView(): void {
         const view = eyeText(this.eye);
-        const draw = this.work.draw.filter(([name]) => name !== "view");
-        this.studio.store.change({ draw: [...draw, ["view", view]] }, "view");
+        this.studio.store.change({ draw: withOption(this.work.draw, "view", view) }, "view");
         this.work = this.studio.store.work;
         this.studio.say(`Prints now use this view: view ${view}.`);
     }

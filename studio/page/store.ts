@@ -1,5 +1,6 @@
 // The user's work and its history, stored in the browser so that a reload loses nothing.
 import type { Store, Work } from "./context";
+import { withOption } from "./options";
 import { isAnother, renamed } from "./versions";
 
 const most_steps = 100;
@@ -85,9 +86,7 @@ export class History implements Store {
 
     setting(name: string, value: string | null, merge?: string): void {
         const { pattern } = this.work;
-        const settings = pattern.settings.filter(([each]) => each !== name);
-        if (value !== null) settings.push([name, value]);
-        this.change({ pattern: { ...pattern, settings } }, merge);
+        this.change({ pattern: { ...pattern, settings: withOption(pattern.settings, name, value) } }, merge);
     }
 
     undo(): void {

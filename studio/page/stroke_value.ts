@@ -5,3 +5,7 @@ export function splitStroke(value: string): { width: string; unit: string; rest:
         ? { width: parts[1]!, unit: parts[2] ?? "mm", rest: parts[3]! }
         : { width: "", unit: "mm", rest: value.trim() };
 }
+
+export function joinedStroke(width: string, unit: string, rest: string): string {
+    return `${width}${unit === "step" ? " step" : unit} ${rest}`.trim();
+}

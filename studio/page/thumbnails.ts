@@ -1,5 +1,6 @@
 // Small pictures of patterns, drawn in the back lane.
 import type { Engine } from "./context";
+import { imageOf, putImage } from "./pictures";
 import type { Options, PatternRequest, Pixels } from "./protocol";
 
 /// Draws a pattern's page into a canvas, which gets the page's proportions and at most `size` pixels on each side.
@@ -11,16 +12,9 @@ export async function drawInto(
     options: Options,
     key?: string,
 ): Promise<void> {
-    const { json, bytes } = await engine.request<Pixels>(
+    const answer = await engine.request<Pixels>(
         { do: "pixels", width: size, height: size, options, pattern },
         { lane: "back", seconds: 10, ...(key === undefined ? {} : { key }) },
     );
-    canvas.width = json.width;
-    canvas.height = json.height;
-    const pixels = new ImageData(
-        new Uint8ClampedArray(bytes.buffer as ArrayBuffer, bytes.byteOffset, bytes.length),
-        json.width,
-        json.height,
-    );
-    canvas.getContext("2d")!.putImageData(pixels, 0, 0);
+    putImage(canvas, imageOf(answer));
 }

@@ -92,11 +92,7 @@ export function makeTools(application: Application): void {
         { label: "A file…", detail: shown("Ctrl+O"), act: () => askForFile(application) },
         { label: "A link…", act: () => askForLink(application) },
     ]);
-    const themes: [Theme, string][] = [
-        ["system", "System colours"],
-        ["light", "Light"],
-        ["dark", "Dark"],
-    ];
+    const themes: [Theme, string][] = [["system", "System colours"], ["light", "Light"], ["dark", "Dark"]];
     menuButton(more, () => [
         ...themes.map(([name, label]) => ({ label, detail: theme() === name ? "✓" : "", act: () => setTheme(name) })),
         null,

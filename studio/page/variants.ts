@@ -2,6 +2,7 @@
 import { Chance } from "./chance";
 import type { Work } from "./context";
 import { alphabetOf, mutated, namesIn, otherAngle, otherNumber, withSuccessor } from "./mutations";
+import { withOption } from "./options";
 import type { Opened } from "./protocol";
 
 export type Pattern = Work["pattern"];
@@ -79,7 +80,7 @@ export function degreesOf(text: string): number {
 }
 
 export function withSetting(pattern: Pattern, name: string, value: string): Pattern {
-    return { ...pattern, settings: [...pattern.settings.filter(([each]) => each !== name), [name, value]] };
+    return { ...pattern, settings: withOption(pattern.settings, name, value) };
 }
 
 /// Further seeds, from `first`.

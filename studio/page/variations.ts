@@ -1,6 +1,7 @@
 // The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click uses one.
 import type { MakePanel, Studio, Work } from "./context";
-import { button, element } from "./elements";
+import { button, choices, element } from "./elements";
+import { putImage } from "./pictures";
 import type { Opened } from "./protocol";
 import { filters, searchVariants, type Found } from "./sheet_of_variants";
 import { makeAxisRow, makeLocks, type AxisChoice } from "./variation_controls";
@@ -24,11 +25,7 @@ const count = 24;
 const columns = 6;
 const mostTried = { plain: 480, filtered: 6000 };
 const mostTime = { plain: 6_000, filtered: 15_000 }; // milliseconds
-const modes: readonly { mode: Mode; label: string }[] = [
-    { mode: "mutations", label: "Mutations" },
-    { mode: "values", label: "Two values" },
-    { mode: "seeds", label: "Seeds" },
-];
+const modes: readonly [Mode, string][] = [["mutations", "Mutations"], ["values", "Two values"], ["seeds", "Seeds"]];
 
 export const makeVariationsPanel: MakePanel = (studio) => {
     const variations = new Variations(studio);
@@ -43,7 +40,6 @@ export const makeVariationsPanel: MakePanel = (studio) => {
 
 class Variations {
     readonly element = element("div", { class: "variations" });
-    private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
     private readonly settings = element("div", { class: "variations-settings" });
     private readonly status = element("p", { class: "variations-status", role: "status" });
     private readonly sheet = element("div", { class: "variations-sheet", role: "group", "aria-label": "Variants" });
@@ -64,13 +60,10 @@ class Variations {
     private timer = 0;
 
     constructor(private readonly studio: Studio) {
-        const segmented = element("div", { class: "segmented", role: "group", "aria-label": "What varies" });
-        for (const { mode, label } of modes) {
-            const made = element("button", { type: "button", "aria-pressed": String(mode === this.mode) }, label);
-            made.addEventListener("click", () => this.setMode(mode));
-            this.modeButtons.set(mode, made);
-            segmented.append(made);
-        }
+        const segmented = choices({ class: "segmented", "aria-label": "What varies" }, modes, (mode) => {
+            this.mode = mode;
+            this.restart();
+        });
         const chips = filters.map(({ name, label, help }) => {
             const chip = element(
                 "button",
@@ -181,12 +174,6 @@ class Variations {
         const { opened } = this.studio;
         if (opened) this.setBase(opened.facts, opened.work);
         this.sheet.querySelector<HTMLElement>("button")?.focus();
-    }
-
-    private setMode(mode: Mode): void {
-        this.mode = mode;
-        for (const [each, made] of this.modeButtons) made.setAttribute("aria-pressed", String(each === mode));
-        this.restart();
     }
 
     private restart(): void {
@@ -422,10 +409,7 @@ class Variations {
     private fill(cell: HTMLButtonElement, { variant, picture }: Found): void {
         if (this.variants.get(cell) === variant) return;
         this.variants.set(cell, variant);
-        const canvas = cell.querySelector("canvas")!;
-        canvas.width = picture.width;
-        canvas.height = picture.height;
-        canvas.getContext("2d")!.putImageData(picture, 0, 0);
+        putImage(cell.querySelector("canvas")!, picture);
         const caption = cell.querySelector(".caption")!;
         const { part } = variant;
         if (part) {

@@ -9,18 +9,13 @@ export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 export const addressOf = (page) =>
     pathToFileURL(resolve(page ?? join(root, "build/studio/sikku-studio.html"))).href;
 
-export const launch = () =>
-    chromium.launch({
-        executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-        args: [
-            "--no-sandbox",
-            "--disable-gpu",
-            "--disable-quic",
-            "--use-gl=angle",
-            "--use-angle=swiftshader",
-            "--enable-unsafe-swiftshader",
-        ],
-    });
+const arguments_of_chromium = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--autoplay-policy=no-user-gesture-required",
+    "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+
+export const launch = (executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium") =>
+    chromium.launch({ executablePath, args: arguments_of_chromium });
 
 /// The text of a bundled pattern: `curves/hilbert`, or only `hilbert`.
 export function patternText(name) {

@@ -1,24 +1,21 @@
 // Tests the page in Firefox: it opens from a file, draws, reports errors, and all panels open without errors.
 //     node tests/firefox.mjs sikku-studio.html
-import puppeteer from "puppeteer-core";
 import assert from "node:assert/strict";
-import { dirname, join, resolve } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { firefox } from "playwright-core";
+import { addressOf } from "./browser.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-const address = pathToFileURL(resolve(process.argv[2] ?? join(here, "../../build/studio/sikku-studio.html"))).href;
-const browser = await puppeteer.launch({
-    browser: "firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr", headless: true,
+// This channel is Firefox as Mozilla and Debian build it, through WebDriver BiDi.
+const browser = await firefox.launch({
+    channel: "moz-firefox", executablePath: process.env.FIREFOX ?? "/usr/bin/firefox-esr",
 });
 try {
-    const page = await browser.newPage();
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
     const problems = [];
     page.on("pageerror", (error) => problems.push(error.message));
     page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
-    await page.setViewport({ width: 1280, height: 800 });
-    await page.goto(address);
+    await page.goto(addressOf(process.argv[2]));
     const facts = (text) => page.waitForFunction(
-        (wanted) => document.querySelector("#facts")?.textContent.includes(wanted), { timeout: 30_000 }, text);
+        (wanted) => document.querySelector("#facts")?.textContent.includes(wanted), text, { timeout: 30_000 });
     await facts("No errors");
 
     // The colours on the screen.
@@ -33,7 +30,7 @@ try {
         const seen = new Set();
         for (let i = 0; i < pixels.length; i += 4) seen.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]);
         return [...seen];
-    }, await page.screenshot({ encoding: "base64" }));
+    }, (await page.screenshot()).toString("base64"));
     const has = async (colour) => {
         for (let attempt = 0; attempt < 20; ++attempt) {
             if ((await colours()).includes(colour)) return true;
@@ -43,29 +40,24 @@ try {
     };
     assert.ok(await has(0x8c3b2a), "the picture has the kolam's ground");
 
-    const press = async (key) => {
-        await page.keyboard.down("Control");
-        await page.keyboard.press(key);
-        await page.keyboard.up("Control");
-    };
     await page.click(".cm-content");
-    await press("End");
+    await page.keyboard.press("Control+End");
     await page.keyboard.type("angel: 4");
     await facts("1 error");
     assert.ok(await has(0x8c3b2a), "the last valid picture stays");
     for (let i = 0; i < 8; ++i) await page.keyboard.press("Backspace");
     await facts("No errors");
-    await press("a");
+    await page.keyboard.press("Control+a");
     await page.keyboard.type("axiom: F+F+F\nground: #123456");
     await facts("No errors");
     assert.ok(await has(0x123456), "the picture is redrawn from the text");
 
-    for (const tab of await page.$$("[role=tab]")) {
+    for (const tab of await page.getByRole("tab").all()) {
         await tab.click();
         await new Promise((wait) => setTimeout(wait, 500));
     }
     assert.deepEqual(problems, []);
-    console.log(`Firefox ${await browser.version()}: opens, draws, reports errors, opens every panel`);
+    console.log(`Firefox ${browser.version()}: opens, draws, reports errors, opens every panel`);
 } finally {
     await browser.close();
 }

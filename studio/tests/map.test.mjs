@@ -9,10 +9,12 @@ import { load } from "./load.mjs";
 const { readExact, exactText, grouped, exactOf, numberOf, wholes } = await load("decimal");
 const { pointAt, cameraWith, pixelOf, fitting, windowOf, panned } = await load("camera");
 const { flight } = await load("flight");
-const { tileGrid, seenTiles, tileBox, tileWindow, tileName, levelScale, PictureCache } = await load("tiles");
+const { tileGrid, seenTiles, tileBox, tileWindow, tileName, levelScale } = await load("tiles");
+const { Recent } = await load("recent");
 const { sheetOf, laidOut, cameraOfSheet } = await load("sheet");
 const { pageOptions, planeOptions, modelOptions, thumbnailOptions, offered } = await load("option_scopes");
 const help = {
+    sizes: { a3: [297, 420], a4: [210, 297] },
     keys: [{ name: "seed", owner: "engine" }],
     draw: {
         options: [
@@ -137,7 +139,7 @@ test("tiles cover the view, share their edges, and are found again", () => {
 
 test("the cache keeps the pictures used last", () => {
     const closed = [];
-    const cache = new PictureCache(100);
+    const cache = new Recent(100);
     for (const name of ["a", "b", "c"]) cache.add(name, { bytes: 40, close: () => closed.push(name) });
     assert.deepEqual(closed, ["a"]);
     cache.get("b");
@@ -149,30 +151,12 @@ test("the cache keeps the pictures used last", () => {
 });
 
 test("pages have the sizes of the program", () => {
-    assert.deepEqual(sheetOf([]), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
-    assert.equal(
-        sheetOf([
-            ["size", "a3"],
-            ["landscape", "true"],
-        ]).width,
-        420,
-    );
-    assert.equal(sheetOf([["size", "20cmx30cm"]]).height, 300);
-    assert.equal(
-        sheetOf([
-            ["size", "300x200mm"],
-            ["landscape", "true"],
-        ]).width,
-        300,
-    );
-    assert.equal(
-        sheetOf([
-            ["size", "12x18in"],
-            ["margin", "1cm"],
-        ]).margin,
-        10,
-    );
-    assert.equal(sheetOf([["size", "nonsense"]]).width, 210);
+    assert.deepEqual(sheetOf(help, []), { width: 210, height: 297, margin: 10, name: "A4, 210 × 297 mm" });
+    assert.equal(sheetOf(help, [["size", "a3"], ["landscape", "true"]]).width, 420);
+    assert.equal(sheetOf(help, [["size", "20cmx30cm"]]).height, 300);
+    assert.equal(sheetOf(help, [["size", "300x200mm"], ["landscape", "true"]]).width, 300);
+    assert.equal(sheetOf(help, [["size", "12x18in"], ["margin", "1cm"]]).margin, 10);
+    assert.equal(sheetOf(help, [["size", "nonsense"]]).width, 210);
 });
 
 test("options are selected by their scopes", () => {
@@ -197,7 +181,7 @@ test("the plane lies as the drawing does on the page", () => {
         is_spatial: false,
         keys: [{ name: "stroke", value: "1 step red" }],
     };
-    const sheet = sheetOf([["size", "100x100mm"]]);
+    const sheet = sheetOf(help, [["size", "100x100mm"]]);
     const laid = laidOut(sheet, size);
     const camera = cameraOfSheet(sheet, laid, size, facts, help, []);
     const low = pixelOf(camera, size, readExact("-0.5"), readExact("31.5"));

@@ -1,42 +1,28 @@
 // Tests the page in a browser, finding elements by their labels:
 //     node tests/page.mjs sikku-studio.html [--screenshots FOLDER] [--only WORD] [--browser FILE] [--measure]
-import { chromium } from "playwright-core";
 import assert from "node:assert/strict";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { dirname, join, resolve } from "node:path";
+import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
+import { addressOf, launch } from "./browser.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
 const { values, positionals } = parseArgs({
     allowPositionals: true,
     options: {
         screenshots: { type: "string" },
         only: { type: "string", default: "" },
         measure: { type: "boolean", default: false },
-        browser: { type: "string", default: process.env.CHROMIUM ?? "/usr/bin/chromium" },
+        browser: { type: "string" },
     },
 });
-const address = pathToFileURL(resolve(positionals[0] ?? join(here, "../../build/studio/sikku-studio.html"))).href;
+const address = addressOf(positionals[0]);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 if (values.screenshots) mkdirSync(values.screenshots, { recursive: true });
 
-const browser = await chromium.launch({
-    executablePath: values.browser,
-    args: [
-        "--no-sandbox",
-        "--disable-gpu",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-    ],
-});
+const browser = await launch(values.browser);
 
 const ctrl = "Control";
 const bundled = readdirSync(new URL("../../patterns", import.meta.url), { recursive: true }).filter((name) =>

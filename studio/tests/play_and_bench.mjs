@@ -3,16 +3,9 @@
 //     node tests/play_and_bench.mjs [PAGE]
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
-import { chromium } from "playwright-core";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { addressOf, launch, patternText } from "./browser.mjs";
 
-const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
-const file = process.argv[2] ?? join(root, "build/studio/sikku-studio.html");
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--autoplay-policy=no-user-gesture-required"],
-});
+const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1440, height: 900 } });
 const page = await context.newPage();
 const errors = [];
@@ -61,7 +54,7 @@ async function play() {
     await page.click("#tab-play");
     await page.click(".cm-content");
     await page.keyboard.press("Control+a");
-    await write(readFileSync(join(root, "patterns/melodies/hilbert-in-c.lsys"), "utf8"));
+    await write(patternText("melodies/hilbert-in-c"));
     await until(() => /103 notes in 16 bars/.test(document.querySelector(".play-facts").textContent));
     await page.locator(".play-curve-canvas").click({ position: { x: 40, y: 12 } }); // leaves the editor
     await page.keyboard.press("Space");
@@ -79,12 +72,7 @@ async function play() {
     assert.ok(late[Math.floor(late.length * 0.9)] < Math.max(20, 1.5 * slow));
 
     const before = await text(".play-place");
-    await write(
-        readFileSync(join(root, "patterns/melodies/hilbert-in-c.lsys"), "utf8").replace(
-            "scale: major",
-            "scale: dorian",
-        ),
-    );
+    await write(patternText("melodies/hilbert-in-c").replace("scale: major", "scale: dorian"));
     await until(() => /Dorian/.test(document.querySelector(".play-facts").textContent));
     const bar = (place) => Number(/Bar (\d+)/.exec(place)[1]);
     assert.ok(bar(await text(".play-place")) - bar(before) <= 2, "an edit keeps the place");
@@ -226,7 +214,7 @@ async function bench() {
 }
 
 try {
-    await page.goto(pathToFileURL(resolve(file)).href);
+    await page.goto(addressOf(process.argv[2]));
     await page.waitForSelector("#tab-play");
     await play();
     await bench();

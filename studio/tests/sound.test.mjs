@@ -133,12 +133,7 @@ test("a loop comes around without a gap, for ever on the beat", () => {
 });
 
 test("a loop of rests does not hang", () => {
-    const { transport, run, heard } = player(
-        melodyOf([
-            [0, 480],
-            [9600, 480],
-        ]),
-    );
+    const { transport, run, heard } = player(melodyOf([[0, 480], [9600, 480]]));
     transport.setLoop({ from: 1000, to: 1001 });
     transport.seek(1000);
     transport.play();
@@ -161,10 +156,7 @@ test("100 000 notes of 15 voices are in order, and playing from the middle looks
 });
 
 test("places are told by bars and beats", () => {
-    const melody = melodyOf([
-        [0, 480],
-        [480 * 255, 480],
-    ]);
+    const melody = melodyOf([[0, 480], [480 * 255, 480]]);
     assert.equal(barsOf(melody), 64);
     assert.equal(placeText(melody, 11 * 1920 + 2 * 480 + 7), "Bar 12 of 64, beat 3");
     assert.equal(placeText(melody, 1e9), "Bar 64 of 64, beat 4");
@@ -207,11 +199,7 @@ test("MIDI: a note that slides bends to its goal, and is struck anew beyond the 
 });
 
 test("MIDI: notes with times, bends for pitches between the keys, 24 clocks in a quarter, start, stop, all off", () => {
-    const melody = melodyOf([
-        [0, 480, 60],
-        [480, 480, 61.5],
-        [960, 480, 62],
-    ]);
+    const melody = melodyOf([[0, 480, 60], [480, 480, 61.5], [960, 480, 62]]);
     const sent = [];
     const output = new MidiOutput({ send: (bytes, time) => sent.push({ bytes, time }) }, (time) => time * 1000);
     output.melody = melody;

@@ -4,8 +4,8 @@
 import assert from "node:assert/strict";
 import { build } from "esbuild";
 import { dirname, join } from "node:path";
-import { chromium } from "playwright-core";
 import { fileURLToPath } from "node:url";
+import { launch } from "./browser.mjs";
 
 const sound = join(dirname(fileURLToPath(import.meta.url)), "../page/sound");
 const entry = `
@@ -23,10 +23,7 @@ const made = await build({
     target: "es2022",
     logLevel: "warning",
 });
-const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-quic"],
-});
+const browser = await launch();
 try {
     const page = await browser.newPage();
     await page.addScriptTag({ content: made.outputFiles[0].text });

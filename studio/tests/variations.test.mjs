@@ -94,14 +94,8 @@ const facts = {
     seed: "3",
     is_random: true,
     cost: { most: "12" },
-    defines: [
-        { name: "r", value: "0.5" },
-        { name: "word", value: "a*2" },
-    ],
-    keys: [
-        { name: "angle factor", value: "4" },
-        { name: "axiom", value: "X" },
-    ],
+    defines: [{ name: "r", value: "0.5" }, { name: "word", value: "a*2" }],
+    keys: [{ name: "angle factor", value: "4" }, { name: "axiom", value: "X" }],
     productions: [
         { line: 2, predecessor: "X", successor: "F+X" },
         { line: 3, predecessor: "F", successor: "FF" },
@@ -136,10 +130,7 @@ test("a sheet has a variant in each cell, and others near it", () => {
     const across = { parameter: r, values: ["0.3", "0.6"] };
     const down = { parameter: n, values: ["2", "6"] };
     const [first, ...others] = sheetVariants(pattern, across, down, 1, 0);
-    assert.deepEqual(first.pattern.settings, [
-        ["r", "0.6"],
-        ["derivation length", "2"],
-    ]);
+    assert.deepEqual(first.pattern.settings, [["r", "0.6"], ["derivation length", "2"]]);
     assert.ok(others.length > 0 && others.every(({ label }) => label !== first.label));
 });
 
@@ -154,10 +145,7 @@ test("mutants keep what is kept, and come again", () => {
     }
     const all = new Set([...kept, "production 0"]);
     assert.equal(mutantOf(pattern, facts, all, 9, 0), null);
-    assert.deepEqual(seedVariant(pattern, 3n, 2).pattern.settings, [
-        ["r", "0.4"],
-        ["seed", "5"],
-    ]);
+    assert.deepEqual(seedVariant(pattern, 3n, 2).pattern.settings, [["r", "0.4"], ["seed", "5"]]);
     assert.deepEqual(withSetting(pattern, "r", "1").settings, [["r", "1"]]);
 });
 

@@ -1,11 +1,13 @@
 // The board: rice powder on red earth. The gap under the pointer previews the effect of a click; while dots are edited,
 // rings show where dots can be placed.
+import { element } from "../elements";
+import { Surface } from "../play/surface";
 import { makeChance } from "../sound/chance";
 import type { DotGrid, Place } from "./dot_grid";
 import { followLines } from "./dot_grid";
 import { traceSegments, traceStrand } from "./strand_path";
 
-export const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
+const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
 const earth = "#7d3324";
 /// As in the pattern: 0.16 of a step, which is the diagonal of a unit square, or half a spacing of interlaced dots.
 const lineWidth = ({ isTriangular }: DotGrid): number => 0.16 * (isTriangular ? 1 : Math.SQRT2);
@@ -45,57 +47,43 @@ export function placesAround({ dots, isTriangular }: DotGrid): Place[] {
 }
 
 export class Board {
-    private readonly context: CanvasRenderingContext2D;
-    private width = 1;
-    private height = 1;
-    private ratio = 1;
+    private readonly surface: Surface;
     private scale = 1; // pixels per unit, which is half the dot spacing
     private readonly grain = grainTile(7, 26, 34);
     private readonly powders: HTMLCanvasElement[] = []; // by colour
     private ground: HTMLCanvasElement | null = null;
-    private readonly still: CanvasRenderingContext2D; // all but the preview
+    private still: CanvasRenderingContext2D; // all but the preview
     private shown: unknown[] = []; // what `still` shows
 
-    constructor(
-        readonly canvas: HTMLCanvasElement,
-        redraw: () => void,
-    ) {
-        this.context = canvas.getContext("2d")!;
-        this.still = document.createElement("canvas").getContext("2d")!;
-        new ResizeObserver(() => {
-            if (this.fit()) redraw();
-        }).observe(canvas);
+    constructor(canvas: HTMLCanvasElement, redraw: () => void) {
+        const resized = () => {
+            this.renew();
+            redraw();
+        };
+        this.surface = new Surface(canvas, resized, 2);
+        this.still = this.surface.layer();
     }
 
-    fit(): boolean {
-        const { clientWidth, clientHeight } = this.canvas;
-        const ratio = Math.min(2, window.devicePixelRatio || 1);
-        if (clientWidth === 0 || clientHeight === 0) return false;
-        if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return false;
-        this.width = clientWidth;
-        this.height = clientHeight;
-        this.ratio = ratio;
-        for (const canvas of [this.canvas, this.still.canvas]) {
-            canvas.width = Math.round(clientWidth * ratio);
-            canvas.height = Math.round(clientHeight * ratio);
-        }
+    // The size has changed.
+    private renew(): void {
+        this.still = this.surface.layer();
         this.ground = null;
         this.shown = [];
-        return true;
     }
 
     private place({ grid, places }: Scene): void {
         const around = places ? margin + 1.2 : margin;
         const across = grid.dots.reduce((most, { x }) => Math.max(most, Math.abs(x)), 0) + around;
         const up = (grid.rows.length - 1) * grid.rise + around;
-        this.scale = Math.min(this.width / (2 * across), (this.height - 2 * bar_height) / (2 * up), 56);
+        const { width, height } = this.surface;
+        this.scale = Math.min(width / (2 * across), (height - 2 * bar_height) / (2 * up), 56);
     }
 
     /// The gap nearest to a point of the canvas, or the place for a dot; -1 outside the grid.
     targetAt(scene: Scene, x: number, y: number): number {
         this.place(scene);
-        const px = (x - this.width / 2) / this.scale;
-        const py = (this.height / 2 - y) / this.scale;
+        const px = (x - this.surface.width / 2) / this.scale;
+        const py = (this.surface.height / 2 - y) / this.scale;
         const { grid, places } = scene;
         let nearest = 1;
         let found = -1;
@@ -113,17 +101,18 @@ export class Board {
     }
 
     private toScene(context: CanvasRenderingContext2D): void {
-        const s = this.scale * this.ratio;
-        context.setTransform(s, 0, 0, -s, (this.width * this.ratio) / 2, (this.height * this.ratio) / 2);
+        const { width, height, ratio } = this.surface;
+        const s = this.scale * ratio;
+        context.setTransform(s, 0, 0, -s, (width * ratio) / 2, (height * ratio) / 2);
     }
 
     draw(scene: Scene): void {
-        this.fit();
+        if (this.surface.fit()) this.renew();
         this.place(scene);
         const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots, scene.places];
         if (shown.some((each, i) => each !== this.shown[i])) this.drawStill(scene);
         this.shown = shown;
-        const { context } = this;
+        const { context } = this.surface;
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.drawImage(this.still.canvas, 0, 0);
         this.toScene(context);
@@ -148,21 +137,13 @@ export class Board {
 
     /// Earth: uneven, darker towards the edges.
     private makeGround(): HTMLCanvasElement {
-        const canvas = document.createElement("canvas");
-        canvas.width = this.canvas.width;
-        canvas.height = this.canvas.height;
+        const { width, height } = this.surface.canvas;
+        const canvas = element("canvas", { width, height });
         const context = canvas.getContext("2d")!;
-        const { width, height } = canvas;
         context.fillStyle = earth;
         context.fillRect(0, 0, width, height);
-        const light = context.createRadialGradient(
-            width * 0.42,
-            height * 0.36,
-            0,
-            width / 2,
-            height / 2,
-            Math.hypot(width, height) * 0.6,
-        );
+        const reach = Math.hypot(width, height) * 0.6;
+        const light = context.createRadialGradient(width * 0.42, height * 0.36, 0, width / 2, height / 2, reach);
         light.addColorStop(0, "rgb(196 104 70 / 26%)");
         light.addColorStop(0.55, "rgb(125 51 36 / 0%)");
         light.addColorStop(1, "rgb(48 14 8 / 42%)");
@@ -238,12 +219,11 @@ export class Board {
         context.lineWidth = line_width * 1.1;
         for (const path of paths) context.stroke(path);
         context.restore();
-        const scale = 1 / (this.scale * this.ratio);
+        const scale = 1 / (this.scale * this.surface.ratio);
         paths.forEach((path, index) => {
-            const powder = context.createPattern(
-                this.powderOf(scene.isColoured ? scene.lineOrbits[index] % line_colours.length : 0),
-                "repeat",
-            )!;
+            const colour = scene.isColoured ? scene.lineOrbits[index] % line_colours.length : 0;
+            const tile = (this.powders[colour] ??= powderTile(line_colours[colour]));
+            const powder = context.createPattern(tile, "repeat")!;
             powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
             context.strokeStyle = powder;
             context.lineWidth = line_width * 0.96;
@@ -259,19 +239,12 @@ export class Board {
         });
     }
 
-    private powderOf(colour: number): HTMLCanvasElement {
-        return (this.powders[colour] ??= powderTile(line_colours[colour]));
-    }
-
     private drawGap(context: CanvasRenderingContext2D, scene: Scene): void {
         const { grid, cursor } = scene;
         if (scene.after) this.drawPreview(context, scene, scene.after);
         if (!scene.isFocused) return;
         const { x, y } = grid.gaps[cursor];
-        for (const [width, colour] of [
-            [0.16, "rgb(40 12 6 / 80%)"],
-            [0.08, "#ffe9c4"],
-        ] as const) {
+        for (const [width, colour] of [[0.16, "rgb(40 12 6 / 80%)"], [0.08, "#ffe9c4"]] as const) {
             context.lineWidth = width;
             context.strokeStyle = colour;
             context.beginPath();
@@ -314,8 +287,7 @@ export class Board {
 }
 
 function tile(size: number, value: (chance: () => number) => [number, number, number, number]): HTMLCanvasElement {
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = size;
+    const canvas = element("canvas", { width: size, height: size });
     const context = canvas.getContext("2d")!;
     const image = context.createImageData(size, size);
     const chance = makeChance(size);
@@ -335,8 +307,7 @@ function grainTile(seed: number, dark: number, light: number): HTMLCanvasElement
 
 /// Powder of a colour: soft specks of earth show through it.
 function powderTile(colour: string): HTMLCanvasElement {
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = 256;
+    const canvas = element("canvas", { width: 256, height: 256 });
     const context = canvas.getContext("2d")!;
     context.fillStyle = colour;
     context.fillRect(0, 0, 256, 256);

@@ -1,4 +1,5 @@
 // Summarises the examination of a kolam in a sentence.
+import { counted } from "../numbers_shown";
 
 /// The part of the answer to `kolam` that the bench shows.
 export interface Examined {
@@ -19,7 +20,7 @@ function many(count: number, one: string, more: string): string {
 export function certificateText(found: Examined): string {
     const isOpen = found.open_lines > 0;
     const lines = many(found.lines, isOpen ? "line" : "closed line", isOpen ? "lines" : "closed lines");
-    const dots = found.dots.length === 1 ? "1 dot" : `${found.dots.length.toLocaleString("en")} dots`;
+    const dots = counted(found.dots.length, "dot");
     const symmetry = found.symmetry === "" || found.symmetry === "C1" ? "no symmetry" : `symmetry ${found.symmetry}`;
     const faults = found.faults.map((fault) => `; ${fault}`).join("");
     return `${lines} around ${dots}; ${symmetry}${faults}.`;

@@ -1,11 +1,8 @@
 // Describes gaps in words, and finds neighbouring gaps for the keyboard.
+import { counted } from "../numbers_shown";
 import type { DotGrid, Place } from "./dot_grid";
 import { crossed, joined, state_names, turned } from "./dot_grid";
 import type { Change, Kolam } from "./kolam";
-
-export function counted(count: number, one: string, more = `${one}s`): string {
-    return `${count.toLocaleString("en")} ${count === 1 ? one : more}`;
-}
 
 function dotName({ dots, rows }: DotGrid, dot: number): string {
     const row = (rows.length - 1 - dots[dot].level) / 2;

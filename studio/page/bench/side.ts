@@ -1,11 +1,13 @@
 // The controls beside the board.
-import { button, element, icon } from "../elements";
+import { button, checkbox, element, field, icon, labelled, slideTo } from "../elements";
+import { capital, counted } from "../numbers_shown";
 import type { SymmetryName } from "../protocol";
 import type { DotGrid } from "./dot_grid";
 import { crossed, joined, turned } from "./dot_grid";
-import { counted, statesTold } from "./gap_names";
+import { statesTold } from "./gap_names";
 import type { Kolam } from "./kolam";
 import { presets } from "./presets";
+import { RadioGroup } from "./radio_group";
 import { symmetry_labels } from "./symmetry";
 
 const symmetry_order: SymmetryName[] = [
@@ -74,23 +76,27 @@ export class Side {
     private readonly steppers: HTMLButtonElement[] = [];
     private readonly rows = element("output", { class: "number" });
     private readonly columns = element("output", { class: "number" });
-    private readonly locks = new Map<SymmetryName, HTMLButtonElement>();
+    private readonly locks: RadioGroup<SymmetryName>;
     private readonly lockName = element("p", { class: "bench-lock-name" });
     private readonly density = shareSlider("density");
     private readonly joined = shareSlider("joined");
-    private readonly connects = element("input", { type: "checkbox" });
+    private readonly connects = checkbox((connects) => this.acts.chances({ ...this.chances, connects }));
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
     private readonly boxes = new Map<keyof Look, HTMLInputElement>();
-    private kolam: Kolam | null = null;
     private counted: unknown = null; // the lines counted last
     private chances = first_chances;
     private look: Look = { isColoured: true, isFilled: false, hasDots: true };
 
     constructor(private readonly acts: SideActs) {
+        const makeLock = (name: SymmetryName) =>
+            element("button", { type: "button", class: "bench-lock", "aria-label": symmetry_labels[name], hidden: true },
+                icon(symmetry_icons[name]));
+        const locks = { class: "bench-locks", "aria-label": "Symmetry" };
+        this.locks = new RadioGroup(locks, symmetry_order, makeLock, (name) => acts.symmetry(name));
         this.element.append(
             element("div", { class: "bench-facts" }, this.count, this.states, this.certificate),
             this.section("Grid of dots", ...this.gridControls()),
-            this.section("Symmetry", this.lockControls(), this.lockName),
+            this.section("Symmetry", this.locks.element, this.lockName),
             this.section("Gaps", ...this.gapControls()),
             this.section(
                 "Look",
@@ -145,9 +151,8 @@ export class Side {
             acts.check(this.gridField.value);
         });
         this.gridField.addEventListener("input", () => acts.check(this.gridField.value));
-        const label = element("label", { for: "bench-grid" }, "Name, or dots in each row");
         return [
-            element("div", { class: "bench-pair" }, element("div", { class: "field" }, label, this.gridField), select),
+            element("div", { class: "bench-pair" }, field("Name, or dots in each row", this.gridField), select),
             this.problem,
             this.gridFacts,
             element(
@@ -159,41 +164,12 @@ export class Side {
         ];
     }
 
-    private lockControls(): HTMLElement {
-        const locks = symmetry_order.map((name) => {
-            const made = element(
-                "button",
-                { type: "button", class: "bench-lock", role: "radio", "aria-label": symmetry_labels[name], hidden: true },
-                icon(symmetry_icons[name]),
-            );
-            made.addEventListener("click", () => this.acts.symmetry(name));
-            made.addEventListener("keydown", (event) => this.moveLock(event, name));
-            this.locks.set(name, made);
-            return made;
-        });
-        return element("div", { class: "bench-locks", role: "radiogroup", "aria-label": "Symmetry" }, ...locks);
-    }
-
-    private moveLock(event: KeyboardEvent, name: SymmetryName): void {
-        const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-        const { kolam } = this;
-        if (by === undefined || !kolam) return;
-        event.preventDefault();
-        const offered = symmetry_order.filter((each) => kolam.symmetryNamed(each));
-        const next = offered[(offered.indexOf(name) + by + offered.length) % offered.length];
-        this.acts.symmetry(next);
-        this.locks.get(next)!.focus();
-    }
-
     private gapControls(): HTMLElement[] {
         const { acts } = this;
         for (const name of ["density", "joined"] as const) {
             const { input } = this[name];
             input.addEventListener("input", () => acts.chances({ ...this.chances, [name]: input.valueAsNumber / 100 }));
         }
-        this.connects.addEventListener("change", () => {
-            acts.chances({ ...this.chances, connects: this.connects.checked });
-        });
         this.seed.addEventListener("change", () => {
             const seed = Number(this.seed.value);
             acts.chances({ ...this.chances, seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : this.chances.seed });
@@ -220,17 +196,16 @@ export class Side {
                 { class: "bench-random" },
                 shareRow("Crossed", this.density),
                 shareRow("Joined", this.joined),
-                element("label", { class: "switch" }, this.connects, "Connect all dots"),
+                labelled(this.connects, "Connect all dots"),
                 element("div", { class: "bench-dice" }, seedLabel, this.seed, dice),
             ),
         ];
     }
 
     private toggle(label: string, name: keyof Look): HTMLElement {
-        const box = element("input", { type: "checkbox" });
-        box.addEventListener("change", () => this.acts.look({ ...this.look, [name]: box.checked }));
+        const box = checkbox((isChecked) => this.acts.look({ ...this.look, [name]: isChecked }));
         this.boxes.set(name, box);
-        return element("label", { class: "switch" }, box, label);
+        return labelled(box, label);
     }
 
     /// Shows why a grid is invalid.
@@ -251,7 +226,7 @@ export class Side {
     }
 
     update(kolam: Kolam, chances: Chances, look: Look): void {
-        Object.assign(this, { kolam, chances, look });
+        Object.assign(this, { chances, look });
         const { grid, count } = kolam;
         if (kolam.lines !== this.counted) {
             this.counted = kolam.lines;
@@ -266,14 +241,13 @@ export class Side {
         for (const stepper of this.steppers) stepper.disabled = !grid.isSolid;
         this.gridField.value = grid.text;
         this.describe(grid);
-        for (const [name, lock] of this.locks) {
+        for (const [name, lock] of this.locks.buttons) {
             const found = kolam.symmetryNamed(name);
             const obstacle = kolam.isJoined ? found?.obstacleIfJoined : found?.obstacle;
             lock.hidden = !found;
             lock.title = obstacle ? `${symmetry_labels[name]} (${obstacle})` : symmetry_labels[name];
-            lock.setAttribute("aria-checked", String(name === kolam.symmetry.name));
-            lock.tabIndex = name === kolam.symmetry.name ? 0 : -1;
         }
+        this.locks.update(kolam.symmetry.name);
         this.lockName.textContent = symmetry_labels[kolam.symmetry.name];
         showShare(this.density, chances.density, "of the gaps");
         showShare(this.joined, chances.joined, "of the other gaps");
@@ -302,10 +276,6 @@ function shareRow(label: string, { input, output }: ShareSlider): HTMLElement {
 
 function showShare({ input, output }: ShareSlider, share: number, whole: string): void {
     const percent = Math.round(share * 100);
-    input.valueAsNumber = percent;
-    input.style.setProperty("--at", `${percent}%`);
-    input.setAttribute("aria-valuetext", `${percent} percent ${whole}`);
+    slideTo(input, percent, `${percent} percent ${whole}`);
     output.textContent = `${percent} %`;
 }
-
-export const capital = (text: string): string => `${text.slice(0, 1).toUpperCase()}${text.slice(1)}`;

@@ -1,5 +1,5 @@
 // Sends the melody to connected MIDI instruments, if the browser supports it.
-import { button, element } from "../elements";
+import { button, checkbox, element, field, labelled } from "../elements";
 import type { Player } from "./player";
 
 export function makeMidiMenu(player: Player): HTMLElement {
@@ -9,14 +9,14 @@ export function makeMidiMenu(player: Player): HTMLElement {
         "Sends notes, clock, start and stop to a connected instrument or another program.",
     );
     const ports = element("select", { id: "play-midi-port" }, element("option", { value: "" }, "None"));
-    const alone = element("input", { type: "checkbox", checked: true });
-    const clock = element("input", { type: "checkbox", checked: true });
+    const alone = checkbox(() => apply(), { checked: true });
+    const clock = checkbox(() => apply(), { checked: true });
     const settings = element(
         "div",
         { class: "play-midi", hidden: true },
-        element("div", { class: "field" }, element("label", { for: "play-midi-port" }, "MIDI output"), ports),
-        element("label", { class: "switch" }, clock, "Send clock, start and stop"),
-        element("label", { class: "switch" }, alone, "Mute the sound of this page"),
+        field("MIDI output", ports),
+        labelled(clock, "Send clock, start and stop"),
+        labelled(alone, "Mute the sound of this page"),
     );
     let access: MIDIAccess | null = null;
 
@@ -35,25 +35,21 @@ export function makeMidiMenu(player: Player): HTMLElement {
         if (ports.value !== chosen) apply();
         note.textContent = outputs.length === 0 ? "No MIDI output is connected." : "";
     };
-    const connect = button(
-        "Connect MIDI",
-        () =>
-            void (async () => {
-                try {
-                    access = await navigator.requestMIDIAccess();
-                } catch {
-                    note.textContent =
-                        "The browser has blocked MIDI. Allow it in the settings of this page, then connect again.";
-                    return;
-                }
-                access.onstatechange = list;
-                connect.hidden = true;
-                settings.hidden = false;
-                list();
-                ports.focus();
-            })(),
-    );
-    for (const control of [ports, alone, clock]) control.addEventListener("change", apply);
+    const connect = button("Connect MIDI", async () => {
+        try {
+            access = await navigator.requestMIDIAccess();
+        } catch {
+            note.textContent =
+                "The browser has blocked MIDI. Allow it in the settings of this page, then connect again.";
+            return;
+        }
+        access.onstatechange = list;
+        connect.hidden = true;
+        settings.hidden = false;
+        list();
+        ports.focus();
+    });
+    ports.addEventListener("change", apply);
     if (!("requestMIDIAccess" in navigator)) {
         connect.disabled = true;
         note.textContent = "This browser does not support MIDI. Save the melody as a MIDI file instead.";

@@ -1,11 +1,10 @@
 // Plays the melody of the work by the clock of the audio device; without a device, plays silently.
 import type { Studio } from "../context";
-import { MidiOutput } from "../sound/midi_output";
+import { MidiOutput, type MidiPort } from "../sound/midi_output";
 import type { Melody } from "../sound/melody";
 import { firstFrom } from "../sound/melody";
 import { Renderer } from "../sound/renderer";
-import type { VoiceSettings } from "../sound/sound_output";
-import { SoundOutput } from "../sound/sound_output";
+import { isHeard, SoundOutput, type VoiceSettings } from "../sound/sound_output";
 import { timbreNamed, timbreOf } from "../sound/timbres";
 import { Timer } from "../sound/timer";
 import type { NoteSink } from "../sound/transport";
@@ -100,12 +99,11 @@ export class Player {
         this.voices = Array.from({ length: melody.voices }, (_, index) => {
             const part = melody.parts[melody.partOfVoice[index]];
             const before = old[index];
-            const instrument = part?.drums ? "drums" : timbreOf(part?.program ?? 0).name;
             const name = melody.parts.length > 1 && part ? `${part.name}, ${index + 1}` : `Voice ${index + 1}`;
             return {
                 name,
                 chosen: before?.chosen ?? "",
-                timbre: before?.chosen || instrument,
+                timbre: before?.chosen || this.instrumentOf(index),
                 volume: before?.volume ?? 0.8,
                 muted: before?.muted ?? false,
                 solo: before?.solo ?? false,
@@ -150,9 +148,7 @@ export class Player {
     }
 
     isHeard(voice: number): boolean {
-        const settings = this.voices[voice];
-        if (!settings || settings.muted) return false;
-        return settings.solo || !this.voices.some((each) => each.solo);
+        return isHeard(this.voices, voice);
     }
 
     private applyVoices(): void {
@@ -173,11 +169,7 @@ export class Player {
     }
 
     /// Sends notes to a port, in addition to the sound or instead of it.
-    setMidi(
-        port: { send(bytes: number[], time?: number): void; clear?(): void } | null,
-        isAlone: boolean,
-        sendsClock: boolean,
-    ): void {
+    setMidi(port: MidiPort | null, isAlone: boolean, sendsClock: boolean): void {
         const wasPlaying = this.transport.playing;
         if (wasPlaying) this.transport.pause();
         this.isSilent = port !== null && isAlone;

@@ -1,6 +1,7 @@
 // The options that change how the curve becomes notes.
 import { optionField, type OptionAct } from "../option_fields";
 import { offered } from "../option_scopes";
+import { optionOf } from "../options";
 import type { Help, Options } from "../protocol";
 
 const names = "scale tonic instrument unit meter mapping vertical runs velocity range transpose bars".split(" ");
@@ -9,6 +10,5 @@ const names = "scale tonic instrument unit meter mapping vertical runs velocity 
 export function showReading(place: HTMLElement, help: Help, options: Options, act: OptionAct): void {
     if (place.contains(document.activeElement)) return;
     const rows = names.flatMap((name) => offered(help, help.play.options).filter((option) => option.name === name));
-    const value = (name: string): string | undefined => options.find(([each]) => each === name)?.[1];
-    place.replaceChildren(...rows.map((option) => optionField(option, value(option.name), act)));
+    place.replaceChildren(...rows.map((option) => optionField(option, optionOf(options, option.name), act)));
 }

@@ -1,4 +1,5 @@
 // Suggestions for curves that give no melody.
+import { optionOf, withOption } from "../options";
 import type { Options, PatternRequest } from "../protocol";
 
 export interface Remedy {
@@ -26,28 +27,20 @@ export function withMovesDrawn(pattern: Required<PatternRequest>): Required<Patt
     return draws || text === pattern.text ? null : { ...pattern, text };
 }
 
-function replaced(options: Options, name: string, value: string): Options {
-    return [...options.filter(([each]) => each !== name), [name, value]];
-}
-
 /// The suggestions for an error, in the order in which they are shown.
 export function remediesFor(message: string, pattern: Required<PatternRequest>, options: Options): Remedy[] {
     const found: Remedy[] = [];
-    const isSet = (name: string, value: string) => options.some(([each, given]) => each === name && given === value);
-    if (message.includes("too many voices") && !isSet("mapping", "counterpoint")) {
-        found.push({ label: "Play branches one after another", options: replaced(options, "mapping", "counterpoint") });
-    }
+    const suggest = (label: string, name: string, value: string) => {
+        if (optionOf(options, name) !== value) found.push({ label, options: withOption(options, name, value) });
+    };
+    if (message.includes("too many voices")) suggest("Play branches one after another", "mapping", "counterpoint");
     if (message.includes("no notes")) {
         const drawn = withMovesDrawn(pattern);
         if (drawn) {
             found.push({ label: "Play moves (f) as if they were drawn (F)", pattern: drawn });
         } else {
-            if (!isSet("vertical", "voice")) {
-                found.push({ label: "Play vertical runs", options: replaced(options, "vertical", "voice") });
-            }
-            if (!isSet("mapping", "symbols")) {
-                found.push({ label: "Read symbols as notes", options: replaced(options, "mapping", "symbols") });
-            }
+            suggest("Play vertical runs", "vertical", "voice");
+            suggest("Read symbols as notes", "mapping", "symbols");
         }
     }
     return found;

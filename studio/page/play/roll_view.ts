@@ -1,9 +1,10 @@
 // The piano roll: time to the right, pitch upwards, bars with their numbers.
+import { isStill } from "../map_motion";
 import type { Melody } from "../sound/melody";
 import { barsOf, eachSounding, keyName, placeText } from "../sound/melody";
 import type { Loop } from "../sound/transport";
 import type { Ink } from "./surface";
-import { prefersStillness, readInk, Surface } from "./surface";
+import { readInk, Surface } from "./surface";
 import { voiceColour } from "./voice_colours";
 
 const ruler = 24; // pixels
@@ -114,7 +115,7 @@ export class RollView {
     /// Follows the music: scrolls under the playhead, or turns pages if the user prefers reduced motion.
     follow(tick: number, isPlaying: boolean): void {
         if (!this.melody || !this.follows || this.drag) return;
-        if (isPlaying && !prefersStillness()) this.scrollTo(tick - head_share * this.span);
+        if (isPlaying && !isStill()) this.scrollTo(tick - head_share * this.span);
         else if (tick < this.left || tick > this.left + 0.95 * this.span) this.scrollTo(tick - 0.08 * this.span);
     }
 

@@ -1,4 +1,6 @@
 // A canvas that fills its element at the resolution of the screen.
+import { element } from "../elements";
+import { isDark } from "../layout";
 
 export interface Ink {
     paper: string;
@@ -25,7 +27,7 @@ export function readInk(): Ink {
         soft: of("ink-soft"),
         faint: of("ink-faint"),
         accent: of("accent"),
-        isDark: document.documentElement.dataset["theme"] === "dark",
+        isDark: isDark(),
     };
 }
 
@@ -38,6 +40,7 @@ export class Surface {
     constructor(
         readonly canvas: HTMLCanvasElement,
         changed: () => void,
+        private readonly finest = 3, // pixels of the screen per CSS pixel
     ) {
         this.context = canvas.getContext("2d")!;
         new ResizeObserver(() => {
@@ -48,7 +51,7 @@ export class Surface {
     /// True if the size has changed.
     fit(): boolean {
         const { clientWidth, clientHeight } = this.canvas;
-        const ratio = Math.min(3, window.devicePixelRatio || 1);
+        const ratio = Math.min(this.finest, window.devicePixelRatio || 1);
         if (clientWidth === 0 || clientHeight === 0) return false;
         if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return false;
         this.width = clientWidth;
@@ -62,9 +65,8 @@ export class Surface {
 
     /// Another canvas of the same size, for parts that do not change.
     layer(): CanvasRenderingContext2D {
-        const canvas = document.createElement("canvas");
-        canvas.width = this.canvas.width;
-        canvas.height = this.canvas.height;
+        const { width, height } = this.canvas;
+        const canvas = element("canvas", { width, height });
         const context = canvas.getContext("2d")!;
         context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
         return context;
@@ -74,5 +76,3 @@ export class Surface {
         this.context.drawImage(layer.canvas, 0, 0, this.width, this.height);
     }
 }
-
-export const prefersStillness = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

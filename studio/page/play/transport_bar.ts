@@ -1,5 +1,5 @@
 // Play, stop, loop, tempo, volume, and the current position.
-import { button, element, icon } from "../elements";
+import { button, element, icon, slideTo } from "../elements";
 import type { Melody } from "../sound/melody";
 import { barsOf, placeText } from "../sound/melody";
 import type { Loop } from "../sound/transport";
@@ -163,9 +163,7 @@ export class TransportBar {
 
     private showVolume(): void {
         const percent = Math.round(this.player.volume * 100);
-        this.volume.value = String(percent);
-        this.volume.style.setProperty("--at", `${percent}%`);
-        this.volume.setAttribute("aria-valuetext", `${percent} percent`);
+        slideTo(this.volume, percent, `${percent} percent`);
     }
 
     /// Shows that there is nothing to play.
@@ -188,10 +186,7 @@ export class TransportBar {
 
     showTempo(tempo: number): void {
         this.tempoText = String(tempo);
-        const share = (Math.min(fastest, Math.max(slowest, tempo)) - slowest) / (fastest - slowest);
-        this.tempo.valueAsNumber = tempo;
-        this.tempo.style.setProperty("--at", `${share * 100}%`);
-        this.tempo.setAttribute("aria-valuetext", `${tempo} quarter notes per minute`);
+        slideTo(this.tempo, tempo, `${tempo} quarter notes per minute`);
         if (document.activeElement !== this.tempoField) this.tempoField.value = String(tempo);
     }
 

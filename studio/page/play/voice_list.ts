@@ -1,5 +1,6 @@
 // The voices: colour, name, mute, solo, volume, timbre.
-import { element } from "../elements";
+import { element, slideTo } from "../elements";
+import { isDark } from "../layout";
 import { timbreNamed, timbres } from "../sound/timbres";
 import type { Player, Voice } from "./player";
 import { voiceColour } from "./voice_colours";
@@ -33,15 +34,13 @@ export class VoiceList {
     }
 
     private show(row: Row, voice: Voice, index: number): void {
-        const isDark = document.documentElement.dataset["theme"] === "dark";
-        row.swatch.style.background = voiceColour(index, isDark);
+        row.swatch.style.background = voiceColour(index, isDark());
         row.name.textContent = voice.name;
         row.element.classList.toggle("unheard", !this.player.isHeard(index));
         row.mute.setAttribute("aria-pressed", String(voice.muted));
         row.solo.setAttribute("aria-pressed", String(voice.solo));
-        row.volume.value = String(Math.round(voice.volume * 100));
-        row.volume.style.setProperty("--at", `${Math.round(voice.volume * 100)}%`);
-        row.volume.setAttribute("aria-valuetext", `${Math.round(voice.volume * 100)} percent`);
+        const percent = Math.round(voice.volume * 100);
+        slideTo(row.volume, percent, `${percent} percent`);
         row.own.textContent = `As written: ${timbreNamed(this.player.instrumentOf(index)).label}`;
         row.timbre.value = voice.chosen;
         for (const [control, what] of [

@@ -58,11 +58,7 @@ function loadedSkin(rate: number, key: number, seconds: number, closed: boolean)
 function clap(rate: number): Float32Array {
     const one = hiss(rate, 900, 0.16, 0, 77);
     const data = new Float32Array(one.length + Math.round(0.03 * rate));
-    for (const [delay, level] of [
-        [0, 0.6],
-        [0.011, 0.7],
-        [0.022, 1],
-    ]) {
+    for (const [delay, level] of [[0, 0.6], [0.011, 0.7], [0.022, 1]]) {
         const shift = Math.round(delay * rate);
         for (let i = 0; i < one.length; ++i) {
             const dies = delay < 0.02 ? Math.exp(-i / rate / 0.006) : 1;
@@ -72,94 +68,44 @@ function clap(rate: number): Float32Array {
     return data;
 }
 
+/// A struck piece of metal or wood: partials as ratios to the key, with their levels.
+function struckAt(key: number, rate: number, seconds: number, decay: number, ratios: [number, number][]): Float32Array {
+    const list = ratios.map(([ratio, level]) => ({ ratio, level, seconds: decay }));
+    return onset(partials(list, key, rate, seconds, null, 1), rate, 0.001);
+}
+
+const bell: [number, number][] = [[1, 1], [1.504, 0.7], [2.3, 0.2]];
+const block: [number, number][] = [[1, 1], [2.6, 0.5], [4.1, 0.25]];
+const triangle: [number, number][] = [[1, 1], [1.36, 0.8], [1.83, 0.6], [2.41, 0.4]];
+
+type Stroke = (key: number, rate: number) => Float32Array;
+
+const strokes: [keys: number[], Stroke][] = [
+    [[35, 36], (key, rate) =>
+        mixed([[skin(rate, 150, key === 35 ? 46 : 52, 0.028, 0.42), 1], [hiss(rate, 2500, 0.012, 0, 1), 0.25]])],
+    [[37, 75], (_, rate) => mixed([[skin(rate, 1700, 1650, 0.01, 0.05), 1], [hiss(rate, 3000, 0.03, 0, 2), 0.5]])],
+    [[38, 40], (key, rate) =>
+        mixed([[skin(rate, 320, 185, 0.02, 0.16), 0.8], [hiss(rate, 1500, 0.22, 0, key), 0.7]])],
+    [[39], (_, rate) => clap(rate)],
+    [[42, 44, 54, 69, 70, 82], (key, rate) => hiss(rate, 7000, key === 44 ? 0.07 : 0.09, 0.6, key)],
+    [[46], (key, rate) => hiss(rate, 6500, 0.5, 0.6, key)],
+    [[49, 52, 55, 57], (key, rate) => hiss(rate, 3500, 1.6, 0.3, key)],
+    [[51, 53, 59], (key, rate) =>
+        mixed([[hiss(rate, 5000, 1.1, 1.1, key), 0.6], [skin(rate, 2900, 2900, 1, 0.6), 0.25]])],
+    [[41, 43, 45, 47, 48, 50], (key, rate) => {
+        const pitch = 75 * 2 ** ((key - 41) / 12);
+        return mixed([[skin(rate, pitch * 1.7, pitch, 0.05, 0.5), 1], [hiss(rate, 2000, 0.02, 0, key), 0.2]]);
+    }],
+    [[56, 67, 68], (key, rate) => struckAt(key === 56 ? 73 : key + 16, rate, 0.4, 0.35, bell)],
+    [[76, 77], (key, rate) => struckAt(key === 76 ? 84 : 79, rate, 0.2, 0.12, block)],
+    [[80], (_, rate) => struckAt(99, rate, 0.25, 0.2, triangle)],
+    [[81], (_, rate) => struckAt(99, rate, 1.6, 1.6, triangle)],
+];
+
 /// The sound of a key; keys without a drum are strokes of a mridangam at their pitch.
 function stroke(key: number, rate: number): Float32Array {
-    switch (key) {
-        case 35:
-        case 36:
-            return mixed([
-                [skin(rate, 150, key === 35 ? 46 : 52, 0.028, 0.42), 1],
-                [hiss(rate, 2500, 0.012, 0, 1), 0.25],
-            ]);
-        case 37:
-        case 75:
-            return mixed([
-                [skin(rate, 1700, 1650, 0.01, 0.05), 1],
-                [hiss(rate, 3000, 0.03, 0, 2), 0.5],
-            ]);
-        case 38:
-        case 40:
-            return mixed([
-                [skin(rate, 320, 185, 0.02, 0.16), 0.8],
-                [hiss(rate, 1500, 0.22, 0, key), 0.7],
-            ]);
-        case 39:
-            return clap(rate);
-        case 42:
-        case 44:
-        case 54:
-        case 69:
-        case 70:
-        case 82:
-            return hiss(rate, 7000, key === 44 ? 0.07 : 0.09, 0.6, key);
-        case 46:
-            return hiss(rate, 6500, 0.5, 0.6, key);
-        case 49:
-        case 52:
-        case 55:
-        case 57:
-            return hiss(rate, 3500, 1.6, 0.3, key);
-        case 51:
-        case 53:
-        case 59:
-            return mixed([
-                [hiss(rate, 5000, 1.1, 1.1, key), 0.6],
-                [skin(rate, 2900, 2900, 1, 0.6), 0.25],
-            ]);
-        case 41:
-        case 43:
-        case 45:
-        case 47:
-        case 48:
-        case 50: {
-            const pitch = 75 * 2 ** ((key - 41) / 12);
-            return mixed([
-                [skin(rate, pitch * 1.7, pitch, 0.05, 0.5), 1],
-                [hiss(rate, 2000, 0.02, 0, key), 0.2],
-            ]);
-        }
-        case 56:
-        case 67:
-        case 68: {
-            const list = [
-                [1, 1],
-                [1.504, 0.7],
-                [2.3, 0.2],
-            ].map(([ratio, level]) => ({ ratio, level, seconds: 0.35 }));
-            return onset(partials(list, key === 56 ? 73 : key + 16, rate, 0.4, null, 1), rate, 0.001);
-        }
-        case 76:
-        case 77: {
-            const list = [
-                [1, 1],
-                [2.6, 0.5],
-                [4.1, 0.25],
-            ].map(([ratio, level]) => ({ ratio, level, seconds: 0.12 }));
-            return onset(partials(list, key === 76 ? 84 : 79, rate, 0.2, null, 1), rate, 0.001);
-        }
-        case 80:
-        case 81: {
-            const list = [
-                [1, 1],
-                [1.36, 0.8],
-                [1.83, 0.6],
-                [2.41, 0.4],
-            ].map(([ratio, level]) => ({ ratio, level, seconds: key === 80 ? 0.2 : 1.6 }));
-            return onset(partials(list, 99, rate, key === 80 ? 0.25 : 1.6, null, 1), rate, 0.001);
-        }
-        default:
-            return loadedSkin(rate, Math.min(80, Math.max(40, key)), 0.9, key % 5 === 2);
-    }
+    const found = strokes.find(([keys]) => keys.includes(key));
+    return found ? found[1](key, rate) : loadedSkin(rate, Math.min(80, Math.max(40, key)), 0.9, key % 5 === 2);
 }
 
 export function drum(key: number, rate: number): Sample {

@@ -1,13 +1,7 @@
 // Looks up the origins of notes in the text of the pattern, before they are played.
 import type { Engine } from "../context";
-import type { Origins, PatternRequest } from "../protocol";
+import type { Origins, PatternRequest, Place } from "../protocol";
 import type { Melody } from "./melody";
-
-export interface Place {
-    line: number;
-    column: number;
-    length: number;
-}
 
 const batch = 200;
 const most_kept = 20_000;

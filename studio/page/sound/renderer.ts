@@ -1,5 +1,6 @@
 // Renders notes to audio buffers in a worker, before they are played.
 import source from "worker:./render_worker.ts";
+import { Recent } from "../recent";
 import type { Rendered, RenderRequest } from "./render_worker";
 import type { Timbre } from "./timbres";
 import { renderedKey } from "./timbres";
@@ -8,15 +9,16 @@ export interface Voiced {
     buffer: AudioBuffer;
     frequency: number;
     loops: boolean;
+    bytes: number;
+    close(): void;
 }
 
 const most_bytes = 48 * 1024 * 1024;
 
 export class Renderer {
     private readonly worker: Worker;
-    private readonly ready = new Map<string, Voiced>(); // the most recently used last
+    private readonly ready = new Recent<Voiced>(most_bytes);
     private readonly waiting = new Map<string, (() => void)[]>();
-    private bytes = 0;
 
     constructor(private readonly context: BaseAudioContext) {
         this.worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
@@ -29,13 +31,8 @@ export class Renderer {
 
     /// The buffer for a key, if it is ready; otherwise requests it.
     find(timbre: Timbre, key: number): Voiced | null {
-        const name = this.name(timbre.name, renderedKey(timbre, key));
-        const found = this.ready.get(name);
-        if (found) {
-            this.ready.delete(name);
-            this.ready.set(name, found);
-            return found;
-        }
+        const found = this.ready.get(this.name(timbre.name, renderedKey(timbre, key)));
+        if (found) return found;
         this.ask(timbre, key);
         return this.nearest(timbre, key);
     }
@@ -62,11 +59,8 @@ export class Renderer {
             return;
         }
         this.waiting.set(name, done ? [done] : []);
-        this.worker.postMessage({
-            timbre: timbre.name,
-            key: whole,
-            rate: this.context.sampleRate,
-        } satisfies RenderRequest);
+        const { sampleRate: rate } = this.context;
+        this.worker.postMessage({ timbre: timbre.name, key: whole, rate } satisfies RenderRequest);
     }
 
     /// Renders all of these, each once.
@@ -86,13 +80,8 @@ export class Renderer {
         const name = this.name(made.timbre, made.key);
         const buffer = this.context.createBuffer(1, Math.max(1, made.data.length), made.rate);
         buffer.copyToChannel(made.data, 0);
-        this.ready.set(name, { buffer, frequency: made.frequency, loops: made.loops });
-        this.bytes += 4 * made.data.length;
-        for (const [old, voiced] of this.ready) {
-            if (this.bytes <= most_bytes) break;
-            this.ready.delete(old);
-            this.bytes -= 4 * voiced.buffer.length;
-        }
+        const { frequency, loops } = made;
+        this.ready.add(name, { buffer, frequency, loops, bytes: 4 * made.data.length, close: () => {} });
         const listeners = this.waiting.get(name) ?? [];
         this.waiting.delete(name);
         for (const done of listeners) done();

@@ -16,6 +16,12 @@ export interface VoiceSettings {
     solo: boolean;
 }
 
+/// False for a voice that is muted, or not among those that play alone.
+export function isHeard(voices: readonly VoiceSettings[], index: number): boolean {
+    const voice = voices[index];
+    return voice !== undefined && !voice.muted && (voice.solo || !voices.some((each) => each.solo));
+}
+
 /// Source of buffers: Renderer, or a substitute in tests.
 export interface Buffers {
     find(timbre: Timbre, key: number): Voiced | null;
@@ -53,12 +59,10 @@ export class SoundOutput implements NoteSink {
     setVoices(voices: VoiceSettings[]): void {
         this.voices = voices;
         while (this.strips.length < voices.length) this.addStrip();
-        const isSolo = voices.some((voice) => voice.solo);
         this.strips.forEach((strip, index) => {
             const voice = voices[index];
-            const isHeard = voice !== undefined && !voice.muted && (!isSolo || voice.solo);
             const now = this.context.currentTime;
-            const level = isHeard ? voice.volume * voice.volume * 1.25 : 0;
+            const level = voice && isHeard(voices, index) ? voice.volume * voice.volume * 1.25 : 0;
             strip.gain.gain.setTargetAtTime(level, now, 0.012);
             strip.send.gain.setTargetAtTime(timbreNamed(voice?.timbre ?? "").reverb, now, 0.012);
             // Voices are spread to the left and right, the first in the middle.
@@ -84,18 +88,11 @@ export class SoundOutput implements NoteSink {
         this.strips.push({ gain, pan, send });
     }
 
-    /// Skips silent notes.
-    private isHeard(voice: number): boolean {
-        const settings = this.voices[voice];
-        if (!settings || settings.muted) return false;
-        return settings.solo || !this.voices.some((each) => each.solo);
-    }
-
     note(index: number, time: number, seconds: number): void {
         const melody = this.melody;
         if (!melody) return;
         const voice = melody.voice[index];
-        if (!this.isHeard(voice)) return;
+        if (!isHeard(this.voices, voice)) return;
         const slide = slideOf(melody, index, seconds);
         this.strike(voice, melody.key[index], melody.velocity[index], time, seconds, slide);
     }

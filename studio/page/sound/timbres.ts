@@ -1,8 +1,7 @@
 // The timbres, and the timbre of each General MIDI instrument.
 import { drum, tunedDrum } from "./drums";
-import type { Partial } from "./partials";
-import { curvedBridge, electricPiano, piano, struck } from "./partials";
-import { pluckedString } from "./plucked_string";
+import { curvedBridge, electricPiano, piano, struck, type CurvedBridge, type Struck } from "./partials";
+import { pluckedString, type PluckedString } from "./plucked_string";
 import type { Sample } from "./sample";
 import { levelled } from "./sample";
 import type { Sustained } from "./sustained";
@@ -25,8 +24,17 @@ export interface Timbre {
 const lasting = (sound: Sustained) => ({
     lasts: true, render: (key: number, rate: number): Sample => sustained(sound, key, rate),
 });
-const bars = (list: [number, number, number][]): Partial[] =>
-    list.map(([ratio, level, seconds]) => ({ ratio, level, seconds }));
+const plucked = (string: PluckedString) => ({
+    render: (key: number, rate: number): Sample => pluckedString(string, key, rate),
+});
+const bridged = (string: CurvedBridge) => ({
+    render: (key: number, rate: number): Sample => curvedBridge(string, key, rate),
+});
+/// A bar or bell with these partials: ratio, level, seconds.
+const bar = (list: [number, number, number][], rest: Omit<Struck, "partials">) => {
+    const partials = list.map(([ratio, level, seconds]) => ({ ratio, level, seconds }));
+    return { render: (key: number, rate: number): Sample => struck({ partials, ...rest }, key, rate) };
+};
 
 const guitarBody: [number, number, number][] = [[104, 22, 0.9], [206, 30, 0.7], [420, 60, 0.35]];
 const harpBody: [number, number, number][] = [[190, 60, 0.4], [380, 90, 0.3]];
@@ -37,7 +45,7 @@ const brassTilt = (hertz: number): number => 1 / (1 + (hertz / 1500) ** 2.2);
 const drawbars: Record<number, number> = { 1: 1, 2: 0.9, 3: 0.55, 4: 0.5, 6: 0.25, 8: 0.3 };
 const odd = (k: number): number => (k % 2 === 1 ? 1 : 0.12);
 
-const list: Timbre[] = [
+export const timbres: readonly Timbre[] = [
     {
         name: "piano", label: "Piano", attack: 0.001, release: 0.28, brightness: [2, 34], reverb: 0.16,
         render: piano,
@@ -49,43 +57,32 @@ const list: Timbre[] = [
     },
     {
         name: "harpsichord", label: "Harpsichord", attack: 0.001, release: 0.14, brightness: [30, 60], reverb: 0.2,
-        render: (key, rate) => pluckedString(
-            { seconds: 3.2, ring: 0.5, position: 0.11, hardness: 1, noise: 0.5, body: harpBody }, key, rate),
+        ...plucked({ seconds: 3.2, ring: 0.5, position: 0.11, hardness: 1, noise: 0.5, body: harpBody }),
     },
     {
         name: "celesta", label: "Music box", attack: 0.001, release: 0.9, brightness: [2, 16], reverb: 0.3,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 1.9], [2.76, 0.22, 0.7], [5.4, 0.16, 0.3], [8.93, 0.06, 0.12]]),
-            stretch: 0.7, attack: 0.001, knock: [4500, 0.02, 0.12],
-        }, key, rate),
+        ...bar([[1, 1, 1.9], [2.76, 0.22, 0.7], [5.4, 0.16, 0.3], [8.93, 0.06, 0.12]],
+            { stretch: 0.7, attack: 0.001, knock: [4500, 0.02, 0.12] }),
     },
     {
         name: "vibraphone", label: "Vibraphone", attack: 0.001, release: 0.7, brightness: [1.5, 12], reverb: 0.26,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 3.2], [3.99, 0.22, 1], [9.9, 0.05, 0.2]]), stretch: 0.6, attack: 0.002,
-        }, key, rate),
+        ...bar([[1, 1, 3.2], [3.99, 0.22, 1], [9.9, 0.05, 0.2]], { stretch: 0.6, attack: 0.002 }),
     },
     {
         name: "marimba", label: "Marimba", attack: 0.001, release: 0.3, brightness: [1.6, 12], reverb: 0.2,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 0.75], [3.93, 0.3, 0.16], [9.2, 0.12, 0.06]]),
-            stretch: 1, attack: 0.001, knock: [900, 0.025, 0.35],
-        }, key, rate),
+        ...bar([[1, 1, 0.75], [3.93, 0.3, 0.16], [9.2, 0.12, 0.06]],
+            { stretch: 1, attack: 0.001, knock: [900, 0.025, 0.35] }),
     },
     {
         name: "xylophone", label: "Xylophone", attack: 0.001, release: 0.2, brightness: [3, 20], reverb: 0.2,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 0.42], [3, 0.5, 0.2], [6.1, 0.3, 0.1]]),
-            stretch: 0.8, attack: 0.001, knock: [2500, 0.02, 0.3],
-        }, key, rate),
+        ...bar([[1, 1, 0.42], [3, 0.5, 0.2], [6.1, 0.3, 0.1]],
+            { stretch: 0.8, attack: 0.001, knock: [2500, 0.02, 0.3] }),
     },
     {
         name: "bell", label: "Bell", attack: 0.001, release: 1.6, brightness: [2, 20], reverb: 0.34,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 4.2], [0.501, 0.5, 5.2], [1.19, 0.55, 3], [1.502, 0.4, 2.2], [2.003, 0.6, 2],
-                            [2.62, 0.3, 1.1], [3.01, 0.25, 0.9], [4.17, 0.2, 0.6], [5.43, 0.14, 0.4]]),
-            stretch: 0.45, attack: 0.001, knock: [3500, 0.015, 0.15],
-        }, key, rate),
+        ...bar([[1, 1, 4.2], [0.501, 0.5, 5.2], [1.19, 0.55, 3], [1.502, 0.4, 2.2], [2.003, 0.6, 2],
+            [2.62, 0.3, 1.1], [3.01, 0.25, 0.9], [4.17, 0.2, 0.6], [5.43, 0.14, 0.4]],
+            { stretch: 0.45, attack: 0.001, knock: [3500, 0.015, 0.15] }),
     },
     {
         name: "organ", label: "Organ", attack: 0.012, release: 0.07, brightness: [16, 30], reverb: 0.26, trim: 0.8,
@@ -101,69 +98,52 @@ const list: Timbre[] = [
     },
     {
         name: "guitar", label: "Guitar", attack: 0.001, release: 0.35, brightness: [3.5, 50], reverb: 0.16,
-        render: (key, rate) => pluckedString(
-            { seconds: 4.2, ring: 0.16, position: 0.16, hardness: 0.45, noise: 0.9, body: guitarBody }, key, rate),
+        ...plucked({ seconds: 4.2, ring: 0.16, position: 0.16, hardness: 0.45, noise: 0.9, body: guitarBody }),
     },
     {
         name: "harp", label: "Harp", attack: 0.001, release: 0.9, brightness: [3, 40], reverb: 0.3,
-        render: (key, rate) => pluckedString(
-            { seconds: 4.6, ring: 0.1, position: 0.4, hardness: 0.3, noise: 0.4, body: harpBody }, key, rate),
+        ...plucked({ seconds: 4.6, ring: 0.1, position: 0.4, hardness: 0.3, noise: 0.4, body: harpBody }),
     },
     {
         name: "koto", label: "Koto", attack: 0.001, release: 0.5, brightness: [6, 55], reverb: 0.22,
-        render: (key, rate) => pluckedString(
-            { seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7,
-              body: [[310, 60, 0.6], [720, 120, 0.4]] },
-            key, rate),
+        ...plucked({ seconds: 3.4, ring: 0.3, position: 0.08, hardness: 0.9, noise: 0.7,
+            body: [[310, 60, 0.6], [720, 120, 0.4]] }),
     },
     {
         name: "banjo", label: "Banjo", attack: 0.001, release: 0.15, brightness: [8, 55], reverb: 0.14,
-        render: (key, rate) => pluckedString(
-            { seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6,
-              body: [[520, 160, 1.2], [950, 220, 0.8]] },
-            key, rate),
+        ...plucked({ seconds: 1.1, ring: 0.5, position: 0.1, hardness: 1, noise: 0.6,
+            body: [[520, 160, 1.2], [950, 220, 0.8]] }),
     },
     {
         name: "pizzicato", label: "Plucked strings", attack: 0.001, release: 0.2, brightness: [3, 26], reverb: 0.28,
-        render: (key, rate) => pluckedString(
-            { seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6,
-              body: [[280, 60, 1], [460, 90, 0.7]] },
-            key, rate),
+        ...plucked({ seconds: 0.9, ring: 0.2, position: 0.25, hardness: 0.2, noise: 0.6,
+            body: [[280, 60, 1], [460, 90, 0.7]] }),
     },
     {
         name: "bass", label: "Bass", attack: 0.002, release: 0.14, brightness: [4, 26], reverb: 0.06,
-        render: (key, rate) => pluckedString(
-            { seconds: 2.6, ring: 0.08, position: 0.2, hardness: 0.25, noise: 0.3, body: [[95, 50, 0.5]] }, key, rate),
+        ...plucked({ seconds: 2.6, ring: 0.08, position: 0.2, hardness: 0.25, noise: 0.3, body: [[95, 50, 0.5]] }),
     },
     {
         name: "veena", label: "Veena", attack: 0.001, release: 0.5, brightness: [4, 34], reverb: 0.2,
-        render: (key, rate) => curvedBridge(
-            { seconds: 4.4, begin: 14, end: 3, fall: 1.1, buzz: 2.2, position: 0.13, attack: 0.002 }, key, rate),
+        ...bridged({ seconds: 4.4, begin: 14, end: 3, fall: 1.1, buzz: 2.2, position: 0.13, attack: 0.002 }),
     },
     {
         name: "sitar", label: "Sitar", attack: 0.001, release: 0.5, brightness: [7, 50], reverb: 0.24,
-        render: (key, rate) => curvedBridge(
-            { seconds: 4, begin: 26, end: 6, fall: 0.9, buzz: 5, position: 0.08, attack: 0.0015 }, key, rate),
+        ...bridged({ seconds: 4, begin: 26, end: 6, fall: 0.9, buzz: 5, position: 0.08, attack: 0.0015 }),
     },
     {
         name: "tanpura", label: "Tanpura", attack: 0.004, release: 1.8, brightness: [6, 50], reverb: 0.34,
-        render: (key, rate) => curvedBridge(
-            { seconds: 8, begin: 22, end: 4, fall: 3.2, buzz: 6, position: 0.22, attack: 0.012 }, key, rate),
+        ...bridged({ seconds: 8, begin: 22, end: 4, fall: 3.2, buzz: 6, position: 0.22, attack: 0.012 }),
     },
     {
         name: "kalimba", label: "Kalimba", attack: 0.001, release: 0.5, brightness: [1.5, 14], reverb: 0.24,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 1.2], [5.8, 0.16, 0.14], [2.02, 0.1, 0.5]]),
-            stretch: 0.6, attack: 0.0015, knock: [700, 0.03, 0.3],
-        }, key, rate),
+        ...bar([[1, 1, 1.2], [5.8, 0.16, 0.14], [2.02, 0.1, 0.5]],
+            { stretch: 0.6, attack: 0.0015, knock: [700, 0.03, 0.3] }),
     },
     {
         name: "steel-drum", label: "Steel drum", attack: 0.002, release: 0.4, brightness: [2, 14], reverb: 0.24,
-        render: (key, rate) => struck({
-            partials: bars([[1, 1, 1], [2, 0.7, 0.8],
-                             [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]]),
-            stretch: 0.6, attack: 0.004,
-        }, key, rate),
+        ...bar([[1, 1, 1], [2, 0.7, 0.8], [3, 0.3, 0.45], [4.05, 0.25, 0.3], [0.9975, 0.2, 0.9], [1.0025, 0.2, 0.9]],
+            { stretch: 0.6, attack: 0.004 }),
     },
     {
         name: "strings", label: "Strings", attack: 0.16, release: 0.35, brightness: [5, 22], reverb: 0.34,
@@ -244,10 +224,8 @@ const list: Timbre[] = [
     },
 ];
 
-export const timbres: readonly Timbre[] = list;
-
 export function timbreNamed(name: string): Timbre {
-    return list.find((timbre) => timbre.name === name) ?? list[0];
+    return timbres.find((timbre) => timbre.name === name) ?? timbres[0];
 }
 
 /// Timbres by the first program that uses them, 0 to 127.
@@ -264,17 +242,12 @@ const programs: [number, string][] = [
 ];
 
 export function timbreOf(program: number): Timbre {
-    let name = programs[0][1];
-    for (const [first, timbre] of programs) if (first <= program) name = timbre;
-    return timbreNamed(name);
+    return timbreNamed(programs.findLast(([first]) => first <= program)?.[1] ?? "piano");
 }
 
-/// Distance between rendered keys; other keys play the nearest one at another rate.
-const spacing = (timbre: Timbre): number => (timbre.everyKey ? 1 : timbre.lasts ? 3 : 2);
-
-/// The rendered key used for a key.
+/// The rendered key used for a key, which is played at another rate.
 export function renderedKey(timbre: Timbre, key: number): number {
-    const step = spacing(timbre);
+    const step = timbre.everyKey ? 1 : timbre.lasts ? 3 : 2;
     return Math.min(120, Math.max(12, Math.round(key / step) * step));
 }
 

@@ -44,9 +44,6 @@ export class Transport {
     get secondsPerTick(): number {
         return 60 / (this.tempo * (this.melody?.ticks ?? 480));
     }
-    get quartersPerMinute(): number {
-        return this.tempo;
-    }
     get loop(): Loop | null {
         return this.loopRange;
     }
