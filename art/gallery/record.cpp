@@ -120,6 +120,21 @@ bool is_unfinished(const std::string& name, const std::string& target) {
     return rest.empty() || rest == ".mid" || (take(".mid.") && take_letters() && take(".tmp") && rest.empty());
 }
 
+/// Files by their names in a folder.
+using NamedFiles = std::map<std::string, std::string>;
+
+/// The file that has an unfinished part of this name; end() if none has. Looks up only the parts of `name` before its
+/// dots: a gallery may have many files.
+NamedFiles::const_iterator owner_of(const std::string& name, const NamedFiles& files) {
+    for (std::size_t dot = name.find('.', 2); dot != std::string::npos; dot = name.find('.', dot + 1)) {
+        for (const std::size_t begin : {1, 2}) {
+            const auto found = files.find(name.substr(begin, dot - begin));
+            if (found != files.end() && is_unfinished(name, found->first)) return found;
+        }
+    }
+    return files.end();
+}
+
 /// Reads an open file from a byte on, but stops after 1 MB without a line feed, longer than any line of a record.
 /// @throws std::runtime_error for over 1 GB
 std::string read_from(const Descriptor& file, off_t from) {
@@ -275,24 +290,25 @@ void GalleryRecord::refresh() {
 
 /// Removes the unfinished parts of the files in `left_`, except those that another run is making.
 void GalleryRecord::remove_left() {
-    std::map<std::string, std::vector<std::string>> by_folder;
-    for (const std::string& file : left_) by_folder[folder_of(file)].push_back(file);
+    std::map<std::string, NamedFiles> by_folder;
+    for (const std::string& file : left_) {
+        by_folder[folder_of(file)].emplace(std::filesystem::path(file).filename().string(), file);
+    }
     left_.clear();
     // Without locks it is unknown whether the owner is still running.
     if (!locks_.work()) return;
     for (const auto& [below, files] : by_folder) {
         for (const std::string& name : folder_.names(below)) {
             if (!name.starts_with(".")) continue;
-            const auto file = std::find_if(files.begin(), files.end(), [&](const std::string& each) {
-                return is_unfinished(name, std::filesystem::path(each).filename().string());
-            });
-            if (file == files.end()) continue;
-            if (!locks_.take(*file)) {
-                left_.insert(*file);
+            const auto owner = owner_of(name, files);
+            if (owner == files.end()) continue;
+            const std::string& file = owner->second;
+            if (!locks_.take(file)) {
+                left_.insert(file);
                 continue;
             }
             folder_.remove((std::filesystem::path(below) / name).string());
-            locks_.release(*file);
+            locks_.release(file);
         }
     }
 }
@@ -359,7 +375,7 @@ void GalleryRecord::append(const std::string& line, bool durable) {
 void GalleryRecord::claim(const std::string& file) {
     const std::lock_guard guard(mutex_);
     append(claim_line(file), false);
-    // A run whose record was damaged since may have left unfinished parts under the same name.
+    // A killed run whose record was damaged may have left unfinished parts of it.
     left_.insert(file);
 }
 
@@ -410,11 +426,12 @@ void GalleryRecord::complete(const std::vector<FinishedJob>& order, const std::v
     const std::vector<Left> shards = sole ? take_over_shards() : std::vector<Left>();
     remove_left();
     std::vector<FinishedJob> jobs = order;
-    std::set<std::string> written;
-    for (const FinishedJob& job : order) written.insert(job.file);
     std::set<std::string> claims(begun.begin(), begun.end());
-    for (const std::string& file : left_) {
-        if (!written.contains(file)) claims.insert(file);
+    claims.insert(left_.begin(), left_.end());
+    std::set<std::string> written;
+    for (const FinishedJob& job : order) {
+        written.insert(job.file);
+        claims.erase(job.file);
     }
     // Files of other jobs that still exist, finished or not: they belong to this gallery.
     for (const auto& [file, known] : known_) {

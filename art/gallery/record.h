@@ -96,7 +96,7 @@ private:
     bool others_were_present_ = true;
     std::map<std::string, Reading> others_;
     std::map<std::string, Known> known_;
-    std::set<std::string> left_;  ///< files begun by killed runs, whose unfinished parts may exist
+    std::set<std::string> left_;  ///< files of which killed runs may have left unfinished parts
     mutable std::mutex mutex_;
 };
 
