@@ -74,7 +74,7 @@ struct DerivationOptions {
     Pruner* pruner = nullptr;
     /// Called after each run with its number of symbols, and with 0 from time to time while no symbols are passed on;
     /// may throw to stop the derivation.
-    std::function<void(std::uint64_t symbols)> watch;
+    std::function<void(std::uint64_t symbols)> watch = {};
 
     /// Options for the word after `interpret:`, within a budget of nodes.
     static DerivationOptions within(double nodes, std::function<void(std::uint64_t symbols)> watch = {}) {

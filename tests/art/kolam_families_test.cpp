@@ -304,7 +304,7 @@ TEST_P(KolamFamilies, AreOneStroke) {
         const Grammar grammar = grammar_of(GetParam(), n);
         Strokes strokes;
         const auto turtle = Turtle::drawing(grammar, strokes, true);
-        derive(grammar, *turtle, reference::interpreting());
+        derive(grammar, *turtle, {.interpreted = true});
         EXPECT_EQ(strokes.begun, 1) << n;
         EXPECT_EQ(strokes.closed, 1) << n;
         EXPECT_EQ(static_cast<std::int64_t>(strokes.points), value(GetParam().steps, n)) << n;

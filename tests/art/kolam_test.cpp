@@ -64,9 +64,9 @@ Recorder recorded(const Known& pattern, bool as_spline) {
     StrokeCensus census;
     Recorder recorder;
     SplineSink spline(recorder, census.closed);
-    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, census, pattern.spline), reference::interpreting());
+    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, census, pattern.spline), {.interpreted = true});
     PathSink& sink = as_spline ? static_cast<PathSink&>(spline) : recorder;
-    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, sink, pattern.spline), reference::interpreting());
+    derive(pattern.grammar, *Turtle::drawing(pattern.grammar, sink, pattern.spline), {.interpreted = true});
     return recorder;
 }
 

@@ -33,7 +33,7 @@ Print lit_print(int side, Light light) {
 }
 
 Scene scene_of(const std::string& axiom, const Style& style) {
-    return Scene::of(grammar_of("turn: left\naxiom: " + axiom + "\n"), style, reference::interpreting(), 1e6);
+    return Scene::of(grammar_of("turn: left\naxiom: " + axiom + "\n"), style, {.interpreted = true}, 1e6);
 }
 
 struct Picture {

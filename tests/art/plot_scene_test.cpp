@@ -28,7 +28,7 @@ Print flat_print() {
 
 Recorder plotted(const std::string& axiom, const Print& print, const PlotPen& options = {}) {
     const Scene scene = Scene::of(reference::grammar_of("turn: left\naxiom: " + axiom + "\n"), print.style,
-                                  reference::interpreting(), 1e6);
+                                  {.interpreted = true}, 1e6);
     Recorder recorder;
     plot_scene(scene, print, options, recorder);
     return recorder;

@@ -145,7 +145,7 @@ Print pixel_print(int side) {
 
 Scene scene_of(const std::string& text, const Style& style) {
     const Grammar grammar = grammar_of(text);
-    return Scene::of(grammar, style, reference::interpreting(), 1e6);
+    return Scene::of(grammar, style, {.interpreted = true}, 1e6);
 }
 
 struct Picture {
@@ -516,8 +516,8 @@ TEST(Scene, HasALimitAndLeavesOutWhatIsNotSeen) {
     const Grammar grammar = grammar_of("axiom: $A\nA --> FA\nderivation length: 100\n");
     Style style;
     style.palette = {black};
-    EXPECT_EQ(Scene::of(grammar, style, reference::interpreting(), 100).segments().size(), 100u);
-    EXPECT_THROW(Scene::of(grammar, style, reference::interpreting(), 99), BudgetError);
+    EXPECT_EQ(Scene::of(grammar, style, {.interpreted = true}, 100).segments().size(), 100u);
+    EXPECT_THROW(Scene::of(grammar, style, {.interpreted = true}, 99), BudgetError);
     EXPECT_THROW(scene_of("axiom: $F(1e30)\n", style), BudgetError);
     style.palette = {black, {0, 0, 0, 0}};
     const Scene seen = scene_of("axiom: $F;F@O{F+F},F\n", style);

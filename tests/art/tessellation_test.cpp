@@ -17,7 +17,7 @@ using reference::grammar_of;
 Scene scene_of(const std::string& text) {
     Style style;
     style.palette = {Colour{0, 0, 0, 255}, Colour{255, 0, 0, 255}, Colour{0, 255, 0, 255}};
-    return Scene::of(grammar_of(text), style, reference::interpreting(), 1e6);
+    return Scene::of(grammar_of(text), style, {.interpreted = true}, 1e6);
 }
 
 bool has_vertex(const Scene& scene, const glm::dvec3& wanted) {

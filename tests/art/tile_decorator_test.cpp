@@ -82,7 +82,7 @@ Strokes decorated(const std::string& tiling, const std::string& variant, const s
         reference::grammar_of(contents(bundled("tilings/" + tiling)), {{"-n", "derivation length", steps}});
     TileDecorator decorator(style, 7, 1e7);
     Tiles tiles(decorator);
-    derive(grammar, *Turtle::drawing(grammar, tiles, false), reference::interpreting());
+    derive(grammar, *Turtle::drawing(grammar, tiles, false), {.interpreted = true});
     Strokes strokes;
     decorator.draw(strokes, {});
     return strokes;

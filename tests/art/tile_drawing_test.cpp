@@ -58,7 +58,7 @@ Gathered gathered(const std::string& tiling, const std::string& steps) {
     const Grammar grammar =
         reference::grammar_of(contents(bundled("tilings/" + tiling)), {{"-n", "derivation length", steps}});
     Gathered result;
-    derive(grammar, *Turtle::drawing(grammar, result, false), reference::interpreting());
+    derive(grammar, *Turtle::drawing(grammar, result, false), {.interpreted = true});
     return result;
 }
 

@@ -35,7 +35,7 @@ struct Outlines : PolygonSink {
 TileOutlines outlines(const std::string& tiling, int n) {
     const Grammar grammar = grammar_of(tiling, n);
     Outlines result;
-    derive(grammar, *Turtle::drawing(grammar, result, false), reference::interpreting());
+    derive(grammar, *Turtle::drawing(grammar, result, false), {.interpreted = true});
     return result.tiles;
 }
 

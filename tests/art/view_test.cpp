@@ -229,10 +229,10 @@ TEST(View, SplinesThroughAWindowAreThoseOfTheWholeDrawing) {
     for (const std::string& pattern : patterns) {
         const Grammar grammar = grammar_of(pattern);
         StrokeCensus census;
-        derive(grammar, *Turtle::drawing(grammar, census, true), reference::interpreting());
+        derive(grammar, *Turtle::drawing(grammar, census, true), {.interpreted = true});
         BezierSink whole;
         SplineSink spline(whole, census.closed);
-        derive(grammar, *Turtle::drawing(grammar, spline, true), reference::interpreting());
+        derive(grammar, *Turtle::drawing(grammar, spline, true), {.interpreted = true});
         const auto folded = fold(grammar);
         Box box;
         for (const glm::dvec2 corner : folded.value().box_hull) box.add(corner);
@@ -381,7 +381,7 @@ Picture picture_of(const Grammar& grammar, int side, double pen, bool look) {
         picture.report = view->read(sight, *raster, 1e9, {});
     } else {
         const auto turtle = Turtle::drawing(grammar, *raster, false);
-        derive(grammar, *turtle, reference::interpreting());
+        derive(grammar, *turtle, {.interpreted = true});
     }
     raster->render(
         1, [&](int, int, std::span<const std::uint8_t> rows) { picture.pixels.append(rows.begin(), rows.end()); });

@@ -145,13 +145,13 @@ TEST(WindowDrawing, ShowsTheTilesOfTheWholeWord) {
         everything.add({-1e9, -1e9});
         everything.add({1e9, 1e9});
         Tiles whole(everything);
-        derive(*grammar, *Turtle::drawing(*grammar, whole, false), reference::interpreting());
+        derive(*grammar, *Turtle::drawing(*grammar, whole, false), {.interpreted = true});
         // Around a tile in the middle of the word.
         const glm::dvec2 low = glm::round(whole.all.at(whole.all.size() / 2).corners[0]) - glm::dvec2(7.25, 5.25);
         const glm::dvec2 high = low + glm::dvec2(16, 12);
         const Tiles seen = shown(grammar, fmt::format("{},{},{},{}", low.x, low.y, high.x, high.y));
         Tiles expected(Box{low, high});
-        derive(*grammar, *Turtle::drawing(*grammar, expected, false), reference::interpreting());
+        derive(*grammar, *Turtle::drawing(*grammar, expected, false), {.interpreted = true});
         ASSERT_EQ(seen.all.size(), expected.all.size()) << name;
         EXPECT_GT(seen.all.size(), 5u) << name;
         for (std::size_t i = 0; i < seen.all.size(); ++i) {
@@ -202,7 +202,7 @@ TEST(WindowDrawing, FillsPages) {
         box.add({static_cast<double>(at.x0) - 2, static_cast<double>(at.y0) - 2});
         box.add({static_cast<double>(at.x1) + 2, static_cast<double>(at.y1) + 2});
         Tiles tiles(box);
-        derive(*grammar, *Turtle::drawing(*grammar, tiles, false), reference::interpreting());
+        derive(*grammar, *Turtle::drawing(*grammar, tiles, false), {.interpreted = true});
         double area = 0;
         for (const Tile& tile : tiles.all) area += area_inside(tile.corners, box);
         EXPECT_NEAR(area, 34 * 24, 1e-5) << name << " at " << number(at.x0) << ' ' << number(at.y0);

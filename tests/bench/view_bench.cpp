@@ -97,7 +97,7 @@ void read_in_full(benchmark::State& state, const System& system, double pen) {
         const Print print = print_of(smaller, pen);
         const auto raster = make_raster(print);
         const auto turtle = Turtle::drawing(smaller, *raster, false);
-        derive(smaller, *turtle, reference::interpreting());
+        derive(smaller, *turtle, {.interpreted = true});
         render(*raster);
     }
     state.counters["order"] = best;

@@ -60,7 +60,7 @@ Told walked(const Grammar& grammar) {
                 survey.closed};
     }
     const auto turtle = SpaceTurtle::make(grammar);
-    derive(grammar, *turtle, reference::interpreting());
+    derive(grammar, *turtle, {.interpreted = true});
     const SpaceSurvey& survey = turtle->survey();
     const auto& [low, high] = survey.box;
     return {0,

@@ -343,7 +343,7 @@ TEST(ImportCpfg, TheTurtleInSpace) {
                                         "Lsystem: 1\nAxiom: A\nhomomorphism\nA --> " + word + "\nendlsystem\n"}) {
             const Grammar grammar = grammar_of(cpfg(text, "angle increment: 20\n").pattern);
             const auto turtle = SpaceTurtle::make(grammar);
-            derive(grammar, *turtle, reference::interpreting());
+            derive(grammar, *turtle, {.interpreted = true});
             ASSERT_LT(glm::distance(turtle->survey().end, expected), 1e-9) << word;
         }
     }

@@ -162,7 +162,7 @@ std::vector<Segment> picture(const std::string& pattern, int order) {
     EXPECT_TRUE(grammar);
     reference::Recorder recorder;
     const auto turtle = Turtle::drawing(*grammar, recorder, false);
-    derive(*grammar, *turtle, reference::interpreting());
+    derive(*grammar, *turtle, {.interpreted = true});
     std::vector<Segment> segments;
     for (const auto& stroke : recorder.strokes) {
         for (std::size_t i = 0; i + 1 < stroke.points.size(); ++i) {

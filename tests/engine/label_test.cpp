@@ -47,7 +47,7 @@ LabelRecorder drawn(const std::string& text, bool moves_draw = false) {
     const Grammar grammar = reference::grammar_of(text);
     LabelRecorder recorder;
     const auto turtle = Turtle::drawing(grammar, recorder, moves_draw);
-    derive(grammar, *turtle, reference::interpreting());
+    derive(grammar, *turtle, {.interpreted = true});
     return recorder;
 }
 

@@ -252,9 +252,9 @@ TEST(LilyPond, DynamicsOfSeveralVoicesAreBelowTheirStaff) {
         for (int i = 0; i < 4; ++i) {
             Note note{.onset = i * 960,
                       .duration = voice == 0 ? 960 : 480,
-                      .key = 60 - 5 * voice,
+                      .key = 60.0 - 5 * voice,
                       .voice = voice,
-                      .velocity = i < 2 ? 80 : 112};
+                      .velocity = static_cast<std::uint8_t>(i < 2 ? 80 : 112)};
             score.notes.push_back(note);
         }
     }

@@ -492,7 +492,7 @@ TestScore many_voices(int voices) {
     score.head.parts = {plain_part("Many", voices), plain_part("Silent", 2)};
     for (std::int16_t voice = 0; voice < voices; ++voice) {
         if (voice == 3) continue;
-        Note note{.duration = 1920, .key = 90 - 2 * voice, .voice = voice};
+        Note note{.duration = 1920, .key = 90.0 - 2 * voice, .voice = voice};
         score.notes.push_back(note);
     }
     return score;
@@ -601,7 +601,10 @@ TEST(Notation, LinesThatFitNoGridStayApart) {
     for (std::int16_t voice = 0; voice < 2; ++voice) {
         const std::int64_t step = voice == 0 ? 160 : 120;
         for (std::int64_t onset = 0; onset < 480; onset += step) {
-            Note note{.onset = onset, .duration = step, .key = voice == 0 ? ride : snare, .voice = voice};
+            Note note{.onset = onset,
+                      .duration = step,
+                      .key = static_cast<double>(voice == 0 ? ride : snare),
+                      .voice = voice};
             score.notes.push_back(note);
         }
     }
