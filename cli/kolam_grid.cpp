@@ -157,7 +157,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
 
     KolamPatternOptions pattern;
     pattern.title = fmt::format("Kolam on {}", name);
-    pattern.description = fmt::format("{}, {}, {}", dots, gaps_told(made.states), counted(lines, "line"));
+    pattern.description = fmt::format("{}, {}, {}", dots, summary_of(made.states), counted(lines, "line"));
     if (!options.crossings) {
         pattern.description +=
             fmt::format("; seed {}, density {}", options.seed, options.density.value_or(RandomKolam().density));

@@ -54,7 +54,7 @@ Certificate certify(const ReadKolam& kolam) {
                 fmt::format("{} lines by following them, but {} by the Laplacian", certificate.lines, again));
         }
     }
-    certificate.gaps = gaps_told(kolam.states);
+    certificate.gaps = summary_of(kolam.states);
     certificate.symmetry = symmetry_of(kolam);
     return certificate;
 }

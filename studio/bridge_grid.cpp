@@ -170,7 +170,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     const std::string name = grid.is_solid() ? grid.text() + " dots" : counted(grid.dots().size(), "dot");
     options.title = text_of(request, "title", "Kolam on " + name);
     options.description =
-        fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), gaps_told(states), counted(lines, "line"));
+        fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), summary_of(states), counted(lines, "line"));
     options.coloured = flag_of(request, "coloured");
     options.monitor = monitor;
 

@@ -53,7 +53,7 @@ std::string gap_states_text(const DotGrid& grid, const GapStates& states) {
     return text;
 }
 
-std::string gaps_told(const GapStates& states) {
+std::string summary_of(const GapStates& states) {
     const auto joined = std::count(states.begin(), states.end(), GapState::joined);
     std::string text = fmt::format("{} of {} crossed", std::count(states.begin(), states.end(), GapState::crossed),
                                    counted(states.size(), "gap"));

@@ -28,7 +28,7 @@ GapStates parse_gap_states(const DotGrid& grid, std::string_view text);
 /// Formats the states as digits, with each row of gaps as a word.
 std::string gap_states_text(const DotGrid& grid, const GapStates& states);
 /// Counts the gaps: `60 of 84 gaps crossed and 4 joined`.
-std::string gaps_told(const GapStates& states);
+std::string summary_of(const GapStates& states);
 
 /// The end of an arc at a side of a dot. Arc s of a dot is the part of a line that passes it between its sides s and
 /// s + 1. Arcs are numbered over all dots: sides() * dot + s.
