@@ -34,11 +34,11 @@ constexpr Kind no_relief = [](const S& s, Format f) { return !is_relief(s, f); }
 constexpr Kind flat = [](const S&, Format f) { return info(f).kind != FormatKind::model; };
 constexpr Kind model = [](const S& s, Format f) { return is_model(s, f); };
 constexpr Kind fitted = [](const S& s, Format) { return s.place.fit; };
-constexpr Kind stepped = [](const S& s, Format) { return s.place.step.has_value(); };
-constexpr Kind windowed = [](const S& s, Format) { return s.place.window.has_value(); };
+constexpr Kind stepped = [](const S& s, Format) { return s.look.placement.step.has_value(); };
+constexpr Kind windowed = [](const S& s, Format) { return s.look.window.has_value(); };
 constexpr Kind placed = [](const S& s, Format) {
-    return s.place.fit || s.place.window || s.place.dot_spacing || s.place.repeat || s.place.composes ||
-           s.time.generations || s.place.rotate != 0;
+    return s.place.fit || s.look.window || s.look.dot_spacing || s.look.repeat || s.look.composes ||
+           s.time.generations || s.look.placement.rotate != 0;
 };
 constexpr Kind pixels = [](const S&, Format f) { return !is_vector(f); };
 constexpr Kind plot = [](const S& s, Format f) { return is_plot(s, f); };
@@ -51,14 +51,14 @@ constexpr Kind without_parking = [](const S&, Format f) { return !is_for_plotter
 constexpr Kind dxf = [](const S&, Format f) { return f == Format::dxf; };
 constexpr Kind no_gcode = [](const S&, Format f) { return f != Format::gcode; };
 constexpr Kind no_hpgl = [](const S&, Format f) { return f != Format::hpgl; };
-constexpr Kind untiled = [](const S& s, Format) { return !s.page.tile; };
-constexpr Kind untrimmed = [](const S& s, Format) { return s.plot.plotter || s.page.tile; };
+constexpr Kind untiled = [](const S& s, Format) { return !s.paper.tile; };
+constexpr Kind untrimmed = [](const S& s, Format) { return s.plot.plotter || s.paper.tile; };
 constexpr Kind still = [](const S&, Format f) { return !info(f).is_animated; };
 constexpr Kind without_names = [](const S&, Format f) {
     return f != Format::svg && f != Format::pdf && f != Format::dxf;
 };
 constexpr Kind hatched = [](const S& s, Format) { return s.plot.hatch.has_value(); };
-constexpr Kind named_dxf = [](const S& s, Format f) { return s.look.names_tiles && f == Format::dxf; };
+constexpr Kind named_dxf = [](const S& s, Format f) { return s.paper.names_tiles && f == Format::dxf; };
 constexpr Kind gif = [](const S&, Format f) { return f == Format::gif; };
 constexpr Kind eps = [](const S&, Format f) { return f == Format::eps; };
 constexpr Kind swatch = [](const S& s, Format) { return s.place.swatch != SwatchChoice::none; };
@@ -226,18 +226,18 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
 }
 
 void check_sizes(const S& settings, Format format) {
-    const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.page.dpi), why); };
-    const Page& page = settings.page.sheet;
+    const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.paper.dpi), why); };
+    const Page& page = settings.paper.page;
     if (!is_vector(format) && when::flat(settings, format) &&
-        std::max(page.width, page.height) * settings.page.dpi / 25.4 > 2e5) {
+        std::max(page.width, page.height) * settings.paper.dpi / 25.4 > 2e5) {
         refuse("the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
     }
-    const PixelSize size = format == Format::gif ? pixel_size(page, settings.page.dpi) : PixelSize{};
+    const PixelSize size = format == Format::gif ? pixel_size(page, settings.paper.dpi) : PixelSize{};
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
         refuse("a .gif has at most 65,535 pixels per side and 100 million in all; use a smaller size or dpi");
     }
     try {
-        if (settings.page.tile) tiling_of(page, *tile_options(settings));
+        if (settings.paper.tile) tiling_of(page, *tile_options(settings));
     } catch (const std::runtime_error& error) {
         refuse_option("tile", "", error.what());
     }
@@ -290,7 +290,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     if (when::model(settings, format)) return apply(model_rules, settings, format);
     apply(place_rules, settings, format);
     check_sizes(settings, format);
-    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
+    check_press(settings.paper.press, format == PrintFormat::gif ? PrintFormat::png : format);
     if (settings.plot.profile) check_profile(*settings.plot.profile, format);
     apply(plot_rules, settings, format);
     check_pens(settings, format);
