@@ -54,13 +54,13 @@ constexpr Kind no_hpgl = [](const S&, Format f) { return f != Format::hpgl; };
 constexpr Kind untiled = [](const S& s, Format) { return !s.paper.tile; };
 constexpr Kind untrimmed = [](const S& s, Format) { return s.plot.plotter || s.paper.tile; };
 constexpr Kind still = [](const S&, Format f) { return !info(f).is_animated; };
-constexpr Kind without_names = [](const S&, Format f) {
-    return f != Format::svg && f != Format::pdf && f != Format::dxf;
-};
+constexpr Kind without_names = [](const S&, Format f) { return !info(f).has_names; };
 constexpr Kind hatched = [](const S& s, Format) { return s.plot.hatch.has_value(); };
 constexpr Kind named_dxf = [](const S& s, Format f) { return s.paper.names_tiles && f == Format::dxf; };
 constexpr Kind gif = [](const S&, Format f) { return f == Format::gif; };
-constexpr Kind eps = [](const S&, Format f) { return f == Format::eps; };
+constexpr Kind one_page = [](const S&, Format f) {
+    return info(f).kind == FormatKind::vectors && !info(f).has_pages;
+};
 constexpr Kind swatch = [](const S& s, Format) { return s.place.swatch != SwatchChoice::none; };
 constexpr Kind undivided = [](const S&, Format f) { return f != Format::svg && f != Format::gif; };
 constexpr Kind division = [](const S& s, Format) { return s.time.division.has_value(); };
@@ -93,7 +93,7 @@ struct Options {
 struct Rule {
     Kind kind;
     std::array<Options, 18> refused;
-    const char* reason;
+    const char* reason;  ///< may name the `{format}`
 };
 
 constexpr const char* no_names =
@@ -180,7 +180,7 @@ constexpr Rule product_rules[] = {
     {when::division, {{"dot-spacing"}}, "does not apply to tiles that divide; 'step' sets their scale"},
 
     {when::plot, {{lesson}}, "a lesson has colours, numbers and several steps; a plot is one drawing"},
-    {when::eps, {{lesson}}, "a lesson has several pages; an EPS has one"},
+    {when::one_page, {{lesson}}, "a lesson has several pages; an {format} has one"},
     {when::lesson, {{"border"}}, "a lesson teaches the lines of the kolam; a border is not one of them"},
     {when::lesson,
      {{"generations", sheets, "window", "animate", extras}},
@@ -219,8 +219,9 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
         if (!rule.kind(settings, format)) continue;
         for (const OptionInfo* given : settings.given) {
             const auto has = [&](const Options& options) { return options.have(*given); };
-            if (std::any_of(rule.refused.begin(), rule.refused.end(), has))
-                refuse_option(given->name, "", rule.reason);
+            if (std::none_of(rule.refused.begin(), rule.refused.end(), has)) continue;
+            refuse_option(given->name, "",
+                          fmt::format(fmt::runtime(rule.reason), fmt::arg("format", info(format).label)));
         }
     }
 }

@@ -143,8 +143,10 @@ private:
              drawing_warnings(report, print().style, settings(), report.plot.has_value())) {
             made.warn(warning);
         }
-        if (format() == PrintFormat::eps && has_translucent_colours(print().style)) {
-            made.warn("an EPS has no opacity: translucent colours are mixed with that of the ground, or with white");
+        if (!info(format()).has_opacity && has_translucent_colours(print().style)) {
+            made.warn(fmt::format(
+                "an {} has no opacity: translucent colours are mixed with that of the ground, or with white",
+                info(format()).label));
         }
         if (settings().look.kerf > 0 && print().style.tile_edges == TileEdges::once) {
             made.warn(
