@@ -2,6 +2,7 @@
 
 #include "art/deep/window_drawing.h"
 #include "art/product/draw_settings.h"
+#include "art/product/print_kinds.h"
 #include "art/product/print_work.h"
 #include "art/product/unused_options.h"
 #include "art/raster/raster.h"
@@ -86,18 +87,12 @@ OptionValues with_resolution(const OptionValues& values, PrintFormat format) {
 
 /// A product, and the prints that it is. The first of the table that holds is made.
 struct Product {
-    bool (*is_made)(const DrawSettings& settings, PrintFormat format);
+    PrintKind is_made;
     std::unique_ptr<PrintWork> (*plan)(PrintRequest request);
 };
-using S = DrawSettings;
 constexpr Product products[] = {
-    {is_model, plan_model},
-    {[](const S& s, PrintFormat) { return s.time.division.has_value(); }, plan_division},
-    {[](const S& s, PrintFormat format) { return s.time.frames || (format == PrintFormat::gif && !s.time.lesson); },
-     plan_growth},
-    {[](const S& s, PrintFormat) { return s.time.lesson.has_value(); }, plan_lesson},
-    {[](const S& s, PrintFormat) { return s.time.generations.has_value(); }, plan_row},
-    {[](const S&, PrintFormat) { return true; }, plan_one},
+    {when::model, plan_model},   {when::division, plan_division}, {when::grown, plan_growth},
+    {when::lesson, plan_lesson}, {when::row, plan_row},           {when::always, plan_one},
 };
 
 /// @throws SettingError, PatternError
