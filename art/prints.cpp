@@ -2,6 +2,7 @@
 
 #include "art/deep/window_drawing.h"
 #include "art/product/draw_settings.h"
+#include "art/product/print_kinds.h"
 #include "art/product/print_work.h"
 #include "art/product/unused_options.h"
 #include "art/raster/raster.h"
@@ -20,8 +21,8 @@ namespace {
 /// derivation length that it takes. @throws SettingError if there is none
 Document fill_page(const Document& document, DrawSettings& settings) {
     constexpr double steps_across = 40;
-    const Page& page = settings.page.sheet;
-    const double step = settings.place.step.value_or(std::min(page.width, page.height) / steps_across);
+    const Page& page = settings.paper.page;
+    const double step = settings.look.placement.step.value_or(std::min(page.width, page.height) / steps_across);
     const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
     if (styled.grammar().is_spatial() || styled.grammar().map()) {
         refuse_option("fill-page", "", "applies only to tilings in the plane");
@@ -30,12 +31,12 @@ Document fill_page(const Document& document, DrawSettings& settings) {
     limits.budget = settings.work.budget;
     std::string why;
     const glm::dvec2 size = (glm::dvec2(page.width, page.height) - 2 * page.margin) / step;
-    const double around = (page.margin + settings.press.bleed) / step;
+    const double around = (page.margin + settings.paper.press.bleed) / step;
     const auto found =
         find_filled_page(styled.grammar(), read_print_style(document, settings), size, around, limits, why);
     if (!found) refuse_option("fill-page", "", why);
-    settings.place.step.reset();
-    settings.place.window = found->window;
+    settings.look.placement.step.reset();
+    settings.look.window = found->window;
     return document.with({Setting{"fill-page", "derivation length", std::to_string(found->steps)}});
 }
 
@@ -43,8 +44,8 @@ Document fill_page(const Document& document, DrawSettings& settings) {
 /// derivation length it needs. @throws SettingError if there is none
 Document take_swatch(const Document& document, DrawSettings& settings, PrintFormat format) {
     constexpr double steps_across = 40, most_millimetres = 10'000;
-    Page& page = settings.page.sheet;
-    const double step = settings.place.step.value_or(std::min(page.width, page.height) / steps_across);
+    Page& page = settings.paper.page;
+    const double step = settings.look.placement.step.value_or(std::min(page.width, page.height) / steps_across);
     const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
     ReadingLimits limits;
     limits.budget = settings.work.budget;
@@ -61,11 +62,11 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
         refuse_option("swatch", "",
                       fmt::format("the part that repeats would be {:.3g} x {:.3g} m", size.x / 1000, size.y / 1000));
     }
-    settings.place.step = step;
+    settings.look.placement.step = step;
     page = {size.x, size.y, 0};
     if (!is_vector(format) && info(format).kind != FormatKind::model) {
-        const PixelSize pixels = pixel_size(page, settings.page.dpi);
-        page = {pixels.width * 25.4 / settings.page.dpi, pixels.height * 25.4 / settings.page.dpi, 0};
+        const PixelSize pixels = pixel_size(page, settings.paper.dpi);
+        page = {pixels.width * 25.4 / settings.paper.dpi, pixels.height * 25.4 / settings.paper.dpi, 0};
         settings.place.swatch_stretch = glm::dvec2(page.width, page.height) / size;
     }
     check_draw_settings(settings, format);
@@ -77,7 +78,7 @@ Document take_swatch(const Document& document, DrawSettings& settings, PrintForm
 OptionValues with_resolution(const OptionValues& values, PrintFormat format) {
     const auto is_dpi = [](const OptionValue& value) { return value.name == "dpi"; };
     if (format != PrintFormat::gif || std::any_of(values.begin(), values.end(), is_dpi)) return values;
-    const Page page = read_draw_settings(values).page.sheet;
+    const Page page = read_draw_settings(values).paper.page;
     const double dpi = 640 * 25.4 / std::max(page.width, page.height);
     OptionValues result = values;
     result.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 300.0))});
@@ -86,25 +87,19 @@ OptionValues with_resolution(const OptionValues& values, PrintFormat format) {
 
 /// A product, and the prints that it is. The first of the table that holds is made.
 struct Product {
-    bool (*is_made)(const DrawSettings& settings, PrintFormat format);
+    PrintKind is_made;
     std::unique_ptr<PrintWork> (*plan)(PrintRequest request);
 };
-using S = DrawSettings;
 constexpr Product products[] = {
-    {is_model, plan_model},
-    {[](const S& s, PrintFormat) { return s.time.division.has_value(); }, plan_division},
-    {[](const S& s, PrintFormat format) { return s.time.frames || (format == PrintFormat::gif && !s.time.lesson); },
-     plan_growth},
-    {[](const S& s, PrintFormat) { return s.time.lesson.has_value(); }, plan_lesson},
-    {[](const S& s, PrintFormat) { return s.time.generations.has_value(); }, plan_row},
-    {[](const S&, PrintFormat) { return true; }, plan_one},
+    {when::model, plan_model},   {when::division, plan_division}, {when::grown, plan_growth},
+    {when::lesson, plan_lesson}, {when::row, plan_row},           {when::always, plan_one},
 };
 
 /// @throws SettingError, PatternError
 std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat format, const OptionValues& values,
                                       const std::filesystem::path& folder = {}) {
     DrawSettings settings = read_draw_settings(with_resolution(values, format), &folder);
-    if (!settings.press.cmyk.empty()) settings.press.cmyk = folder / settings.press.cmyk;
+    if (!settings.paper.press.cmyk.empty()) settings.paper.press.cmyk = folder / settings.paper.press.cmyk;
     check_draw_settings(settings, format);
     const Document longer = settings.place.swatch != SwatchChoice::none ? take_swatch(document, settings, format)
                             : settings.place.fills_page                 ? fill_page(document, settings)

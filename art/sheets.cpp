@@ -173,7 +173,7 @@ Shared read_shared(OptionValues values, const std::filesystem::path* folder = nu
     for (OptionValue& value : values) (is_sheet_wide(value.name) ? wide : shared.cells).push_back(value);
     check_names(prints().options(), shared.cells);
     shared.print = read_draw_settings(wide, folder);
-    shared.sheet.dpi = shared.print.page.dpi;
+    shared.sheet.dpi = shared.print.paper.dpi;
     apply_options(std::span<const Option<SheetSettings>>(sheet_rows), own, shared.sheet);
     return shared;
 }
@@ -195,7 +195,7 @@ public:
         : format_(known_format(format)), shared_(read_shared(values, &folder)) {
         if (items.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
         DrawSettings& print = shared_.print;
-        if (!print.press.cmyk.empty()) print.press.cmyk = folder / print.press.cmyk;
+        if (!print.paper.press.cmyk.empty()) print.paper.press.cmyk = folder / print.paper.press.cmyk;
         check_draw_settings(print, format_);
         for (const SheetItem& item : items) add_named_cell(item, folder);
         set_options(items);
@@ -239,7 +239,7 @@ private:
             const DrawReport& report = layout.reports[i];
             has_fields = has_fields || report.fields > 0;
             const bool fills_page = cell.repeat && cell.repeat->fills;
-            const std::string missing = missing_letters({cell.title_line, cell.edition});
+            const std::string missing = missing_letters({cell.title_line.value_or(""), cell.edition});
             if (!missing.empty()) warn(letters_warning(missing), cell.title);
             if (layout.windows[i].clips && !fills_page) warn("larger than its place and cut off", cell.title);
             for (const std::string& text :
@@ -272,7 +272,7 @@ private:
     void add_cell(const SheetItem& item, const std::filesystem::path& folder) {
         OptionValues own = item.values;
         PlaceSettings place;
-        place.dpi = shared_.print.page.dpi;
+        place.dpi = shared_.print.paper.dpi;
         apply_options(std::span<const Option<P>>(place_rows), take(own, place_options()), place);
         refuse_alone(own);
         for (const OptionValue& value : own) {
@@ -287,12 +287,12 @@ private:
                                [&](const OptionValue& other) { return other.name == value.name; });
         });
         values.insert(values.end(), assigned.options.begin(), assigned.options.end());
-        values.push_back({"dpi", fmt::format("{}", shared_.print.page.dpi)});
+        values.push_back({"dpi", fmt::format("{}", shared_.print.paper.dpi)});
         const DrawSettings settings = read_draw_settings(values);
         check_draw_settings(settings, format_);
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
         SheetCell cell = print_cell(document, settings, folder);
-        cell.dot_spacing = settings.place.dot_spacing;
+        cell.dot_spacing = settings.look.dot_spacing;
         const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
         if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;
@@ -316,7 +316,7 @@ private:
             if (place.height) refuse_option("height", "", "needs 'x' and 'y'");
             return;
         }
-        const Page& page = shared_.print.page.sheet;
+        const Page& page = shared_.print.paper.page;
         Window slot;
         slot.left = place.x.value_or(page.margin);
         slot.top = place.y.value_or(page.margin);
@@ -335,20 +335,16 @@ private:
         const DrawSettings& print = shared_.print;
         options_.is_centred = true;
         options_.format = format_;
-        options_.page = print.page.sheet;
-        options_.dpi = print.page.dpi;
+        static_cast<WriterOptions&>(options_) = print.paper;
+        static_cast<PictureOptions&>(options_) = print.work;
         options_.title = shared_.sheet.heading;
         options_.subtitle = shared_.sheet.subheading;
         options_.columns = shared_.sheet.columns;
         options_.gap = shared_.sheet.gutter;
         options_.same_scale = shared_.sheet.same_scale;
-        options_.press = print.press;
-        options_.animation = print.time.animation;
-        options_.names_tiles = print.look.names_tiles;
-        options_.threads = print.work.threads;
         const bool has_hand =
             std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return cell.style.hand > 0; });
-        options_.compression = print.work.compression.value_or(has_hand ? 4 : 6);
+        if (has_hand && !options_.compression) options_.compression = 4;
         const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
             return item.document.source().text() == items.front().document.source().text();
         });

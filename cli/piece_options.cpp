@@ -71,11 +71,10 @@ PieceWriting writing_of(const PieceOptions& options, const PieceSource& source, 
     PieceWriting writing;
     writing.title = source.title;
     writing.pattern = source.pattern;
-    writing.dpi = settings.page.dpi;
+    writing.dpi = settings.paper.dpi;
     static_cast<PlotSetup&>(writing.drawing) = plot_setup(settings, format);
     writing.drawing.format = format;
-    writing.drawing.threads = settings.work.threads;
-    writing.drawing.compression = settings.work.compression.value_or(6);
+    static_cast<PictureOptions&>(writing.drawing) = settings.work;
     writing.drawing.monitor = monitor;
     return writing;
 }
@@ -186,8 +185,8 @@ void check_piece_options(const CLI::App& command, const PieceOptions& options) {
     length_in("gap", options.gap, 0, 100);
     DrawSettings settings = read_draw_settings(options.print.values());
     if (!options.sheet.empty()) {
-        settings.page.sheet = sheet_of(options);
-        settings.page.sheet.margin = 0;
+        settings.paper.page = sheet_of(options);
+        settings.paper.page.margin = 0;
     }
     check_draw_settings(settings, format);
 }

@@ -394,7 +394,7 @@ Json answer_pixels(const Json& request, const Monitor& monitor, std::string& byt
         OptionValues own;  // without keys and defines of the pattern
         std::copy_if(values.begin(), values.end(), std::back_inserter(own),
                      [](const OptionValue& value) { return find_option(prints().options(), value.name) != nullptr; });
-        const Page page = read_draw_settings(own).page.sheet;
+        const Page page = read_draw_settings(own).paper.page;
         const double dpi = std::min(width / page.width, height / page.height) * mm_of_inch;
         values.push_back({"dpi", fmt::format("{}", std::clamp(dpi, 1.0, 10'000.0))});
     }

@@ -36,16 +36,25 @@ struct Cell {
     std::array<glm::dvec2, 2> sides{};
 };
 
-/// What a drawing shows, on a page of its own or in a cell of a sheet.
-struct DrawingOptions {
+/// Options of a drawing that users choose.
+struct DrawingSettings {
     PlacementOptions placement;
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step
     std::optional<ViewWindow> window;   ///< the part of the drawing that fills the page within its margins
-    std::optional<DrawnExtent> frame;   ///< extent to place on the page instead of the drawing's own
-    glm::dvec2 stretch{1.0};       ///< scale of the placed drawing, across and down, about the middle of the page
-    bool may_be_empty = false;     ///< a drawing without lines gives an empty page, as for one of several generations
-    bool only_dots = false;        ///< draw only the dots of a kolam, to practise on
-    bool colours_strokes = false;  ///< draw each stroke in the next colour of the palette
+    bool only_dots = false;             ///< draw only the dots of a kolam, to practise on
+    bool colours_strokes = false;       ///< draw each stroke in the next colour of the palette
+    std::optional<Repeat> repeat{};     ///< copies of the drawing
+    bool composes = false;              ///< place it by its shape and mass: see PlacementOptions::balance
+    std::optional<std::string> title_line{};  ///< text below the drawing on the left
+    std::string edition{};                    ///< text below the drawing on the right, such as 3/50; empty: none
+    double kerf = 0;  ///< millimetres; the border of united edges of tiles moves outwards by half of it
+};
+
+/// What a drawing shows, on a page of its own or in a cell of a sheet.
+struct DrawingOptions : DrawingSettings {
+    std::optional<DrawnExtent> frame;  ///< extent to place on the page instead of the drawing's own
+    glm::dvec2 stretch{1.0};           ///< scale of the placed drawing, across and down, about the middle of the page
+    bool may_be_empty = false;  ///< a drawing without lines gives an empty page, as for one of several generations
     std::optional<std::size_t> lesson_step;                ///< show this step of a lesson, from 0: see LessonDrawing
     std::size_t most_steps = 40;                           ///< maximum steps of a lesson; more are joined
     std::shared_ptr<LessonMemo> lesson_memo{};             ///< shared by the drawings of all steps; null: none
@@ -53,14 +62,9 @@ struct DrawingOptions {
     double map_share = 1;                                  ///< progress of a map from the step before, for animations
     std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
     std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
-    std::optional<Repeat> repeat{};                        ///< copies of the drawing
     std::optional<Cell> cell{};                            ///< draw only this part, and the ground only there
     /// Colours of tiles by their neighbours repeat under these translations, in steps.
     std::optional<std::array<glm::dvec2, 2>> tile_period{};
-    bool composes = false;     ///< place it by its shape and mass: see PlacementOptions::balance
-    std::string title_line{};  ///< text below the drawing on the left; empty: none
-    std::string edition{};     ///< text below the drawing on the right, such as 3/50; empty: none
-    double kerf = 0;           ///< millimetres; the border of united edges of tiles moves outwards by half of it
 };
 
 }  // namespace sikku

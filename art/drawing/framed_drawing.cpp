@@ -22,7 +22,7 @@ double letters_of(const Page& page) {
 }
 
 bool has_text(const DrawingOptions& options) {
-    return !options.title_line.empty() || !options.edition.empty();
+    return options.title_line || !options.edition.empty();
 }
 
 /// Omits lines, for drawings without a pen whose frame has one.
@@ -122,9 +122,7 @@ void FramedDrawing::read_text(const Print& print, const Window& window, PathSink
     const double taken = edition.empty() ? 0 : text_width(edition, height);
     if (!edition.empty()) write(edition, left + width - taken);
     const double room = width - taken - (edition.empty() ? 0 : 2 * height);
-    if (!options_.title_line.empty() && room > 4 * height) {
-        write(shortened(options_.title_line, height, room), left);
-    }
+    if (options_.title_line && room > 4 * height) write(shortened(*options_.title_line, height, room), left);
 }
 
 }  // namespace sikku

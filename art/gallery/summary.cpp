@@ -126,7 +126,7 @@ GalleryEntry entry_of(const NamedJobs& item) {
         if (small && entry.thumbnail.empty()) entry.thumbnail = small->file();
     }
     if (is_print(*shown)) {
-        const Page page = read_draw_settings(shown->values()).page.sheet;
+        const Page page = read_draw_settings(shown->values()).paper.page;
         entry.width = static_cast<int>(std::lround(page.width));
         entry.height = static_cast<int>(std::lround(page.height));
     }
@@ -225,7 +225,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
 SheetOptions options_of(const SheetRequest& request, const std::filesystem::path& file) {
     SheetOptions options;
     options.format = *print_format(file);
-    options.page = read_draw_settings({{"size", request.size}, {"margin", "0mm"}}).page.sheet;
+    options.page = read_draw_settings({{"size", request.size}, {"margin", "0mm"}}).paper.page;
     options.page.margin = std::min(options.page.width, options.page.height) / 25;
     // Large sheets are viewed from farther away, and memory is limited.
     options.dpi = std::clamp(300.0 * 420 / std::max(options.page.width, 420.0), 100.0, 300.0);

@@ -96,7 +96,7 @@ DrawingOptions alone(DrawingOptions options) {
     options.window.reset();
     options.frame.reset();
     options.may_be_empty = true;
-    options.title_line.clear();
+    options.title_line.reset();
     options.edition.clear();
     options.border_repeat.reset();
     options.border_corner.reset();

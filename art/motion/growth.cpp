@@ -37,7 +37,7 @@ DrawnExtent frame_of(const Grammar& grammar, const Style& style, DrawOptions opt
     options.begin = nullptr;
     // The lines alone determine the frame: dots lie between them.
     options.colours_strokes = options.only_dots = false;
-    options.title_line.clear();
+    options.title_line.reset();
     options.edition.clear();
     Style lines = style;
     lines.dots.reset();

@@ -2,6 +2,7 @@
 
 #include "art/style/length.h"
 #include "engine/base/input_file.h"
+#include "engine/base/option.h"
 #include "engine/base/text.h"
 #include "engine/language/pattern.h"
 
@@ -268,6 +269,33 @@ std::optional<PlotterProfile> bundled_profile(std::string_view name) {
 
 bool is_profile_file(std::string_view text) {
     return text.find_first_of("./") != std::string_view::npos;
+}
+
+void check_profile(const PlotterProfile& profile, PrintFormat format) {
+    const auto refuse = [&](const std::string& why) { refuse_option("profile", profile.name, why); };
+    const PlotLanguage spoken = format == PrintFormat::hpgl    ? PlotLanguage::hpgl
+                                : format == PrintFormat::gcode ? PlotLanguage::gcode
+                                                               : PlotLanguage::svg;
+    if (is_for_plotters(format) && profile.language != spoken) {
+        refuse(fmt::format("this plotter reads {}, not {}", language_name(profile.language), language_name(spoken)));
+    }
+    if (profile.language != PlotLanguage::svg || format == PrintFormat::svg || format == PrintFormat::dxf) return;
+    refuse(is_vector(format) ? fmt::format("this plotter reads SVG, not {}", info(format).label) : plot_formats);
+}
+
+void check_pen_rules(std::span<const PenRule> rules, const LayerCodes& codes, PrintFormat format) {
+    const bool has_codes = codes.full_speed > 0 && format == PrintFormat::svg;
+    const auto refuse_if = [](bool is_wrong, const char* why) {
+        if (is_wrong) refuse_option("pen", "", why);
+    };
+    for (const PenRule& rule : rules) {
+        const PenSettings& pen = rule.settings;
+        const bool has_height = pen.lift || pen.down || pen.pause;
+        refuse_if(format == PrintFormat::hpgl && has_height, "HP-GL sets the speed of a pen, but not its height");
+        refuse_if(has_codes && pen.lift, "the names of AxiDraw's layers do not contain the height of a raised pen");
+        refuse_if(!is_for_plotters(format) && !has_codes && (has_height || pen.speed),
+                  "an SVG describes pens only in layer names for AxiDraw; 'profile' axidraw writes them");
+    }
 }
 
 }  // namespace sikku

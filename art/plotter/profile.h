@@ -5,6 +5,7 @@
 #include "art/plotter/hpgl.h"
 #include "art/plotter/pen_rules.h"
 #include "art/plotter/plot_options.h"
+#include "art/print/format.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -41,6 +42,13 @@ struct PlotterProfile {
 PlotterProfile parse_profile(const std::string& name, const std::string& text);
 /// Reads a profile. @throws std::runtime_error if the file cannot be read or exceeds 64 kB; PatternError
 PlotterProfile read_profile(const std::filesystem::path& file);
+
+/// @throws SettingError if the plotter does not read the format
+void check_profile(const PlotterProfile& profile, PrintFormat format);
+/// @throws SettingError if the format, or layers with names of these codes, cannot express the settings of pens
+void check_pen_rules(std::span<const PenRule> rules, const LayerCodes& codes, PrintFormat format);
+/// Why a picture is not a plot.
+inline constexpr const char* plot_formats = "a plot is SVG, PDF, EPS, HP-GL, G-code or DXF";
 
 /// A bundled profile.
 struct BundledProfile {

@@ -34,6 +34,9 @@ struct FormatInfo {
     std::string_view extension{};  ///< without the dot
     std::string_view alias{};      ///< another extension of the same format, or empty
     bool is_animated = false;      ///< can draw itself, stroke by stroke
+    bool has_pages = false;        ///< several drawings: pages, or steps that follow each other
+    bool has_names = false;        ///< names or layers for polygons
+    bool has_opacity = true;       ///< translucent colours
     bool has_plates = false;       ///< spot colours and crop marks
     bool has_inks = false;         ///< CMYK and one bit per pixel
     bool is_text = false;          ///< UTF-8 text

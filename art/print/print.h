@@ -33,24 +33,28 @@ struct PartMotion {
     std::vector<std::string> each;  ///< attributes of its polygons, in their order
 };
 
+/// Options of a print or of a sheet that writers of files apply.
+struct WriterOptions {
+    Page page{};
+    double dpi = 300.0;                 ///< pixels per inch of pictures
+    std::optional<double> animation{};  ///< seconds in which an SVG draws its lines, in the order of the turtle
+    bool names_tiles = false;           ///< name the polygons of an SVG, put those of a PDF into layers
+    Press press{};                      ///< settings for the print shop
+};
+
 /// A print about to be made. Writers keep it by reference and must not outlive it.
-struct Print {
-    Page page;
+struct Print : WriterOptions {
     Style style;
     Placement placement;
-    double dpi = 300.0;
     std::string title;                         ///< title of the pattern, UTF-8
     std::string pattern;                       ///< the text of the pattern file, so that the print can be made again
     std::string made;                          ///< the recipe: `sikku 0.1.0, -n 4`
     std::optional<int> travel_colour;          ///< index of the colour that shows pen-up travel
     bool is_plot = false;                      ///< mark layers that no pen draws
     std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour
-    std::optional<double> animation;     ///< seconds in which an SVG draws its lines, in the order of the turtle
-    std::optional<LessonPart> lesson;    ///< lesson of a part of an SVG: see PrintWriter::begin_part()
-    const PartMotion* motion = nullptr;  ///< motion of a part of an SVG; kept by reference
-    std::string style_sheet{};           ///< style sheet of an SVG whose parts move
-    bool names_tiles = false;            ///< name the polygons of an SVG, put those of a PDF into layers
-    Press press;                         ///< settings for the print shop
+    std::optional<LessonPart> lesson;          ///< lesson of a part of an SVG: see PrintWriter::begin_part()
+    const PartMotion* motion = nullptr;        ///< motion of a part of an SVG; kept by reference
+    std::string style_sheet{};                 ///< style sheet of an SVG whose parts move
 };
 
 /// A part of a sheet, in millimetres from its top left corner.
@@ -90,7 +94,7 @@ public:
     virtual void begin_part(const Print& part, const Window& window) = 0;
     /// Completes the document. Call once, after the last stroke.
     virtual void finish() = 0;
-    /// Number of filled polygons drawn so far, in formats that can name them (Print::names_tiles).
+    /// Number of filled polygons drawn so far, in formats that can name them (WriterOptions::names_tiles).
     virtual std::uint64_t polygons() const { return 0; }
 };
 

@@ -38,7 +38,7 @@ std::shared_ptr<const BorderPattern> load_part(const std::string& name, const Dr
         if (witness) witness(name, text);
         const Document document = parse(file.name, std::move(text));
         Diagnostics diagnostics;
-        Style style = read_style(document.pattern(), settings.page.dpi, diagnostics);
+        Style style = read_style(document.pattern(), settings.paper.dpi, diagnostics);
         diagnostics.throw_if_errors();
         return std::make_shared<const BorderPattern>(BorderPattern{document.shared_grammar(), std::move(style)});
     } catch (const NotFound& error) {

@@ -2,6 +2,7 @@
 #include "art/motion/growth.h"
 #include "art/print/tiles.h"
 #include "art/product/draw_settings.h"
+#include "art/product/print_kinds.h"
 #include "art/raster/raster.h"
 
 #include <fmt/format.h>
@@ -17,67 +18,6 @@ namespace {
 using S = DrawSettings;
 using Format = PrintFormat;
 
-bool is_plot(const S& s, Format format) {
-    return s.plot.plotter || is_for_plotters(format);
-}
-/// One file with several derivation lengths side by side.
-bool is_row(const S& s, Format format) {
-    return s.time.generations && format != Format::gif && !s.time.frames && !s.time.division;
-}
-
-/// A kind of print. Several may hold at once.
-using Kind = bool (*)(const S& settings, Format format);
-namespace when {
-constexpr Kind always = [](const S&, Format) { return true; };
-constexpr Kind relief = [](const S& s, Format f) { return is_relief(s, f); };
-constexpr Kind no_relief = [](const S& s, Format f) { return !is_relief(s, f); };
-constexpr Kind flat = [](const S&, Format f) { return info(f).kind != FormatKind::model; };
-constexpr Kind model = [](const S& s, Format f) { return is_model(s, f); };
-constexpr Kind fitted = [](const S& s, Format) { return s.place.fit; };
-constexpr Kind stepped = [](const S& s, Format) { return s.place.step.has_value(); };
-constexpr Kind windowed = [](const S& s, Format) { return s.place.window.has_value(); };
-constexpr Kind placed = [](const S& s, Format) {
-    return s.place.fit || s.place.window || s.place.dot_spacing || s.place.repeat || s.place.composes ||
-           s.time.generations || s.place.rotate != 0;
-};
-constexpr Kind pixels = [](const S&, Format f) { return !is_vector(f); };
-constexpr Kind plot = [](const S& s, Format f) { return is_plot(s, f); };
-constexpr Kind no_plot = [](const S& s, Format f) { return !is_plot(s, f); };
-constexpr Kind drawn_plot = [](const S& s, Format f) { return s.plot.plotter && f != Format::dxf; };
-constexpr Kind without_travel = [](const S& s, Format f) {
-    return !(is_plot(s, f) && info(f).kind == FormatKind::vectors);
-};
-constexpr Kind without_parking = [](const S&, Format f) { return !is_for_plotters(f) || f == Format::dxf; };
-constexpr Kind dxf = [](const S&, Format f) { return f == Format::dxf; };
-constexpr Kind no_gcode = [](const S&, Format f) { return f != Format::gcode; };
-constexpr Kind no_hpgl = [](const S&, Format f) { return f != Format::hpgl; };
-constexpr Kind untiled = [](const S& s, Format) { return !s.page.tile; };
-constexpr Kind untrimmed = [](const S& s, Format) { return s.plot.plotter || s.page.tile; };
-constexpr Kind still = [](const S&, Format f) { return !info(f).is_animated; };
-constexpr Kind without_names = [](const S&, Format f) {
-    return f != Format::svg && f != Format::pdf && f != Format::dxf;
-};
-constexpr Kind hatched = [](const S& s, Format) { return s.plot.hatch.has_value(); };
-constexpr Kind named_dxf = [](const S& s, Format f) { return s.look.names_tiles && f == Format::dxf; };
-constexpr Kind gif = [](const S&, Format f) { return f == Format::gif; };
-constexpr Kind eps = [](const S&, Format f) { return f == Format::eps; };
-constexpr Kind swatch = [](const S& s, Format) { return s.place.swatch != SwatchChoice::none; };
-constexpr Kind undivided = [](const S&, Format f) { return f != Format::svg && f != Format::gif; };
-constexpr Kind division = [](const S& s, Format) { return s.time.division.has_value(); };
-constexpr Kind lesson = [](const S& s, Format) { return s.time.lesson.has_value(); };
-constexpr Kind lesson_of_dots = [](const S& s, Format) { return s.time.lesson && s.look.only_dots; };
-constexpr Kind lesson_cells = [](const S& s, Format f) { return s.time.lesson && !is_vector(f) && f != Format::gif; };
-constexpr Kind row = [](const S& s, Format f) { return is_row(s, f); };
-constexpr Kind plotted_row = [](const S& s, Format f) { return is_row(s, f) && is_plot(s, f); };
-constexpr Kind flat_relief = [](const S& s, Format f) { return flat(s, f) && is_relief(s, f); };
-constexpr Kind relief_row = [](const S& s, Format f) {
-    return is_relief(s, f) && s.time.generations && !s.time.frames;
-};
-constexpr Kind one_generation = [](const S& s, Format) { return !s.time.generations; };
-constexpr Kind untimed = [](const S& s, Format f) { return f != Format::gif && !s.time.division; };
-constexpr Kind unframed = [](const S& s, Format f) { return !s.time.generations || is_row(s, f); };
-}  // namespace when
-
 /// A scope, or a single option.
 struct Options {
     std::optional<Scope> scope{};
@@ -91,15 +31,14 @@ struct Options {
 
 /// A kind of print has none of these options.
 struct Rule {
-    Kind kind;
+    PrintKind kind;
     std::array<Options, 18> refused;
-    const char* reason;
+    const char* reason;  ///< may name the `{format}`
 };
 
 constexpr const char* no_names =
     "applies only to SVG, which names its elements, and to PDF and DXF, which have layers";
 constexpr const char* uncut = "a model is not cut along the edges of its tiles";
-constexpr const char* drawn_formats = "a plot is SVG, PDF, EPS, HP-GL, G-code or DXF";
 
 using enum Scope;
 constexpr Rule model_rules[] = {
@@ -138,7 +77,7 @@ constexpr Rule place_rules[] = {
 };
 constexpr Rule plot_rules[] = {
     {when::dxf, {{pens}}, "a .dxf describes lines, not the pens that draw them"},
-    {when::pixels, {{"plotter"}}, drawn_formats},
+    {when::pixels, {{"plotter"}}, plot_formats},
     {when::without_travel, {{"travel"}}, "needs 'plotter', and SVG, PDF or EPS"},
     {when::no_plot, {{"split"}}, "needs 'plotter'"},
     {when::no_plot, {{plot, strokes, "pen", "refill"}}, "needs 'plotter', HP-GL, G-code or DXF"},
@@ -180,7 +119,7 @@ constexpr Rule product_rules[] = {
     {when::division, {{"dot-spacing"}}, "does not apply to tiles that divide; 'step' sets their scale"},
 
     {when::plot, {{lesson}}, "a lesson has colours, numbers and several steps; a plot is one drawing"},
-    {when::eps, {{lesson}}, "a lesson has several pages; an EPS has one"},
+    {when::one_page, {{lesson}}, "a lesson has several pages; an {format} has one"},
     {when::lesson, {{"border"}}, "a lesson teaches the lines of the kolam; a border is not one of them"},
     {when::lesson,
      {{"generations", sheets, "window", "animate", extras}},
@@ -219,63 +158,34 @@ void apply(std::span<const Rule> rules, const S& settings, Format format) {
         if (!rule.kind(settings, format)) continue;
         for (const OptionInfo* given : settings.given) {
             const auto has = [&](const Options& options) { return options.have(*given); };
-            if (std::any_of(rule.refused.begin(), rule.refused.end(), has))
-                refuse_option(given->name, "", rule.reason);
+            if (std::none_of(rule.refused.begin(), rule.refused.end(), has)) continue;
+            refuse_option(given->name, "",
+                          fmt::format(fmt::runtime(rule.reason), fmt::arg("format", info(format).label)));
         }
     }
 }
 
 void check_sizes(const S& settings, Format format) {
-    const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.page.dpi), why); };
-    const Page& page = settings.page.sheet;
+    const auto refuse = [&](const char* why) { refuse_option("dpi", fmt::format("{:g}", settings.paper.dpi), why); };
+    const Page& page = settings.paper.page;
     if (!is_vector(format) && when::flat(settings, format) &&
-        std::max(page.width, page.height) * settings.page.dpi / 25.4 > 2e5) {
+        std::max(page.width, page.height) * settings.paper.dpi / 25.4 > 2e5) {
         refuse("the picture would be over 200,000 pixels wide or high; use a smaller size or dpi");
     }
-    const PixelSize size = format == Format::gif ? pixel_size(page, settings.page.dpi) : PixelSize{};
+    const PixelSize size = format == Format::gif ? pixel_size(page, settings.paper.dpi) : PixelSize{};
     if (std::max(size.width, size.height) > 65'535 || std::int64_t{size.width} * size.height > 100'000'000) {
         refuse("a .gif has at most 65,535 pixels per side and 100 million in all; use a smaller size or dpi");
     }
     try {
-        if (settings.page.tile) tiling_of(page, *tile_options(settings));
+        if (settings.paper.tile) tiling_of(page, *tile_options(settings));
     } catch (const std::runtime_error& error) {
         refuse_option("tile", "", error.what());
     }
 }
 
-/// Checks that the plotter reads the format.
-void check_profile(const PlotterProfile& profile, Format format) {
-    const auto refuse = [&](const std::string& why) { refuse_option("profile", profile.name, why); };
-    const PlotLanguage spoken = format == Format::hpgl    ? PlotLanguage::hpgl
-                                : format == Format::gcode ? PlotLanguage::gcode
-                                                          : PlotLanguage::svg;
-    if (is_for_plotters(format) && profile.language != spoken) {
-        refuse(fmt::format("this plotter reads {}, not {}", language_name(profile.language), language_name(spoken)));
-    }
-    if (profile.language != PlotLanguage::svg || format == Format::svg || format == Format::dxf) return;
-    refuse(is_vector(format) ? fmt::format("this plotter reads SVG, not {}", info(format).label) : drawn_formats);
-}
-
-/// Checks that the format can express the settings of single pens.
-void check_pens(const S& settings, Format format) {
-    const bool has_codes =
-        settings.plot.profile && settings.plot.profile->layers.full_speed > 0 && format == Format::svg;
-    const auto refuse_if = [](bool is_wrong, const char* why) {
-        if (is_wrong) refuse_option("pen", "", why);
-    };
-    for (const PenRule& rule : settings.plot.pen_rules) {
-        const PenSettings& pen = rule.settings;
-        const bool has_height = pen.lift || pen.down || pen.pause;
-        refuse_if(format == Format::hpgl && has_height, "HP-GL sets the speed of a pen, but not its height");
-        refuse_if(has_codes && pen.lift, "the names of AxiDraw's layers do not contain the height of a raised pen");
-        refuse_if(!is_for_plotters(format) && !has_codes && (has_height || pen.speed),
-                  "an SVG describes pens only in layer names for AxiDraw; 'profile' axidraw writes them");
-    }
-}
-
 void check_generations(const S& settings, Format format) {
     const auto [first, last] = *settings.time.generations;
-    const std::int64_t most = is_row(settings, format) ? 100 : most_frames;
+    const std::int64_t most = when::row(settings, format) ? 100 : most_frames;
     if (last < first || last - first >= most) {
         refuse_option("generations", fmt::format("{}:{}", first, last),
                       fmt::format("expected up to {} derivation lengths, the lowest first", most));
@@ -290,10 +200,11 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     if (when::model(settings, format)) return apply(model_rules, settings, format);
     apply(place_rules, settings, format);
     check_sizes(settings, format);
-    check_press(settings.press, format == PrintFormat::gif ? PrintFormat::png : format);
-    if (settings.plot.profile) check_profile(*settings.plot.profile, format);
+    check_press(settings.paper.press, format == PrintFormat::gif ? PrintFormat::png : format);
+    const std::optional<PlotterProfile>& profile = settings.plot.profile;
+    if (profile) check_profile(*profile, format);
     apply(plot_rules, settings, format);
-    check_pens(settings, format);
+    check_pen_rules(settings.plot.pen_rules, profile ? profile->layers : LayerCodes{}, format);
     apply(product_rules, settings, format);
     if (format == PrintFormat::gif && !settings.time.generations && !settings.time.lesson &&
         !settings.time.division) {

@@ -74,9 +74,9 @@ Page sheet(const char* option, const std::string& text, double dpi) {
 }
 
 void set_window(DrawSettings& settings, const std::string& text) {
-    settings.place.window = parse_window(text);
+    settings.look.window = parse_window(text);
     settings.place.window_text = text;
-    if (!settings.place.window) {
+    if (!settings.look.window) {
         refuse_option(
             "window", text,
             "expected X0,Y0,X1,Y1 in turtle steps, decimal numbers without exponents, X0 below X1 and Y0 below Y1");
@@ -84,8 +84,8 @@ void set_window(DrawSettings& settings, const std::string& text) {
 }
 
 void set_repeat(DrawSettings& settings, const std::string& text) {
-    settings.place.repeat = parse_repeat(text);
-    if (settings.place.repeat) return;
+    settings.look.repeat = parse_repeat(text);
+    if (settings.look.repeat) return;
     std::string names;
     for (const std::string_view name : repeat_groups()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
     refuse_option("repeat", text,
@@ -127,7 +127,7 @@ void set_hatch(DrawSettings& settings, const std::string& text) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string part = text.substr(begin, end - begin);
         if (begin == 0) {
-            hatch.spacing = length("hatch", part, settings.page.dpi);
+            hatch.spacing = length("hatch", part, settings.paper.dpi);
             if (!(hatch.spacing >= 0.05 && hatch.spacing <= longest)) {
                 refuse_option("hatch", text, "expected a spacing of at least 0.05mm and at most 10 m");
             }
@@ -162,7 +162,7 @@ std::vector<double> heights(const char* option, const std::string& text, double 
 
 void set_relief(DrawSettings& settings, const std::string& text) {
     settings.relief.heights.emplace();
-    if (!text.empty()) settings.relief.heights = heights("relief", text, settings.page.dpi);
+    if (!text.empty()) settings.relief.heights = heights("relief", text, settings.paper.dpi);
 }
 
 /// Parses the thickness, and how far the base reaches beyond the drawing.
@@ -170,7 +170,7 @@ void set_base(DrawSettings& settings, const std::string& text) {
     constexpr double most = 1000;
     const std::size_t comma = text.find(',');
     const auto part = [&](const std::string& of) {
-        const double value = length("base", of, settings.page.dpi);
+        const double value = length("base", of, settings.paper.dpi);
         if (!(value >= 0 && value <= most)) refuse_option("base", text, "expected lengths from 0 to 1 m");
         return value;
     };
@@ -180,7 +180,7 @@ void set_base(DrawSettings& settings, const std::string& text) {
 }
 
 void set_paper(DrawSettings& settings, const std::string& text) {
-    settings.plot.paper = parse_hpgl_paper(text, settings.page.dpi);
+    settings.plot.paper = parse_hpgl_paper(text, settings.paper.dpi);
     if (!settings.plot.paper) {
         refuse_option("hpgl-paper", text,
                       "expected A4, A3, letter or tabloid, or the limits of the plotter: 400x276mm[,centre]");
@@ -190,11 +190,11 @@ void set_paper(DrawSettings& settings, const std::string& text) {
 /// Parses a sheet size and the margin that the printer cannot reach.
 void set_tile(DrawSettings& settings, const std::string& text) {
     const std::size_t comma = text.find(',');
-    settings.page.tile = sheet("tile", text.substr(0, comma), settings.page.dpi);
-    settings.page.tile->margin = 5.0;
+    settings.paper.tile = sheet("tile", text.substr(0, comma), settings.paper.dpi);
+    settings.paper.tile->margin = 5.0;
     if (comma == std::string::npos) return;
-    settings.page.tile->margin = length("tile", text.substr(comma + 1), settings.page.dpi);
-    if (settings.page.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
+    settings.paper.tile->margin = length("tile", text.substr(comma + 1), settings.paper.dpi);
+    if (settings.paper.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
 }
 
 void use_profile(DrawSettings& settings, PlotterProfile profile) {
@@ -249,11 +249,11 @@ void set_word(const char* option, std::string_view word, const std::string& text
 
 void set_overprint(DrawSettings& settings, const std::string& text) {
     if (text == "black") {
-        settings.press.overprint = Overprint::black;
+        settings.paper.press.overprint = Overprint::black;
     } else if (text == "spots") {
-        settings.press.overprint = Overprint::spots;
+        settings.paper.press.overprint = Overprint::spots;
     } else if (text == "all") {
-        settings.press.overprint = Overprint::all;
+        settings.paper.press.overprint = Overprint::all;
     } else {
         refuse_option("overprint", text, "expected black, spots or all");
     }
@@ -277,15 +277,15 @@ const std::array own_rows = {
          .value = "SIZE",
          .scope = Scope::page},
         [](S& s, Text t) {
-            const Page page = sheet("size", t, s.page.dpi);
-            s.page.sheet.width = page.width;
-            s.page.sheet.height = page.height;
+            const Page page = sheet("size", t, s.paper.dpi);
+            s.paper.page.width = page.width;
+            s.paper.page.height = page.height;
         }},
     Option<S>{{.name = "landscape", .help = "landscape page", .scope = Scope::page, .kind = flag},
-              [](S& s, Text t) { s.page.landscape = is_true(t); }},
+              [](S& s, Text t) { s.paper.landscape = is_true(t); }},
     Option<S>{{.name = "margin", .help = "margin on all four sides (10mm)", .value = "LENGTH", .scope = Scope::page},
               [](S& s, Text t) {
-                  s.page.sheet.margin = length_between("margin", t, s.page.dpi, 0, any_length, "expected 0 or more");
+                  s.paper.page.margin = length_between("margin", t, s.paper.dpi, 0, any_length, "expected 0 or more");
               }},
     Option<S>{{.name = "fit",
                .help = "fill the page within its margins (default)",
@@ -298,15 +298,15 @@ const std::array own_rows = {
                        "instead of filling the margins",
                .scope = Scope::place,
                .kind = flag},
-              [](S& s, Text t) { s.place.composes = is_true(t); }},
+              [](S& s, Text t) { s.look.composes = is_true(t); }},
     Option<S>{{.name = "step",
                .help = "length of one turtle step on paper, instead of fitting the page",
                .value = "LENGTH",
                .scope = Scope::scale,
                .sets_scale = true},
               [](S& s, Text t) {
-                  s.place.step = length_between("step", t, s.page.dpi, 1e-9, longest,
-                                                "expected a step of at least 10^-9 mm and at most 10 m");
+                  s.look.placement.step = length_between("step", t, s.paper.dpi, 1e-9, longest,
+                                                         "expected a step of at least 10^-9 mm and at most 10 m");
               }},
     Option<S>{{.name = "fill-page",
                .help = "cover the whole page with a tiling, at the length of a step that 'step' sets (a 40th of the "
@@ -338,10 +338,10 @@ const std::array own_rows = {
                .unit = "deg",
                .kind = number,
                .neutral = "0"},
-              [](S& s, Text t) { s.place.rotate = to_number(t); }},
+              [](S& s, Text t) { s.look.placement.rotate = to_number(t); }},
     Option<S>{
         {.name = "mirror", .help = "mirror left and right, before rotating", .scope = Scope::turn, .kind = flag},
-        [](S& s, Text t) { s.place.mirror = is_true(t); }},
+        [](S& s, Text t) { s.look.placement.mirror = is_true(t); }},
     Option<S>{{.name = "view",
                .help = "camera of drawings in space: degrees around and up, or front, side or top; then, for a "
                        "perspective, its distance in radii of the drawing (4)",
@@ -375,8 +375,8 @@ const std::array own_rows = {
                .scope = Scope::kolam,
                .sets_scale = true},
               [](S& s, Text t) {
-                  s.place.dot_spacing = length_between("dot-spacing", t, s.page.dpi, above_0, longest,
-                                                       "expected a length above 0 and at most 10 m");
+                  s.look.dot_spacing = length_between("dot-spacing", t, s.paper.dpi, above_0, longest,
+                                                      "expected a length above 0 and at most 10 m");
               }},
     Option<S>{
         {.name = "border",
@@ -465,8 +465,8 @@ const std::array own_rows = {
                .scope = Scope::file,
                .unit = "s"},
               [](S& s, Text t) {
-                  s.time.animation = seconds_between("animate", t, 20, above_0, 86'400,
-                                                     "expected seconds, above 0 and at most a day");
+                  s.paper.animation = seconds_between("animate", t, 20, above_0, 86'400,
+                                                      "expected seconds, above 0 and at most a day");
               }},
     Option<S>{{.name = "divide",
                .help = "animation in which each tile divides into its parts, from generation to generation: .gif or "
@@ -485,7 +485,7 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::file,
                .kind = flag},
-              [](S& s, Text t) { s.look.names_tiles = is_true(t); }},
+              [](S& s, Text t) { s.paper.names_tiles = is_true(t); }},
     Option<S>{
         {.name = "kerf",
          .help = "width of the cut of a laser or knife, up to 10mm, for edges of tiles that are drawn once: the "
@@ -495,7 +495,7 @@ const std::array own_rows = {
          .scope = Scope::tiling,
          .neutral = "0mm"},
         [](S& s, Text t) {
-            s.look.kerf = length_between("kerf", t, s.page.dpi, 0, 10, "expected a length from 0 to 10mm");
+            s.look.kerf = length_between("kerf", t, s.paper.dpi, 0, 10, "expected a length from 0 to 10mm");
         }},
     Option<S>{
         {.name = "lesson",
@@ -521,7 +521,7 @@ const std::array own_rows = {
                .value = "LENGTH",
                .group = kolams,
                .scope = Scope::sheets},
-              [](S& s, Text t) { s.page.overlap = length("overlap", t, s.page.dpi); }},
+              [](S& s, Text t) { s.paper.overlap = length("overlap", t, s.paper.dpi); }},
     Option<S>{
         {.name = "relief",
          .help = "a solid for 3-D printers, as STL, OBJ or glTF: heights of the colours above the base, in the order "
@@ -535,7 +535,7 @@ const std::array own_rows = {
                .value = "HEIGHT[,HEIGHT]...",
                .group = reliefs,
                .scope = Scope::solid},
-              [](S& s, Text t) { s.relief.ridges = heights("ridge", t, s.page.dpi); }},
+              [](S& s, Text t) { s.relief.ridges = heights("ridge", t, s.paper.dpi); }},
     Option<S>{{.name = "base",
                .help = "thickness of the base (1.2mm; 0: no base), which is as large as the page, or reaches the "
                        "length BEYOND past the drawing",
@@ -550,7 +550,7 @@ const std::array own_rows = {
                .scope = Scope::solid},
               [](S& s, Text t) {
                   s.relief.groove =
-                      length_between("groove", t, s.page.dpi, 0, longest, "expected a width from 0 to 10 m");
+                      length_between("groove", t, s.paper.dpi, 0, longest, "expected a width from 0 to 10 m");
               }},
     Option<S>{
         {.name = "plotter",
@@ -577,7 +577,7 @@ const std::array own_rows = {
                .scope = Scope::strokes},
               [](S& s, Text t) {
                   s.plot.split =
-                      length_between("split", t, s.page.dpi, above_0, any_length, "expected a length above 0");
+                      length_between("split", t, s.paper.dpi, above_0, any_length, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
                .help = "width of the plotter's pen; wider strokes take several passes (each stroke's own width)",
@@ -585,7 +585,7 @@ const std::array own_rows = {
                .group = plotters,
                .scope = Scope::plot},
               [](S& s, Text t) {
-                  s.plot.pen_width = length_between("pen-width", t, s.page.dpi, 0.05, 100,
+                  s.plot.pen_width = length_between("pen-width", t, s.paper.dpi, 0.05, 100,
                                                     "expected a width between 0.05mm and 100mm");
               }},
     Option<S>{{.name = "hatch",
@@ -614,21 +614,21 @@ const std::array own_rows = {
          .scope = Scope::pens,
          .is_list = true,
          .moves_machine = true},
-        [](S& s, Text t) { read_as("pen", t, [&] { s.plot.pen_rules.push_back(parse_pen_rule(t, s.page.dpi)); }); }},
+        [](S& s, Text t) { read_as("pen", t, [&] { s.plot.pen_rules.push_back(parse_pen_rule(t, s.paper.dpi)); }); }},
     Option<S>{{.name = "park",
                .help = "place of the pen while it is changed, from the bottom left corner of the page; HP-GL, G-code",
                .value = "X,Y",
                .group = plotters,
                .scope = Scope::pens,
                .moves_machine = true},
-              [](S& s, Text t) { read_as("park", t, [&] { s.plot.park = parse_place(t, s.page.dpi); }); }},
+              [](S& s, Text t) { read_as("park", t, [&] { s.plot.park = parse_place(t, s.paper.dpi); }); }},
     Option<S>{{.name = "refill",
                .help = "dip the pen at a place before it draws, and again after each LENGTH, such as 5m@10,10",
                .value = "LENGTH@X,Y",
                .group = plotters,
                .scope = Scope::pens,
                .moves_machine = true},
-              [](S& s, Text t) { read_as("refill", t, [&] { s.plot.refill = parse_refill(t, s.page.dpi); }); }},
+              [](S& s, Text t) { read_as("refill", t, [&] { s.plot.refill = parse_refill(t, s.paper.dpi); }); }},
     Option<S>{{.name = "resume",
                .help = "begin where an interrupted plot had drawn this length, such as 12.5m",
                .value = "LENGTH",
@@ -637,7 +637,7 @@ const std::array own_rows = {
                .moves_machine = true},
               [](S& s, Text t) {
                   s.plot.resume =
-                      length_between("resume", t, s.page.dpi, above_0, any_length, "expected a length above 0");
+                      length_between("resume", t, s.paper.dpi, above_0, any_length, "expected a length above 0");
               }},
     Option<S>{{.name = "arcs",
                .help = "follow curves by arcs where they fit (default); G-code",
@@ -654,7 +654,7 @@ const std::array own_rows = {
                .neutral = "0mm"},
               [](S& s, Text t) {
                   s.plot.gcode.least_arc =
-                      length_between("min-arc", t, s.page.dpi, 0, any_length, "expected a length of 0 or more");
+                      length_between("min-arc", t, s.paper.dpi, 0, any_length, "expected a length of 0 or more");
               }},
     Option<S>{{.name = "hpgl-paper",
                .help = "sheet in an HP 7475A (A4, A3, letter, tabloid), or the limits of another plotter, with "
@@ -723,26 +723,26 @@ const std::array own_rows = {
                .group = presses,
                .scope = Scope::trim,
                .neutral = "0mm"},
-              [](S& s, Text t) { s.press.bleed = length("bleed", t, s.page.dpi); }},
+              [](S& s, Text t) { s.paper.press.bleed = length("bleed", t, s.paper.dpi); }},
     Option<S>{{.name = "marks",
                .help = "crop marks outside the bleed; PDF",
                .group = presses,
                .scope = Scope::trim,
                .kind = flag},
-              [](S& s, Text t) { s.press.marks = is_true(t); }},
+              [](S& s, Text t) { s.paper.press.marks = is_true(t); }},
     Option<S>{{.name = "spot",
                .help = "separate ink for a colour of the drawing, such as Kaavi=#b3452c; PDF; may be repeated",
                .value = "NAME=COLOUR",
                .group = presses,
                .scope = Scope::press,
                .is_list = true},
-              [](S& s, Text t) { read_as("spot", t, [&] { add_spot(s.press.spots, parse_spot(t)); }); }},
+              [](S& s, Text t) { read_as("spot", t, [&] { add_spot(s.paper.press.spots, parse_spot(t)); }); }},
     Option<S>{{.name = "registration",
                .help = "registration marks outside the bleed; PDF",
                .group = presses,
                .scope = Scope::trim,
                .kind = flag},
-              [](S& s, Text t) { s.press.registration = is_true(t); }},
+              [](S& s, Text t) { s.paper.press.registration = is_true(t); }},
     Option<S>{{.name = "overprint",
                .help = "print black lines, areas in spot colours, or both, over the inks beneath them; PDF",
                .value = "black|spots|all",
@@ -755,7 +755,7 @@ const std::array own_rows = {
                .group = presses,
                .scope = Scope::press,
                .names_file = [](std::string_view file) { return !file.empty(); }},
-              [](S& s, Text t) { s.press.cmyk = t; }},
+              [](S& s, Text t) { s.paper.press.cmyk = t; }},
     Option<S>{{.name = "bits",
                .help = "bits per channel: 8, or 1 for line art, best at 600 dpi and more; TIFF (8)",
                .value = "1|8",
@@ -764,8 +764,8 @@ const std::array own_rows = {
                .kind = whole,
                .neutral = "8"},
               [](S& s, Text t) {
-                  s.press.bits = to_int(t);
-                  if (s.press.bits != 1 && s.press.bits != 8) refuse_option("bits", t, "expected 1 or 8");
+                  s.paper.press.bits = to_int(t);
+                  if (s.paper.press.bits != 1 && s.paper.press.bits != 8) refuse_option("bits", t, "expected 1 or 8");
               }},
     Option<S>{
         {.name = "screen",
@@ -777,8 +777,9 @@ const std::array own_rows = {
          .neutral = "threshold"},
         [](S& s, Text t) {
             read_as("screen", t, [&] {
-                s.press.screen = parse_screen(t);
-                if (s.press.screen.kind == Screen::Kind::halftone) Screener(s.press.screen, 1, s.page.dpi);
+                s.paper.press.screen = parse_screen(t);
+                if (s.paper.press.screen.kind == Screen::Kind::halftone)
+                    Screener(s.paper.press.screen, 1, s.paper.dpi);
             });
         }},
     Option<S>{{.name = "icc",
@@ -787,7 +788,7 @@ const std::array own_rows = {
                .scope = Scope::pixels,
                .kind = flag,
                .is_on = true},
-              [](S& s, Text t) { s.press.icc = is_true(t); }},
+              [](S& s, Text t) { s.paper.press.icc = is_true(t); }},
     Option<S>{{.name = "dpi",
                .help = "pixels per inch of pictures, and of px in lengths, 1 to 10,000 (300, or 640 pixels along the "
                        "longer side of a .gif)",
@@ -798,7 +799,7 @@ const std::array own_rows = {
                .kind = number,
                .least = 1,
                .most = 10'000},
-              [](S& s, Text t) { s.page.dpi = to_number(t); }},
+              [](S& s, Text t) { s.paper.dpi = to_number(t); }},
     Option<S>{{.name = "compression",
                .help = "PNG compression, 1 (fast) to 9 (small) (6, or 4 for hand-drawn lines)",
                .value = "LEVEL",
@@ -862,7 +863,7 @@ namespace {
 std::optional<HpglPaper> plotter_paper(const DrawSettings& settings) {
     const std::optional<PlotterProfile>& profile = settings.plot.profile;
     std::optional<HpglPaper> paper = settings.plot.paper;
-    if (!paper && profile && profile->paper) paper = paper_for(*profile->paper, settings.page.sheet);
+    if (!paper && profile && profile->paper) paper = paper_for(*profile->paper, settings.paper.page);
     if (paper && profile) paper = with_unit(*paper, profile->unit);
     return paper;
 }
@@ -871,11 +872,11 @@ std::optional<HpglPaper> plotter_paper(const DrawSettings& settings) {
 void widen_margin(DrawSettings& settings) {
     const std::optional<HpglPaper> paper = plotter_paper(settings);
     if (!paper) return;
-    Page& page = settings.page.sheet;
+    Page& page = settings.paper.page;
     const double margin = hpgl_margin(*paper, page);
     if (margin <= page.margin || 2 * margin >= std::min(page.width, page.height)) return;
     page.margin = margin;
-    settings.page.widens_margin = true;
+    settings.paper.widens_margin = true;
 }
 
 }  // namespace
@@ -912,8 +913,8 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
     apply_options(draw_options(), values, settings);
     settings.plot.gcode.drawing_feed = 60 * settings.plot.speeds.drawing;
     settings.plot.gcode.travel_feed = 60 * settings.plot.speeds.travelling;
-    Page& page = settings.page.sheet;
-    if (settings.page.landscape && page.height > page.width) std::swap(page.width, page.height);
+    Page& page = settings.paper.page;
+    if (settings.paper.landscape && page.height > page.width) std::swap(page.width, page.height);
     const bool has_margin =
         std::any_of(values.begin(), values.end(), [](const OptionValue& value) { return value.name == "margin"; });
     if (!has_margin) widen_margin(settings);
@@ -925,29 +926,18 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
 }
 
 std::shared_ptr<const TileOptions> tile_options(const DrawSettings& settings) {
-    TileOptions options{.sheet = *settings.page.tile};
-    options.overlap = settings.page.overlap.value_or(options.overlap);
+    TileOptions options{.sheet = *settings.paper.tile};
+    options.overlap = settings.paper.overlap.value_or(options.overlap);
     return std::make_shared<const TileOptions>(options);
 }
 
 DrawingOptions drawing_options(const DrawSettings& settings, const Document& document) {
     DrawingOptions options;
-    options.placement.rotate = settings.place.rotate;
-    options.placement.mirror = settings.place.mirror;
-    options.placement.step = settings.place.step;
-    options.window = settings.place.window;
-    options.only_dots = settings.look.only_dots;
-    options.colours_strokes = settings.look.colours_strokes;
-    if (settings.look.title_line) {
-        options.title_line = settings.look.title_line->empty() ? document.text("title") : *settings.look.title_line;
-        if (options.title_line.empty()) {
-            options.title_line = std::filesystem::path(document.source().name()).stem().string();
-        }
-    }
-    options.edition = settings.look.edition;
-    options.repeat = settings.place.repeat;
-    options.composes = settings.place.composes;
-    options.kerf = settings.look.kerf;
+    static_cast<DrawingSettings&>(options) = settings.look;
+    std::optional<std::string>& title = options.title_line;
+    if (title && title->empty()) title = document.text("title");
+    if (title && title->empty()) title = std::filesystem::path(document.source().name()).stem().string();
+    if (title && title->empty()) title.reset();
     return options;
 }
 
@@ -993,18 +983,11 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     PlotSetup setup;
     if (!settings.plot.plotter && !is_for_plotters(format)) return setup;
     const std::optional<PlotterProfile>& profile = settings.plot.profile;
-    PlotOptions& plot = setup.plot.emplace();
-    plot.split = settings.plot.split;
-    plot.hatch = settings.plot.hatch;
-    plot.leaves_tiles = settings.look.names_tiles && format == PrintFormat::dxf;
-    plot.pen_width = settings.plot.pen_width;
-    plot.pens = settings.plot.pens == 0 && profile ? profile->pens : settings.plot.pens;
-    plot.speeds = settings.plot.speeds;
+    PlotOptions& plot = setup.plot.emplace(settings.plot);
+    plot.leaves_tiles = settings.paper.names_tiles && format == PrintFormat::dxf;
+    if (plot.pens == 0 && profile) plot.pens = profile->pens;
     if (profile) plot.rules = profile->rules;
     plot.rules.insert(plot.rules.end(), settings.plot.pen_rules.begin(), settings.plot.pen_rules.end());
-    plot.refill = settings.plot.refill;
-    plot.resume = settings.plot.resume;
-    plot.park = settings.plot.park;
     if (!plot.park && profile && is_for_plotters(format)) plot.park = profile->park;
     setup.shows_travel = settings.plot.travel;
     setup.gcode = settings.plot.gcode;
@@ -1032,9 +1015,9 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     if (!settings.look.view.empty()) set("view", settings.look.view);
     if (!settings.look.light.empty()) set("light", settings.look.light);
     Diagnostics diagnostics;
-    Style style = read_style(drawn.pattern(), settings.page.dpi, diagnostics);
+    Style style = read_style(drawn.pattern(), settings.paper.dpi, diagnostics);
     diagnostics.throw_if_errors();
-    if ((settings.look.dots || settings.place.dot_spacing || settings.time.lesson) && !style.dots)
+    if ((settings.look.dots || settings.look.dot_spacing || settings.time.lesson) && !style.dots)
         style.dots.emplace();
     return style;
 }

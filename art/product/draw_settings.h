@@ -6,9 +6,7 @@
 #include "art/plotter/plot_options.h"
 #include "art/plotter/profile.h"
 #include "art/print/format.h"
-#include "art/print/page.h"
-#include "art/print/press.h"
-#include "art/print/repeat.h"
+#include "art/print/print.h"
 #include "art/style/style.h"
 #include "art/writer/draw_options.h"
 #include "art/writer/swatch.h"
@@ -30,45 +28,30 @@ enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 // Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 
-/// The paper.
-struct PageSettings {
-    Page sheet;          ///< A4 with margins of 10 mm
-    double dpi = 300.0;  ///< pixels per inch of pictures, and of px in lengths; 1 to 10,000
+/// The paper, and what writers of files apply.
+struct PaperSettings : WriterOptions {
     bool landscape = false;
     bool widens_margin = false;     ///< the margin is the one that the plotter needs
     std::optional<Page> tile;       ///< sheet of a tiled print
     std::optional<double> overlap;  ///< overlap of neighbouring sheets; 10 mm
 };
 
-/// Where the drawing lies on the page, and how often.
+/// How the place of the drawing on the page is found.
 struct PlaceSettings {
-    bool fit = false;                   ///< requested explicitly; excludes `step` and `window`
-    std::optional<double> step;         ///< length of one turtle step on paper; absent: fit the page
-    std::optional<double> dot_spacing;  ///< distance between the nearest dots
-    std::optional<ViewWindow> window;   ///< part of the drawing that fills the page
-    std::string window_text;            ///< the window as given, which may have more digits than a double
-    double rotate = 0.0;                ///< anticlockwise
-    bool mirror = false;                ///< before the rotation
-    std::optional<Repeat> repeat;       ///< draw many copies
-    bool composes = false;              ///< place the drawing by its shape and mass
-    bool fills_page = false;            ///< cover the page with a tiling
+    bool fit = false;         ///< requested explicitly; excludes `step` and `window`
+    std::string window_text;  ///< the window as given, which may have more digits than a double
+    bool fills_page = false;  ///< cover the page with a tiling
     SwatchChoice swatch = SwatchChoice::none;
     std::optional<Swatch> swatch_place{};  ///< the part found, set when the print is planned
     glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
 };
 
-/// What is drawn besides the keys of the pattern.
-struct LookSettings {
-    std::string view;                 ///< value for `view:`; empty: the pattern's
-    std::string light;                ///< value for `light:`; empty: the pattern's
-    std::optional<std::string> dots;  ///< value for `dots:`; empty: default size and colour
-    bool only_dots = false;
-    bool colours_strokes = false;           ///< one colour for each strand
-    std::optional<std::string> border;      ///< value for `border:`
-    std::optional<std::string> title_line;  ///< text below; empty: the pattern's title
-    std::string edition;                    ///< text below on the right
-    double kerf = 0;                        ///< width of a cut along the edges of tiles; 0: they are drawn
-    bool names_tiles = false;               ///< see Print::names_tiles
+/// What is drawn, and values for keys of the pattern. An empty `title_line` is the pattern's title.
+struct LookSettings : DrawingSettings {
+    std::string view;                   ///< value for `view:`; empty: the pattern's
+    std::string light;                  ///< value for `light:`; empty: the pattern's
+    std::optional<std::string> dots;    ///< value for `dots:`; empty: default size and colour
+    std::optional<std::string> border;  ///< value for `border:`
 };
 
 /// Several derivation lengths, and what moves.
@@ -79,24 +62,15 @@ struct TimeSettings {
     std::optional<double> hold;        ///< minimum display time of the last generation
     bool fit_frames = false;           ///< fit each generation to the page
     std::optional<double> division;    ///< seconds in which tiles divide from one generation to the next
-    std::optional<double> animation;   ///< duration of an SVG that draws itself
     std::optional<double> lesson;      ///< seconds for each stroke of a drawing lesson
 };
 
-struct PlotSettings {
+struct PlotSettings : PlotOptions {
     bool plotter = false;
-    double split = 0.0;                     ///< maximum length of a stroke; 0: no limit
-    std::optional<Hatch> hatch;             ///< hatching of filled shapes
-    double pen_width = 0.0;                 ///< width of the plotter's pen; 0: the width of each stroke
-    int pens = 0;                           ///< maximum number of pens; 0: no limit
     std::optional<HpglPaper> paper;         ///< sheet or limits of an HP-GL plotter
     bool travel = false;                    ///< show pen-up travel
     std::optional<PlotterProfile> profile;  ///< the plotter, whose speeds and G-code are the defaults
     std::vector<PenRule> pen_rules;         ///< settings of single pens, which replace those of the profile
-    std::optional<Refill> refill;           ///< refill of pens without their own
-    std::optional<glm::dvec2> park;         ///< place of the pen while it is changed
-    double resume = 0.0;                    ///< length that was drawn before the plot was interrupted
-    PlotSpeeds speeds;
     GcodeOptions gcode;
 };
 
@@ -108,21 +82,19 @@ struct ReliefSettings {
     std::optional<double> groove;  ///< width between its polygons
 };
 
-struct WorkSettings {
-    std::optional<int> compression;  ///< level for PNG, 1 to 9; absent: 6, or 4 with grain, which compresses slowly
-    double budget = 200e6;           ///< maximum number of derivation nodes visited in one pass
-    int threads = 0;                 ///< for pictures; 0: one for each core
+/// PNG is compressed at level 4 if lines have grain, which compresses slowly.
+struct WorkSettings : PictureOptions {
+    double budget = 200e6;  ///< maximum number of derivation nodes visited in one pass
 };
 
 struct DrawSettings {
     std::vector<const OptionInfo*> given{};  ///< options with a value other than none, in the order of the table
     std::vector<Setting> keys;               ///< keys of the language given as options: `stroke`, `fill`, …
-    PageSettings page;
+    PaperSettings paper;
     PlaceSettings place;
     LookSettings look;
     TimeSettings time;
     PlotSettings plot;
-    Press press;
     ReliefSettings relief;
     WorkSettings work;
 };

@@ -18,19 +18,15 @@ namespace {
 
 SheetOptions row_options(const Print& print, const DrawOptions& drawing) {
     SheetOptions sheet;
+    static_cast<WriterOptions&>(sheet) = print;
+    static_cast<PictureOptions&>(sheet) = drawing;
     sheet.format = drawing.format;
-    sheet.page = print.page;
-    sheet.dpi = print.dpi;
     sheet.title = print.title;
-    sheet.animation = print.animation;
-    sheet.names_tiles = print.names_tiles;
-    sheet.press = print.press;
     // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print.page.width, print.page.height) * 0.016, 2.0, 12.0);
     sheet.inset = 0.055;
     sheet.pattern = print.pattern;
     sheet.made = print.made;
-    sheet.compression = drawing.compression;
     return sheet;
 }
 

@@ -115,7 +115,7 @@ private:
     }
 
     void report_letters(const DrawOptions& options, Made& made) const {
-        std::vector<std::string> texts = {options.title_line, options.edition,
+        std::vector<std::string> texts = {options.title_line.value_or(""), options.edition,
                                           report.sheets > 1 ? print().title : ""};
         for (const LabelText& label : grammar().labels()) {
             for (const LabelText::Part& part : label.parts) texts.push_back(part.text);
@@ -125,7 +125,7 @@ private:
 
     void report_copies(Made& made) const {
         if (report.copies > 0) {
-            made.fact(fmt::format("{}: {}, {}", settings().place.repeat->group,
+            made.fact(fmt::format("{}: {}, {}", settings().look.repeat->group,
                                   report.copies == 1 ? "1 copy" : fmt::format("{} copies", report.copies),
                                   counted(report.strokes.value_or(0), "line")));
         }
@@ -134,7 +134,7 @@ private:
             made.fact(
                 fmt::format("the copies cover only {:.0f} % of {}, whose units have another shape than the drawing; "
                             "p1 covers {:.0f} %",
-                            100 * report.covered, settings().place.repeat->group, 100 * report.covered_by_moves));
+                            100 * report.covered, settings().look.repeat->group, 100 * report.covered_by_moves));
         }
     }
 
@@ -143,8 +143,10 @@ private:
              drawing_warnings(report, print().style, settings(), report.plot.has_value())) {
             made.warn(warning);
         }
-        if (format() == PrintFormat::eps && has_translucent_colours(print().style)) {
-            made.warn("an EPS has no opacity: translucent colours are mixed with that of the ground, or with white");
+        if (!info(format()).has_opacity && has_translucent_colours(print().style)) {
+            made.warn(fmt::format(
+                "an {} has no opacity: translucent colours are mixed with that of the ground, or with white",
+                info(format()).label));
         }
         if (settings().look.kerf > 0 && print().style.tile_edges == TileEdges::once) {
             made.warn(

@@ -81,15 +81,15 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
 }
 
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made) {
-    if (!settings.look.names_tiles || tiles > 0) return;
+    if (!settings.paper.names_tiles || tiles > 0) return;
     made.warn_of_unused("name-tiles", "this drawing has no filled polygons with straight edges");
 }
 
 void report_hpgl(const PlotReport& plot, const DrawSettings& settings, const HpglOptions& options, Made& made) {
-    made.fact("HP-GL: " + describe_hpgl(settings.page.sheet, options));
-    if (settings.page.widens_margin) {
+    made.fact("HP-GL: " + describe_hpgl(settings.paper.page, options));
+    if (settings.paper.widens_margin) {
         made.fact(fmt::format("the margin is {:g} mm, beyond which the plotter does not reach",
-                              settings.page.sheet.margin));
+                              settings.paper.page.margin));
     }
     constexpr std::size_t most = 8;
     const std::size_t pens = plot.colours - plot.merged.size();

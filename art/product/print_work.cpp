@@ -24,14 +24,10 @@ PrintWork::PrintWork(PrintRequest request)
       given_(std::move(request.given)),
       folder_(std::move(request.folder)) {
     print_.style = read_print_style(document_, settings_);
-    print_.page = settings_.page.sheet;
-    print_.dpi = settings_.page.dpi;
+    static_cast<WriterOptions&>(print_) = settings_.paper;
     print_.title = request.document.text("title");
     print_.pattern = request.document.source().text();
     print_.made = made_with(request.document.grammar());
-    print_.press = settings_.press;
-    print_.animation = settings_.time.animation;
-    print_.names_tiles = settings_.look.names_tiles;
     plan_drawing();
     check_drawing();
     drop_border();
@@ -58,12 +54,11 @@ void PrintWork::plan_drawing() {
     drawing_.format = format_ == PrintFormat::gif ? PrintFormat::png : is_solid ? PrintFormat::svg : format_;
     if (is_relief(settings_, format_)) drawing_.relief = relief_options(settings_, format_);
     drawing_.budget = settings_.work.budget;
-    drawing_.dot_spacing = settings_.place.dot_spacing;
     if (settings_.place.swatch_place) place_swatch(*settings_.place.swatch_place);
-    drawing_.threads = settings_.work.threads;
+    static_cast<PictureOptions&>(drawing_) = settings_.work;
+    if (print_.style.hand > 0 && !drawing_.compression) drawing_.compression = 4;
     drawing_.lists_contents = needs_contents(given_);
-    drawing_.compression = settings_.work.compression.value_or(print_.style.hand > 0 ? 4 : 6);
-    if (settings_.page.tile) drawing_.tiles = tile_options(settings_);
+    if (settings_.paper.tile) drawing_.tiles = tile_options(settings_);
     static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
 }
 
@@ -80,7 +75,7 @@ void PrintWork::place_swatch(const Swatch& swatch) {
 void PrintWork::drop_border() {
     if (!print_.style.border) return;
     const char* why = settings_.place.swatch_place   ? "a swatch is a part of the drawing"
-                      : settings_.place.window       ? "a window shows only part of the drawing"
+                      : settings_.look.window        ? "a window shows only part of the drawing"
                       : settings_.time.lesson        ? "a lesson teaches the lines of the drawing"
                       : is_model(settings_, format_) ? "a model has no page"
                                                      : nullptr;
@@ -182,7 +177,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
 void PrintWork::pass_pixels(std::function<void(Rendering& rendering, const PixelSize& size)> receive) {
     const char* const why = "makes several pictures or sheets; only one picture can be drawn in memory";
     if (settings_.time.generations) refuse_option("generations", "", why);
-    if (settings_.page.tile) refuse_option("tile", "", why);
+    if (settings_.paper.tile) refuse_option("tile", "", why);
     if (settings_.time.lesson) refuse_option("lesson", "", why);
     drawing_.show_pixels = std::move(receive);
 }

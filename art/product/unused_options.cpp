@@ -89,7 +89,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
     if (!report.contents) return list;
     const Contents& contents = *report.contents;
     const bool has_fills = contents.has_fills();
-    const bool is_bare_plot = report.plot && !settings.plot.hatch && !settings.look.names_tiles;
+    const bool is_bare_plot = report.plot && !settings.plot.hatch && !settings.paper.names_tiles;
     const std::string unhatched = "plots fill shapes only by hatching: set 'hatch'";
     list.push_back({"fill", !has_fills, "the drawing has no filled shapes"});
     list.push_back({"fill", has_fills && is_bare_plot && has_no_pen(*report.plot, style), unhatched});

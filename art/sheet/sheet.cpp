@@ -96,14 +96,10 @@ public:
             options_.page.height += 2 * bleed;
             options_.page.margin += bleed;
         }
-        print_.page = options_.page;
-        print_.dpi = options.dpi;
-        print_.press = options_.press;
+        static_cast<WriterOptions&>(print_) = options_;
         print_.title = options.title;
         print_.pattern = options.pattern;
         print_.made = options.made;
-        print_.animation = options.animation;
-        print_.names_tiles = options.names_tiles;
         print_.style.ground = options.ground;
         print_.style.stroke = {1.0, false, 1.0};
         print_.style.palette = {options.ink, options.pale_ink};
@@ -661,8 +657,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
     const std::vector<Strip> all = strips(size, ground);
     DrawOptions drawing;
     drawing.format = options_.format;
-    drawing.threads = options_.threads;
-    drawing.compression = options_.compression;
+    static_cast<PictureOptions&>(drawing) = options_;
     const int channels = ground.alpha < 255 ? 4 : 3;
     const std::size_t stride = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels);
     const Room room = this->room(all, static_cast<double>(stride));

@@ -30,10 +30,10 @@ struct SheetCell : DrawingOptions {
     double budget = 200e6;             ///< maximum number of derivation nodes visited in one pass
 };
 
-struct SheetOptions : PlotSetup {
+struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
+    SheetOptions() { page = {420.0, 594.0, 20.0}; }
+
     PrintFormat format = PrintFormat::svg;
-    Page page{420.0, 594.0, 20.0};
-    double dpi = 300.0;
     std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< ground between the cells
     Colour ink{0x2a, 0x26, 0x22, 255};                             ///< colour of title and captions
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
@@ -48,15 +48,10 @@ struct SheetOptions : PlotSetup {
     /// Use one scale, in each row if rows have headings, otherwise in all: the same distance between dots if all
     /// draw dots, otherwise the same step length.
     bool same_scale = false;
-    Press press;                      ///< settings for the print shop
-    std::string pattern;              ///< text stored in the file, so that it can be made again
-    std::string made;                 ///< recipe stored in the file
-    std::optional<double> animation;  ///< seconds in which an SVG draws itself
-    bool names_tiles = false;         ///< see Print::names_tiles
-    int threads = 0;                  ///< 0: all cores
-    int compression = 6;              ///< PNG compression, 1 (fast) to 9 (small)
-    double memory = 0;                ///< bytes for the pixels and cells of a picture at a time; 0: no limit
-    Monitor monitor = {};             ///< polled in long stages that read no words
+    std::string pattern;   ///< text stored in the file, so that it can be made again
+    std::string made;      ///< recipe stored in the file
+    double memory = 0;     ///< bytes for the pixels and cells of a picture at a time; 0: no limit
+    Monitor monitor = {};  ///< polled in long stages that read no words
     /// Called with the number of symbols read since the last call, from one thread at a time; may throw to stop.
     std::function<void(std::uint64_t symbols)> watch;
 };

@@ -6,6 +6,7 @@
 #include "art/vector/svg.h"
 
 #include <memory>
+#include <stdexcept>
 
 namespace sikku {
 
@@ -13,7 +14,8 @@ namespace sikku {
 inline std::unique_ptr<PrintWriter> write_vectors(PrintFormat format, const Print& print, Output& file) {
     if (format == PrintFormat::svg) return write_svg(print, file);
     if (format == PrintFormat::eps) return write_eps(print, file);
-    return write_pdf(print, file);
+    if (format == PrintFormat::pdf) return write_pdf(print, file);
+    throw std::logic_error("this format of vectors has no writer");
 }
 
 }  // namespace sikku

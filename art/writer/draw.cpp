@@ -81,6 +81,15 @@ private:
     std::map<int, std::size_t> places_;
 };
 
+/// Opens the writer of a format of the kind `plot`.
+std::unique_ptr<PlotWriter> plot_writer(const Print& print, const DrawOptions& options, const PlotPlan& plan,
+                                        Output& output) {
+    if (options.format == PrintFormat::hpgl) return write_hpgl(print, options.hpgl, output);
+    if (options.format == PrintFormat::gcode) return write_gcode(print, options.gcode, output);
+    if (options.format == PrintFormat::dxf) return write_dxf(print, output, plan.tile_kinds());
+    throw std::logic_error("this format of plots has no writer");
+}
+
 }  // namespace
 
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
@@ -105,9 +114,7 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     report.plot = plan.report();
     report.polygons = report.plot->tiles;
     if (is_for_plotters(options.format)) {
-        const auto writer = options.format == PrintFormat::hpgl    ? write_hpgl(plotted, options.hpgl, output)
-                            : options.format == PrintFormat::gcode ? write_gcode(plotted, options.gcode, output)
-                                                                   : write_dxf(plotted, output, plan.tile_kinds());
+        const auto writer = plot_writer(plotted, options, plan, output);
         std::vector<Pen> pens;
         for (const PlotPlan::PlottedPen& plotted_pen : plan.pens()) pens.push_back(plotted_pen.pen);
         writer->number_pens(pens);

@@ -33,7 +33,13 @@ struct PlotSetup {
     LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
 };
 
-struct DrawOptions : DrawingOptions, ReadingLimits, PlotSetup {
+/// How pictures are written.
+struct PictureOptions {
+    int threads = 0;                 ///< 0: all cores
+    std::optional<int> compression;  ///< PNG compression, 1 (fast) to 9 (small); absent: 6
+};
+
+struct DrawOptions : DrawingOptions, ReadingLimits, PictureOptions, PlotSetup {
     PrintFormat format = PrintFormat::svg;
     /// Cuts the print into sheets, each in its own file (tile_file()). The page is that of the whole print; with a
     /// fixed step it is as large as the drawing and its margins. Null: one sheet.
@@ -43,8 +49,6 @@ struct DrawOptions : DrawingOptions, ReadingLimits, PlotSetup {
     /// Receives the pixels of a picture; the output file stays empty.
     std::function<void(Rendering& rendering, const PixelSize& size)> show_pixels;
     bool lists_contents = false;  ///< find the contents of the drawing for its report
-    int threads = 0;              ///< for raster formats; 0: all cores
-    int compression = 6;          ///< PNG compression, 1 (fast) to 9 (small)
 
     /// How the drawing is read for this print.
     Reading reading() const;
@@ -64,11 +68,11 @@ struct DrawReport : DrawingReport {
     std::optional<PlotReport> plot;              ///< report of a plot
     std::shared_ptr<const ReliefReport> relief;  ///< report of a relief
     bool lacks_ridges = false;                   ///< no line of a relief is higher than the rest
-    std::uint64_t polygons = 0;                  ///< number of filled polygons that can be named (Print::names_tiles)
-    std::optional<Contents> contents;            ///< if DrawOptions::lists_contents
-    std::vector<FaintInk> faint;                 ///< inks that are hardly visible; not of plots
-    bool is_blank = false;                       ///< the ink of a picture is too thin to be visible
-    bool leaves_pattern_out = false;             ///< the pattern's text is too long for the format
+    std::uint64_t polygons = 0;        ///< number of filled polygons that can be named (WriterOptions::names_tiles)
+    std::optional<Contents> contents;  ///< if DrawOptions::lists_contents
+    std::vector<FaintInk> faint;       ///< inks that are hardly visible; not of plots
+    bool is_blank = false;             ///< the ink of a picture is too thin to be visible
+    bool leaves_pattern_out = false;   ///< the pattern's text is too long for the format
 };
 
 }  // namespace sikku

@@ -34,7 +34,7 @@ Picture::Picture(const Print& print, const DrawOptions& options, int channels, O
     spec.channels = channels;
     spec.dpi = print.dpi;
     spec.threads = options.threads;
-    spec.compression = options.compression;
+    spec.compression = options.compression.value_or(6);
     spec.icc = print.press.icc;
     spec.cmyk = print.press.cmyk;
     spec.bits = print.press.bits;

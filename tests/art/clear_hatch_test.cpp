@@ -183,7 +183,7 @@ std::unique_ptr<Drawn> drawn(const Document& document, const OptionValues& value
     const DrawSettings settings = read_draw_settings(values);
     const Document styled = settings.keys.empty() ? document : document.with(settings.keys);
     result->print.style = read_print_style(styled, settings);
-    result->print.page = settings.page.sheet;
+    result->print.page = settings.paper.page;
     DrawOptions options;
     static_cast<DrawingOptions&>(options) = drawing_options(settings, styled);
     static_cast<PlotSetup&>(options) = plot_setup(settings, PrintFormat::gcode);
