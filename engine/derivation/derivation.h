@@ -14,7 +14,7 @@
 namespace sikku {
 
 /// Consecutive symbols of the derived word. Valid only during the call, except for the contents of a block: a
-/// recurring part, which is passed each time under the same number, so that a reader may keep its results for it.
+/// recurring part, which is passed each time under the same number, so that a reader can cache its results.
 struct Run {
     std::span<const Symbol> symbols;
     std::int32_t block = -1;              ///< number of the block, from 0; -1: not a block

@@ -143,7 +143,7 @@ private:
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
     /// Length of a run in steps: its width; with a rhythm off the square grid its actual length, so that each step
-    /// takes a note of the template, whatever its angle.
+    /// takes a note of the template at any angle.
     Number steps_of(Number wide, Number high) const {
         if constexpr (std::is_floating_point_v<Number>) {
             if (!melody_.rhythm.empty() && step_length_ > 0) return std::hypot(wide, high) / step_length_;
