@@ -1,4 +1,4 @@
-// art/drawing/drawing_options.h: what a drawing shows, and where on its page.
+// art/drawing/drawing_options.h: contents of a drawing, and its place on the page.
 #pragma once
 
 #include "art/drawing/view_window.h"
@@ -36,7 +36,7 @@ struct Cell {
     std::array<glm::dvec2, 2> sides{};
 };
 
-/// What a drawing shows, on a page of its own or in a cell of a sheet.
+/// Contents and place of a drawing, on a page of its own or in a cell of a sheet.
 struct DrawingOptions {
     PlacementOptions placement;
     std::optional<double> dot_spacing;  ///< millimetres between the nearest dots, instead of the placement's step

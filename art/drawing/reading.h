@@ -21,7 +21,7 @@ struct ReadingLimits {
     std::function<void(std::uint64_t symbols)> watch;
 };
 
-/// How a drawing is read.
+/// Options for reading a drawing from the word.
 struct Reading : ReadingLimits {
     Reading() = default;
     explicit Reading(const ReadingLimits& limits) : ReadingLimits(limits) {}

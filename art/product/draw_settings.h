@@ -25,7 +25,7 @@
 
 namespace sikku {
 
-/// Whether a print is the repeating part of a tiling, and whether the tiling may be turned to make that smaller.
+/// Choice of a print of the repeating part of a tiling, which may be turned to make that part smaller.
 enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 // Settings of a print. Lengths are millimetres, angles degrees, times seconds.
@@ -40,7 +40,7 @@ struct PageSettings {
     std::optional<double> overlap;  ///< overlap of neighbouring sheets; 10 mm
 };
 
-/// Where the drawing lies on the page, and how often.
+/// Place of the drawing on the page, and number of its copies.
 struct PlaceSettings {
     bool fit = false;                   ///< requested explicitly; excludes `step` and `window`
     std::optional<double> step;         ///< length of one turtle step on paper; absent: fit the page
@@ -57,7 +57,7 @@ struct PlaceSettings {
     glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
 };
 
-/// What is drawn besides the keys of the pattern.
+/// Additions to the drawing, and values that replace those of keys of the pattern.
 struct LookSettings {
     std::string view;                 ///< value for `view:`; empty: the pattern's
     std::string light;                ///< value for `light:`; empty: the pattern's

@@ -23,7 +23,7 @@ struct ReliefOptions;
 struct ReliefReport;
 struct TileOptions;
 
-/// How a drawing or a sheet is arranged for a plotter, and the facts about the machine that its writers need.
+/// Arrangement of a drawing or a sheet for a plotter, and the facts about the machine that its writers need.
 struct PlotSetup {
     /// Arranges the lines for a plotter, which HP-GL and G-code always do. The format sets start and home.
     std::optional<PlotOptions> plot;
@@ -46,7 +46,7 @@ struct DrawOptions : DrawingOptions, ReadingLimits, PlotSetup {
     int threads = 0;              ///< for raster formats; 0: all cores
     int compression = 6;          ///< PNG compression, 1 (fast) to 9 (small)
 
-    /// How the drawing is read for this print.
+    /// Options for reading the drawing for this print.
     Reading reading() const;
 };
 
