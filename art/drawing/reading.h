@@ -1,4 +1,4 @@
-// art/drawing/reading.h: how a drawing is read: limits, progress, and the kind of its print.
+// art/drawing/reading.h: options for reading a drawing: limits, progress, and the kind of its print.
 #pragma once
 
 #include "art/plotter/shading.h"

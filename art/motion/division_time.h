@@ -1,4 +1,4 @@
-// art/motion/division_time.h: when tiles divide, and how their parts move.
+// art/motion/division_time.h: times of the division of tiles, and motions of their parts.
 #pragma once
 
 #include <span>

@@ -41,7 +41,7 @@ class WordError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Lets a reader skip parts of the word that it accounts for otherwise, such as those before the first bar to be
+/// Skips parts of the word for a reader that accounts for them otherwise, such as those before the first bar to be
 /// played or outside of the page.
 class Pruner {
 public:

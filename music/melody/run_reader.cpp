@@ -439,7 +439,7 @@ private:
         }
     }
 
-    /// Extends the note before a vertical run, and lets it slide to the end of the run. A run without a note before
+    /// Extends the note before a vertical run, and slides it to the end of the run. A run without a note before
     /// it, or one that turns back, is a note of its own.
     void glissando(const Pending& run, Number steps, int velocity) {
         Sounding& held = state_.held;
