@@ -34,7 +34,7 @@ struct SheetSettings {
     bool has_ground = false;
 };
 
-/// Where a drawing is, in millimetres.
+/// Place of a drawing on the sheet, in millimetres.
 struct PlaceSettings {
     double dpi = 300.0;
     std::optional<double> x, y, width, height;

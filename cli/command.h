@@ -25,7 +25,7 @@
 
 namespace sikku {
 
-/// A mistake of the caller: exit status 2.
+/// A usage error: exit status 2.
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -97,10 +97,10 @@ std::span<const Interpreter* const> interpreters();
 /// @throws PatternError; UsageError for an unknown name, a damaged link, and one that names files without being
 /// trusted
 Document load(const PatternOptions& options, bool quiet);
-/// Loads a pattern likewise. @param link  PATTERN if it was already read as a link; null if it is not one
+/// Loads a pattern in the same way. @param link  PATTERN if it was already read as a link; null if it is not one
 Document load(const PatternOptions& options, const SharedWork* link, bool quiet);
 
-/// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws what Work::make() throws
+/// Makes a work with a progress bar, then prints its remarks, unless `quiet`. @throws exceptions of Work::make()
 void make(Work& work, const std::string& output, bool quiet);
 /// Prints the remarks about a finished work.
 void report(const Made& made);

@@ -144,7 +144,7 @@ void add_derive(CLI::App& app, bool& quiet) {
         "  sikku derive koch-island -n 8 | wc -c");
     command->callback([options, interpreted, &quiet] {
         const Document loaded = load(*options, quiet);
-        // Where the word itself goes to the terminal, a bar would be lost in it.
+        // A progress bar would be lost in a word that is printed on the terminal.
         const bool silent = quiet || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 0;
         Progress progress(silent);
         if (loaded.map()) return derive_as_text(loaded, progress);

@@ -66,7 +66,7 @@ MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, Rand
         if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
             throw std::runtime_error(*obstacle);
         }
-        // Where the symmetry is not requested, the next one is tried sooner.
+        // If no symmetry is requested, the next one is tried sooner.
         const int attempts = options.symmetry ? options.attempts : std::min(options.attempts, 100);
         auto found = find_single_line(grid, random, attempts, stop_monitor(), options.symmetry ? nullptr : &steps);
         if (found) return {std::move(found->states), symmetry, found->changed, found->attempt};

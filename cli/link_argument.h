@@ -31,7 +31,7 @@ void check_pattern_of_link(const SharedWork& link, const std::string& variant, c
 /// Refuses such links for commands without options: variants may not name files either. @throws UsageError
 void check_text_of_link(const SharedWork& link);
 
-/// Refuses draw or play options of a link that name files or set commands for machines, likewise.
+/// Refuses links with draw or play options that name files or set commands for machines, in the same cases.
 /// @param table  table of the options  @param shared  options of the link  @param given  options on the command line
 void check_options_of_link(std::span<const OptionInfo* const> table, const OptionValues& shared,
                            const OptionValues& given, const PatternOptions& options);
@@ -43,7 +43,7 @@ bool has_option(const OptionValues& values, std::string_view name);
 std::string describe_settings(const SharedWork& link);
 
 /// Calls `work`. Adds a note to a SettingError about an option that the link sets and the command line does not.
-/// @throws what `work` throws
+/// @throws exceptions of `work`
 template <typename Work>
 auto blaming_link(const OptionValues& shared, const OptionValues& given, Work&& work) {
     try {

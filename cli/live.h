@@ -33,7 +33,7 @@ struct LiveScore {
     std::function<std::vector<std::filesystem::path>()> files;  ///< files whose changes are heard
 };
 
-/// Plays to the port until the end, or until it is interrupted. @throws what opening throws; PortError; Stopped
+/// Plays to the port until the end, or until it is interrupted. @throws exceptions of LiveScore; PortError; Stopped
 void play_live(const LiveOptions& options, const LiveScore& score, bool quiet);
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// cli/mistakes.h: messages about wrong command lines, in the program's own words.
+// cli/mistakes.h: error messages for invalid command lines.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// Finds mistakes that CLI11 would misread, before it parses. @throws UsageError
+/// Finds errors that CLI11 would misinterpret, before it parses. @throws UsageError
 /// - for an unknown command
 /// - for an option that lacks its value, and would take the next option for it
 /// @param arguments  without the name of the program

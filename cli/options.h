@@ -60,7 +60,7 @@ std::string with_dashes(const std::string& text);
 std::string with_force(std::string message);
 /// Formats the errors of a pattern; those in values of options begin with the option: `--scale dorain: …`.
 std::string pattern_message(const PatternError& error);
-/// Formats one warning or error likewise.
+/// Formats one warning or error in the same way.
 std::string diagnostic_message(const Diagnostic& diagnostic);
 
 }  // namespace sikku

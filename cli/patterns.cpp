@@ -110,7 +110,7 @@ void show(const std::string& what, bool quiet) {
     std::fwrite(source->text().data(), 1, source->text().size(), stdout);
 }
 
-/// True if the arrangement and its patterns are without mistakes.
+/// True if the arrangement and its patterns are free of errors.
 bool check_arrangement(const std::string& file) {
     try {
         read_arrangement_argument(file);
@@ -142,7 +142,7 @@ bool list_arrangements(const std::string& kind, bool names_only) {
     return true;
 }
 
-/// True if the file is without mistakes.
+/// True if the file is free of errors.
 bool check_scale_file(const std::string& file) {
     const NamedText text = read_pattern_text(file);
     const Source source(text.name, text.text);
@@ -158,7 +158,7 @@ bool check_scale_file(const std::string& file) {
 
 constexpr std::size_t most_shown_errors = 50;  // errors of a pattern, as Diagnostics keep them
 
-/// True if the file is without mistakes.
+/// True if the file is free of errors.
 bool check(const std::string& file) {
     NamedText text = read_pattern_text(file);
     if (const std::string foreign = foreign_message(file, text); !foreign.empty()) {

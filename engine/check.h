@@ -1,4 +1,4 @@
-// engine/check.h: every error of a pattern file.
+// engine/check.h: finds all errors of a pattern file.
 #pragma once
 
 #include "engine/interpreter.h"

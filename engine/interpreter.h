@@ -63,7 +63,7 @@ struct FormatName {
     bool is_text = false;        ///< files are UTF-8 text
 };
 
-/// The row of that extension or alias (any case), or null.
+/// Finds the row of an extension or alias, in any case; null if there is none.
 const FormatName* find_format(std::span<const FormatName> formats, std::string_view name);
 
 /// Plans works. Stateless; there is one instance of each kind.
@@ -110,7 +110,7 @@ struct Assignment {
 
 /// Separates values by name: options of the interpreter are returned; keys and defines of the pattern are applied to
 /// the document. `n` and `steps` are the derivation length, as on the command line, also if the pattern has a define
-/// of that name. A seed is both, also that of document.overrides(). @throws SettingError for other names;
+/// of that name. A seed, including that of document.overrides(), is both. @throws SettingError for other names;
 /// PatternError
 Assignment assign(const Interpreter& interpreter, const Document& document, const OptionValues& values);
 

@@ -58,8 +58,8 @@ Arrangement read_arrangement(const std::string& file, const std::string& text, c
 /// An arrangement that plays these documents together, as on the command line; the first sets tempo and meter.
 Arrangement arrangement_of(std::span<const Document> documents);
 
-/// Setting of a part for a key of a track or the command line: `n` is the derivation length, and hyphens and
-/// underscores count as blanks.
+/// Makes the setting of a part from a key of a track or the command line: `n` is the derivation length, and hyphens
+/// and underscores count as blanks.
 Setting part_setting(std::string_view key, std::string value);
 
 }  // namespace sikku

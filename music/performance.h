@@ -32,7 +32,7 @@ public:
     /// the piece.
     ExpressionSink(const ExpressionSink& measured, NoteSink& sink);
 
-    /// Gets ranges of positions from the fold where possible: for parts that are played from beginning to end. @param
+    /// Takes ranges of positions from the fold if possible: for parts that are played from beginning to end. @param
     /// is_far  also for parts that do not begin at the beginning
     void fold_ranges(const PlayOptions& playing, bool is_far = false);
     /// True if the parts have to be played once before write_to().

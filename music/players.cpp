@@ -135,7 +135,7 @@ std::vector<Player> followers_of(const Player& player) {
         follower.melody.layout.canon.clear();
         Melody& melody = follower.melody;
         melody.layout.start += one.bars;
-        // It repeats what the part plays, including notes moved by chords and range.
+        // It repeats the notes of the part, including those moved by chords and range.
         melody.is_accompanied = false;
         if (!melody.has_chords()) melody.harmony = Harmony::none;
         melody.answer += one.degrees;

@@ -26,7 +26,7 @@ namespace {
 std::string_view fate_of(const Melody& melody) {
     const double period = std::fabs(melody.scale.period) / 100;
     if (melody.range == Range::reflect) return "reflected";
-    // A range narrower than a period has no other octave for most notes.
+    // A range narrower than a period contains no other octave of most notes.
     return melody.range == Range::fold && period <= melody.highest - melody.lowest ? "folded back"
                                                                                    : "held at the last key";
 }

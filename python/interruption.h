@@ -1,4 +1,4 @@
-// python/interruption.h: long calls that let other Python threads run, and stop on Ctrl-C.
+// python/interruption.h: long calls that release the lock of Python, and stop on Ctrl-C.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -32,7 +32,7 @@ private:
     pybind11::object type_, value_, traceback_;
 };
 
-/// Runs `work(monitor)` without the global lock of Python. @throws what `work` throws, or the exception of a signal
+/// Runs `work(monitor)` without the global lock of Python. @throws exceptions of `work`, or that of a signal
 template <class Work>
 auto long_call(const Work& work) {
     Interruption interruption;

@@ -24,7 +24,7 @@ public:
     WordIterator& operator=(const WordIterator&) = delete;
 
     /// The next modules, up to 4096, as a list of sikku.Module, because a call from Python costs more than a module.
-    /// @throws pybind11::stop_iteration, and what derive() throws
+    /// @throws pybind11::stop_iteration, and exceptions of derive()
     pybind11::list next();
     /// Ends the derivation; no further modules follow.
     void close();

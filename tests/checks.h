@@ -1,4 +1,4 @@
-// tests/checks.h: texts and errors as the tests compare them.
+// tests/checks.h: compares texts and errors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,14 +17,14 @@ constexpr bool sanitized = true;
 constexpr bool sanitized = false;
 #endif
 
-/// Does the text contain the part? The message shows both.
+/// Checks that the text contains the part. The message shows both.
 inline ::testing::AssertionResult has(std::string_view text, std::string_view part) {
     const bool is_there = text.find(part) != std::string_view::npos;
     ::testing::AssertionResult result(is_there);
     return result << (is_there ? "'" : "no '") << part << "' in: " << text.substr(0, 2000);
 }
 
-/// How often the part stands in the text, without overlaps.
+/// Number of occurrences of the part in the text, without overlaps.
 inline std::size_t count_of(std::string_view text, std::string_view part) {
     std::size_t count = 0;
     for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size()))

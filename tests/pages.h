@@ -1,4 +1,4 @@
-// tests/pages.h: pages of HTML as the tests read them.
+// tests/pages.h: reads pages of HTML.
 #pragma once
 
 #include <gtest/gtest.h>

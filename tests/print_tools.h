@@ -35,10 +35,10 @@ struct PixelGrid {
 };
 PixelGrid read_ppm(const std::filesystem::path& path);
 
-/// What qpdf finds wrong with a PDF.
+/// Errors that qpdf finds in a PDF.
 std::string pdf_complaints(const std::filesystem::path& pdf);
 
-/// A PDF, found sound by qpdf, with its streams uncompressed.
+/// A PDF with uncompressed streams; qpdf must find no errors in it.
 std::string plain_text(const std::filesystem::path& pdf);
 
 /// The first page of a PDF.

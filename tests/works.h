@@ -14,10 +14,10 @@
 
 namespace sikku {
 
-/// What became of a work.
+/// Result of a work.
 struct MadeWork {
-    int status = 0;       ///< exit status of the program: 2 for wrong usage and faulty patterns, 1 for other failures
-    std::string error;    ///< the message, if the work failed
+    int status = 0;     ///< exit status of the program: 2 for usage errors and invalid patterns, 1 for other failures
+    std::string error;  ///< the message, if the work failed
     std::string remarks;  ///< a line each; warnings begin with `warning: `
     std::map<std::string, std::string> outputs;
     /// The bytes of the first output. @throws std::runtime_error if the work failed
@@ -33,14 +33,14 @@ inline std::string remarks_of(const Made& made) {
     return text;
 }
 
-/// The warnings, a line each.
+/// The warnings, one per line.
 inline std::string warnings_of(const Made& made) {
     std::string text;
     for (const Remark& remark : made.remarks) text += remark.is_warning ? remark.text + "\n" : "";
     return text;
 }
 
-/// Makes a document in a format and keeps nothing but the remarks. Names in `values` are options of the interpreter,
+/// Makes a document in a format and keeps only the remarks. Names in `values` are options of the interpreter,
 /// or keys and defines of the pattern. @throws as assign(), plan() and make()
 inline Made remarks_about(const Interpreter& interpreter, const Document& document, const std::string& format,
                           const OptionValues& values = {}) {
@@ -78,7 +78,7 @@ inline MadeWork made_work(const Interpreter& interpreter, const Document& docume
     });
 }
 
-/// Is it refused with this status, and with this part of a message?
+/// Checks that it is rejected with this status and this part of a message.
 inline ::testing::AssertionResult is_refused(const MadeWork& work, int status, std::string_view part) {
     if (work.status == status) return has(work.error, part);
     return ::testing::AssertionFailure() << "status " << work.status << ", not " << status << ": " << work.error;

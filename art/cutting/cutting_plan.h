@@ -56,7 +56,7 @@ struct CuttingPlan {
 /// piece, 400 different sheets, and 200,000 pieces on one sheet, and as offset_outline(); Stopped
 CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& options, const Monitor& monitor);
 
-/// The outline of a piece that is `growth` larger on all sides. @param what  what it becomes, for messages
+/// The outline of a piece that is `growth` larger on all sides. @param what  the outline in messages: `a template`
 /// @throws std::runtime_error for more than 2,000 corners, and as offset_outline()
 std::vector<glm::dvec2> cut_outline(const CutKind& piece, double growth, std::string_view what);
 

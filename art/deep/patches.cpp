@@ -191,7 +191,7 @@ private:
     Heading first_;
 };
 
-/// How a symbol with a number of remaining tables is drawn.
+/// Method of drawing a symbol with a number of remaining tables.
 enum class Kind : std::uint8_t {
     unknown,
     composed,    ///< from its children, each of which is a complete drawing

@@ -17,7 +17,7 @@ struct HandStrokes {
     std::vector<HandDot> dots;
 };
 
-/// Lets the lines and dots of another drawing waver and swell (see draw_by_hand()), by the `hand` of its style.
+/// Makes the lines and dots of another drawing waver and swell (see draw_by_hand()), by the `hand` of its style.
 /// Vector formats get outlines, pictures powder, plotters the middle of the lines. The visible part does not affect
 /// the result. Memory: all lines.
 class HandDrawing : public DerivedDrawing {

@@ -31,7 +31,7 @@ struct MapFrame {
     bool has_growth() const;
 };
 
-/// Which frames of a derivation are kept.
+/// Selection of the frames of a derivation that are kept.
 enum class KeptFrames { last, all };
 
 /// Frames of one run of a derivation, made on demand.

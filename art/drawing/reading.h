@@ -1,4 +1,4 @@
-// art/drawing/reading.h: how a drawing is read: limits, progress, and the kind of its print.
+// art/drawing/reading.h: options for reading a drawing: limits, progress, and the kind of its print.
 #pragma once
 
 #include "art/plotter/shading.h"
@@ -21,7 +21,7 @@ struct ReadingLimits {
     std::function<void(std::uint64_t symbols)> watch;
 };
 
-/// How a drawing is read.
+/// Options for reading a drawing from the word.
 struct Reading : ReadingLimits {
     Reading() = default;
     explicit Reading(const ReadingLimits& limits) : ReadingLimits(limits) {}

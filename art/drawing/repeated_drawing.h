@@ -12,7 +12,7 @@
 namespace sikku {
 
 /// Calls `make` with the reading of one copy: copies share the budget.
-/// @throws what `make` throws; a BudgetError of a repeat also names the number of copies
+/// @throws exceptions of `make`; a BudgetError of a repeat also names the number of copies
 void make_one_copy(const DrawingOptions& options, const Reading& reading,
                    const std::function<void(const Reading& one)>& make);
 

@@ -49,7 +49,7 @@ private:
     bool has_widths_ = false;
     bool has_labels_ = false;
     bool has_colours_ = false;
-    std::vector<bool> closed_;  ///< whether each stroke of a spline is closed, in their order
+    std::vector<bool> closed_;  ///< true for each closed stroke of a spline, in their order
     std::optional<DrawnExtent> extent_;
     bool has_ink_ = false;
     bool is_outside_ = false;             ///< nothing is drawn within the window

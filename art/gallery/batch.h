@@ -28,7 +28,7 @@ using FileMaker = std::function<void(const std::filesystem::path& path, Finished
 /// @param replaces  replace an existing file even if it was not made by this gallery; otherwise it causes a
 ///                  std::runtime_error. Anything that is neither a file nor a folder, such as a link, is removed
 ///                  first
-/// @throws what `make` throws; other errors than Stopped as std::runtime_error
+/// @throws exceptions of `make`; other errors than Stopped as std::runtime_error
 FinishedJob make_gallery_file(GalleryRecord& record, const GalleryFolder& folder, FinishedJob file, bool replaces,
                               const FileMaker& make);
 

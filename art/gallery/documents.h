@@ -23,7 +23,7 @@ class Documents {
 public:
     /// Returns the document of that key, compiled by the first caller; others wait for it.
     /// @param bytes  size of its text
-    /// @throws what `compile` throws, to every caller
+    /// @throws exceptions of `compile`, to every caller
     Document get(const std::string& key, std::size_t bytes, const std::function<Document()>& compile);
     /// Number of compilations so far.
     std::size_t compiled() const;
@@ -45,7 +45,7 @@ private:
 /// planned again. Thread-safe.
 class Works {
 public:
-    /// Returns the work of that key. @param bytes  size of its text  @throws what `plan` throws
+    /// Returns the work of that key. @param bytes  size of its text  @throws exceptions of `plan`
     std::shared_ptr<Work> get(const std::string& key, std::size_t bytes,
                               const std::function<std::unique_ptr<Work>()>& plan);
     void forget(const std::string& key);

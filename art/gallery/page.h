@@ -35,7 +35,7 @@ struct GalleryEntry {
 /// bytes.
 ///
 /// Pattern texts that several entries share are stored once. Bytes that are not UTF-8 become U+FFFD.
-/// @throws what `out` throws
+/// @throws exceptions of `out`
 void write_gallery_page(std::string_view title, std::span<const GalleryEntry> entries, Output& out);
 
 }  // namespace sikku

@@ -62,7 +62,7 @@ public:
     using Pointer = std::shared_ptr<const GalleryPattern>;
     using List = std::shared_ptr<const std::vector<Pointer>>;
 
-    /// @param bundled_only  do not search files
+    /// @param bundled_only  search only the bundled patterns
     explicit PatternShelf(bool bundled_only, PieceReader pieces = {}, Monitor monitor = {})
         : bundled_only_(bundled_only), pieces_(std::move(pieces)), monitor_(monitor) {}
 

@@ -39,7 +39,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                                const std::filesystem::path& file, const Monitor& monitor);
 
-/// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws what draw_gallery_sheet() throws
+/// Estimated bytes needed to draw that sheet: see sheet_memory(). @throws exceptions of draw_gallery_sheet()
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                             const std::filesystem::path& file);
 

@@ -207,7 +207,7 @@ double find_room(std::vector<HandLine>& lines, const Places& places, const std::
     return share;
 }
 
-/// Lets room change slowly along each line, so that the widths it limits are smooth.
+/// Limits the slope of room along each line, so that the widths it limits are smooth.
 void even_room(HandLine& line) {
     constexpr double slope = 0.35;
     const std::size_t count = line.size();

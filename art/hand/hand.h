@@ -1,4 +1,4 @@
-// art/hand/hand.h: lets lines waver and swell, as if strewn with rice flour by hand.
+// art/hand/hand.h: makes lines waver and swell, as if drawn with rice flour by hand.
 #pragma once
 
 #include "art/hand/hand_line.h"

@@ -1,4 +1,4 @@
-// art/image/module_folders.h: where the module and the programs for pictures are installed.
+// art/image/module_folders.h: finds the module and the programs for pictures.
 #pragma once
 
 #include "engine/base/installation.h"

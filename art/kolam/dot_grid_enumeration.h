@@ -31,7 +31,7 @@ struct Enumeration {
 constexpr int most_choices = 36;
 constexpr int most_choices_of_three = 22;
 
-/// Decides gap by gap and abandons a choice as soon as a line closes while gaps are left. The result does not depend
+/// Decides gap by gap, and backtracks as soon as a line closes while gaps are left. The result does not depend
 /// on the number of threads.
 /// @throws std::runtime_error if the grid does not have the symmetry, or for too many choices
 Enumeration enumerate_single_lines(const DotGrid& grid, const EnumerationOptions& options = {});

@@ -23,7 +23,7 @@ struct KolamSymmetry {
     std::string name() const;     ///< C1, C4, D1, D4, …
 };
 
-/// A dot where tradition would set one, or where the pattern has it, in turtle steps.
+/// A dot, placed by tradition or by the pattern, in turtle steps.
 struct KolamDot {
     glm::dvec2 at{0.0};
     bool is_enclosed = false;  ///< closed lines enclose it; an odd number of times for dots set by tradition

@@ -18,7 +18,7 @@ namespace sikku {
 
 /// A generation of tiles, in coordinates and steps of its own.
 struct DivisionStage {
-    /// How a tile emerges from the one that divides.
+    /// Motion of a tile that emerges from the one that divides.
     struct Part {
         glm::dvec2 middle{0.0};  ///< centre of its change of size
         glm::dvec2 way{0.0};     ///< vector from there to where it begins, or towards its family

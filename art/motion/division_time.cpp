@@ -14,7 +14,7 @@ constexpr std::array cut_colour = {Keyframe{0, 0}, Keyframe{0.15, 0}, Keyframe{0
 constexpr std::array cut_before = {Keyframe{0, 1}, Keyframe{0.35, 0}, Keyframe{1, 0}};
 constexpr std::array cut_opacity = {Keyframe{0, 1}, Keyframe{1, 1}};
 
-// Those that lie across the edges of their parents appear over them, and shrink and close up again.
+// Parts across the edges of their parents appear over them, and shrink and close up again.
 constexpr std::array across_size = {Keyframe{0, 1}, Keyframe{0.5, 0.8}, Keyframe{1, 1}};
 constexpr std::array across_way = {Keyframe{0, 0}, Keyframe{1, 0}};
 constexpr std::array across_outline = {Keyframe{0, 0}, Keyframe{0.3, 1}, Keyframe{1, 1}};

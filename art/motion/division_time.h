@@ -1,4 +1,4 @@
-// art/motion/division_time.h: when tiles divide, and how their parts move.
+// art/motion/division_time.h: times of the division of tiles, and motions of their parts.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ using Track = std::span<const Keyframe>;
 double value_at(Track track, double share);
 double eased(double share);
 
-/// How parts of tiles appear, come apart and settle.
+/// Key frames of parts of tiles, which appear, come apart and settle.
 struct DivisionTracks {
     Track size;     ///< size of a part, about its middle
     Track way;      ///< share of DivisionStage::Part::way by which a part is moved
@@ -35,8 +35,8 @@ struct DivisionTracks {
     Track arrival;  ///< opacity of lines and discs of this generation, besides outlines
 };
 
-/// How parts emerge from their parents: they are cut out of them; they appear in their places, across the edges of
-/// their parents; or they spread out of them, where the places of parents and parts agree only roughly.
+/// Way in which parts emerge from their parents: they are cut out of them; they appear in their places, across the
+/// edges of their parents; or they spread out of them, where the places of parents and parts agree only roughly.
 enum class DivisionKind { cut, across, spread };
 
 const DivisionTracks& division_tracks(DivisionKind kind);

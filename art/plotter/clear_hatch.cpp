@@ -224,7 +224,7 @@ private:
         const double from = stretch.end(side);
         std::vector<std::pair<double, Stretch*>> reachable;
         for (Stretch& other : rows_[row + 1]) {
-            // Those above it; a join that runs farther along than a stretch is not shorter than lifting the pen.
+            // Only stretches above this one: a longer join along the row would not be shorter than pen-up travel.
             if (other.is_drawn || other.to < stretch.from || other.from > stretch.to) continue;
             reachable.emplace_back(std::fabs(other.end(side) - from), &other);
         }

@@ -20,7 +20,7 @@ struct Hatch {
     bool is_crossed = false;  ///< hatched a second time, at right angles
 };
 
-/// The pen of a plot, and what it fills.
+/// The pen of a plot, and the areas that it fills.
 struct PlotPen {
     double pen_width = 0.0;           ///< millimetres; 0: each stroke is drawn with a pen of its own width
     std::optional<Hatch> hatch = {};  ///< hatching of filled shapes; absent: outlines only

@@ -25,7 +25,7 @@ struct LessonPart {
     int first_new = 0, last_new = 0;  ///< indices of the colours of new lines
 };
 
-/// How a part of an SVG moves: attributes of its elements; the style sheet of the file describes their classes.
+/// Animation of a part of an SVG: attributes of its elements; the style sheet of the file describes their classes.
 struct PartMotion {
     std::string part;               ///< attributes of its group
     std::string polygons;           ///< attributes of the group of its polygons

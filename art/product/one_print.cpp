@@ -45,7 +45,7 @@ void report_swatch(const Swatch& swatch, const Print& print, glm::dvec2 stretch,
     made.fact(fmt::format("stretched to whole pixels by {:.2g} % across and {:.2g} % down", parts.x, parts.y));
 }
 
-/// Whether a style has colours that a format without opacity can only mix.
+/// True if a style has colours that a format without opacity can only mix.
 bool has_translucent_colours(const Style& style) {
     const auto mixes = [](const Colour& colour) { return colour.alpha > 0 && colour.alpha < 255; };
     if (style.ground && mixes(*style.ground)) return true;

@@ -47,7 +47,7 @@ protected:
     const Print& print() const { return print_; }
     const DrawOptions& drawing() const { return drawing_; }
     const std::filesystem::path& folder() const { return folder_; }
-    /// What a drawing of the document, or of one of its generations, was made with.
+    /// The recipe of a drawing of the document, or of one of its generations.
     std::string made_with(const Grammar& grammar) const;
 
     /// Throws SettingError at the key `hand` or `line` if lines are drawn by hand, or splines.

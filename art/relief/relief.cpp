@@ -73,7 +73,7 @@ void require_affordable(const ReliefShapes& shapes, bool has_lines) {
                     edges * triangles_of_edge * 1e-6, most_relief_triangles / 1'000'000));
 }
 
-/// How a shape is raised. Later layers lie over earlier ones.
+/// Height and colour of a raised shape. Later layers lie over earlier ones.
 struct Layer {
     bool is_over = false;  ///< lines and discs lie over polygons and areas
     double height = 0;

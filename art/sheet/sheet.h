@@ -81,7 +81,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
 
 /// Estimates the bytes that draw_sheet() needs for a picture, before the sheet is laid out: those for whole rows if
 /// the options allow that, otherwise the minimum. For other formats, the memory of the drawings.
-/// @throws what draw_sheet() throws for cells that cannot be drawn
+/// @throws exceptions of draw_sheet() for cells that cannot be drawn
 double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& options);
 
 /// Forecasts the cost of draw_sheet(). @throws as sheet_memory()

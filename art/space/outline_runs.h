@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// Where the middle of a row meets a triangle; the first is larger than the second if it does not.
+/// Range in which the middle of a row meets a triangle; if it does not, the first number is larger than the second.
 template <class Point, class Number = typename Point::value_type>
 std::pair<Number, Number> triangle_run(const Point& a, const Point& b, const Point& c, Number middle) {
     Number left = std::numeric_limits<Number>::infinity(), right = -left;

@@ -150,7 +150,7 @@ struct PatchMeeting {
     }
 };
 
-/// Where a patch meets neighbours, it has the mean of their normals and its own. Cost: n log n in the points.
+/// Averages the normals of patches and their neighbours along shared edges. Cost: n log n in the points.
 void join(const Surface& surface, int n, std::vector<Grid>& grids) {
     constexpr std::size_t most_meeting = 64;  // patches in a point; more keep their own normals
     const std::vector<std::size_t> edge = rim(n);

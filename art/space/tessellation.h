@@ -6,7 +6,7 @@
 
 namespace sikku {
 
-/// How finely surfaces are divided. A patch that is flat is one polygon.
+/// Resolution of divided surfaces. A flat patch is one polygon.
 struct Fineness {
     double deviation = 0;  ///< maximum distance of the polygons from the surface, in turtle steps; 0: any
     double share = 0;      ///< the same as a share of the surface's size

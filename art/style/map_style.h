@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// How the cells of a map are outlined.
+/// Style of the outlines of a map's cells.
 enum class CellOutlines : std::uint8_t { walls, splines, both };
 /// The property that determines the colour of a cell.
 enum class CellFill : std::uint8_t { none, colour, age, sides };

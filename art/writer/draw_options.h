@@ -23,7 +23,7 @@ struct ReliefOptions;
 struct ReliefReport;
 struct TileOptions;
 
-/// How a drawing or a sheet is arranged for a plotter, and the facts about the machine that its writers need.
+/// Arrangement of a drawing or a sheet for a plotter, and the facts about the machine that its writers need.
 struct PlotSetup {
     /// Arranges the lines for a plotter, which HP-GL and G-code always do. The format sets start and home.
     std::optional<PlotOptions> plot;
@@ -50,7 +50,7 @@ struct DrawOptions : DrawingOptions, ReadingLimits, PictureOptions, PlotSetup {
     std::function<void(Rendering& rendering, const PixelSize& size)> show_pixels;
     bool lists_contents = false;  ///< find the contents of the drawing for its report
 
-    /// How the drawing is read for this print.
+    /// Options for reading the drawing for this print.
     Reading reading() const;
 };
 

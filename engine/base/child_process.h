@@ -41,7 +41,7 @@ Descriptor lifted_copy(int descriptor);
 /// Returns the descriptor itself if it is above those, otherwise such a duplicate. @throws std::system_error
 Descriptor lifted(Descriptor low);
 
-/// How a program is started.
+/// Program, arguments and descriptors of a process to start.
 struct ProcessStart {
     std::filesystem::path program;
     std::vector<std::string> arguments;

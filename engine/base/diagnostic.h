@@ -129,10 +129,10 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-/// The one of `known` nearest to `word` by edit distance, or empty if none is near enough to be meant.
+/// Returns the element of `known` nearest to `word` by edit distance; empty if none is near enough to be meant.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known);
 
-/// Bytes of the code point at the front of `text` (not empty), or 0 if it is not valid UTF-8.
+/// Number of bytes in the first code point of `text` (not empty); 0 if it is not valid UTF-8.
 std::size_t utf8_length(std::string_view text);
 
 /// Returns `text` as one line for a message or a table: line breaks (also U+2028 and U+2029) become blanks, other
@@ -141,7 +141,7 @@ std::size_t utf8_length(std::string_view text);
 std::string printable(std::string_view text, std::size_t most = 240);
 
 /// The same for a text of several lines, such as a message with an excerpt: line feeds stay. All lines but the first
-/// are indented, so a text in a message cannot pass for a message of its own.
+/// are indented, so a text in a message cannot be mistaken for another message.
 std::string printable_lines(std::string_view text, std::size_t most = 240);
 
 /// Returns `text` for one line of a pattern file, such as its title or a comment: as printable(), with single

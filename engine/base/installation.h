@@ -6,8 +6,8 @@
 
 namespace sikku {
 
-/// Sets the data folder, which has the bundled patterns as `patterns`, for programs outside of the installation. Call
-/// it before the first pattern is loaded; empty: unset. Programs that CMake's package links need not call it.
+/// Sets the data folder, which contains the bundled patterns as `patterns`, for programs outside of the installation.
+/// Call it before the first pattern is loaded; empty: unset. Programs linked by the CMake package do not need it.
 void set_data_folder(const std::filesystem::path& folder);
 
 /// Candidates for the data folder, best first: that of the environment variable SIKKU_DATA; if it is not set, that of

@@ -36,7 +36,7 @@ struct KeyInfo {
 /// All keys, grouped by owner, in the order of the manual.
 std::span<const KeyInfo> language_keys();
 
-/// The row of a key, or null; `note A` is found in the row `note SYMBOL`. @param name  folded
+/// Finds the row of a key, or null; `note A` is found in the row `note SYMBOL`. @param name  folded
 const KeyInfo* find_language_key(std::string_view name);
 
 /// The names of the keys that `owner` reads, without those for symbols, in the order of the table.

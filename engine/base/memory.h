@@ -1,4 +1,4 @@
-// engine/base/memory.h: the memory of the machine, and sizes as users write them.
+// engine/base/memory.h: the memory of the machine, and sizes in the notation of users.
 #pragma once
 
 #include <cstdint>

@@ -146,7 +146,7 @@ std::string random_letters() {
     return result;
 }
 
-/// Returns the name, shortened to what a temporary name can hold, at a character boundary.
+/// Returns the name, shortened to fit into a temporary name, at a character boundary.
 std::string stem_of(const std::filesystem::path& target) {
     std::string stem = target.filename().string();
     if (stem.size() > longest_stem) {

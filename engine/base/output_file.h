@@ -61,7 +61,7 @@ private:
 };
 
 /// Many files of one folder: all of them appear, or none. They are synchronised together, so thousands of small
-/// files take hardly longer than one.
+/// files take little longer than one.
 class OutputFiles {
 public:
     /// Adds a file of that content, which is written beside its target. @throws as OutputFile

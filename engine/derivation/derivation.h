@@ -14,7 +14,7 @@
 namespace sikku {
 
 /// Consecutive symbols of the derived word. Valid only during the call, except for the contents of a block: a
-/// recurring part, which is passed each time under the same number, so that a reader may keep its results for it.
+/// recurring part, which is passed each time under the same number, so that a reader can cache its results.
 struct Run {
     std::span<const Symbol> symbols;
     std::int32_t block = -1;              ///< number of the block, from 0; -1: not a block
@@ -41,7 +41,7 @@ class WordError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Lets a reader skip parts of the word that it accounts for otherwise, such as those before the first bar to be
+/// Skips parts of the word for a reader that accounts for them otherwise, such as those before the first bar to be
 /// played or outside of the page.
 class Pruner {
 public:

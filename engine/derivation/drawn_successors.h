@@ -76,7 +76,7 @@ private:
         std::size_t chosen = choice.first;
         if (choice.count > 1) {
             const std::uint64_t bits = chance.bits(0);
-            // Without branches, which processors could not predict.
+            // Branchless, because processors could not predict the branches.
             for (std::size_t k = 0; k + 1 < choice.count; ++k) chosen += bits >= begins_[choice.first + k] ? 1 : 0;
         }
         return successors_[chosen];

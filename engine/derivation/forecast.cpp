@@ -25,7 +25,7 @@ struct Sparse {
     std::vector<std::uint32_t> begin;  // by symbol; one more at the end
     std::vector<Term> terms;
     std::vector<char> has;              // by symbol: 1 if it has a production
-    std::vector<std::uint32_t> length;  // of the successor
+    std::vector<std::uint32_t> length;  // length of the successor
 
     Sparse(const Table& table, std::size_t symbols, const std::vector<char>& needed) {
         begin.push_back(0);

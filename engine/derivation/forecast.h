@@ -22,7 +22,7 @@ struct Forecast {
     /// Derivation nodes visited: symbols that are rewritten into none or several symbols, and symbols of the word.
     /// Subwords known to be empty are not visited. May be infinite.
     double nodes = 0.0;
-    double log10_length = 0.0;  ///< of the word; -infinity if it is empty
+    double log10_length = 0.0;  ///< -infinity if the word is empty
     /// Number of each symbol in the word, to 15 digits (infinity if a double does not hold it), and log10 of it.
     std::vector<double> rough_counts;
     std::vector<double> log10_counts;
@@ -52,8 +52,8 @@ double label_lines(const Grammar& grammar, const Forecast& forecast);
 /// Number of symbols of the word, for progress reports; 0 if only deriving would determine it.
 double expected_symbols(const Grammar& grammar, bool interpreted);
 
-/// Upper bound of the seconds for matching contexts, assuming that every candidate is compared in full at every
-/// symbol of the first word, in every step with contexts. The budget may stop it earlier.
+/// Upper bound of the time for matching contexts in seconds, assuming that every candidate is compared in full at
+/// every symbol of the first word, in every step with contexts. The budget may stop it earlier.
 double matching_seconds(const Grammar& grammar, double budget);
 
 /// Returns the largest derivation length up to grammar.steps() that visits at most `budget` nodes; -1 if none does.

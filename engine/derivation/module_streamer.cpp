@@ -67,9 +67,9 @@ private:
         const Symbol* next;
         const Symbol* end;
         std::size_t begin;     // size of the stack after the frame
-        std::size_t argument;  // of the next child
+        std::size_t argument;  // first argument of the next child
         std::int64_t level;
-        std::uint64_t place;  // of the parent
+        std::uint64_t place;  // place of the parent
     };
 
     /// Returns space for `count` values at the top of the stack.
@@ -248,8 +248,8 @@ private:
     std::vector<char> active_;  // symbols that some table rewrites
     std::vector<Frame> frames_;
     std::vector<double> stack_;  // arguments of the symbols in the frames
-    std::size_t top_ = 0;        // of the stack
-    Word symbols_;               // of the next run
+    std::size_t top_ = 0;        // top of the stack
+    Word symbols_;               // symbols of the next run
     std::size_t count_ = 0;
     std::vector<double> arguments_;
     std::size_t argument_count_ = 0;

@@ -134,7 +134,7 @@ private:
     std::size_t symbols_;
     std::vector<Span> axiom_;
     std::map<const Table*, std::vector<Made>> made_;
-    std::vector<std::uint64_t> lengths_;  // of the expansion of each symbol at each level
+    std::vector<std::uint64_t> lengths_;  // lengths of the expansions of each symbol at each level
 };
 
 OriginTracer::OriginTracer(const Document& document)

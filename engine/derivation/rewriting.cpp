@@ -172,7 +172,7 @@ private:
     std::optional<Neighbourhood> neighbourhood_;
     std::vector<std::uint32_t> begin_;  // index of each symbol's first argument; empty unless contexts need it
     std::size_t at_ = 0;
-    std::size_t argument_ = 0;  // of the symbol at_
+    std::size_t argument_ = 0;  // first argument of the symbol at_
     std::span<const double> formals_;
     std::vector<std::uint32_t> seen_;
     std::vector<double> gathered_;

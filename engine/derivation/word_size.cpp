@@ -33,7 +33,7 @@ private:
 std::optional<WordSize> derived_size(const Grammar& grammar, double most) {
     WordSize size;
     DerivationOptions options = DerivationOptions::within(most);
-    // Kept words are as long as streamed ones here, although keeping them costs more: most are short.
+    // Kept words may be as long as streamed ones here, although keeping them costs more: most are short.
     options.longest_word = options.compared = static_cast<std::uint64_t>(most);
     options.whole_words = 5 * options.longest_word;
     try {

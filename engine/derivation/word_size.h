@@ -7,7 +7,7 @@
 
 namespace sikku {
 
-/// Sizes of a word, for forecasts.
+/// Node and symbol counts of a word.
 struct WordSize {
     double nodes = 0;  ///< visited
     double drawn = 0;  ///< symbols that draw lines, discs or surfaces

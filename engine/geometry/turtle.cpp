@@ -117,7 +117,7 @@ private:
     const Grammar& grammar_;
 };
 
-/// Where a turtle draws; each may be absent.
+/// Receivers of a turtle's output; each may be null.
 struct Sinks {
     PathSink* path = nullptr;
     PlaceSink* places = nullptr;

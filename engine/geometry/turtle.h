@@ -23,8 +23,8 @@ struct Survey {
     std::uint64_t moves = 0;     ///< steps, drawn or not
     double length = 0.0;         ///< drawn, in steps
     std::uint64_t polygons = 0;  ///< closed by `}` or an inserted edge
-    Bounds box;                  ///< of all positions, the start included
-    std::optional<Bounds> ink;   ///< of the segments drawn and the labels
+    Bounds box;                  ///< contains all positions, including the start
+    std::optional<Bounds> ink;   ///< contains the segments drawn and the labels
     glm::dvec2 end{0.0};
     double heading = 0.0;    ///< degrees in [0, 360)
     bool closed = false;     ///< ended where it began

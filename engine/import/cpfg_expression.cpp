@@ -10,8 +10,8 @@
 namespace sikku::cpfg {
 namespace {
 
-constexpr std::size_t most_nesting = 256;                            // of an expression
-constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // as rewritten
+constexpr std::size_t most_nesting = 256;                            // depth of an expression
+constexpr std::size_t most_expression_bytes = std::size_t{1} << 20;  // after rewriting
 constexpr double degree = 0.017453292519943295;
 
 /// Increments a counter during its lifetime.
@@ -147,7 +147,7 @@ std::string Expressions::identifier(Reader& reader) {
 }
 
 Expressions::Operator Expressions::operator_here(Reader& reader) {
-    // Longer ones precede their beginnings.
+    // Longer operators precede those that they begin with.
     constexpr Operator operators[] = {{"||", 1}, {"&&", 2}, {"==", 3}, {"!=", 3}, {"<=", 4}, {">=", 4}, {"<", 4},
                                       {">", 4},  {"+", 5},  {"-", 5},  {"*", 6},  {"/", 6},  {"%", 6},  {"^", 7}};
     const char byte = next(reader);

@@ -10,12 +10,12 @@
 
 namespace sikku::cpfg {
 
-constexpr std::size_t most_parameters = 64;  // of a module of a pattern
+constexpr std::size_t most_parameters = 64;  // maximum for a module of a pattern
 
 /// An expression in the pattern language.
 struct Value {
     std::string text;
-    int precedence = 9;  ///< of its outermost operator, as in engine/language/expression.cpp; 9 without one
+    int precedence = 9;  ///< the outermost operator's, as in engine/language/expression.cpp; 9 without one
     bool is_random = false;
     bool is_enclosed = false;  ///< in parentheses, which `text` omits
 };

@@ -369,7 +369,7 @@ private:
     System system_;
     const View& view_;
     Report& report_;
-    long long rounds_ = 0;  // of decomposition, after each step
+    long long rounds_ = 0;  // rounds of decomposition after each step
 };
 
 }  // namespace

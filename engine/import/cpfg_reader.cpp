@@ -12,7 +12,7 @@ constexpr std::size_t most_productions = 10'000;
 constexpr std::size_t most_faults = 10'000;
 constexpr std::size_t nothing = std::string::npos;
 
-/// The keyword that a line begins with, in lower case and without blanks, or nothing.
+/// The keyword that a line begins with, in lower case and without blanks; empty if there is none.
 std::string keyword_of(std::string_view line) {
     const std::string text = lower_case(line.substr(skip_blanks(line, 0)).substr(0, 24));
     constexpr std::array<std::string_view, 19> keywords = {
@@ -94,7 +94,7 @@ private:
 
     /// Number of open braces of a block of C that began in this line; 0 in other lines.
     std::size_t open_braces(std::size_t begin, std::size_t end) {
-        // Lines that were counted are not counted again, however many follow.
+        // Each line is counted only once, however many lines follow.
         if (counted_begin_ != begin) {
             const std::string_view line = std::string_view(text_).substr(begin, end - begin);
             std::size_t first = nothing;

@@ -35,7 +35,7 @@ inline bool begins_identifier(char byte) {
 inline bool continues_identifier(char byte) {
     return is_letter_or_digit(byte) || byte == '_';
 }
-/// The first place from `at` to `end` without a blank.
+/// Returns the position of the first character from `at` on that is not a blank, at most `end`.
 inline std::size_t skip_blanks(std::string_view text, std::size_t at, std::size_t end = std::string_view::npos) {
     while (at < std::min(end, text.size()) && is_blank(text[at])) ++at;
     return at;

@@ -57,7 +57,7 @@ struct System {
     bool considers = false;
     std::optional<std::string> axiom;
     std::vector<Rule> rules;
-    std::vector<Rule> decomposition;  ///< applied to the axiom and after each step, over and over
+    std::vector<Rule> decomposition;  ///< applied repeatedly to the axiom and after each step
     long long decomposition_depth = 1;
     std::size_t decomposition_at = 0;
     std::vector<Rule> homomorphism;

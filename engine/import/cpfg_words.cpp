@@ -56,7 +56,7 @@ std::string Words::surface(char byte) {
     if (letter.empty()) {
         const std::size_t number = letters.surfaces.size() - 1;  // fewer than the turtle has commands
         letter = {'\xCE', static_cast<char>(0x91 + number)};
-        if (letter == "\xCE\x95") letter = "\xCE\xB1";  // capital epsilon is too much like the empty word
+        if (letter == "\xCE\x95") letter = "\xCE\xB1";  // capital epsilon resembles the empty word
     }
     letters.symbols.insert(letter);
     return letter;
@@ -125,7 +125,7 @@ void Words::finish(std::string& result, const std::string& letter, std::vector<s
     append(result, letter, arguments);
 }
 
-/// Notes modules that set widths, which are pixels unless the view states otherwise.
+/// Records modules that set widths. Widths are in pixels unless the view states otherwise.
 void Words::note_width(const std::string& letter, const std::vector<std::string>& arguments) {
     if ((letter == "!" || letter == "#") && !arguments.empty()) letters.sets_width = true;
 }

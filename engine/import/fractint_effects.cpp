@@ -8,9 +8,9 @@ namespace sikku::fractint {
 namespace {
 
 constexpr std::size_t most_levels = 20;                           // that differ
-constexpr double most_length_digits = 300;                        // of a length, before or after the point
+constexpr double most_length_digits = 300;                        // in a length, before or after the point
 constexpr std::int64_t whole_turn = 360'000'000'000;              // billionths of degrees
-constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // of a factor that is nearly 1
+constexpr std::int64_t largest_exponent = std::int64_t{1} << 40;  // exponent of a factor that is nearly 1
 
 }  // namespace
 
@@ -24,7 +24,7 @@ Effects::Effects(const Entry& entry) : entry_(entry) {
 }
 
 void Effects::find_reached() {
-    // Letters that each letter with a rule leads to, itself included.
+    // The letters that each letter with a rule leads to, including itself.
     std::map<char, Flags> leads;
     for (const auto& [letter, rule] : entry_.rules) {
         leads[letter].set(index_of(letter));
@@ -51,12 +51,12 @@ void Effects::find_reached() {
     }
 }
 
-/// Turns that ! exchanges and that affect headings of steps in the system.
+/// Returns the turns that ! exchanges and that affect headings of steps in the system.
 std::string_view Effects::turns() const {
     return has_own_steps_ && has_other_steps_ ? "+-/\\" : has_other_steps_ ? "/\\" : "+-";
 }
 
-/// Letters that a sensitive letter follows before the end of their branch.
+/// Finds the letters that are followed by a sensitive letter before the end of their branch.
 Flags Effects::followed(const Flags& sensitive) const {
     Flags result;
     const auto look = [&](const Tokens& word, bool after) {

@@ -12,12 +12,12 @@
 namespace sikku::fractint {
 
 /// The effect of a symbol on the turtle after it: the step length multiplied by powers of the factors, in halves;
-/// left and right exchanged; and the heading of D and M turned against that of F and G.
+/// left and right exchanged; and the heading of D and M relative to that of F and G.
 struct Effect {
     std::vector<std::int64_t> halves;
     bool flips = false;
     std::int64_t steps = 0;       ///< turns of + and -, in units of 360 degrees / angle: 0 to angle - 1
-    std::int64_t around = 0;      ///< likewise of |, which ! does not exchange
+    std::int64_t around = 0;      ///< the same for |, which ! does not exchange
     std::int64_t billionths = 0;  ///< turns of \\ and /, in billionths of degrees, below 360 degrees
     bool operator==(const Effect&) const = default;
 };

@@ -13,7 +13,7 @@
 namespace sikku::fractint {
 namespace {
 
-constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // of all words of an entry
+constexpr std::size_t most_word_bytes = std::size_t{1} << 20;  // bytes in all words of an entry
 constexpr std::size_t most_numbers = 32;                       // different ones after @
 
 class EntryReader {

@@ -17,10 +17,10 @@ namespace sikku::fractint {
 /// A command or symbol; `[` and `]` too.
 struct Token {
     char letter = 0;
-    std::int8_t root = 0;    ///< of @: exponent of the factor in halves
-    std::uint16_t base = 0;  ///< of @: index of its number in Entry::factors
+    std::int8_t root = 0;    ///< for @: exponent of the factor in halves
+    std::uint16_t base = 0;  ///< for @: index of its number in Entry::factors
     std::uint32_t at = 0;
-    double number = 0.0;  ///< of \ / c < >
+    double number = 0.0;  ///< for \ / c < >
 };
 using Tokens = std::vector<Token>;
 
@@ -68,7 +68,7 @@ struct Entry {
     int angle = 0;  ///< turns are 360 degrees divided by this number
     Tokens axiom;
     std::map<char, Tokens> rules;
-    Factors factors;  ///< of the distinct numbers after @
+    Factors factors;  ///< factors of the distinct numbers after @
 
     /// The rule of a letter, or null.
     const Tokens* rule_of(char letter) const {

@@ -98,7 +98,7 @@ std::vector<std::uint64_t> coprime_base(const std::vector<Fraction>& fractions) 
                 i = static_cast<std::size_t>(-1);
                 continue;
             }
-            // Both break into smaller numbers.
+            // Both numbers split into smaller ones.
             pending.push_back(number / common);
             pending.push_back(base[i] / common);
             pending.push_back(common);
@@ -120,7 +120,7 @@ std::vector<std::int32_t> exponents_of(Fraction fraction, const std::vector<std:
     return exponents;
 }
 
-/// True if none of the rows is a combination of others. Long double pivots would suffice, but a modulus proves
+/// True if the rows are linearly independent. Long double pivots would suffice, but a prime modulus proves
 /// that rows found independent are independent.
 bool are_independent(const std::vector<std::vector<std::int32_t>>& rows) {
     constexpr std::int64_t modulus = 2'147'483'647;  // a prime number

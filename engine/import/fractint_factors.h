@@ -11,7 +11,7 @@ namespace sikku::fractint {
 /// their exponents are. So 0.5 and 2 cancel, as do 0.25, 2 and 8, or 2, 3 and 6.
 struct Factors {
     std::vector<double> values;                        ///< above 0, none of them 1
-    std::vector<std::vector<std::int32_t>> exponents;  ///< of the values, for each number
+    std::vector<std::vector<std::int32_t>> exponents;  ///< exponents of the values, for each number
 };
 
 /// Finds factors of decimal numbers above 0, such as `.5`. A number stays a factor itself unless it is a power, a
@@ -20,8 +20,8 @@ struct Factors {
 /// coprime base.
 Factors find_factors(const std::vector<std::string>& numbers);
 
-/// Product of powers with exponents in halves, for products whose powers leave the range of doubles although they
-/// themselves do not; 0 or infinity if they do. The result is the same on every machine.
+/// Computes a product of powers with exponents in halves. Single powers may exceed the range of doubles; a product
+/// that exceeds it becomes 0 or infinity. The result is the same on every machine.
 double product_of_powers(const std::vector<double>& values, const std::vector<std::int64_t>& halves);
 
 }  // namespace sikku::fractint

@@ -14,7 +14,7 @@ namespace sikku::fractint {
 namespace {
 
 constexpr std::size_t most_pattern = std::size_t{4} << 20;  // bytes that one entry may become
-constexpr double most_term_digits = 150;                    // of the powers in an expression
+constexpr double most_term_digits = 150;                    // for the powers in an expression
 constexpr int palette_size = 16;
 constexpr int first_colour = 15;
 constexpr const char* palette =
@@ -56,7 +56,7 @@ public:
         : entry_(entry), effects_(effects), file_(file), diagnostics_(diagnostics), losses_(losses), room_(room) {}
 
     std::string write() {
-        // Names are known only after all words were written; then blanks go between symbols.
+        // Names are known only after all words were written; then blanks separate the symbols.
         std::vector<Line> lines = write_lines();
         if (!names_.empty()) {
             names_used_ = true;

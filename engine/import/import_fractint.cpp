@@ -37,7 +37,7 @@ std::vector<ImportedSystem> import_fractint(const SourcePointer& file, Diagnosti
         while (begin < brace && (text[begin] == ' ' || text[begin] == '\t')) ++begin;
         std::string name = text.substr(begin, brace - begin);
         name.resize(std::min(name.find_first_of(" \t(["), name.size()));
-        std::size_t end = brace + 1;  // of the entry: a brace that is not in a comment
+        std::size_t end = brace + 1;  // end of the entry: a brace that is not in a comment
         while (end < text.size() && text[end] != '}') {
             end = text[end] == ';' ? find_before(text, '\n', end, text.size()) : end + 1;
         }

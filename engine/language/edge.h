@@ -14,8 +14,8 @@ struct EdgeLength {
     /// All steps of the word in one direction.
     struct Part {
         TurnFraction direction;
-        double length = 0;       ///< of each
-        std::int64_t count = 0;  ///< how many
+        double length = 0;       ///< of each step
+        std::int64_t count = 0;  ///< number of these steps
     };
     std::string letter;
     double length = 0;        ///< in turtle steps, rounded; not 0; negative: behind

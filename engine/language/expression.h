@@ -60,11 +60,11 @@ private:
         number,
         formal,
         open,
-        // of one operand
+        // with one operand
         negate,
         complement,
         function,  ///< its slot is an index into the table of functions
-        // of two
+        // with two operands
         power,
         multiply,
         divide,
@@ -86,7 +86,7 @@ private:
         std::uint32_t slot = 0;
         double value = 0.0;
     };
-    /// The shape of most expressions, evaluated at once. The others are `steps`.
+    /// The shape of the expression. Most shapes are evaluated directly; the others are `steps`.
     enum class Shape : std::uint8_t { number, formal, product, sum, at_least, steps };
     friend class ExpressionCompiler;
 
@@ -96,9 +96,9 @@ private:
 
     Shape shape_ = Shape::number;
     bool uses_chance_ = false;
-    std::uint32_t slot_ = 0;  // of all shapes but `steps`: a formal, or a number, or both
+    std::uint32_t slot_ = 0;  // for all shapes but `steps`: a formal, a number, or both
     double number_ = 0.0;
-    std::vector<Step> steps_;  // steps of the others; empty if the shape suffices
+    std::vector<Step> steps_;  // steps for the others; empty if the shape suffices
     std::size_t stack_ = 0;    // most values at a time
 };
 

@@ -153,7 +153,7 @@ struct Tropism {
     double elasticity = 0.0;
 };
 
-/// Immutable once compiled. Everything an interpreter needs beside its own keys.
+/// Immutable once compiled. Everything an interpreter needs besides its own keys.
 class Grammar {
 public:
     const std::vector<SymbolInfo>& symbols() const { return symbols_; }

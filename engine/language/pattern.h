@@ -104,7 +104,7 @@ SourcePointer read_source(std::string name, std::string text, Diagnostics& diagn
 Pattern parse_pattern(std::string name, std::string text, Diagnostics& diagnostics);
 
 /// Applies a variant by name (empty: none), then the settings, in this order: file < variant < settings.
-/// A setting whose name is a define of the file replaces it, else it is a key.
+/// A setting replaces the define of its name, or else the key.
 void apply_overrides(Pattern& pattern, std::string_view variant, const std::vector<Setting>& settings,
                      Diagnostics& diagnostics);
 

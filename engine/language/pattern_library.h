@@ -39,7 +39,7 @@ public:
     std::string gallery_file(const std::string& name) const;
     /// Names to suggest instead of `name`: up to three that begin with it, otherwise the nearest one.
     std::vector<std::string_view> similar(std::string_view name) const;
-    /// The kind nearest to `name`, or empty if none is near enough to be meant.
+    /// The kind nearest to `name`; empty if none is near enough to be meant.
     std::string_view nearest_kind(std::string_view name) const;
     /// The names of the gallery files in the library, sorted.
     std::vector<std::string> gallery_files() const;

@@ -10,9 +10,9 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_named = 12;  // of the letters in a message
+constexpr std::size_t most_named = 12;  // maximum number of letters in a message
 
-/// What a letter does in a grammar.
+/// Roles of a letter in a grammar.
 struct LetterFacts {
     bool is_skipped = true;       ///< by a turtle, in all its forms
     bool is_reached = false;      ///< words of the system contain it
@@ -26,7 +26,7 @@ struct LetterFacts {
     bool multiplies = false;      ///< a successor of its own has several symbols
 };
 
-/// What the letters of a grammar do.
+/// Finds the roles of the letters of a grammar.
 class Letters {
 public:
     explicit Letters(const Grammar& grammar) : grammar_(grammar), facts_(grammar.letters().size()) {

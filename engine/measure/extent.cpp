@@ -130,7 +130,7 @@ void walk(const Grammar& grammar, DerivationOptions options, bool counts_steps, 
     }
 }
 
-/// Labels are ink, too, but have no exact extent: a walk finds it if the budget allows; otherwise the ink is
+/// Labels count as ink but have no exact extent. A walk finds it if the budget allows; otherwise the ink is
 /// unknown.
 void note_labels(const Grammar& grammar, const DerivationOptions& options, bool is_affordable, Measurement& result) {
     result.geometry->ink.reset();
@@ -184,7 +184,7 @@ Measurement measured(const Grammar& given, double budget, const std::function<vo
 
 /// Rounded positions within 1e-9 steps count as the start, which is meaningless for drawings of about that size.
 void doubt_closed(Measurement& result) {
-    constexpr double small = 1e-6;  // of the size
+    constexpr double small = 1e-6;  // relative to the size
     const auto is_far = [](double gap, double width, double height) { return gap > small * std::max(width, height); };
     if (result.geometry) {
         Fold& fold = *result.geometry;

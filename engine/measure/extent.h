@@ -17,8 +17,8 @@ namespace sikku {
 /// Quantities that `sikku measure` reports. The turtle starts at 0 0; one step is 1.
 struct Measurement {
     std::int64_t n = 0;
-    Quantity symbols;                                      ///< of the word before `interpret:`
-    std::vector<std::pair<std::string, Quantity>> counts;  ///< of that word, by letter, sorted, without zeros
+    Quantity symbols;                                      ///< in the word before `interpret:`
+    std::vector<std::pair<std::string, Quantity>> counts;  ///< in that word, by letter, sorted, without zeros
     Quantity drawn;                                        ///< segments; this and the following after `interpret:`
     Quantity moves;                                        ///< steps, drawn or not
     Quantity length;                                       ///< drawn, in steps

@@ -16,9 +16,9 @@ namespace sikku {
 namespace {
 
 constexpr double most_work = 3e7;
-constexpr std::size_t longest_axiom = 1'000'000;  // a long word is walked as cheaply as composed
+constexpr std::size_t longest_axiom = 1'000'000;  // walking a long word costs as much as composing it
 constexpr std::size_t most_frames = 4096;
-constexpr std::uint64_t most_corners = 5'000'000;  // of hulls, in total
+constexpr std::uint64_t most_corners = 5'000'000;  // corners of all hulls together
 
 struct Overflow {};  // 64 bits do not suffice
 struct TooMuch {};   // composition is too costly
@@ -389,7 +389,7 @@ private:
         bool draws = false;
         std::int64_t net = 0;  // net depth of brackets
         std::int64_t highest = 0;
-        Nesting braces, edges;  // of polygons, and of inserted edges
+        Nesting braces, edges;  // for polygons, and for inserted edges
         bool has_cylinder = false;
     };
     using Level = std::vector<std::shared_ptr<const Element>>;

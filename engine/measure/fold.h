@@ -12,7 +12,7 @@
 
 namespace sikku {
 
-/// A number of any size: with digits from 2^53 on, where doubles do not hold all whole numbers.
+/// A number of any size. It has digits from 2^53 on, where doubles do not represent all whole numbers.
 struct Quantity {
     double value = 0.0;
     std::string digits;  ///< empty below 2^53; else a whole decimal number, or "about 10^k"
@@ -23,7 +23,7 @@ struct Quantity {
 /// Net effect of the interpreted word on a turtle that starts at 0 0, in turtle steps.
 struct Fold {
     std::array<Quantity, 4> box;                 ///< xmin ymin xmax ymax of all positions, the start included
-    std::optional<std::array<Quantity, 4>> ink;  ///< of the segments drawn
+    std::optional<std::array<Quantity, 4>> ink;  ///< the same for the segments drawn
     std::array<Quantity, 2> end;
     double heading = 0.0;  ///< degrees in [0, 360)
     bool closed = false;
@@ -36,8 +36,8 @@ struct Fold {
 /// deriving anything. Exact if the lattice of the grammar is: in 64 bits, and in more where necessary. Nullopt for
 /// maps, if the system has parameters or random choices, if productions look at neighbours, if the composition itself
 /// is too costly (about 3 x 10^7 compositions of 64-bit numbers, 5 x 10^6 corners of hulls, axioms of 10^6 symbols),
-/// if a part has more than 4096 unmatched brackets, if braces do not balance, or if doubles do not hold the
-/// coordinates.
+/// if a part has more than 4096 unmatched brackets, if braces do not balance, or if coordinates exceed the range of
+/// doubles.
 /// @throws WordError for brackets that do not balance in the word
 /// Cost: O(symbols x steps) compositions, each linear in the corners of the hulls (usually below 30).
 std::optional<Fold> fold(const Grammar& grammar);

@@ -19,9 +19,9 @@ template <class Number>
 struct DrawnPart {
     Number x = 0, y = 0;     ///< displacement of the turtle
     std::uint32_t turn = 0;  ///< change of its heading, in headings
-    bool returns = false;    ///< ends so near its start that its chord is almost nothing
+    bool returns = false;    ///< ends so near its start that its chord is almost 0
     float extent = -1;       ///< the longer side of its box; below 0: it draws nothing
-    glm::dvec2 low{0.0};     ///< box of the drawing, never too small
+    glm::dvec2 low{0.0};     ///< a box that contains the drawing
     glm::dvec2 high{0.0};
     double ink = 0.0;        ///< length drawn, branches included
     glm::dvec2 centre{0.0};  ///< centre of mass of the drawing
@@ -41,7 +41,7 @@ class Parts {
 public:
     /// `grammar` must outlive the parts. With `moves_draw`, steps that do not draw are drawn, too, as for a spline.
     /// Nullopt for other drawings (maps, contexts, colours, widths, polygons, discs, brackets that stay open, angles
-    /// that are not fractions of a turn), for more than a million parts, and for lengths that doubles do not hold.
+    /// that are not fractions of a turn), for more than a million parts, and for lengths beyond the range of doubles.
     /// Cost: O(size of the tables x steps x headings).
     static std::optional<Parts> make(const Grammar& grammar, bool moves_draw = false);
 
@@ -77,7 +77,7 @@ private:
     std::size_t symbols_ = 0;
     std::uint32_t headings_ = 0;
     std::vector<const Table*> tables_;  // by level, from 1
-    std::vector<std::uint32_t> rows_;   // of parts_, by level and heading
+    std::vector<std::uint32_t> rows_;   // rows of parts_, by level and heading
     std::vector<DrawnPart<Number>> parts_;
     DrawnPart<Number> whole_;
 };

@@ -89,7 +89,7 @@ private:
             lock.lock();
             is_reading_ = false;
             if (is_over_) return;
-            if (sought_) continue;  // what was read is not wanted any more
+            if (sought_) continue;  // the notes read are no longer needed
             if (error) {
                 error_ = error;
             } else {
@@ -101,7 +101,7 @@ private:
 
     Monitor outer_;
     std::mutex mutex_;
-    std::condition_variable wanted_;  // the thread has something to do
+    std::condition_variable wanted_;  // the thread has work
     std::condition_variable read_;
     std::atomic<bool> stops_reading_{false};
     bool is_over_ = false;

@@ -9,13 +9,13 @@
 
 namespace sikku::live {
 
-/// Opens a stream whose reading stops when the monitor says so.
+/// Opens a stream that stops reading on a stop request of the monitor.
 using OpenStream = std::function<std::unique_ptr<NoteStream>(const Monitor& monitor)>;
 
 /// Opens a stream and reads two windows ahead of next(), on a thread, so that next() returns at once unless reading
-/// takes longer than playing. Errors of the stream come from next().
+/// takes longer than playing. Errors of the stream are thrown by next().
 /// @param outer  stops the opening and the reading, too; on two threads
-/// @throws what `open` throws
+/// @throws exceptions of `open`
 std::unique_ptr<NoteStream> read_ahead(const OpenStream& open, const Monitor& outer = {});
 
 }  // namespace sikku::live

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int queue_patience = 1000;
 constexpr std::size_t largest_event = 64;
-/// Longer than a thread waits for its turn on a busy machine; changes are heard that much later.
+/// Exceeds the scheduling latency of a busy machine; changes are heard with this delay.
 constexpr Nanoseconds sent_ahead = second / 10;
 constexpr std::size_t most_pending = 2000;  // events; the largest pool that the kernel grants
 
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// Compares the clocks, and keeps the result if reading both took less than `limit`. @return how long it took
+    /// Compares the clocks, and keeps the result if reading both took less than `limit`. @return its cost
     Nanoseconds measure(Nanoseconds limit) {
         const Nanoseconds before = clock_.now();
         if (snd_seq_get_queue_status(sequencer_, number_, status_) < 0) return INT64_MAX;

@@ -1,4 +1,4 @@
-// music/live/message.h: messages of MIDI clocks, beside those of scores.
+// music/live/message.h: messages of MIDI clocks, in addition to those of scores.
 #pragma once
 
 #include "music/score/midi_message.h"

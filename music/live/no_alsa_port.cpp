@@ -1,4 +1,4 @@
-// music/live/no_alsa_port.cpp: instead of alsa_port.cpp where ALSA's headers are missing.
+// music/live/no_alsa_port.cpp: replaces alsa_port.cpp if ALSA's headers are missing.
 #include "music/live/ports.h"
 
 namespace sikku::live {

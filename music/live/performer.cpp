@@ -16,21 +16,21 @@ namespace {
 
 /// Signals, newer versions and pauses are noticed within this time.
 constexpr Nanoseconds longest_wait = second / 20;
-/// After this time without clock messages notes end.
+/// Notes end after this time without clock messages.
 constexpr Nanoseconds longest_silence = second;
-/// What is later than this is not caught up with.
+/// Larger delays are not caught up with.
 constexpr Nanoseconds most_catching_up = second / 2;
 constexpr Nanoseconds tolerance = second / 200;
 constexpr std::int64_t clock_ticks = ticks_per_quarter / clocks_per_quarter;
 constexpr std::int64_t sixteenth = ticks_per_quarter / 4;
-/// Silence is read ahead so far.
+/// Silence is read ahead up to this time.
 constexpr std::int64_t most_ahead = 64 * ticks_per_quarter;
 
 double nanoseconds_per_tick(double tempo) {
     return 60.0 * static_cast<double>(second) / tempo / static_cast<double>(ticks_per_quarter);
 }
 
-/// When ticks of the performance are, by the clock of the machine.
+/// Converts ticks of the performance to times by the clock of the machine.
 class OwnTime {
 public:
     void set_tempo(std::int64_t tick, double tempo) {
@@ -49,7 +49,7 @@ private:
     double pace_ = nanoseconds_per_tick(120);
 };
 
-/// When they are by the clock messages of another machine. Between two messages the distance of the last two holds.
+/// Converts ticks to times by the clock messages of another machine, at the distance of the last two messages.
 class FollowedTime {
 public:
     bool is_running() const { return is_running_ && has_clock_; }
@@ -78,7 +78,7 @@ public:
         next_ += clock_ticks;
         has_clock_ = true;
     }
-    /// Nullopt for ticks that the next message comes before.
+    /// Nullopt for ticks after the next message.
     std::optional<Nanoseconds> time_of(std::int64_t tick) const {
         if (!is_running() || tick >= next_) return std::nullopt;
         return last_ + std::llround(static_cast<double>(tick - at_) * interval_ / static_cast<double>(clock_ticks));
@@ -89,12 +89,12 @@ private:
     bool has_clock_ = false;
     bool is_measured_ = false;
     std::int64_t at_ = 0;    // tick of the last message
-    std::int64_t next_ = 0;  // of the next one
+    std::int64_t next_ = 0;  // tick of the next message
     Nanoseconds last_ = 0;
     double interval_ = 0;
 };
 
-/// A version of the score, and where it is.
+/// A version of the score, and its position.
 class Version {
 public:
     explicit Version(std::unique_ptr<NoteStream> stream)
@@ -167,7 +167,7 @@ private:
         try {
             stop();
         } catch (const PortError&) {
-            // That it is gone was the reason, or is no news.
+            // The loss of the port was the cause, or is reported already.
         }
     }
 
@@ -181,7 +181,7 @@ private:
         messages_.clear();
     }
 
-    // --- what comes next; ticks of the performance, which go on through repetitions
+    // --- the next events; ticks of the performance, which continue through repetitions
 
     void begin_pass() {
         ++report_.passes;
@@ -232,7 +232,7 @@ private:
 
     bool is_last_pass() const { return options_.times > 0 && report_.passes >= options_.times; }
 
-    /// Where the pass ends: at a bar line if it is repeated.
+    /// The end of the pass: at a bar line if it is repeated.
     std::int64_t pass_end() const { return pass_ + (is_last_pass() ? *end_ : length_); }
 
     std::int64_t next_tick() const {
@@ -240,7 +240,7 @@ private:
         if (note_ < window_.notes.size()) {
             tick = pass_ + window_.notes[note_].onset;
         } else if (!is_last_) {
-            tick = pass_ + window_.to;  // where more is read
+            tick = pass_ + window_.to;  // place where more is read
         }
         if (!ends_.empty()) tick = std::min(tick, ends_.begin()->first);
         if (!pitches_.empty()) tick = std::min(tick, pitches_.begin()->first);
@@ -255,7 +255,7 @@ private:
 
     // --- waiting
 
-    /// Waits for a tick, but not for long. @return whether it has come
+    /// Waits for a tick for a limited time. @return true if it has come
     bool wait_for(std::int64_t tick) {
         look_for_newer();
         if (next_ && change_ < tick) return false;
@@ -264,7 +264,7 @@ private:
         if (!follows()) {
             const Nanoseconds time = own_.time_of(tick);
             if (time - ahead_ <= now) {
-                // After a suspended process or slow reading the music goes on where it was.
+                // After a suspended process or slow reading the music resumes where it stopped.
                 if (now - time > most_catching_up) {
                     own_.shift(now - time);
                     report_.lost += now - time;
@@ -328,7 +328,7 @@ private:
         }
     }
 
-    /// Plays what a clock message has made due, before the next message is read.
+    /// Plays the notes that a clock message has made due, before the next message is read.
     void catch_up() {
         while (!is_done_) {
             fill();
@@ -339,7 +339,7 @@ private:
         }
     }
 
-    /// Goes to a tick of the score. The tick of the performance goes on.
+    /// Moves to a tick of the score. The tick of the performance continues.
     void restart(std::int64_t tick) {
         ends_.clear();
         pitches_.clear();
@@ -380,7 +380,7 @@ private:
         aim_at(now_ + 1);
     }
 
-    /// The next version takes over at the first bar line from `tick` on.
+    /// Schedules the next version for the first bar line from `tick` on.
     void aim_at(std::int64_t tick) {
         const std::int64_t bar = version_->bar();
         const std::int64_t bars = (std::max<std::int64_t>(0, tick - pass_) + bar - 1) / bar;
@@ -391,14 +391,14 @@ private:
 
     void change_version(std::int64_t tick) {
         if (!next_->stream().is_ready()) {
-            patience_ *= 2;  // bars to get ready in
+            patience_ *= 2;  // bars for its preparation
             return aim_at(tick + (patience_ - 1) * version_->bar() + 1);
         }
         NoteWindow first;
         try {
             first = next_->stream().next();
         } catch (const std::runtime_error&) {
-            // The version before it plays on.
+            // The version before it continues.
             if (hooks_.refused) hooks_.refused(std::current_exception());
             retired_ = std::move(next_);
             return;
@@ -420,7 +420,7 @@ private:
 
     // --- playing
 
-    /// Sends everything of a tick: tempo, clock, ends, beginnings.
+    /// Sends all events of a tick: tempo, clock, ends, beginnings.
     void play_tick(std::int64_t tick) {
         now_ = tick;
         if (sends_clock() && clock_tick_ <= tick) {
@@ -496,7 +496,7 @@ private:
     }
 
     std::unique_ptr<Version> version_;
-    std::unique_ptr<Version> next_;     // takes over at change_
+    std::unique_ptr<Version> next_;     // replaces the current one at change_
     std::unique_ptr<Version> retired_;  // its thread ends after the notes of the change are sent
     std::int64_t change_ = 0;
     std::int64_t next_bar_ = 0;  // its bar there, counted from 0
@@ -512,8 +512,8 @@ private:
     std::vector<Message> messages_;
     bool is_done_ = false;
     std::int64_t now_ = 0;         // the last tick that was played
-    std::int64_t pass_ = 0;        // where the score begins, or would have begun
-    std::int64_t clock_tick_ = 0;  // of the next clock message to be sent
+    std::int64_t pass_ = 0;        // tick at which the score begins, or would have begun
+    std::int64_t clock_tick_ = 0;  // tick of the next clock message to send
     NoteWindow window_;
     bool is_window_ = false;
     bool is_last_ = false;  // no window of this pass follows
@@ -526,8 +526,8 @@ private:
     std::multimap<std::int64_t, double> tempos_;  // factors of the tempo along the curve
     double curve_factor_ = 1;
     std::multimap<std::int64_t, ControlPoint> controls_;
-    std::multimap<std::int64_t, int> ends_;                        // of notes that sound: tick and voice
-    std::multimap<std::int64_t, std::pair<int, double>> pitches_;  // that they slide to: tick, voice and key
+    std::multimap<std::int64_t, int> ends_;                        // of sounding notes: tick and voice
+    std::multimap<std::int64_t, std::pair<int, double>> pitches_;  // slides of sounding notes: tick, voice and key
 };
 
 }  // namespace

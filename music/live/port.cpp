@@ -12,7 +12,7 @@
 namespace sikku::live {
 namespace {
 
-/// As the kernel declares it; the C library of Debian 12 has no name for it.
+/// Declared as in the kernel; the C library of Debian 12 lacks it.
 struct SchedulingAttributes {
     std::uint32_t size = sizeof(SchedulingAttributes);
     std::uint32_t policy = SCHED_OTHER;

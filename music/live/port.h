@@ -18,12 +18,12 @@ constexpr Nanoseconds second = 1'000'000'000;
 /// A time of the clock, or a duration, from 0 on.
 timespec timespec_of(Nanoseconds time);
 
-/// A clock that never goes back.
+/// A monotonic clock.
 class Clock {
 public:
     virtual ~Clock() = default;
     virtual Nanoseconds now() = 0;
-    /// Returns at that time, or before it after a signal; at once if it is over.
+    /// Waits until that time, or until a signal; returns at once if it has passed.
     virtual void sleep_until(Nanoseconds time) = 0;
 };
 
@@ -34,18 +34,18 @@ public:
     void sleep_until(Nanoseconds time) override;
 };
 
-/// Lets this thread run before others, where the user may do that; threads that it starts later do not.
+/// Raises the priority of this thread if the user may do that; threads that it starts later do not inherit it.
 void prefer_this_thread();
 
-/// What a port receives from another clock.
+/// A message that a port receives from another clock.
 struct Received {
     enum class Kind { clock, start, resume, stop, position };
-    Nanoseconds time = 0;  ///< of its arrival
+    Nanoseconds time = 0;  ///< time of arrival
     Kind kind = Kind::clock;
     int position = 0;  ///< in sixteenths from the beginning
 };
 
-/// The port cannot be opened, or has vanished.
+/// Thrown if a port cannot be opened, or has disappeared.
 class PortError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -54,24 +54,24 @@ class PortError : public std::runtime_error {
 class Port {
 public:
     virtual ~Port() = default;
-    /// How long before their time messages may be sent, so that delays of this thread do not matter.
+    /// Time by which messages may be sent early, so that delays of this thread do not matter.
     virtual Nanoseconds ahead() const { return 0; }
     /// Sends messages in this order. @param time  when they are due by the clock, not before that of messages sent
     /// earlier. `at_once` for ports without ahead(); a port receives it always or never. @throws PortError
     virtual void send(std::span<const Message> messages, Nanoseconds time) = 0;
     static constexpr Nanoseconds at_once = 0;
-    /// Waits until `time`, or until something arrives or a signal comes. @return what arrived since the last call
+    /// Waits until `time`, a message or a signal. @return the messages received since the last call
     /// @throws PortError
     virtual std::vector<Received> wait(Clock& clock, Nanoseconds time) = 0;
 };
 
-/// Reads clock messages from a stream of MIDI bytes, whatever is between them.
+/// Extracts clock messages from a stream of MIDI bytes.
 class ClockReader {
 public:
     void read(std::span<const std::uint8_t> bytes, Nanoseconds time, std::vector<Received>& received);
 
 private:
-    int expected_ = 0;  // bytes of a song position that are to come
+    int expected_ = 0;  // bytes missing from a song position
     int position_ = 0;
 };
 

@@ -19,7 +19,7 @@ std::string listed(std::span<const PortInfo> ports) {
     return text;
 }
 
-/// How well a name means a port: 3 its address, 2 a whole name, 1 a part of one, 0 not at all.
+/// Rates the match of a name with a port: 3 its address, 2 a whole name, 1 a part of one, 0 none.
 int likeness(const PortInfo& port, const std::string& name) {
     if (port.address() == name) return 3;
     const std::string wanted = lower_case(name);

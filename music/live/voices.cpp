@@ -17,7 +17,7 @@ Message bend(int channel, int value) {
     return {0xE0 | channel, value & 0x7F, value >> 7};
 }
 
-/// Channels by voice. Beside the drums they go round where there are too few, as with MPE, which needs none of them.
+/// Channels by voice, without that of drums. They repeat if there are too few, as with MPE, which needs none of them.
 std::vector<int> channels_of(const ScoreHead& head, bool share) {
     const std::vector<int> slots = share ? channel_slots(head) : std::vector<int>();
     std::vector<int> channels;

@@ -14,28 +14,28 @@
 
 namespace sikku::live {
 
-/// Knows which notes sound on which channels. Each voice has one note at a time. Messages are the same as in MIDI
+/// Tracks which notes sound on which channels. Each voice has one note at a time. Messages are the same as in MIDI
 /// files: see write_midi().
 class Voices {
 public:
     /// @param head  has to outlive this object
     Voices(const ScoreHead& head, const MidiOptions& midi);
 
-    /// What channels need before the first note: programs, bend ranges, MPE.
+    /// Prepares channels before the first note: programs, bend ranges, MPE.
     void prepare(std::vector<Message>& messages) const;
-    /// Begins a note; a note that its voice still has ends.
+    /// Begins a note; ends the one that still sounds in its voice.
     void begin(const Note& note, std::int64_t tick, std::vector<Message>& messages);
     /// Changes a controller, or bends the sounding note of the voice, as files do. With MPE, controllers apply to the
     /// channel of the note, and then to those of the notes after it.
     void control(const ControlPoint& point, std::vector<Message>& messages);
-    /// Bends the note that the voice has to a key, as files do.
+    /// Bends the sounding note of the voice to a key, as files do.
     void slide(int voice, double key, std::int64_t tick, std::vector<Message>& messages);
-    /// Ends the note of a voice, if it has one.
+    /// Ends the note of a voice, if one sounds.
     void end(int voice, std::int64_t tick, std::vector<Message>& messages);
-    /// Ends all notes, and again with the message for all notes of a channel; bends return to the centre.
+    /// Ends all notes, and repeats this with the message for all notes of a channel; centres bends.
     void silence(std::int64_t tick, std::vector<Message>& messages);
 
-    /// Number of notes that sound.
+    /// Number of sounding notes.
     std::size_t sounding() const { return order_.size(); }
 
 private:

@@ -77,9 +77,9 @@ std::vector<Note> Accompaniment::drone(std::int64_t begin) const {
             note(0, third, length, key_above(0, 0)), note(1, 0, length, key_above(0, -12))};
 }
 
-/// The voicing of a chord. Those of a given progression are known; the last bar of a piece, with the first chord,
-/// adapts to the bar before it. Other chords alternate from bar to bar, independently of their neighbours: with the
-/// fifth on top, then with the third.
+/// Returns the voicing of a chord. Those of a given progression are precomputed; the last bar of a piece, with the
+/// first chord, adapts to the bar before it. Other chords alternate from bar to bar, independently of their
+/// neighbours: with the fifth on top, then with the third.
 Accompaniment::Voicing Accompaniment::voicing_of(std::int64_t bar, const Chord& chord) const {
     const std::vector<Voicing> voicings = voicings_of(chord);
     const auto least = [&](auto cost) {

@@ -22,11 +22,11 @@ public:
         if (has_rhythm_) return slot_ticks(steps - begin_, false) + breaths_;
         return Walk::ticks(steps - begin_, melody_.unit) + breaths_;
     }
-    /// The tick at which a note ends that lasts until `steps`.
+    /// The tick at which a note that lasts until `steps` ends.
     std::int64_t end_ticks(Number steps) const {
         return has_rhythm_ ? slot_ticks(steps - begin_, true) + breaths_ : ticks(steps);
     }
-    /// Maximum duration in ticks of a number of steps and phrases.
+    /// Maximum duration of a number of steps and phrases, in ticks.
     Integer longest(const Integer& steps, const Integer& phrases) const {
         return (steps / hits() + 1) * cycle() + phrases * melody_.breath;
     }

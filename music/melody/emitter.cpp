@@ -142,7 +142,7 @@ void Emitter::place(Line& line, const Shaper::Draft& note) {
         ++report.lost;
         return;
     }
-    // Notes before the piece count, so that voices are those of the whole melody.
+    // Notes before the piece count, so that it has the same voices as in the whole melody.
     reserve(line, note.onset, note.end);
     if (held_back_ > 0) settle(line.voice, &note, line.falling);
     if (!is_in_piece(note)) return;

@@ -67,7 +67,7 @@ public:
 
     bool is_shaped() const { return shaper_.has_value(); }
 
-    /// Lets triads follow this voice instead of the first.
+    /// Makes triads follow this voice instead of the first.
     void follow(int voice) {
         if (shaper_) shaper_->follow(voice);
     }

@@ -69,7 +69,7 @@ struct MelodicExpression {
 /// True for a value such as `96 by y 80-112` or `by level`.
 bool states_curve(std::string_view value);
 
-/// Reads the keys into `melody.expression`. Mistakes go to `diagnostics`.
+/// Reads the keys into `melody.expression`. Errors go to `diagnostics`.
 void read_expression(const Pattern& pattern, Melody& melody, Diagnostics& diagnostics);
 
 }  // namespace sikku

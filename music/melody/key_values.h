@@ -24,7 +24,7 @@ protected:
     /// Reports an error in the value of a key.
     void fail(const Key& key, const std::string& message) { diagnostics_.error(place_of(key), message); }
 
-    /// Passes the value of a key to `read`, if the pattern states it. @param read  returns false for mistakes
+    /// Passes the value of a key to `read`, if the pattern states it. @param read  returns false for invalid values
     template <class Read>
     void read_key(std::string_view name, const std::string& expected, Read read) {
         const Key* key = pattern_.find(name);

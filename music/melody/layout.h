@@ -56,8 +56,8 @@ struct Layout {
     bool needs_whole() const { return is_retrograde || !form.empty() || loop != Loop::none || is_strict; }
 };
 
-/// Reads the keys start, speed, augmentation, excerpt, retrograde, form, loop, canon and counterpoint; mistakes
-/// go to `diagnostics`.
+/// Reads the keys start, speed, augmentation, excerpt, retrograde, form, loop, canon and counterpoint. Errors go to
+/// `diagnostics`.
 Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics);
 
 /// Reads `A1 A2 B A2` or `AABA`: up to 26 letters in up to 256 sections. Empty for other text.

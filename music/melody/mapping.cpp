@@ -153,7 +153,7 @@ public:
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
         }
-        // A piece may be affordable where the whole is not.
+        // A piece may fit the budget even if the whole melody does not.
         const bool is_piece = !has_voices_ && !shares_ && options_.to < INT64_MAX;
         const bool is_long =
             static_cast<double>(options_.to - options_.from) > options_.budget * static_cast<double>(melody_.unit);

@@ -80,7 +80,7 @@ bool has_brackets(const Grammar& grammar);
 /// Explains why phrases, forms, cadences or levels of a melody cannot be played from this grammar; empty if they can.
 std::string problem_of(const Grammar& grammar, const Melody& melody);
 
-/// Ticks after which a melody counts bars, beats, chords and slots of its rhythm as at its beginning.
+/// Number of ticks after which the bars, beats, chords and rhythm slots of a melody repeat.
 Integer period(const Melody& melody);
 
 /// Properties of a melody computed without playing it.
@@ -100,7 +100,7 @@ struct NoteBox {
     SourceRange y;
 };
 
-/// Computes it by composition, for any derivation length. Nullopt where census() has none, for curves with steps that
+/// Computes it by composition, for any derivation length. Nullopt if census() returns it, for curves with steps that
 /// are not drawn, and without notes.
 std::optional<NoteBox> note_box(const Grammar& grammar, const Melody& melody);
 

@@ -132,7 +132,7 @@ private:
             if (lower_case(name).ends_with(".scl")) {
                 if (const auto text = file_text(*key)) {
                     const Source source(name, *text);
-                    // Mistakes are reported while `source` exists.
+                    // Errors are reported while `source` exists.
                     if (auto scale = read_scl(source, diagnostics_)) melody_.scale = std::move(*scale);
                 }
             } else if (const Scale* known = find_scale(name)) {

@@ -39,12 +39,12 @@ enum class Vertical { ignore, rest, extend, glissando, voice };
 /// One note for a straight run, or for each step of it.
 enum class Runs { merged, each_step };
 /// Meaning of a run that is neither horizontal nor vertical: a note as long as the run is wide, at the height of its
-/// middle; none; a mistake.
+/// middle; none; an error.
 enum class Sloped { project, skip, refuse };
 /// Treatment of a note beyond the lowest or highest key: moved by whole periods; mirrored at the last degree within;
-/// replaced by that degree; a mistake.
+/// replaced by that degree; an error.
 enum class Range { fold, reflect, clamp, refuse };
-/// The property that determines how loud a note is.
+/// Property that determines the velocity of a note.
 enum class Loudness { fixed, by_turn, by_depth, by_length };
 
 /// The share of a note that sounds: all; a part; less in each branch.
@@ -63,7 +63,7 @@ struct Melody {
     Scale scale;                 ///< C major if the file names none
     std::optional<KeyMap> keys;  ///< a Scala key map, which then determines all pitches
     double tonic = 60.0;         ///< MIDI key of degree 0, possibly fractional
-    Spelling tonic_spelling;     ///< how the tonic is written
+    Spelling tonic_spelling;     ///< spelling of the tonic
     Anchor anchor = Anchor::first_note;
     std::int64_t unit = ticks_per_quarter / 2;  ///< ticks of a step: above 0
     Vertical vertical = Vertical::ignore;
@@ -83,17 +83,17 @@ struct Melody {
     double sounding = 0.6;  ///< share of a note that sounds, if detached
     Cadence cadence = Cadence::none;
     Harmony harmony = Harmony::none;
-    std::vector<Chord> progression;  ///< one a bar, again and again
+    std::vector<Chord> progression;  ///< one for each bar, repeated
     std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
     Close close = Close::none;
     double tempo = 120.0;  ///< quarters a minute
     Meter meter;
     int program = 0;             ///< General MIDI, 0 to 127
     double transpose = 0;        ///< semitones, added to every key
-    bool is_inverted = false;    ///< up and down are exchanged around the tonic
+    bool is_inverted = false;    ///< mirrored around the tonic
     std::int64_t shift = 0;      ///< degrees of the scale, added to every degree
     std::int64_t answer = 0;     ///< interval of a canon in degrees, added once notes are shaped and within the range
-    bool is_accompanied = true;  ///< its drone or its chords sound
+    bool is_accompanied = true;  ///< true if its drone or its chords sound
     Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 

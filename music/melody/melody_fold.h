@@ -69,7 +69,7 @@ private:
     int first_direction_ = 0;
 };
 
-/// True if the turtle of this lattice walks on the square grid in whole steps along its axes, brackets or not;
+/// True if the turtle of this lattice walks on the square grid in whole steps along its axes, even with brackets;
 /// `first_direction` is then its first heading in quarter turns from the x axis.
 bool is_on_grid(const Lattice& lattice, int& first_direction);
 

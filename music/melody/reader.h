@@ -72,7 +72,7 @@ struct Marks {
     int level(Symbol symbol) const { return symbol < levels.size() ? levels[symbol] : 0; }
 };
 
-/// What a reader reads and where its notes go. All of it has to outlive the reader.
+/// Input of a reader, and the receivers of its notes. All must outlive the reader.
 struct Reading {
     const Grammar& grammar;
     const Lattice& lattice;
@@ -137,7 +137,7 @@ enum class Kind : std::uint8_t { nothing, draw, move, turn, open, close, mark, l
 /// The kind of each symbol. @param moves_sound  steps that draw nothing are read as drawn: see draws_nothing()
 std::vector<Kind> kinds_of(const Grammar& grammar, const Marks& marks, bool moves_sound);
 
-/// How a note sounds, and where it comes from: see Note.
+/// Sound of a note, and its origin in the curve: see Note.
 struct Sound {
     int velocity;
     int level;

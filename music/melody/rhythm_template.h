@@ -8,7 +8,7 @@
 
 namespace sikku {
 
-/// Onsets in a cycle of equal slots. The steps of a curve take them in turn, again and again.
+/// Onsets in a cycle of equal slots. The steps of a curve take them in turn, cyclically.
 struct RhythmTemplate {
     struct Hit {
         std::int64_t onset = 0;   ///< slots from the beginning of the cycle

@@ -143,7 +143,7 @@ private:
         std::size_t opened = 0;  // number of the bracket around it, likewise
     };
     /// Length of a run in steps: its width; with a rhythm off the square grid its actual length, so that each step
-    /// takes a note of the template, whatever its angle.
+    /// takes a note of the template at any angle.
     Number steps_of(Number wide, Number high) const {
         if constexpr (std::is_floating_point_v<Number>) {
             if (!melody_.rhythm.empty() && step_length_ > 0) return std::hypot(wide, high) / step_length_;
@@ -439,7 +439,7 @@ private:
         }
     }
 
-    /// Extends the note before a vertical run, and lets it slide to the end of the run. A run without a note before
+    /// Extends the note before a vertical run, and slides it to the end of the run. A run without a note before
     /// it, or one that turns back, is a note of its own.
     void glissando(const Pending& run, Number steps, int velocity) {
         Sounding& held = state_.held;

@@ -66,7 +66,7 @@ void Shaper::finish(bool is_end) {
         }
     }
     for (std::size_t voice = 0; voice < pending_.size(); ++voice) {
-        // The last phrase closes, whatever its number.
+        // The last phrase closes, regardless of its number.
         if (is_end) end_phrase(static_cast<int>(voice), true);
         for (const Draft& note : pending_[voice]) release(note);
         pending_[voice].clear();

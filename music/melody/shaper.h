@@ -16,7 +16,7 @@
 namespace sikku::mapping {
 
 /// Holds back the last notes of each voice until it is known whether they end a phrase. The result for a note
-/// depends only on its time and on the notes around it, so that a piece from the middle sounds as in the whole.
+/// depends only on its time and on the notes around it, so that a piece from the middle sounds as in the melody.
 class Shaper {
 public:
     /// Key of a note that is stated by degree: not a number.

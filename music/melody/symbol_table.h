@@ -53,7 +53,7 @@ struct SymbolTable {
     int most_notes() const;
 };
 
-/// Reads the keys of the table into `melody.table`; uses its scale, tonic and unit. Mistakes go to `diagnostics`.
+/// Reads the keys of the table into `melody.table`; uses its scale, tonic and unit. Errors go to `diagnostics`.
 void read_symbol_table(const Pattern& pattern, Melody& melody, Diagnostics& diagnostics);
 
 /// A symbol of a grammar as the table reads it, with the parameters of its module.

@@ -152,7 +152,7 @@ public:
         notes.push_back(0.0);
         std::int64_t found = 0;
         Piece last;
-        // Every pitch is read, so that all mistakes are reported at once.
+        // Every pitch is read, so that all errors are reported together.
         while (found < count && lines_.next_filled(line)) {
             ++found;
             last = first_word(line);
@@ -342,7 +342,7 @@ private:
         diagnostics_.error(where, message);
     }
 
-    /// Reads a number, or reports a mistake in its line; false at the end of the file.
+    /// Reads a number, or reports an error in its line; false at the end of the file.
     bool read_header(const char* what, int least, int most, int& value, Piece& place) {
         Piece line;
         if (!lines_.next_filled(line)) {

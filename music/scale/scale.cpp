@@ -21,7 +21,7 @@
 namespace sikku {
 namespace {
 
-/// Notes closer than this, in cents, are the same.
+/// Notes closer than this number of cents are equal.
 constexpr double same_note = 0.01;
 
 std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
@@ -173,7 +173,7 @@ void read_pitches(std::string_view text, int division, Scale& scale) {
 
 constexpr std::array<std::string_view, 2> prefixes = {"raga-", "maqam-"};
 
-/// The title of a scale, made from its id.
+/// Makes the title of a scale from its id.
 std::string title_of(std::string_view id) {
     for (const std::string_view prefix : prefixes) {
         if (id.starts_with(prefix)) id.remove_prefix(prefix.size());
@@ -366,7 +366,7 @@ int equal_steps(std::string_view key) {
     return error == std::errc() && n <= most_steps ? n : 0;
 }
 
-/// True if hyphens or the like precede or divide the leading number: -5-edo and 3-1-edo are not scales.
+/// True if hyphens or similar characters precede or divide the leading number: -5-edo and 3-1-edo are not scales.
 bool splits_number(std::string_view name, std::string_view key) {
     return !trimmed(name).starts_with(leading_digits(key));
 }

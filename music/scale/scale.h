@@ -18,16 +18,16 @@ struct Scale {
     std::string title;               ///< display name; may be empty
     std::string group;               ///< `western`, `pentatonic`, `raga`, `melakarta`, `maqam`, `scala`, …
     std::vector<double> ascent;      ///< degree 0 (0 cents) first; ascending, except in Scala files
-    std::vector<double> descent;     ///< likewise, also listed upwards
+    std::vector<double> descent;     ///< the same for falling melodies, also ascending
     double period = 1200.0;          ///< above 0; in a Scala file any value but 0
     std::vector<std::string> names;  ///< other names
     std::string sources;             ///< sources, as text
 
     /// Cents of a degree above the tonic; negative degrees lie below it. If ascent and descent have equally many
-    /// notes, a degree is the same step in both. Otherwise degrees count the longer one, and a note missing from the
-    /// other is replaced by its next note in the direction of the melody.
+    /// notes, a degree is the same step in both. Otherwise degrees number the notes of the longer one, and a note
+    /// missing from the other is replaced by its next note in the direction of the melody.
     double cents(std::int64_t degree, bool falling) const;
-    /// Number of notes in a period, as degrees count them.
+    /// Number of degrees in a period.
     std::size_t size() const;
 };
 
@@ -39,10 +39,10 @@ const std::vector<Scale>& known_scales();
 /// the octave into equal steps, 1 to 1200. Null if there is none. Thread-safe; the result stays valid.
 const Scale* find_scale(std::string_view name);
 
-/// At most three ids and names nearest to `name`, for messages.
+/// Up to three ids and names nearest to `name`, for messages.
 std::vector<std::string> similar_scales(std::string_view name);
 
-/// Message that no scale is called `name`, with similar names.
+/// Message that no scale has the name `name`, with similar names.
 std::string unknown_scale(std::string_view name);
 
 /// A Scala key map (.kbm), which assigns degrees to keys and a frequency to one of them.
@@ -58,7 +58,7 @@ struct KeyMap {
 
 /// Reads a Scala scale: comments, a description, a count, and as many cents, ratios or whole numbers, each optionally
 /// followed by text. The last is the period. Notes may be unsorted or negative, the period other than 2/1, the text
-/// UTF-8 or Latin-1. Mistakes go to `diagnostics` with their place. Source: the Scala file format, as described by
+/// UTF-8 or Latin-1. Errors go to `diagnostics` with their place. Source: the Scala file format, as described by
 /// Op de Coul.
 std::optional<Scale> read_scl(const Source& source, Diagnostics& diagnostics);
 

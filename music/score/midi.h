@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// How keys with a fraction sound: by pitch bend of the voice's channel, which every synthesizer supports; by single
+/// Tuning of keys with a fraction: by pitch bend of the voice's channel, which every synthesizer supports; by single
 /// note tuning changes of the MIDI Tuning Standard, which leave the bend wheel alone; or by MPE (music/score/mpe.h),
 /// in which each note, with a fraction or not, has a channel and a pitch bend of its own.
 enum class Tuning { bend, mts, mpe };

@@ -245,7 +245,7 @@ private:
         check_ends();
     }
 
-    /// Checks that tracks end within an hour of the last event, as a longer last note or rest is a mistake.
+    /// Checks that tracks end within an hour of the last event, as a longer last note or rest is an error.
     void check_ends() {
         if (division_ == 0) return;
         double seconds = 1e-6 * tempo_ / division_;  // a tick, after the last event

@@ -119,7 +119,7 @@ struct Staff {
     std::vector<DynamicMark> dynamics;
 };
 
-/// How the staves of a part are joined at the left.
+/// Sign that joins the staves of a part at the left.
 enum class Bracket { none, brace, bracket };
 
 /// A key signature from a bar line on.
@@ -199,7 +199,7 @@ Pitch spelled(double key, const std::array<Spelling, 12>& spelling);
 
 /// The keys of the drums on a staff, ascending.
 std::vector<int> drums_of(const Staff& staff);
-/// Those of a score.
+/// The keys of the drums in a score, ascending.
 std::vector<int> drums_of(const Notation& notation);
 
 /// Calls `visit` with each voice of a score.

@@ -83,7 +83,7 @@ public:
     void finish(std::int64_t) override {}
 };
 
-/// Thrown if a melody cannot be written: for too many voices, or a note out of range that is to be refused.
+/// Thrown if a melody cannot be written: for too many voices, or for a note out of range if such notes are errors.
 class ScoreError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -96,13 +96,13 @@ struct Meter {
     bool operator==(const Meter&) const = default;
 };
 
-/// How a pitch class is written: letter 0 (C) to 6 (B), alteration in semitones.
+/// Spelling of a pitch class: letter 0 (C) to 6 (B), alteration in semitones.
 struct Spelling {
     int letter = 0;
     int alteration = 0;
 };
 
-/// The modes, from the one whose tonic lies lowest among its fifths.
+/// The modes by the position of the tonic in the chain of fifths of the scale, lowest first.
 enum class Mode { lydian, major, mixolydian, dorian, minor, phrygian, locrian };
 
 /// A key signature. `fifths`: sharps if positive, flats if negative, -7 to 7.
@@ -139,7 +139,7 @@ struct ScoreHead {
     Meter meter;
     std::vector<Part> parts;
 
-    /// The index of the part of a voice; 0 for voices that no part has.
+    /// The index of the part that contains a voice; 0 if none does.
     std::size_t part_index(int voice) const {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             voice -= std::max(parts[i].voices, 0);

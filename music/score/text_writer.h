@@ -22,7 +22,7 @@ public:
         fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
         if (text_.size() > block_bytes) flush();
     }
-    /// Writes what is left. Call last.
+    /// Writes the remaining text. Call last.
     void flush() {
         out_.write({text_.data(), text_.size()});
         text_.clear();

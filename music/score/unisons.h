@@ -1,4 +1,4 @@
-// music/score/unisons.h: lets voices of an instrument share a MIDI channel, on which a key sounds once at a time.
+// music/score/unisons.h: merges notes of voices that share a MIDI channel, on which a key sounds once at a time.
 #pragma once
 
 #include "music/score/score.h"

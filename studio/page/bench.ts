@@ -375,7 +375,7 @@ class BenchPanel implements Panel {
         return this.around.places;
     }
 
-    /// What pointer and keyboard select: gaps, or places for dots.
+    /// Targets of pointer and keyboard: gaps, or places for dots.
     private get targets(): Place[] {
         return this.places ?? this.kolam.grid.gaps;
     }

@@ -62,7 +62,7 @@ export function panned(camera: Camera, right: number, down: number): Camera {
     };
 }
 
-/// Where a point lies in the view, in CSS pixels from its top left corner.
+/// Position of a point in the view, in CSS pixels from its top left corner.
 export function pixelOf(camera: Camera, size: Size, x: Exact, y: Exact): { left: number; top: number } {
     return {
         left: size.width / 2 + numberOf(x - camera.x) / camera.scale,

@@ -50,7 +50,7 @@ export function labelled(box: HTMLInputElement, label: string): HTMLElement {
     return element("label", { class: "switch" }, box, label);
 }
 
-/// Makes a group of buttons of which one is pressed, the first at the beginning.
+/// Makes a group of buttons of which one is pressed, initially the first.
 export function choices<Name extends string>(
     attributes: Attributes, // of the group
     names: readonly (readonly [Name, label: string])[],

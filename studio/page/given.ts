@@ -11,7 +11,7 @@ export const given_kind = "yours"; // beside `kolams`, `plants`
 
 const list = (): Given[] => JSON.parse(byId("sikku-patterns").textContent || "[]") as Given[];
 
-/// These patterns as entries of the gallery.
+/// Returns the given patterns as entries of the gallery.
 export function givenEntries(): PatternEntry[] {
     return list().map((given) => ({
         name: given.name.replace(/\.lsys$/, ""),

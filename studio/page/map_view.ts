@@ -147,7 +147,7 @@ export class MapView {
         return overview !== null && overview.name === (overview.kind === "plane" ? this.planeName : this.pageName);
     }
 
-    /// Why there is no picture of the work; null if there is one, or none yet. Errors of the text are shown there.
+    /// Reason why the work has no picture; null if it has one, or none yet. Errors of the text are shown there.
     get failure(): { error: unknown; pattern: Work["pattern"] } | null {
         const { failed } = this;
         const isOfText = failed?.error instanceof RequestFailed && failed.error.failure.kind === "pattern";

@@ -36,7 +36,7 @@ export function thumbnailOptions(help: Help, options: Options): Options {
     return chosen(help, options, (scope, row) => scopes.has(scope) && !row?.sets_scale);
 }
 
-/// Options that fields are made for. The page itself sets the part of the drawing that is seen, limits, and keys such
+/// Options with fields. The page itself sets the part of the drawing that is seen, limits, and keys such
 /// as the seed; keys of the style belong to the text.
 export function offered(help: Help, options: OptionHelp[]): OptionHelp[] {
     const own = new Set(["framing", "threads", "cost"]);

@@ -24,7 +24,7 @@ function plainOf(values: Uint8ClampedArray): Colour | null {
     return [values[0]!, values[1]!, values[2]!, values[3]!];
 }
 
-// As the libraries say it.
+// The remark is that of the libraries.
 function isEmpty({ remarks }: Pixels): boolean {
     return remarks.some(({ text }) => text === "the window contains no part of the drawing");
 }

@@ -158,10 +158,10 @@ export interface Dots {
     is_solid: boolean; // centred rows without holes
     dots: [number, number][]; // from the middle: half spacings to the right, half distances of rows upwards
     gaps: [from: number, to: number, side: number][]; // dots by index; side of `from`, anticlockwise from the right
-    /// Those that the grid has, the largest first, `none` last. Gaps with the same orbit are images of each other.
-    /// The obstacles say why no single line has the symmetry, without and with joined gaps.
+    /// Symmetries of the grid, the largest first, `none` last. Gaps with the same orbit are images of each other.
+    /// Obstacles are reasons why no single line has the symmetry, without and with joined gaps.
     symmetries: { name: SymmetryName; orbits: number[]; obstacle?: string; joined_obstacle?: string }[];
-    /// Where gaps and arcs go under each of the grid's rotations and mirrors. Arc number sides * dot + s lies between the
+    /// Images of gaps and arcs under each of the grid's rotations and mirrors. Arc number sides * dot + s lies between the
     /// sides s and s + 1 of a dot.
     gap_images: number[][];
     arc_images: number[][];

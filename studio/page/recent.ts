@@ -1,4 +1,4 @@
-// Caches the most recently used things, up to a number of bytes.
+// Caches the most recently used values, up to a number of bytes.
 
 export class Recent<Thing extends { bytes: number; close(): void }> {
     private readonly things = new Map<string, Thing>(); // the most recently used last
@@ -17,7 +17,7 @@ export class Recent<Thing extends { bytes: number; close(): void }> {
         return this.things.has(name);
     }
 
-    /// Returns the thing and marks it as used.
+    /// Returns the value and marks it as used.
     get(name: string): Thing | undefined {
         const thing = this.things.get(name);
         if (thing) {

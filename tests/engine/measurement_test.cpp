@@ -1,4 +1,4 @@
-// tests/engine/measurement_test.cpp: what `sikku measure` prints of words and maps, as JSON and as text.
+// tests/engine/measurement_test.cpp: the output of `sikku measure` for words and maps, as JSON and as text.
 #include "engine/measurement.h"
 
 #include "engine/derivation/derivation.h"

@@ -254,7 +254,7 @@ TEST(Arrows, EachTypeOfANamespaceHasOneDefinition) {
     EXPECT_GT(types, 1000u);
 }
 
-/// A library names an option as 'size'; the program makes `--size` of it. Recipes in files are command lines, and
+/// Libraries name options as 'size'; the program writes `--size`. Recipes in files are command lines, and
 /// styles have properties that look like options.
 TEST(Arrows, LibrariesDoNotNameOptionsOfTheCommandLine) {
     static const std::regex named(R"(--([a-z]+(?:-[a-z]+)*)(:|\s*\{)?)");

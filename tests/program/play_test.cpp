@@ -96,7 +96,7 @@ TEST(Play, PartsHaveKeysOfTheirOwn) {
     }
 }
 
-/// In every locale the bytes are those of the library.
+/// In every locale the bytes equal those of the library.
 TEST(Play, WhatItWritesIsCleanAndTheSameEverywhere) {
     const ScratchFolder folder;
     const Document document = load("hilbert-in-c");

@@ -320,7 +320,7 @@ TEST_F(ShowBombs, Midi) {
     const std::string events = text + "\0\xC0\0"s + std::string(30'000'000, '\0') + end;
     expect("a.mid", header + track(events), 0, "");
     expect("b.mid", header + track(events.substr(text.size())), 1, nothing);
-    // Written by statements of their own: what the arguments of a call hold would count, too.
+    // Written by separate statements: memory held by the arguments of a call would count, too.
     const std::string over = "\0\xFF\1\xA3\x80\x80\0"s, most = "\0\xFF\1\xA0\x80\x80\0"s;
     const std::string too_much = folder_.write("c.mid", header + track(over + std::string(70 << 20, 'x') + end));
     expect_file(too_much, 1, damaged);

@@ -4,7 +4,7 @@ import type { DotGrid, GridSymmetry, Lines, Place } from "./dot_grid";
 import { agrees, countLines, crossed, followLines, joined, lineOrbits, no_grid, turned } from "./dot_grid";
 import { isSymmetric, symmetrised } from "./symmetry";
 
-/// What a click steps through: crossed, turned back, joined.
+/// States that a click steps through: crossed, turned back, joined.
 const next_state = [joined, turned, crossed];
 const state_before = [crossed, joined, turned];
 

@@ -92,7 +92,7 @@ export function readMelody(notes: Notes, bytes: Uint8Array): Melody {
     };
 }
 
-/// What follows the notes.
+/// Reads the glides, which follow the notes.
 function readGlides(bytes: Uint8Array, notes: Notes): Map<number, Glide> {
     const glides = new Map<number, Glide>();
     const begin = notes.count * doubles * 8;
