@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::string_view whole_name = "gallery.jsonl";
 
-[[noreturn]] void fail(const std::string& file, int error) {
+[[noreturn]] void cannot_write(const std::string& file, int error) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
 
@@ -365,10 +365,10 @@ void GalleryRecord::append(const std::string& line, bool durable) {
         if (written > 0 && ::write(descriptor_.get(), "\n", 1) != 1) {
             // The line is torn at its end, as read_record() expects.
         }
-        fail(folder_.shown(name_), error);
+        cannot_write(folder_.shown(name_), error);
     }
     if (durable && ::fdatasync(descriptor_.get()) != 0 && errno != EINVAL && errno != EROFS) {
-        fail(folder_.shown(name_), errno);
+        cannot_write(folder_.shown(name_), errno);
     }
 }
 

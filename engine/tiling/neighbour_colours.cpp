@@ -8,7 +8,7 @@ namespace sikku {
 namespace {
 
 using Tile = std::uint32_t;
-constexpr Tile none = std::numeric_limits<Tile>::max();
+constexpr Tile uncoloured = std::numeric_limits<Tile>::max();
 
 /// Removes a tile with the fewest remaining neighbours again and again; returns the tiles in reverse order, in which
 /// each has few neighbours before it (Matula & Beck 1983, smallest-last order).
@@ -49,8 +49,8 @@ public:
     Colouring(const TileNeighbours& neighbours, const Monitor& monitor)
         : neighbours_(neighbours),
           pulse_(monitor),
-          colours_(neighbours.tiles(), none),
-          seen_(neighbours.tiles(), none) {}
+          colours_(neighbours.tiles(), uncoloured),
+          seen_(neighbours.tiles(), uncoloured) {}
 
     /// Colours the tiles; false if one is left over after exchanges.
     bool colour(const std::vector<Tile>& order, Tile count) {
@@ -62,7 +62,7 @@ public:
     /// Gives each remaining tile its first free colour.
     void finish(const std::vector<Tile>& order) {
         for (const Tile tile : order) {
-            if (colours_[tile] == none) take_free(tile, none - 1);
+            if (colours_[tile] == uncoloured) take_free(tile, uncoloured - 1);
         }
     }
     const std::vector<Tile>& colours() const { return colours_; }
