@@ -75,7 +75,7 @@ private:
     struct Entry {
         std::int32_t row, column;
         std::uint32_t index;
-        auto operator<=>(const Entry&) const = default;
+        auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is compared
     };
     /// The row or column of a coordinate; also of infinite ones, to which wrong fits of photographs lead.
     std::int32_t row(double coordinate) const {
