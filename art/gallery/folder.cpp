@@ -16,11 +16,12 @@
 #include <system_error>
 
 namespace sikku {
-namespace {
 
-[[noreturn]] void fail(const std::string& file, int error) {
+void cannot_write(const std::string& file, int error) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
 }
+
+namespace {
 
 /// True if the error means that the file is missing or not accessible to this user.
 bool is_absent(int error) {
@@ -30,7 +31,7 @@ bool is_absent(int error) {
 std::optional<struct stat> status_at(int folder, const std::string& name) {
     struct stat status {};
     if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) return status;
-    if (!is_absent(errno)) fail(name, errno);
+    if (!is_absent(errno)) cannot_write(name, errno);
     return std::nullopt;
 }
 
@@ -76,9 +77,9 @@ std::string GalleryPlace::readable(std::string text, const std::string& shown) c
 GalleryFolder::GalleryFolder(std::filesystem::path path) : path_(std::move(path)) {
     std::error_code error;
     std::filesystem::create_directories(path_, error);
-    if (error && !std::filesystem::is_directory(path_)) fail(path_.string(), error.value());
+    if (error && !std::filesystem::is_directory(path_)) cannot_write(path_.string(), error.value());
     descriptor_ = Descriptor(::open(path_.empty() ? "." : path_.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (!descriptor_) fail(path_.string(), errno);
+    if (!descriptor_) cannot_write(path_.string(), errno);
 }
 
 void GalleryFolder::refuse(int folder, const std::string& name, const std::string& file, int error) const {
@@ -87,7 +88,7 @@ void GalleryFolder::refuse(int folder, const std::string& name, const std::strin
         throw std::runtime_error(
             fmt::format("'{}' is a symbolic link; a gallery does not write through links", shown(file)));
     }
-    fail(shown(file), error);
+    cannot_write(shown(file), error);
 }
 
 /// Opens the folder that contains `file`. Without `creates`, no descriptor if it is missing.
@@ -95,7 +96,7 @@ Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
     const std::filesystem::path path = file;
     std::filesystem::path so_far;
     Descriptor folder(::openat(descriptor_.get(), ".", O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (!folder) fail(shown(file), errno);
+    if (!folder) cannot_write(shown(file), errno);
     for (const std::filesystem::path& part : path.parent_path()) {
         if (!folder) return folder;
         so_far /= part;
@@ -104,7 +105,7 @@ Descriptor GalleryFolder::parent(const std::string& file, bool creates) const {
             throw std::runtime_error(fmt::format("'{}' is outside the gallery folder", shown(file)));
         }
         if (creates && ::mkdirat(folder.get(), part.c_str(), 0777) != 0 && errno != EEXIST) {
-            fail(shown(so_far.string()), errno);
+            cannot_write(shown(so_far.string()), errno);
         }
         Descriptor next(::openat(folder.get(), part.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
         if (!next && (creates || !is_absent(errno))) refuse(folder.get(), part.string(), so_far.string(), errno);
@@ -126,7 +127,7 @@ Descriptor GalleryFolder::open(const std::string& file) const {
     const auto before = folder ? status_at(folder.get(), name) : std::nullopt;
     if (!before || !S_ISREG(before->st_mode)) return {};
     Descriptor opened(::openat(folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    if (!opened && !is_absent(errno)) fail(shown(file), errno);
+    if (!opened && !is_absent(errno)) cannot_write(shown(file), errno);
     struct stat status {};
     if (!opened || ::fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
     return opened;
@@ -144,7 +145,7 @@ Descriptor GalleryFolder::create(const std::string& file, int flags) const {
     Descriptor opened(::openat(folder.get(), name.c_str(), flags | always, 0666));
     if (!opened) refuse(folder.get(), name, file, errno);
     struct stat status {};
-    if (::fstat(opened.get(), &status) != 0) fail(shown(file), errno);
+    if (::fstat(opened.get(), &status) != 0) cannot_write(shown(file), errno);
     check(status);
     return opened;
 }
@@ -172,7 +173,7 @@ std::vector<std::string> GalleryFolder::names(const std::string& below) const {
     const Descriptor folder = parent(below.empty() ? "x" : below + "/x", false);
     if (!folder) return list;
     const int opened = ::openat(folder.get(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (opened < 0 && !is_absent(errno)) fail(shown(below), errno);
+    if (opened < 0 && !is_absent(errno)) cannot_write(shown(below), errno);
     if (opened < 0) return list;
     const std::unique_ptr<DIR, int (*)(DIR*)> stream(::fdopendir(opened), ::closedir);
     if (!stream) {

@@ -34,10 +34,6 @@ namespace {
 
 constexpr std::string_view whole_name = "gallery.jsonl";
 
-[[noreturn]] void cannot_write(const std::string& file, int error) {
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
-}
-
 /// True for names such as `gallery-3-of-8.jsonl`.
 bool is_shard_name(std::string_view name) {
     const auto take_number = [&] {

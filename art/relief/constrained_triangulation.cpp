@@ -51,25 +51,23 @@ bool ConstrainedTriangulation::is_in_circle(Point a, Point b, Point c, Point poi
         return Micrometres{points_[other].x - origin.x, points_[other].y - origin.y};
     };
     const std::array<Micrometres, 3> to = {difference(a), difference(b), difference(c)};
-    const auto determinant = [&to]<class Number>(Number /*zero*/, bool is_absolute) {
-        Number sum = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Micrometres one = to[i], two = to[(i + 1) % 3], three = to[(i + 2) % 3];
+    // The determinant, and the sum of the sizes of its terms.
+    const auto determinant = [&to]<class Number>(Number sum, Number size) {
+        const auto absolute = [](Number value) { return value < 0 ? -value : value; };
+        const auto add = [&](Micrometres one, Micrometres two, Micrometres three) {
             const Number lift = Number(one.x) * one.x + Number(one.y) * one.y;
             const Number left = Number(two.x) * three.y, right = Number(two.y) * three.x;
-            if (is_absolute) {
-                const auto size = [](Number value) { return value < 0 ? -value : value; };
-                sum += lift * (size(left) + size(right));
-            } else {
-                sum += lift * (left - right);
-            }
-        }
-        return sum;
+            sum += lift * (left - right);
+            size += lift * (absolute(left) + absolute(right));
+        };
+        add(to[0], to[1], to[2]);
+        add(to[1], to[2], to[0]);
+        add(to[2], to[0], to[1]);
+        return std::pair(sum, size);
     };
-    const double rough = determinant(0.0, false);
-    const double error = 1e-14 * determinant(0.0, true);
-    if (std::fabs(rough) > error) return rough > 0;
-    return determinant(Int128(0), false) > 0;
+    const auto [rough, size] = determinant(0.0, 0.0);
+    if (std::fabs(rough) > 1e-14 * size) return rough > 0;
+    return determinant(Int128(0), Int128(0)).first > 0;
 }
 
 bool ConstrainedTriangulation::is_near(Point from, Point to, Point point) const {

@@ -12,15 +12,15 @@
 namespace sikku {
 namespace {
 
-using Tile = std::uint32_t;
-constexpr Tile none = std::numeric_limits<Tile>::max();
+using TileNumber = std::uint32_t;
+constexpr TileNumber none = std::numeric_limits<TileNumber>::max();
 
 /// Distances from the given tiles; `none` where no path leads.
-std::vector<Tile> distances(const TileNeighbours& neighbours, std::vector<Tile> reached) {
-    std::vector<Tile> result(neighbours.tiles(), none);
-    for (const Tile tile : reached) result[tile] = 0;
+std::vector<TileNumber> distances(const TileNeighbours& neighbours, std::vector<TileNumber> reached) {
+    std::vector<TileNumber> result(neighbours.tiles(), none);
+    for (const TileNumber tile : reached) result[tile] = 0;
     for (std::size_t i = 0; i < reached.size(); ++i) {
-        for (const Tile other : neighbours.of(reached[i])) {
+        for (const TileNumber other : neighbours.of(reached[i])) {
             if (result[other] != none) continue;
             result[other] = result[reached[i]] + 1;
             reached.push_back(other);
@@ -39,7 +39,7 @@ std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const gl
                                                               std::span<const UnitedLines::Pair> neighbours,
                                                               const std::array<glm::dvec2, 2>& vectors) {
     TorusPlaces places(vectors);
-    std::vector<Tile> numbers;
+    std::vector<TileNumber> numbers;
     numbers.reserve(middles.size());
     for (const glm::dvec2 middle : middles) numbers.push_back(places.number(middle));
     std::vector<UnitedLines::Pair> pairs;
@@ -49,16 +49,16 @@ std::optional<std::vector<std::uint32_t>> colours_of_repeated(std::span<const gl
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    const std::vector<Tile> colours = colours_of_neighbours(places.count(), pairs);
-    for (Tile& number : numbers) number = colours[number];
+    const std::vector<TileNumber> colours = colours_of_neighbours(places.count(), pairs);
+    for (TileNumber& number : numbers) number = colours[number];
     return numbers;
 }
 
 std::vector<std::uint32_t> distances_from_border(std::uint32_t tiles, std::span<const UnitedLines::Pair> pairs,
                                                  std::span<const std::uint32_t> border) {
-    std::vector<Tile> result =
-        distances(TileNeighbours(tiles, pairs), std::vector<Tile>(border.begin(), border.end()));
-    std::replace(result.begin(), result.end(), none, Tile{0});
+    std::vector<TileNumber> result =
+        distances(TileNeighbours(tiles, pairs), std::vector<TileNumber>(border.begin(), border.end()));
+    std::replace(result.begin(), result.end(), none, TileNumber{0});
     return result;
 }
 
