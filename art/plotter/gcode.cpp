@@ -21,7 +21,7 @@ namespace {
 constexpr double farthest = 10'000;          // millimetres from the origin to a place
 constexpr std::size_t longest_comment = 60;  // grbl takes lines of 80 bytes
 
-glm::dvec2 rounded(glm::dvec2 point) {
+glm::dvec2 to_micrometres(glm::dvec2 point) {
     return {std::round(point.x * 1000) / 1000, std::round(point.y * 1000) / 1000};
 }
 
@@ -100,8 +100,8 @@ private:
 
     /// Moves the raised pen, unless it is there already.
     void travel(glm::dvec2 place) {
-        if (is_placed_ && at_ == rounded(place)) return;
-        at_ = rounded(place);
+        if (is_placed_ && at_ == to_micrometres(place)) return;
+        at_ = to_micrometres(place);
         is_placed_ = true;
         file_.write(
             fmt::format("G0 X{} Y{} F{}\n", decimal(at_.x, 3), decimal(at_.y, 3), decimal(options_.travel_feed, 3)));
@@ -182,7 +182,7 @@ private:
     }
 
     void put(std::string_view command, glm::dvec2 end, std::string_view more) {
-        const glm::dvec2 next = rounded(end);
+        const glm::dvec2 next = to_micrometres(end);
         // An arc back to where it begins would be a whole circle.
         if (next == at_) return;
         at_ = next;

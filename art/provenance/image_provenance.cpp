@@ -15,7 +15,7 @@ namespace {
 using namespace std::string_view_literals;
 
 /// Maximum number of chunks, segments and attributes before the texts; the program writes fewer than 30.
-constexpr int most_parts = 10'000;
+constexpr int most_chunks = 10'000;
 
 std::uint64_t number(std::string_view bytes, bool is_little_endian) {
     std::uint64_t value = 0;
@@ -146,7 +146,7 @@ Provenance read_directory(const Part& part) {
 std::optional<Provenance> read_png_provenance(const InputFile& file) {
     std::optional<std::string> description, software;
     std::uint64_t at = 8;
-    for (int i = 0; i < most_parts && !(description && software); ++i) {
+    for (int i = 0; i < most_chunks && !(description && software); ++i) {
         const std::string head = file.read(at, 8);
         if (head.size() < 8) refuse_damaged();
         const std::uint64_t size = number(head.substr(0, 4), false);
@@ -182,7 +182,7 @@ std::optional<Provenance> read_jpeg_provenance(const InputFile& file) {
     Provenance found;
     std::string comment;
     std::uint64_t at = 2;
-    for (int i = 0; i < most_parts; ++i) {
+    for (int i = 0; i < most_chunks; ++i) {
         const std::string head = file.read(at, 4);
         if (head.size() < 4 || head[0] != '\xFF') refuse_damaged();
         const auto marker = static_cast<unsigned char>(head[1]);
@@ -215,7 +215,7 @@ std::optional<Provenance> read_jpeg_provenance(const InputFile& file) {
 std::optional<Provenance> read_exr_provenance(const InputFile& file) {
     std::optional<std::string> comments, software;
     std::uint64_t at = 8;
-    for (int i = 0; i < most_parts && !(comments && software); ++i) {
+    for (int i = 0; i < most_chunks && !(comments && software); ++i) {
         // Name, type, size, value; names have up to 255 bytes.
         const std::string head = file.read(at, 520);
         if (head.starts_with('\0')) break;
