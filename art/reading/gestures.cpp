@@ -50,7 +50,7 @@ void check_loop(const GestureLoop& loop, std::size_t number) {
     }
 }
 
-constexpr std::array<GridDot, 4> sides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::array<GridDot, 4> four_sides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
 }  // namespace
 
@@ -130,7 +130,7 @@ std::string gestures_file(const DotGrid& grid, const GapStates& states) {
             const std::uint32_t side = entry(grid, step);
             // Steps head up right, up left, down left, down right.
             constexpr std::array<int, 4> clockwise = {45, 315, 225, 135};
-            add(around + sides[side], clockwise[heading(grid, step)]);
+            add(around + four_sides[side], clockwise[heading(grid, step)]);
             std::uint32_t count = 0;
             do {
                 ++count;
