@@ -110,4 +110,8 @@ std::unique_ptr<Rendering> Drawing::rendering(const Print& print, const Window& 
     return raster;
 }
 
+std::unique_ptr<Rendering> Drawing::rendering(const Print& print) const {
+    return rendering(print, whole_page(print.page));
+}
+
 }  // namespace sikku

@@ -5,7 +5,6 @@
 #include "art/drawing/drawing_report.h"
 #include "art/drawing/reading.h"
 #include "art/print/print.h"
-#include "art/raster/raster.h"
 #include "engine/geometry/space_bounds.h"
 
 #include <memory>
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace sikku {
+
+class Rendering;
 
 /// Calculates the placement of `print` on its page, including the width of the pen, whose unit `stroke` gives.
 /// @throws std::runtime_error if the margins leave no room
@@ -81,9 +82,7 @@ public:
 
     /// Renders the page as pixels. `print` and the drawing must outlive the result.
     virtual std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const;
-    std::unique_ptr<Rendering> rendering(const Print& print) const {
-        return rendering(print, whole_page(print.page));
-    }
+    std::unique_ptr<Rendering> rendering(const Print& print) const;
 
     /// Palette indices of the fields between lines, which plots hatch before they draw anything else; -1 for none.
     virtual std::vector<int> hatched_colours() const { return {}; }

@@ -1,6 +1,7 @@
 #include "art/drawing/lesson_drawing.h"
 
 #include "art/print/ornaments.h"
+#include "art/raster/raster.h"
 #include "engine/geometry/lettering.h"
 #include "engine/geometry/point_tree.h"
 

@@ -3,6 +3,7 @@
 #include "art/drawing/extent_sink.h"
 #include "art/drawing/ink_shape.h"
 #include "art/drawing/plot_scene.h"
+#include "art/raster/raster.h"
 #include "art/space/solid_raster.h"
 #include "art/space/solids.h"
 #include "engine/derivation/derivation.h"

@@ -8,6 +8,7 @@
 #include "art/plotter/hpgl.h"
 #include "art/plotter/plot_options.h"
 #include "art/print/format.h"
+#include "art/raster/raster.h"
 
 #include <cstdint>
 #include <functional>
