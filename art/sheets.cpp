@@ -292,7 +292,6 @@ private:
         check_draw_settings(settings, format_);
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
         SheetCell cell = print_cell(document, settings, folder);
-        cell.dot_spacing = settings.look.dot_spacing;
         const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
         if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;

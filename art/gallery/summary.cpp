@@ -203,6 +203,7 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     for (auto& [job, loaded] : prints) {
         const DrawSettings settings = read_draw_settings(job->values());
         SheetCell cell = print_cell(loaded, settings, job->folder);
+        cell.dot_spacing.reset();  // the drawing is scaled to fill its cell
         if (cell.title.empty()) cell.title = job->pattern->name;
         if (has_rows) {
             cell.caption = {fmt::format("n = {}", cell.grammar->steps())};

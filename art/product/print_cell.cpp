@@ -7,7 +7,6 @@ namespace sikku {
 SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder) {
     SheetCell cell;
     static_cast<DrawingOptions&>(cell) = drawing_options(settings, document);
-    cell.dot_spacing.reset();  // only sheets that users arrange keep it
     cell.budget = settings.work.budget;
     cell.grammar = document.shared_grammar();
     cell.style = read_print_style(document, settings);
