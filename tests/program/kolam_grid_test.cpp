@@ -36,6 +36,16 @@ TEST_F(KolamGrid, MakesEveryKindOfGrid) {
     EXPECT_TRUE(has(kolam({"shape.lsys"}).output, "a single line (anthathi), 20 dots"));
 }
 
+TEST_F(KolamGrid, ExtensionsMayBeCapitals) {
+    const auto made = [&](const char* name) {
+        EXPECT_EQ(kolam({"--grid", "5x5", "--single-line", "--seed", "2", "-o", name}).status, 0);
+        return contents(folder_ / name);
+    };
+    const std::string csv = made("a.csv");
+    EXPECT_TRUE(has(csv, "x-kolam 1,y-kolam 1"));
+    EXPECT_EQ(made("A.CSV"), csv);
+}
+
 TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
     EXPECT_TRUE(has(kolam({"--grid", "1-15-1", "-o", "a.lsys"}).errors,
                     "three rows of 1, 15 and 1 dots; for 1 up to 15 and back write 15-1"));
