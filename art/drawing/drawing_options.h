@@ -50,7 +50,7 @@ struct DrawingSettings {
     double kerf = 0;  ///< millimetres; the border of united edges of tiles moves outwards by half of it
 };
 
-/// What a drawing shows, on a page of its own or in a cell of a sheet.
+/// Contents and place of a drawing, on a page of its own or in a cell of a sheet.
 struct DrawingOptions : DrawingSettings {
     std::optional<DrawnExtent> frame;  ///< extent to place on the page instead of the drawing's own
     glm::dvec2 stretch{1.0};           ///< scale of the placed drawing, across and down, about the middle of the page

@@ -47,7 +47,7 @@ PlotterProfile read_profile(const std::filesystem::path& file);
 void check_profile(const PlotterProfile& profile, PrintFormat format);
 /// @throws SettingError if the format, or layers with names of these codes, cannot express the settings of pens
 void check_pen_rules(std::span<const PenRule> rules, const LayerCodes& codes, PrintFormat format);
-/// Why a picture is not a plot.
+/// The reason that a picture is not a plot.
 inline constexpr const char* plot_formats = "a plot is SVG, PDF, EPS, HP-GL, G-code or DXF";
 
 /// A bundled profile.

@@ -28,7 +28,7 @@ enum class SwatchChoice : std::uint8_t { none, upright, turned };
 
 // Settings of a print. Lengths are millimetres, angles degrees, times seconds.
 
-/// The paper, and what writers of files apply.
+/// The paper, and options that writers of files apply.
 struct PaperSettings : WriterOptions {
     bool landscape = false;
     bool widens_margin = false;     ///< the margin is the one that the plotter needs
@@ -36,7 +36,7 @@ struct PaperSettings : WriterOptions {
     std::optional<double> overlap;  ///< overlap of neighbouring sheets; 10 mm
 };
 
-/// How the place of the drawing on the page is found.
+/// Settings that determine the place of the drawing on the page.
 struct PlaceSettings {
     bool fit = false;         ///< requested explicitly; excludes `step` and `window`
     std::string window_text;  ///< the window as given, which may have more digits than a double
@@ -46,7 +46,7 @@ struct PlaceSettings {
     glm::dvec2 swatch_stretch{1.0};        ///< scale across and down that gives the swatch whole pixels
 };
 
-/// What is drawn, and values for keys of the pattern. An empty `title_line` is the pattern's title.
+/// Contents of the drawing, and values for keys of the pattern. An empty `title_line` stands for the pattern's title.
 struct LookSettings : DrawingSettings {
     std::string view;                   ///< value for `view:`; empty: the pattern's
     std::string light;                  ///< value for `light:`; empty: the pattern's

@@ -34,7 +34,7 @@ struct PlotSetup {
     LayerCodes layer_codes{};  ///< names of layers for AxiDraw, in SVG
 };
 
-/// How pictures are written.
+/// Options for writing pictures.
 struct PictureOptions {
     int threads = 0;                 ///< 0: all cores
     std::optional<int> compression;  ///< PNG compression, 1 (fast) to 9 (small); absent: 6

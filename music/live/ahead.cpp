@@ -89,7 +89,7 @@ private:
             lock.lock();
             is_reading_ = false;
             if (is_over_) return;
-            if (sought_) continue;  // the notes read are no longer needed
+            if (sought_) continue;  // seek() was called meanwhile: these notes are not needed
             if (error) {
                 error_ = error;
             } else {

@@ -71,7 +71,7 @@ TEST_F(Growth, TheLastFrameIsThePrintThatStandsAlone) {
     EXPECT_NE(pixels("g-3.png"), pixels("alone.png"));
 }
 
-/// Of a GIF's frames, in hundredths of a second.
+/// The display times of the frames of a GIF, in hundredths of a second.
 std::vector<int> delays(const std::string& bytes) {
     std::vector<int> list;
     for (std::size_t at = 0; (at = bytes.find("\x21\xf9\x04", at)) != std::string::npos; ++at) {
@@ -108,7 +108,7 @@ TEST_F(Growth, EachFrameFitsThePageOnRequest) {
     }
     EXPECT_EQ(start("still-4.svg"), start("fit-4.svg"));
     EXPECT_NE(start("still-0.svg"), start("fit-0.svg"));
-    // What draws nothing is an empty page all the same.
+    // A generation that draws nothing is an empty page.
     const OptionValues small = {
         {"generations", "0:2"}, {"fit-frames", "true"}, {"size", "20x20mm"}, {"margin", "1mm"}};
     EXPECT_EQ(draw("hilbert", small, "h.gif").error, "");
