@@ -2,9 +2,8 @@
 
 #include "engine/base/text.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string>
+#include <unordered_map>
 
 namespace sikku {
 namespace {
@@ -200,12 +199,16 @@ std::span<const KeyInfo> language_keys() {
 }
 
 const KeyInfo* find_language_key(std::string_view name) {
-    const auto is_row = [&](const KeyInfo& key) {
-        return key.name == name || (key.is_for_symbols() && name.size() > key.before_symbol().size() &&
-                                    name.starts_with(key.before_symbol()));
-    };
-    const auto* found = std::find_if(std::begin(language), std::end(language), is_row);
-    return found == std::end(language) ? nullptr : found;
+    static const auto rows = [] {
+        std::unordered_map<std::string_view, const KeyInfo*> by_name;
+        for (const KeyInfo& key : language) by_name.emplace(key.name, &key);
+        return by_name;
+    }();
+    if (const auto row = rows.find(name); row != rows.end()) return row->second;
+    const std::size_t blank = name.find(' ');
+    if (blank == std::string_view::npos || blank + 1 == name.size()) return nullptr;
+    const auto row = rows.find(std::string(name.substr(0, blank)).append(KeyInfo::symbol_place));
+    return row == rows.end() ? nullptr : row->second;
 }
 
 std::vector<std::string_view> keys_of(KeyOwner owner) {

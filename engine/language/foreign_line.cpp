@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 #include <utility>
 
 namespace sikku {
@@ -547,10 +548,15 @@ std::string_view foreign_arrow(std::string_view line) {
 }
 
 std::string_view key_of_other_name(std::string_view name) {
-    for (const auto& [key, names] : other_names) {
-        if (contains(split_words(names, ","), name)) return key;
-    }
-    return {};
+    static const auto keys = [] {
+        std::unordered_map<std::string_view, std::string_view> by_name;
+        for (const auto& [key, names] : other_names) {
+            for (const std::string_view other : split_words(names, ",")) by_name.emplace(other, key);
+        }
+        return by_name;
+    }();
+    const auto found = keys.find(name);
+    return found == keys.end() ? std::string_view() : found->second;
 }
 
 std::string_view nearest_key(std::string_view name) {

@@ -10,13 +10,14 @@
 namespace sikku {
 namespace {
 
-/// Calls `work` with each line, without blanks at both ends, until it returns true.
+/// Calls `work` with each line that is not empty, without blanks at both ends, until it returns true.
 template <class Work>
 bool any_line(std::string_view text, Work work) {
     while (!text.empty()) {
         std::string_view line = take_line(text);
         while (line.ends_with('\r')) line.remove_suffix(1);
-        if (work(trimmed(line))) return true;
+        line = trimmed(line);
+        if (!line.empty() && work(line)) return true;
     }
     return false;
 }
