@@ -20,7 +20,8 @@ for compiler in g++ clang++; do
             -DCMAKE_EXE_LINKER_FLAGS="-flto=auto -Wodr -Werror=odr -Werror=lto-type-mismatch")
         # Without tests, which would take most of the time, and without a type of build: a release has levels of its own.
         cmake -S . -B "$folder" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None \
-            -DCMAKE_CXX_FLAGS="-O$level -DNDEBUG" -DSIKKU_TESTS=OFF "${whole[@]}" > "$folder.log" 2>&1 ||
+            -DCMAKE_CXX_FLAGS="-O$level -DNDEBUG" -DSIKKU_TESTS=OFF -DCMAKE_UNITY_BUILD=ON \
+            -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "${whole[@]}" > "$folder.log" 2>&1 ||
             { cat "$folder.log"; exit 1; }
         cmake --build "$folder" -j "$(nproc)" --target sikku sikku_image > "$folder.log" 2>&1 ||
             { tail -n 40 "$folder.log"; exit 1; }
