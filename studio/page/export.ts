@@ -10,11 +10,10 @@ import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import { offered } from "./option_scopes";
 import { optionOf, withOption } from "./options";
-import { isAbort } from "./pictures";
+import { drawInto, isAbort } from "./pictures";
 import type { Command, FormatHelp, Made, Options, Request } from "./protocol";
 import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
-import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
 type CommandRequest = Extract<Request, { do: "command" }>;
