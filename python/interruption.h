@@ -15,19 +15,37 @@ namespace sikku {
 /// lock of Python (GIL) and then releases it for a long call.
 class Interruption {
 public:
-    Interruption();
-
     /// A monitor that refers to this object. Any thread of the work may use it; only the calling thread checks
     /// signals.
-    Monitor monitor();
+    Monitor monitor() {
+        return Monitor([](void* self) { return static_cast<Interruption*>(self)->is_stopped(); }, nullptr, this);
+    }
     /// Throws the exception that a signal raised in Python. Requires the global lock.
-    void rethrow();
+    void rethrow() {
+        if (!type_) return;
+        PyErr_Restore(type_.release().ptr(), value_.release().ptr(), traceback_.release().ptr());
+        throw pybind11::error_already_set();
+    }
 
 private:
-    bool is_stopped();
+    static constexpr std::chrono::milliseconds interval{50};
 
-    std::thread::id thread_;
-    std::chrono::steady_clock::time_point next_;
+    bool is_stopped() {
+        if (is_stopped_ || std::this_thread::get_id() != thread_) return is_stopped_;
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) return false;
+        const pybind11::gil_scoped_acquire lock;
+        if (PyErr_CheckSignals() != 0) {
+            PyErr_Fetch(&type_.ptr(), &value_.ptr(), &traceback_.ptr());
+            is_stopped_ = true;
+        }
+        // Read after the signals, so that the time spent waiting for the lock does not count.
+        next_ = std::chrono::steady_clock::now() + interval;
+        return is_stopped_;
+    }
+
+    std::thread::id thread_ = std::this_thread::get_id();
+    std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + interval;
     std::atomic<bool> is_stopped_{false};
     pybind11::object type_, value_, traceback_;
 };

@@ -6,7 +6,6 @@
 #include "art/sheets.h"
 #include "engine/measurement.h"
 #include "music/scores.h"
-#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/interruption.h"
 #include "python/values.h"

@@ -2,12 +2,36 @@
 
 #include "art/prints.h"
 #include "engine/base/keys.h"
-#include "music/scores.h"
 #include "python/errors.h"
+
+#include <pybind11/numpy.h>
+
+#include <memory>
 
 namespace py = pybind11;
 
 namespace sikku {
+namespace {
+
+/// An array that owns the memory of the vector.
+template <class Number, class Element>
+py::array array_of(std::vector<Element> vector, py::array::ShapeContainer shape) {
+    auto kept = std::make_unique<std::vector<Element>>(std::move(vector));
+    auto* const first = reinterpret_cast<Number*>(kept->data());
+    const py::capsule owner(kept.get(), [](void* memory) { delete static_cast<std::vector<Element>*>(memory); });
+    static_cast<void>(kept.release());
+    return py::array_t<Number>(std::move(shape), first, owner);
+}
+
+template <class Number, class Get>
+py::array column(const std::vector<Note>& notes, const Get& get) {
+    py::array_t<Number> result(static_cast<py::ssize_t>(notes.size()));
+    Number* next = result.mutable_data();
+    for (const Note& note : notes) *next++ = get(note);
+    return result;
+}
+
+}  // namespace
 
 OptionValues to_values(const TextPairs& pairs) {
     OptionValues values;
@@ -54,6 +78,33 @@ py::list list_keys() {
     py::list list;
     for (const KeyInfo& key : language_keys()) list.append(py::str(key.name.data(), key.name.size()));
     return list;
+}
+
+py::tuple to_arrays(DrawnLines lines) {
+    return std::visit(
+        [](auto& drawn) -> py::tuple {
+            using Point = typename std::decay_t<decltype(drawn.points)>::value_type;
+            static_assert(sizeof(Point) == sizeof(double) * static_cast<std::size_t>(Point::length()));
+            const auto points = static_cast<py::ssize_t>(drawn.points.size());
+            const auto begins = static_cast<py::ssize_t>(drawn.begins.size());
+            return py::make_tuple(
+                array_of<double>(std::move(drawn.points), std::vector<py::ssize_t>{points, Point::length()}),
+                array_of<std::int64_t>(std::move(drawn.begins), std::vector<py::ssize_t>{begins}));
+        },
+        lines);
+}
+
+py::tuple to_arrays(const std::vector<Note>& notes) {
+    std::vector<double> places;
+    places.reserve(4 * notes.size());
+    for (const Note& note : notes) places.insert(places.end(), {note.from.x, note.from.y, note.to.x, note.to.y});
+    const auto count = static_cast<py::ssize_t>(notes.size());
+    return py::make_tuple(column<std::int64_t>(notes, [](const Note& note) { return note.onset; }),
+                          column<std::int64_t>(notes, [](const Note& note) { return note.duration; }),
+                          column<double>(notes, [](const Note& note) { return note.key; }),
+                          column<std::uint8_t>(notes, [](const Note& note) { return note.velocity; }),
+                          column<std::int16_t>(notes, [](const Note& note) { return note.voice; }),
+                          array_of<double>(std::move(places), std::vector<py::ssize_t>{count, 2, 2}));
 }
 
 }  // namespace sikku

@@ -1,7 +1,10 @@
-// python/values.h: converts options and settings between Python and the libraries.
+// python/values.h: converts options and settings between Python and the libraries, and lines and notes to NumPy
+// arrays.
 #pragma once
 
+#include "art/analysis.h"
 #include "engine/interpreter.h"
+#include "music/scores.h"
 
 #include <pybind11/pybind11.h>
 
@@ -30,5 +33,13 @@ pybind11::list list_options(std::span<const OptionInfo* const> options);
 pybind11::list list_formats(const Interpreter& interpreter);
 /// The names of all keys of the language.
 pybind11::list list_keys();
+
+/// Points: float64 of shape (points, 2 or 3). Index of the first point of each stroke, then the number of points:
+/// int64 of shape (strokes + 1,). The arrays take over the vectors, without copies.
+pybind11::tuple to_arrays(DrawnLines lines);
+
+/// For each note: onset and duration (int64, ticks), key (float64), velocity (uint8), voice (int16), and piece of the
+/// curve (float64, 2 x 2).
+pybind11::tuple to_arrays(const std::vector<Note>& notes);
 
 }  // namespace sikku

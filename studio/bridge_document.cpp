@@ -143,7 +143,7 @@ Json json_of(const std::vector<Diagnostic>& diagnostics) {
 
 namespace {
 
-/// True for a place in the text of the pattern, not in a setting.
+/// The line of a place in the text of the pattern; 0 in a setting.
 int line_of(const Document& document, const Span& span) {
     return span.source == &document.source() ? document.source().place(span.at).line : 0;
 }

@@ -43,44 +43,39 @@ async function bundle(entry) {
     return result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 }
 
-const notices_as_module = {
-    name: "notices",
-    setup(plugins) {
-        plugins.onResolve({ filter: /^notices$/ }, () => ({ path: "notices", namespace: "notices" }));
-        plugins.onLoad({ filter: /.*/, namespace: "notices" }, () => ({
-            contents: JSON.stringify(notices(join(here, "node_modules"))),
-            loader: "json",
-        }));
-    },
-};
+// A plugin that makes the modules whose names match the filter.
+function made(name, filter, load, placed = ({ path }) => path) {
+    return {
+        name,
+        setup(plugins) {
+            plugins.onResolve({ filter }, (asked) => ({ path: placed(asked), namespace: name }));
+            plugins.onLoad({ filter: /.*/, namespace: name }, load);
+        },
+    };
+}
+
+const notices_as_module = made("notices", /^notices$/, () => ({
+    contents: JSON.stringify(notices(join(here, "node_modules"))),
+    loader: "json",
+}));
 
 // `worker:sound/file.ts` imports the bundle of that file as a string.
-const workers_as_text = {
-    name: "workers",
-    setup(plugins) {
-        plugins.onResolve({ filter: /^worker:/ }, ({ path, resolveDir }) => {
-            const file = path.slice("worker:".length);
-            return { path: resolve(file.startsWith(".") ? resolveDir : join(here, "page"), file), namespace: "worker" };
-        });
-        plugins.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => ({
-            contents: await bundle(path),
-            loader: "text",
-        }));
+const workers_as_text = made(
+    "worker",
+    /^worker:/,
+    async ({ path }) => ({ contents: await bundle(path), loader: "text" }),
+    ({ path, resolveDir }) => {
+        const file = path.slice("worker:".length);
+        return resolve(file.startsWith(".") ? resolveDir : join(here, "page"), file);
     },
-};
+);
 
 // `panel-styles` holds the style rules of the panels, compressed with the script; the rules of the whole page are in
 // its head.
-const styles_as_text = {
-    name: "styles",
-    setup(plugins) {
-        plugins.onResolve({ filter: /^panel-styles$/ }, ({ path }) => ({ path, namespace: "styles" }));
-        plugins.onLoad({ filter: /.*/, namespace: "styles" }, async () => {
-            const names = readdirSync(join(here, "page")).filter((name) => name.endsWith(".css") && name !== page_style);
-            return { contents: await style(names.sort()), loader: "text" };
-        });
-    },
-};
+const styles_as_text = made("styles", /^panel-styles$/, async () => {
+    const names = readdirSync(join(here, "page")).filter((name) => name.endsWith(".css") && name !== page_style);
+    return { contents: await style(names.sort()), loader: "text" };
+});
 
 const page_style = "studio.css";
 async function style(names) {

@@ -2,7 +2,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 
-const mit = (holders) => `${holders}
+const mit = (name, what, copyright) => ({ name, what, licence: "MIT", text: `${copyright}
 
 Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
 documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
@@ -15,7 +15,7 @@ Software.
 THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE
 WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR
 COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
-OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.`;
+OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.` });
 
 const libraries = [
     {
@@ -26,28 +26,13 @@ const libraries = [
             "Copyright Boost project contributors. Distributed under the Boost Software License, Version 1.0: " +
             "https://www.boost.org/LICENSE_1_0.txt",
     },
-    { name: "GLM", what: "vectors and rotations", licence: "MIT", text: mit("Copyright (c) 2005 - G-Truc Creation") },
-    { name: "fmt", what: "formatting", licence: "MIT", text: mit("Copyright (c) 2012 - present, Victor Zverovich") },
-    { name: "nlohmann/json", what: "JSON", licence: "MIT", text: mit("Copyright (c) 2013-2022 Niels Lohmann") },
-    {
-        name: "fast_float",
-        what: "reading numbers",
-        licence: "MIT",
-        text: mit("Copyright (c) 2021 The fast_float authors"),
-    },
-    {
-        name: "toml++",
-        what: "reading TOML",
-        licence: "MIT",
-        text: mit("Copyright (c) Mark Gillard <mark.gillard@outlook.com.au>"),
-    },
-    {
-        name: "Emscripten",
-        what: "the C++ libraries in the browser",
-        licence: "MIT",
-        text: mit("Copyright (c) 2010-2014 Emscripten authors"),
-    },
-    { name: "musl", what: "C library", licence: "MIT", text: mit("Copyright (c) 2005-2020 Rich Felker, et al.") },
+    mit("GLM", "vectors and rotations", "Copyright (c) 2005 - G-Truc Creation"),
+    mit("fmt", "formatting", "Copyright (c) 2012 - present, Victor Zverovich"),
+    mit("nlohmann/json", "JSON", "Copyright (c) 2013-2022 Niels Lohmann"),
+    mit("fast_float", "reading numbers", "Copyright (c) 2021 The fast_float authors"),
+    mit("toml++", "reading TOML", "Copyright (c) Mark Gillard <mark.gillard@outlook.com.au>"),
+    mit("Emscripten", "the C++ libraries in the browser", "Copyright (c) 2010-2014 Emscripten authors"),
+    mit("musl", "C library", "Copyright (c) 2005-2020 Rich Felker, et al."),
     {
         name: "libc++, libc++abi",
         what: "C++ library",

@@ -60,14 +60,4 @@ CuttingPlan plan_cutting(std::vector<CutKind> kinds, const CuttingOptions& optio
 /// @throws std::runtime_error for more than 2,000 corners, and as offset_outline()
 std::vector<glm::dvec2> cut_outline(const CutKind& piece, double growth, std::string_view what);
 
-/// The kinds of pieces on a sheet and how many of each: `A × 28, B × 4`.
-std::string piece_counts(const CuttingPlan& plan, const CuttingSheet& sheet);
-
-/// A table with one line for each sheet. @param materials, files  names of the colours and the files of the sheets
-std::string cutting_text(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
-                         const std::vector<std::string>& materials, const std::vector<std::string>& files);
-/// The plan as one line of JSON.
-std::string cutting_json(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
-                         const std::vector<std::string>& materials, const std::vector<std::string>& files);
-
 }  // namespace sikku

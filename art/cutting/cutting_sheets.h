@@ -1,4 +1,4 @@
-// art/cutting/cutting_sheets.h: writes the sheets of a cutting plan.
+// art/cutting/cutting_sheets.h: writes the sheets of a cutting plan, and lists them.
 #pragma once
 
 #include "art/cutting/cutting_plan.h"
@@ -9,6 +9,13 @@
 #include <vector>
 
 namespace sikku {
+
+/// A table with one line for each sheet. @param materials, files  names of the colours and the files of the sheets
+std::string cutting_text(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
+                         const std::vector<std::string>& materials, const std::vector<std::string>& files);
+/// The plan as one line of JSON.
+std::string cutting_json(const std::string& title, const CuttingOptions& options, const CuttingPlan& plan,
+                         const std::vector<std::string>& materials, const std::vector<std::string>& files);
 
 /// Writes the sheets of a plan with their pieces: the outlines to cut, which neighbours without a gap share, the
 /// finished sizes dashed within allowances, and, if `labels`, the names of kinds, and a description of the sheet in

@@ -44,7 +44,8 @@ QuadVector direction(Quad degrees) {
 }
 
 /// The product of complex numbers: `vector`, turned by a unit vector.
-QuadVector turned(const QuadVector& vector, const QuadVector& by) {
+template <class Vector>
+Vector turned(const Vector& vector, const Vector& by) {
     return {vector.x * by.x - vector.y * by.y, vector.x * by.y + vector.y * by.x};
 }
 
@@ -143,7 +144,7 @@ public:
     Box box(const Bound& bound, const Heading& heading) const {
         Box box;
         if (is_empty(bound)) return box;
-        const glm::dvec2 centre = turned_by(bound.centre, heading);
+        const glm::dvec2 centre = turned(bound.centre, heading.rounded());
         box.add(centre - bound.radius);
         box.add(centre + bound.radius);
         return box;
@@ -157,9 +158,9 @@ public:
     static bool is_empty(const Bound& bound) { return bound.radius < 0; }
     class Collector {
     public:
-        explicit Collector(const FreeHeadings& headings) : headings_(headings) {}
+        explicit Collector(const FreeHeadings&) {}
         void add(glm::dvec2 at, const Bound& child, const Heading& heading) {
-            discs_.push_back({at + headings_.turned_by(child.centre, heading), child.radius + slack_at(at)});
+            discs_.push_back({at + turned(child.centre, heading.rounded()), child.radius + slack_at(at)});
         }
         /// The disc around the middle of their box.
         Bound bound() const {
@@ -178,16 +179,10 @@ public:
         }
 
     private:
-        const FreeHeadings& headings_;
         std::vector<Bound> discs_;
     };
 
 private:
-    static glm::dvec2 turned_by(glm::dvec2 point, const Heading& heading) {
-        const glm::dvec2 by = heading.rounded();
-        return {point.x * by.x - point.y * by.y, point.x * by.y + point.y * by.x};
-    }
-
     Heading first_;
 };
 
@@ -328,8 +323,7 @@ bool PatchesOf<Headings>::compose(std::string& why) {
     pieces_.resize((levels() + 1) * symbols_ * headings_.count());
     why =
         "a window needs brackets, polygons and changes of the pen that end in the word in which they begin, or "
-        "within "
-        "10,000 symbols";
+        "within 10,000 symbols";
     if (kind_of_word(grammar_.axiom(), levels()) != Kind::composed) return false;
     const Heading first = headings_.composed(headings_.number(headings_.first()));
     whole_ = headings_.box(composed(grammar_.axiom(), levels(), first).bound, headings_.first());

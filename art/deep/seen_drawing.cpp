@@ -15,6 +15,7 @@
 #include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
 #include "engine/derivation/plain_form.h"
+#include "engine/geometry/bezier.h"
 #include "engine/geometry/turtle.h"
 #include "engine/measure/clumps.h"
 #include "engine/measure/fold.h"
@@ -67,13 +68,8 @@ public:
     }
     void curves(std::span<const glm::dvec2> controls) override {
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const glm::dvec2 start = at_;
-            for (int k = 1; k <= 8; ++k) {
-                const double t = k / 8.0;
-                const double u = 1 - t;
-                add(u * u * u * start + 3 * u * u * t * controls[i] + 3 * u * t * t * controls[i + 1] +
-                    t * t * t * controls[i + 2]);
-            }
+            const Bezier curve{at_, controls[i], controls[i + 1], controls[i + 2]};
+            for (int k = 1; k <= 8; ++k) add(point_of(curve, k / 8.0));
         }
     }
     void change_pen(const Pen&) override {}

@@ -16,14 +16,12 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <span>
-#include <utility>
 
 namespace sikku {
 namespace {

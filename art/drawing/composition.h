@@ -3,7 +3,6 @@
 
 #include "art/drawing/line_work.h"
 #include "art/drawing/word_drawing.h"
-#include "art/kolam/kolam.h"
 
 #include <cstdint>
 #include <memory>

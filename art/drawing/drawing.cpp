@@ -7,8 +7,6 @@
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace sikku {

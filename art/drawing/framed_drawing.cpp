@@ -5,8 +5,6 @@
 #include "engine/geometry/lettering.h"
 #include "engine/geometry/moved_path.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 

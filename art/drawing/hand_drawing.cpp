@@ -1,6 +1,5 @@
 #include "art/drawing/hand_drawing.h"
 
-#include "art/hand/hand_order.h"
 #include "art/print/ornaments.h"
 #include "art/raster/raster.h"
 

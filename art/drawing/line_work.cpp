@@ -3,8 +3,6 @@
 #include "art/kolam/segment_grid.h"
 #include "art/plotter/shading.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

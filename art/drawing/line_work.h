@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,7 +37,6 @@ public:
     std::size_t lines() const { return lines_.lines.size(); }
     std::size_t fields() const { return fields_.size(); }
     std::size_t crossings() const { return bands_ ? bands_->crossings() : 0; }
-    bool requests_fields() const { return style_.fields.has_value(); }
     /// Appends the colours of the fields to a palette. @param others  colours of the lines
     /// and the ground, which sets of powders avoid
     void add_colours(std::vector<Colour>& palette, std::span<const Colour> others);

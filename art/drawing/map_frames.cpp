@@ -13,6 +13,8 @@
 namespace sikku {
 namespace {
 
+constexpr double most_kept_edges = 20e6;
+
 struct Side {
     glm::dvec2 from, to;
     double left() const { return std::min(from.x, to.x); }
@@ -55,12 +57,6 @@ bool MapFrame::has_growth() const {
                                        [&](const MapEdge& edge) { return edge.born == steps && steps > 0; });
     return has_walls || places != starts;
 }
-
-namespace {
-
-constexpr double most_kept_edges = 20e6;
-
-}  // namespace
 
 MapFrames::MapFrames(const Grammar& grammar, double budget, Monitor monitor, KeptFrames kept)
     : grammar_(std::make_shared<const Grammar>(grammar)),

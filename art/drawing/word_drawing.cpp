@@ -17,8 +17,6 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

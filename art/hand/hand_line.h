@@ -1,4 +1,4 @@
-// art/hand/hand_line.h: the lines of a drawing as sampled curves, gathered for a hand to draw.
+// art/hand/hand_line.h: the lines of a drawing as sampled curves, gathered and put in order for a hand to draw.
 #pragma once
 
 #include "art/style/style.h"
@@ -57,6 +57,16 @@ glm::dvec2 hand_unit_direction(const HandLine& line, std::size_t i);
 double hand_turn(const HandLine& line, std::size_t i);
 /// Computes the lengths along the line from the places of its nodes.
 void measure_again(HandLine& line);
+
+/// Puts lines into the order of a hand and gives each a start and a direction, seen with y up, before the drawing is
+/// rotated or mirrored on its page:
+/// - A closed line begins in a run at the upper left of its box and goes round anticlockwise. An open one begins at
+///   its upper left end. People begin at the top left and, with the right hand, draw circles anticlockwise.
+/// - Lines follow each other from the centre of the drawing outwards, as around the first dots. Lines of equal length
+///   and distance from the centre, images of each other, form a group that is drawn anticlockwise from the top left.
+/// Cost: O(n log n). Source: Goodnow & Levine, The grammar of action, Cognitive Psychology 4 (1973); van Sommers,
+/// Drawing and Cognition, 1984.
+void order_by_hand(std::vector<HandLine>& lines);
 
 /// Gathers the visible lines and dots of a drawing. Polygons and areas are passed on to another sink, as they lie
 /// under all lines. Corners become short bends; a line ends where its colour changes.

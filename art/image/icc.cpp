@@ -124,6 +124,17 @@ std::vector<std::uint8_t> read_profile(const std::filesystem::path& file) {
     }
 }
 
+/// The description of a profile in printable ASCII, at most 200 characters.
+std::string description(cmsHPROFILE profile) {
+    char text[200] = {};
+    cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text, sizeof text);
+    std::string result;
+    for (std::size_t i = 0; i + 1 < std::size(text) && text[i] != 0; ++i) {
+        if (text[i] >= 0x20 && text[i] < 0x7F) result += text[i];
+    }
+    return result;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> srgb_profile() {
@@ -141,21 +152,6 @@ std::vector<std::uint8_t> grey_profile() {
     const Profile profile(cmsCreateGrayProfileTHR(context.handle, cmsD50_xyY(), curve.get()));
     return saved(profile.get());
 }
-
-namespace {
-
-/// The description of a profile in printable ASCII, at most 200 characters.
-std::string description(cmsHPROFILE profile) {
-    char text[200] = {};
-    cmsGetProfileInfoASCII(profile, cmsInfoDescription, "en", "US", text, sizeof text);
-    std::string result;
-    for (std::size_t i = 0; i + 1 < std::size(text) && text[i] != 0; ++i) {
-        if (text[i] >= 0x20 && text[i] < 0x7F) result += text[i];
-    }
-    return result;
-}
-
-}  // namespace
 
 struct InkTransform::Handles {
     Context context;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
-#include <system_error>
 
 namespace sikku {
 namespace {

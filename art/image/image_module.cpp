@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <stdexcept>

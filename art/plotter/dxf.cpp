@@ -1,5 +1,6 @@
 #include "art/plotter/dxf.h"
 
+#include "art/plotter/arc_writer.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 
@@ -108,7 +109,7 @@ public:
     }
     void end_stroke(bool closed) override {
         if (vertices_.empty()) return;
-        follower_.finish();
+        finish_curve();
         const bool is_there_and_back = vertices_.size() < 4 && vertices_.front().bulge == 0;
         closed = closed && !is_there_and_back && vertices_.front().at == vertices_.back().at;
         if (closed) vertices_.pop_back();
@@ -178,7 +179,7 @@ private:
 
     void put_down(glm::dvec2 at) override {
         put(at);
-        follower_.begin(at);
+        begin_curve(at);
     }
     void line_to(glm::dvec2 millimetres) override {
         if (rounded(millimetres) != vertices_.back().at) put(millimetres);

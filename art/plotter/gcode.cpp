@@ -1,19 +1,18 @@
 #include "art/plotter/gcode.h"
 
+#include "art/plotter/arc_writer.h"
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
 #include "engine/base/decimal.h"
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace sikku {
 namespace {
@@ -73,7 +72,7 @@ public:
 
     void end_stroke(bool) override {
         if (!started_) return;
-        follower_.finish();
+        finish_curve();
         started_ = false;
         lift();
     }
@@ -88,7 +87,7 @@ public:
 private:
     void put_down(glm::dvec2 from) override {
         require_on_page(from);
-        follower_.begin(from);
+        begin_curve(from);
         travel(from);
         lower();
         feed_ = fmt::format(" F{}", decimal(settings_.speed ? 60 * *settings_.speed : options_.drawing_feed, 3));

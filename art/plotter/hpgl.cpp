@@ -2,7 +2,6 @@
 
 #include "art/print/micrometres.h"
 #include "art/print/recipe_comments.h"
-
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace sikku {
 namespace {

@@ -7,19 +7,16 @@
 #include "art/plotter/plot_route.h"
 #include "engine/base/option.h"
 #include "engine/geometry/bezier.h"
-#include "engine/geometry/lattice.h"
 
 #include <fmt/format.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <utility>

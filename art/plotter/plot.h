@@ -7,8 +7,6 @@
 #include "art/print/tile_kinds.h"
 #include "engine/geometry/path.h"
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>

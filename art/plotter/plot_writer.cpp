@@ -68,18 +68,4 @@ void PlotWriter::require_on_page(glm::dvec2 millimetres) const {
     }
 }
 
-// Four chords are enough for an arc of a small circle.
-ArcWriter::ArcWriter(const Print& print, Output& file, bool arcs, double least_arc)
-    : PlotWriter(print, file, ArcFollower::chord, 4),
-      follower_(
-          arcs, least_arc, [this](glm::dvec2 end) { line_to(end); },
-          [this](const PlotArc& arc, glm::dvec2 end) { arc_to(arc, end); }) {}
-
-void ArcWriter::lines(std::span<const glm::dvec2> ends) {
-    start();
-    follower_.finish();
-    for (const glm::dvec2 end : ends) line_to(on_page(here_ = end));
-    follower_.begin(on_page(here_));
-}
-
 }  // namespace sikku

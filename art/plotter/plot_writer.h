@@ -1,7 +1,6 @@
 // art/plotter/plot_writer.h: the common base of the writers of HP-GL, G-code and DXF.
 #pragma once
 
-#include "art/plotter/arc_follower.h"
 #include "art/print/print.h"
 #include "engine/base/output.h"
 #include "engine/geometry/path.h"
@@ -70,22 +69,6 @@ private:
     double tolerance_;
     int least_chords_;
     std::map<int, int> numbers_;  ///< numbers of pens, by colour index
-};
-
-/// Follows curves by arcs and lines.
-class ArcWriter : public PlotWriter {
-public:
-    void lines(std::span<const glm::dvec2> ends) final;
-
-protected:
-    /// @param arcs, least_arc  as in ArcFollower
-    ArcWriter(const Print& print, Output& file, bool arcs, double least_arc);
-
-    void curve_point(glm::dvec2 point) override { follower_.add(point); }
-    virtual void line_to(glm::dvec2 end) = 0;
-    virtual void arc_to(const PlotArc& arc, glm::dvec2 end) = 0;
-
-    ArcFollower follower_;  ///< from the end of the last line or arc
 };
 
 }  // namespace sikku

@@ -1,6 +1,6 @@
 #include "art/plotter/shading.h"
 
-#include "engine/geometry/lattice.h"
+#include "engine/language/unit_vector.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -159,6 +159,11 @@ private:
     std::vector<std::size_t> stretch_of_;  ///< stretch of each crossing
 };
 
+/// Radius of the circle that a pen draws at the edge of a disc.
+double edge_of(double radius, double pen) {
+    return std::max(radius - pen / 2, radius / 4);
+}
+
 }  // namespace
 
 std::vector<glm::dvec2> hatch_directions(const Hatch& hatch, const Placement& placement) {
@@ -191,15 +196,6 @@ std::vector<std::vector<glm::dvec2>> hatch_lines(std::span<const glm::dvec2> ver
                                                  double spacing, double inset, const Monitor& monitor) {
     return Hatcher(vertices, along, spacing, inset, monitor).lines();
 }
-
-namespace {
-
-/// Radius of the circle that a pen draws at the edge of a disc.
-double edge_of(double radius, double pen) {
-    return std::max(radius - pen / 2, radius / 4);
-}
-
-}  // namespace
 
 double spiral_reach(double radius, double pen) {
     return edge_of(radius, pen) + pen / 2;

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace sikku {
 namespace {

@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include <array>
-#include <initializer_list>
 #include <span>
 #include <utility>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "art/print/clip.h"
 
-#include "art/print/outline.h"
-
 namespace sikku {
 
 bool ClipSink::overlaps(const Box& box) const {

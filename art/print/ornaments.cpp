@@ -1,15 +1,11 @@
 #include "art/print/ornaments.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
 
 namespace sikku {
+
 double least_distance(std::span<const glm::dvec2> dots) {
     std::vector<glm::dvec2> sorted(dots.begin(), dots.end());
     std::sort(sorted.begin(), sorted.end(),
@@ -24,12 +20,7 @@ double least_distance(std::span<const glm::dvec2> dots) {
 }
 
 std::vector<Colour> kolam_palette() {
-    constexpr std::size_t length = std::string_view("#rrggbb").size();
-    std::vector<Colour> palette;
-    for (std::size_t at = 0; at < kolam_colours.size(); at += length + 1) {
-        palette.push_back(*parse_colour(kolam_colours.substr(at, length)));
-    }
-    return palette;
+    return parse_colours(kolam_colours);
 }
 
 }  // namespace sikku

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/vec3.hpp>
 #include <stdexcept>
 #include <string>
 

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace sikku {
 

@@ -1,7 +1,6 @@
 #include "art/product/draw_settings.h"
 
 #include "art/print/tiles.h"
-#include "art/raster/raster.h"
 #include "art/relief/relief_options.h"
 #include "art/style/length.h"
 #include "engine/base/diagnostic.h"
@@ -15,7 +14,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string_view>
 #include <system_error>
@@ -822,10 +820,6 @@ const std::array own_rows = {
     Option<S>{budget_option, [](S& s, Text t) { s.work.budget = read_budget(t); }},
 };
 
-}  // namespace
-
-namespace {
-
 void set_key(S& settings, std::string_view name, Text text) {
     std::string key(name);
     std::replace(key.begin(), key.end(), '-', ' ');
@@ -879,10 +873,6 @@ void widen_margin(DrawSettings& settings) {
     settings.paper.widens_margin = true;
 }
 
-}  // namespace
-
-namespace {
-
 /// The options that are given with another value than none, in the order of the table.
 std::vector<const OptionInfo*> effective_options(const OptionValues& values) {
     std::vector<const OptionInfo*> given;
@@ -894,6 +884,20 @@ std::vector<const OptionInfo*> effective_options(const OptionValues& values) {
         }
     }
     return given;
+}
+
+/// Depths within the base.
+void check_depths(const ReliefOptions& options) {
+    const auto check = [&](const char* option, const std::vector<double>& heights) {
+        for (const double height : heights) {
+            if (height < 0 && !(options.base + height > 0.0005)) {
+                refuse_option(option, fmt::format("{:g}mm", height),
+                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
+            }
+        }
+    };
+    check("relief", options.heights);
+    check("ridge", options.ridges);
 }
 
 }  // namespace
@@ -948,24 +952,6 @@ bool is_relief(const DrawSettings& settings, PrintFormat format) {
 bool is_model(const DrawSettings& settings, PrintFormat format) {
     return info(format).kind == FormatKind::model && !is_relief(settings, format);
 }
-
-namespace {
-
-/// Depths within the base.
-void check_depths(const ReliefOptions& options) {
-    const auto check = [&](const char* option, const std::vector<double>& heights) {
-        for (const double height : heights) {
-            if (height < 0 && !(options.base + height > 0.0005)) {
-                refuse_option(option, fmt::format("{:g}mm", height),
-                              fmt::format("this depth does not fit into a base of {:g} mm", options.base));
-            }
-        }
-    };
-    check("relief", options.heights);
-    check("ridge", options.ridges);
-}
-
-}  // namespace
 
 std::shared_ptr<const ReliefOptions> relief_options(const DrawSettings& settings, PrintFormat format) {
     ReliefOptions options;

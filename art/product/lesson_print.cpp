@@ -7,7 +7,6 @@
 #include "art/product/plot_remarks.h"
 #include "art/product/print_cell.h"
 #include "art/product/print_work.h"
-#include "art/writer/print_cost.h"
 #include "engine/derivation/forecast.h"
 
 #include <algorithm>

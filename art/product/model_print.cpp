@@ -1,6 +1,5 @@
 // art/product/model_print.cpp: models of drawings, OBJ and glTF.
 #include "art/drawing/faint_inks.h"
-#include "art/drawing/word_drawing.h"
 #include "art/product/print_work.h"
 #include "art/writer/draw.h"
 #include "art/writer/make_drawing.h"

@@ -3,7 +3,6 @@
 
 #include "art/plotter/hpgl.h"
 #include "art/plotter/plot_options.h"
-#include "art/print/page.h"
 #include "art/product/draw_settings.h"
 #include "art/style/style.h"
 #include "art/writer/draw_options.h"

@@ -1,7 +1,6 @@
 #include "art/product/print_work.h"
 
 #include "art/drawing/drawing.h"
-#include "art/drawing/faint_inks.h"
 #include "art/drawing/word_drawing.h"
 #include "art/product/border_files.h"
 #include "art/product/plot_remarks.h"

@@ -1,7 +1,5 @@
 #include "art/product/unused_options.h"
 
-#include "art/style/light.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // art/provenance/image_provenance.cpp: finds the texts in the heads of PNG, TIFF, JPEG and EXR files without decoding
 // pixels.
 #include "art/provenance/provenance_readers.h"
-#include "engine/language/pattern.h"
 
 #include <zlib.h>
 

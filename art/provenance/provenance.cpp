@@ -1,13 +1,14 @@
 #include "art/provenance/provenance.h"
 
+#include "art/print/recipe_comments.h"
 #include "art/provenance/provenance_readers.h"
-#include "engine/base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <system_error>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -26,6 +27,19 @@ bool begins_as_eps(std::string_view head) {
 
 bool begins_as_wav(std::string_view head) {
     return head.find("WAVE") == 8;
+}
+
+/// G-code, HP-GL, DXF, EPS, OBJ, glTF and GIF, whose texts are comments: at the beginning or at the end of the file.
+std::optional<Provenance> read_comment_provenance(const InputFile& file) {
+    // Maximum size of the comments of a recipe, with their marks and the bytes around them.
+    constexpr std::uint64_t most_bytes = 3 * most_commented_bytes;
+    const std::uint64_t tail = file.size() - std::min(file.size(), most_bytes);
+    for (const std::uint64_t begin : {std::uint64_t{0}, tail}) {
+        if (auto found = read_recipe_comments(file.read(begin, most_bytes))) {
+            return Provenance{std::move(found->first), std::move(found->second)};
+        }
+    }
+    return std::nullopt;
 }
 
 /// Sound files do not contain a pattern.

@@ -59,8 +59,6 @@ std::optional<Provenance> read_jpeg_provenance(const InputFile& file);
 std::optional<Provenance> read_exr_provenance(const InputFile& file);
 std::optional<Provenance> read_svg_provenance(const InputFile& file);
 std::optional<Provenance> read_pdf_provenance(const InputFile& file);
-/// G-code, HP-GL, DXF, EPS, OBJ, glTF and GIF, whose texts are comments: at the beginning or at the end of the file.
-std::optional<Provenance> read_comment_provenance(const InputFile& file);
 std::optional<Provenance> read_musicxml_provenance(const InputFile& file);
 std::optional<Provenance> read_page_provenance(const InputFile& file);
 /// LilyPond, ABC, Csound and Strudel files contain the pattern as comments, line by line: without carriage returns,

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <system_error>
 #include <utility>
 
 namespace sikku {

@@ -1,7 +1,6 @@
 // art/provenance/svg_provenance.cpp: scans the texts in the head of an SVG without building a document.
 #include "art/provenance/provenance_readers.h"
 #include "art/vector/svg.h"
-#include "engine/base/text.h"
 #include "engine/language/pattern.h"
 
 #include <algorithm>

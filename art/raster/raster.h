@@ -5,7 +5,6 @@
 #include "engine/geometry/path.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>

@@ -1,13 +1,12 @@
 // art/raster/stream.h: stores a drawing as a stream of words for each band and colour, before it is painted.
 #pragma once
 
-#include "art/raster/fill.h"
 #include "art/raster/stroke.h"
 #include "engine/base/bits.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <utility>

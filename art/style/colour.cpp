@@ -201,6 +201,45 @@ std::optional<Colour> parse_hex(std::string_view digits) {
     return Colour{channels[0], channels[1], channels[2], channels[3]};
 }
 
+/// CIE L*a*b* relative to the white of sRGB.
+glm::dvec3 cielab(Colour colour) {
+    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
+    const auto share = [](double value) {
+        constexpr double knee = 6.0 / 29;
+        return value > knee * knee * knee ? std::cbrt(value) : value / (3 * knee * knee) + 4.0 / 29;
+    };
+    const double x = share((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+    const double y = share(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+    const double z = share((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+glm::dvec3 oklab(Colour colour) {
+    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
+    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+}
+
+/// A set of powders. Neighbours in the list contrast, since fields of different parity alternate between them.
+struct Powders {
+    std::string_view name;
+    std::string_view colours;
+};
+constexpr std::array powder_sets = {
+    Powders{"festival", "#f2a71b #c8324a #f6dfa6 #2f8f83 #e8743b #3d6cb0"},
+    Powders{"pongal", "#f0b52e #5d8c3a #f7e6b8 #b5472a #e08a35 #2f6b57"},
+    Powders{"lotus", "#f3b7c4 #c23a6b #fbe7de #7f9f63 #e5809f #8e2b55"},
+    Powders{"peacock", "#2a9d9b #274b93 #9fd8c4 #c9a227 #4fb3d9 #5a3d8a"},
+    Powders{"temple", "#e9b872 #5a3527 #f6e9d0 #c9743f #d9a441 #8d6b52"},
+    Powders{"marigold", "#fcc52c #d9541e #ffeab0 #a8321f #f4922a #e7b96b"},
+    Powders{"monsoon", "#a9c4bd #4b6f86 #e4dfcd #6f8f6b #c79a6b #39525f"},
+    Powders{"distinct", "#e69f00 #0072b2 #f0e442 #009e73 #d55e00 #56b4e9 #cc79a7"},
+};
+
 }  // namespace
 
 std::optional<Colour> parse_colour(std::string_view text) {
@@ -213,6 +252,15 @@ std::optional<Colour> parse_colour(std::string_view text) {
                          [](const NamedColour& named, std::string_view name) { return named.name < name; });
     if (found == named_colours.end() || found->name != folded) return std::nullopt;
     return from_rgb(found->rgb);
+}
+
+std::vector<Colour> parse_colours(std::string_view list) {
+    constexpr std::size_t length = std::string_view("#rrggbb").size();
+    std::vector<Colour> colours;
+    for (std::size_t at = 0; at < list.size(); at += length + 1) {
+        colours.push_back(*parse_colour(list.substr(at, length)));
+    }
+    return colours;
 }
 
 std::string hex(Colour colour) {
@@ -241,37 +289,23 @@ const std::vector<std::string_view>& colour_names() {
     return names;
 }
 
+std::vector<std::string_view> powder_names() {
+    std::vector<std::string_view> names;
+    for (const Powders& each : powder_sets) names.push_back(each.name);
+    return names;
+}
+
+std::optional<std::vector<Colour>> find_powders(std::string_view name) {
+    for (const Powders& each : powder_sets) {
+        if (each.name == name) return parse_colours(each.colours);
+    }
+    return std::nullopt;
+}
+
 double linear_light(std::uint8_t channel) {
     const double value = channel / 255.0;
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
-
-namespace {
-
-/// CIE L*a*b* relative to the white of sRGB.
-glm::dvec3 cielab(Colour colour) {
-    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
-    const auto share = [](double value) {
-        constexpr double knee = 6.0 / 29;
-        return value > knee * knee * knee ? std::cbrt(value) : value / (3 * knee * knee) + 4.0 / 29;
-    };
-    const double x = share((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
-    const double y = share(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
-    const double z = share((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
-    return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
-}
-
-glm::dvec3 oklab(Colour colour) {
-    const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
-    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-    return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-            1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-            0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
-
-}  // namespace
 
 double lightness(Colour colour) {
     return oklab(colour).x;

@@ -1,4 +1,4 @@
-// art/style/colour.h: colours in the notation of CSS.
+// art/style/colour.h: colours in the notation of CSS, and named sets of them.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,9 @@ struct Colour {
 /// Parses `#rgb`, `#rgba`, `#rrggbb`, `#rrggbbaa`, the 148 names of CSS Color 4 in any case, or `transparent`.
 std::optional<Colour> parse_colour(std::string_view text);
 
+/// Parses a list of `#rrggbb`, separated by single blanks.
+std::vector<Colour> parse_colours(std::string_view list);
+
 /// Returns `#rrggbb`, without alpha.
 std::string hex(Colour colour);
 
@@ -34,5 +37,11 @@ double colour_distance(Colour a, Colour b);
 
 /// All names that parse_colour() accepts, in lower case, for hints.
 const std::vector<std::string_view>& colour_names();
+
+/// Names of the sets of powders with which rangoli fields are filled, in the order of the manual. Colour-blind
+/// readers, too, can distinguish the colours of `distinct` (Okabe and Ito 2008).
+std::vector<std::string_view> powder_names();
+/// The colours of a set of powders; nullopt for an unknown name.
+std::optional<std::vector<Colour>> find_powders(std::string_view name);
 
 }  // namespace sikku

@@ -4,7 +4,6 @@
 #include "engine/base/text.h"
 
 #include <string>
-#include <string_view>
 
 namespace sikku {
 namespace {

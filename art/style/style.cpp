@@ -1,7 +1,6 @@
 #include "art/style/style.h"
 
 #include "art/style/length.h"
-#include "art/style/powders.h"
 #include "art/style/values.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"

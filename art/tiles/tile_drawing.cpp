@@ -1,7 +1,6 @@
 #include "art/tiles/tile_drawing.h"
 
 #include "art/print/ornaments.h"
-#include "art/tiles/border_cuts.h"
 #include "art/tiles/tile_colours.h"
 #include "art/tiles/tile_decorator.h"
 #include "art/tiles/tile_worms.h"

@@ -69,6 +69,11 @@ private:
     std::vector<Pen> pens_;
 };
 
+/// Moves the pieces of the border outwards, into gaps between tiles, too; corners are mitred. Other lines, and pieces
+/// that do not form loops, stay. @param lines  of UnitedLines::Kept::cuts  @param distance  in their unit
+/// @throws std::runtime_error if a notch of the border is too narrow
+std::vector<UnitedLines::Line> with_wider_border(const std::vector<UnitedLines::Line>& lines, double distance);
+
 /// Draws lines, those of each pen joined into as few strokes as possible. @throws Stopped
 void draw_lines(const std::vector<UnitedLines::Line>& lines, PathSink& sink, const Monitor& monitor);
 

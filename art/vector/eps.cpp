@@ -1,7 +1,8 @@
-#include "art/vector/eps.h"
-
+// art/vector/eps.cpp: writes a drawing as Encapsulated PostScript.
 #include "art/print/recipe_comments.h"
+#include "art/style/contrast.h"
 #include "art/vector/operator_writer.h"
+#include "art/vector/vector_formats.h"
 
 #include <fmt/format.h>
 
@@ -24,9 +25,7 @@ std::string comment_text(std::string_view text) {
     return result;
 }
 
-using EpsLayer = OperatorLayer;
-
-class EpsWriter final : public OperatorWriter<EpsLayer> {
+class EpsWriter final : public OperatorWriter<OperatorLayer> {
 public:
     EpsWriter(const Print& print, Output& file) : OperatorWriter(print, file, most_eps_points) {
         write_head();
@@ -77,19 +76,11 @@ private:
     void write_ground(const std::optional<Colour>& ground, const Window& window) {
         if (!ground || ground->alpha == 0) return;
         // Beneath the ground of a part lies that of the sheet.
-        const Colour beneath = part_ == &print_ ? white : mixed(print_.style.ground.value_or(white), white);
-        paper_ = mixed(*ground, beneath);
+        const Colour beneath = part_ == &print_ ? white : laid_over(print_.style.ground.value_or(white), white);
+        paper_ = laid_over(*ground, beneath);
         file_.write(fmt::format("% ground\n{} {} rectfill\n", set(paper_), rectangle(window)));
     }
 
-    static Colour mixed(Colour colour, Colour beneath) {
-        const auto channel = [&](std::uint8_t over, std::uint8_t under) {
-            return static_cast<std::uint8_t>(
-                std::lround((over * colour.alpha + under * (255 - colour.alpha)) / 255.0));
-        };
-        return {channel(colour.red, beneath.red), channel(colour.green, beneath.green),
-                channel(colour.blue, beneath.blue), 255};
-    }
     /// The operators that set an opaque colour.
     static std::string set(Colour colour) {
         return fmt::format("{} {} {} k", decimal(colour.red / 255.0, 4), decimal(colour.green / 255.0, 4),
@@ -97,17 +88,17 @@ private:
     }
 
     void end_part() {
-        write_layers([](EpsLayer& layer) { end_path(layer); });
+        write_layers([](OperatorLayer& layer) { end_path(layer); });
         if (has_part_) file_.write("grestore\n");
         has_part_ = false;
-        paper_ = mixed(print_.style.ground.value_or(white), white);
+        paper_ = laid_over(print_.style.ground.value_or(white), white);
     }
 
-    void begin_layer(EpsLayer& layer, LayerOrder order, Colour colour) override {
+    void begin_layer(OperatorLayer& layer, LayerOrder order, Colour colour) override {
         take_layer(layer);
         layer.text.append("% " + label_of(order, colour) + "\n");
     }
-    std::string ink_of(LayerKind, Colour colour) override { return set(mixed(colour, paper_)); }
+    std::string ink_of(LayerKind, Colour colour) override { return set(laid_over(colour, paper_)); }
 
     static constexpr Colour white{255, 255, 255, 255};
     Colour paper_ = white;  ///< colour with which translucent colours are mixed

@@ -12,10 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>

@@ -3,13 +3,13 @@
 #include "art/vector/vector_writer.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/bezier.h"
 #include "engine/geometry/polygon_classes.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -92,13 +92,11 @@ private:
 };
 
 /// Length of a curve, by eight chords.
-double curve_length(const std::array<glm::dvec2, 4>& b) {
+double curve_length(const Bezier& b) {
     double length = 0;
     glm::dvec2 at = b[0];
     for (int k = 1; k <= 8; ++k) {
-        const double t = k / 8.0;
-        const double u = 1 - t;
-        const glm::dvec2 next = u * u * u * b[0] + 3 * u * u * t * b[1] + 3 * u * t * t * b[2] + t * t * t * b[3];
+        const glm::dvec2 next = point_of(b, k / 8.0);
         length += glm::length(next - at);
         at = next;
     }
@@ -478,9 +476,8 @@ private:
     void add_curves(std::span<const glm::dvec2> controls) {
         glm::dvec2 at = millimetres(here_);
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            const std::array<glm::dvec2, 4> bezier = {at, millimetres(place_(controls[i])),
-                                                      millimetres(place_(controls[i + 1])),
-                                                      millimetres(place_(controls[i + 2]))};
+            const Bezier bezier = {at, millimetres(place_(controls[i])), millimetres(place_(controls[i + 1])),
+                                   millimetres(place_(controls[i + 2]))};
             piece_length_ += curve_length(bezier);
             at = bezier[3];
         }

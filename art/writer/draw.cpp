@@ -90,6 +90,32 @@ std::unique_ptr<PlotWriter> plot_writer(const Print& print, const DrawOptions& o
     throw std::logic_error("this format of plots has no writer");
 }
 
+/// Draws on one page. Sets `is_blank` of the report for pictures in which nothing is visible.
+void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& options, Output& output,
+               const std::filesystem::path& file, DrawReport& report) {
+    // Only PDF distinguishes the sheet from its bleed.
+    const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
+    if (is_vector(options.format)) {
+        const auto writer = write_vectors(options.format, print, output);
+        drawing.read_visible(print, whole_page(print.page), *writer);
+        writer->finish();
+        report.polygons = writer->polygons();
+        return;
+    }
+    const auto rendering = drawing.rendering(print);
+    if (options.show_pixels) return options.show_pixels(*rendering, pixel_size(print.page, print.dpi));
+    report.is_blank = write_picture(*rendering, print, options, output, file);
+    report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
+}
+
+ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawOptions& options,
+                         const std::filesystem::path& file, Destination& destination) {
+    constexpr std::size_t points_of_triangle = 2;  // some of them produce no triangle, such as those of edges
+    ReliefShapes shapes(print, points_of_triangle * most_relief_triangles);
+    drawing.read_visible(print, whole_page(print.page), shapes);
+    return write_relief(shapes, print, *options.relief, file, options.monitor, destination);
+}
+
 }  // namespace
 
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
@@ -151,36 +177,6 @@ void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, 
     if (options.shows_travel) draw_travels(plan, plotted, *writer);
     writer->finish();
 }
-
-namespace {
-
-/// Draws on one page. Sets `is_blank` of the report for pictures in which nothing is visible.
-void draw_page(const Drawing& drawing, const Print& given, const DrawOptions& options, Output& output,
-               const std::filesystem::path& file, DrawReport& report) {
-    // Only PDF distinguishes the sheet from its bleed.
-    const Print print = options.format == PrintFormat::pdf ? given : as_picture(given);
-    if (is_vector(options.format)) {
-        const auto writer = write_vectors(options.format, print, output);
-        drawing.read_visible(print, whole_page(print.page), *writer);
-        writer->finish();
-        report.polygons = writer->polygons();
-        return;
-    }
-    const auto rendering = drawing.rendering(print);
-    if (options.show_pixels) return options.show_pixels(*rendering, pixel_size(print.page, print.dpi));
-    report.is_blank = write_picture(*rendering, print, options, output, file);
-    report.leaves_pattern_out = !keeps_text(info(options.format).extension, print.pattern);
-}
-
-ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawOptions& options,
-                         const std::filesystem::path& file, Destination& destination) {
-    constexpr std::size_t points_of_triangle = 2;  // some of them produce no triangle, such as those of edges
-    ReliefShapes shapes(print, points_of_triangle * most_relief_triangles);
-    drawing.read_visible(print, whole_page(print.page), shapes);
-    return write_relief(shapes, print, *options.relief, file, options.monitor, destination);
-}
-
-}  // namespace
 
 void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& options, Output& output,
                  const std::filesystem::path& file, DrawReport& report) {

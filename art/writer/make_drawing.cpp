@@ -2,7 +2,6 @@
 
 #include "art/deep/seen_drawing.h"
 #include "art/deep/window_drawing.h"
-#include "art/drawing/cell_drawing.h"
 #include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/hand_drawing.h"
@@ -11,9 +10,16 @@
 #include "art/drawing/map_frames.h"
 #include "art/drawing/repeated_drawing.h"
 #include "art/drawing/word_drawing.h"
+#include "art/print/crop.h"
+#include "art/print/ornaments.h"
 #include "art/tiles/tile_drawing.h"
 
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -66,6 +72,41 @@ std::unique_ptr<Drawing> make_map_drawing(const Grammar& grammar, const Style& s
     if (options.map_share < 1) frame = std::make_shared<const MapFrame>(frame->at(options.map_share));
     return std::make_unique<MapDrawing>(std::move(frame), style, options, reading, grammar.scale_percent());
 }
+
+/// Draws the part of a drawing within a parallelogram. The ground fills it as a polygon, whose colour is the
+/// last of the palette.
+class CellDrawing : public DerivedDrawing {
+public:
+    CellDrawing(std::unique_ptr<Drawing> inner, const Cell& cell, const DrawingOptions& options,
+                const Reading& reading)
+        : DerivedDrawing(std::move(inner), options, reading), cell_(cell) {
+        if (!drawn_.ground) return;
+        style_.palette.push_back(*drawn_.ground);
+        style_.ground.reset();
+    }
+
+    using Drawing::read;
+    void read(const Print& print, const Window& window, PathSink& sink) const override {
+        constexpr double chord = 1e-3;  // deviation of chords from curves, as a share of a side
+        const std::array<glm::dvec2, 2>& sides = cell_.sides;
+        if (drawn_.ground) {
+            const std::array<glm::dvec2, 4> corners = {cell_.corner, cell_.corner + sides[0],
+                                                       cell_.corner + sides[0] + sides[1], cell_.corner + sides[1]};
+            sink.polygon(corners, Pen{.colour = static_cast<int>(drawn_.palette.size())});
+        }
+        const glm::dmat2x2 to_cell = glm::inverse(glm::dmat2x2(sides[0], sides[1]));
+        const double length = std::sqrt(sides[0].x * sides[0].x + sides[0].y * sides[0].y);
+        // Lines along an edge belong to the copies on both of its sides.
+        constexpr double rounding = 1e-9;
+        CropSink crop(sink, glm::dvec2(-rounding), glm::dvec2(1 + rounding),
+                      {to_cell[0], to_cell[1], -(to_cell * cell_.corner)}, chord * length);
+        OldColours old(crop, drawn_);
+        inner_->read(print, window, old);
+    }
+
+private:
+    Cell cell_;
+};
 
 /// Repeats, tiles, frames and hand-drawn lines around a drawing in the plane.
 std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint64_t seed, const Style& style,

@@ -3,17 +3,14 @@
 #include "art/deep/seen_drawing.h"
 #include "art/deep/window_drawing.h"
 #include "art/drawing/census.h"
-#include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/line_work.h"
 #include "art/drawing/map_frames.h"
 #include "art/drawing/repeated_drawing.h"
-#include "art/drawing/word_drawing.h"
 #include "art/relief/most_triangles.h"
 #include "art/space/tessellation.h"
 #include "art/tiles/tile_drawing.h"
 #include "art/writer/make_drawing.h"
-#include "engine/derivation/derivation.h"
 #include "engine/derivation/forecast.h"
 #include "engine/map/map_step.h"
 
@@ -22,7 +19,6 @@
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -195,30 +191,6 @@ DrawingCost cost_of_window(const Print& print, const Reading& reading) {
     return cost;
 }
 
-}  // namespace
-
-DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawingOptions& options,
-                         const Reading& reading) {
-    if (given_grammar.map()) return cost_of_reading(given_grammar, given, options, reading);
-    const Grammar grammar = shorten(given_grammar);
-    std::string why;
-    // One at a time, because galleries forecast on many threads and parts take much memory.
-    static std::mutex mutex;
-    std::unique_lock lock(mutex, std::defer_lock);
-    if (may_be_seen(grammar, given.style, options, reading)) lock.lock();
-    if (const auto parts = seen_parts(grammar, given.style, options, reading, why)) {
-        return seen_cost(grammar, *parts, given, options, reading);
-    }
-    if (WindowDrawing::make(std::make_shared<const Grammar>(grammar), given.style, options, reading, why)) {
-        return cost_of_window(given, reading);
-    }
-    if (options.window) require_window(grammar, reading, why);
-    make_one_copy(options, reading, [&](const Reading& one) { require_affordable(grammar, true, one.budget); });
-    return cost_of_reading(grammar, given, options, reading);
-}
-
-namespace {
-
 // --- pictures of drawings in space
 
 constexpr double samples = 16;       // for each pixel
@@ -243,7 +215,56 @@ double patch_polygons(const DrawingCost& drawing, double deviation) {
     return sum;
 }
 
+void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& options, const DrawingCost& drawing,
+                 Cost& cost) {
+    const PixelSize size = pixel_size(print.page, print.dpi);
+    const double pixels = static_cast<double>(size.width) * size.height;
+    const double fine = print.dpi / 25.4;
+    const PixelCost each = pixel_cost(options.format);
+    // Most time is spent on pixels at the edges of lines and polygons.
+    const double rims = std::min(pixels, drawing.length * fine * 3);
+    const double inked = std::min(pixels, drawing.ink * square(fine) + rims + drawing.area * square(fine) * 0.1);
+    cost.seconds += 0.004 + pixels * each.seconds + inked * each.ink_seconds;
+    cost.bytes += 1000 + pixels * each.bytes + inked * 1.0;
+    cost.band = drawing.thread_memory;
+    if (grammar.is_spatial()) return add_scene(print, drawing, cost);
+    cost.seconds +=
+        drawing.points * 60e-9 + drawing.length * fine * 4e-9 + (drawing.ink + drawing.area) * square(fine) * 2e-9;
+    if (print.style.hand > 0) cost.seconds += inked * 40e-9;
+}
+
+constexpr double plot_point_seconds = 1.2e-6;
+constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 200;
+
+/// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
+double shaded_polygons(const DrawingCost& drawing) {
+    constexpr double wide_stem = 0.8;  // millimetres
+    const double width = drawing.length > 0 ? drawing.ink / drawing.length : 0;
+    return (drawing.lines - drawing.polygons) * (width > wide_stem ? 8 : 2) + drawing.polygons +
+           patch_polygons(drawing, 0.1);
+}
+
 }  // namespace
+
+DrawingCost drawing_cost(const Grammar& given_grammar, const Print& given, const DrawingOptions& options,
+                         const Reading& reading) {
+    if (given_grammar.map()) return cost_of_reading(given_grammar, given, options, reading);
+    const Grammar grammar = shorten(given_grammar);
+    std::string why;
+    // One at a time, because galleries forecast on many threads and parts take much memory.
+    static std::mutex mutex;
+    std::unique_lock lock(mutex, std::defer_lock);
+    if (may_be_seen(grammar, given.style, options, reading)) lock.lock();
+    if (const auto parts = seen_parts(grammar, given.style, options, reading, why)) {
+        return seen_cost(grammar, *parts, given, options, reading);
+    }
+    if (WindowDrawing::make(std::make_shared<const Grammar>(grammar), given.style, options, reading, why)) {
+        return cost_of_window(given, reading);
+    }
+    if (options.window) require_window(grammar, reading, why);
+    make_one_copy(options, reading, [&](const Reading& one) { require_affordable(grammar, true, one.budget); });
+    return cost_of_reading(grammar, given, options, reading);
+}
 
 void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
     const PixelSize size = pixel_size(print.page, print.dpi);
@@ -277,39 +298,6 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
                     shadowed * (maps_of_sky / 4 + maps_of_sun) * shadowed_square_seconds +
                     distant * (questions * question_seconds + ground * ground_block_seconds);
 }
-
-namespace {
-
-void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& options, const DrawingCost& drawing,
-                 Cost& cost) {
-    const PixelSize size = pixel_size(print.page, print.dpi);
-    const double pixels = static_cast<double>(size.width) * size.height;
-    const double fine = print.dpi / 25.4;
-    const PixelCost each = pixel_cost(options.format);
-    // Most time is spent on pixels at the edges of lines and polygons.
-    const double rims = std::min(pixels, drawing.length * fine * 3);
-    const double inked = std::min(pixels, drawing.ink * square(fine) + rims + drawing.area * square(fine) * 0.1);
-    cost.seconds += 0.004 + pixels * each.seconds + inked * each.ink_seconds;
-    cost.bytes += 1000 + pixels * each.bytes + inked * 1.0;
-    cost.band = drawing.thread_memory;
-    if (grammar.is_spatial()) return add_scene(print, drawing, cost);
-    cost.seconds +=
-        drawing.points * 60e-9 + drawing.length * fine * 4e-9 + (drawing.ink + drawing.area) * square(fine) * 2e-9;
-    if (print.style.hand > 0) cost.seconds += inked * 40e-9;
-}
-
-constexpr double plot_point_seconds = 1.2e-6;
-constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 200;
-
-/// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
-double shaded_polygons(const DrawingCost& drawing) {
-    constexpr double wide_stem = 0.8;  // millimetres
-    const double width = drawing.length > 0 ? drawing.ink / drawing.length : 0;
-    return (drawing.lines - drawing.polygons) * (width > wide_stem ? 8 : 2) + drawing.polygons +
-           patch_polygons(drawing, 0.1);
-}
-
-}  // namespace
 
 Cost base_cost(bool pictures) {
     Cost base;
@@ -354,15 +342,11 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
     return cost;
 }
 
-namespace {
-
-constexpr double relief_triangle_seconds = 1.1e-6, relief_triangle_bytes = 100;
-constexpr double coloured_triangle_seconds = 1.2e-6, coloured_triangle_bytes = 120;
-constexpr double model_triangle_seconds = 0.25e-6;
-constexpr double written_triangle_seconds = 2.6e-6;  // for each triangle of a text
-}  // namespace
-
 Cost solid_cost(const Grammar& grammar, const Print& print, const DrawOptions& options, PrintFormat format) {
+    constexpr double relief_triangle_seconds = 1.1e-6, relief_triangle_bytes = 100;
+    constexpr double coloured_triangle_seconds = 1.2e-6, coloured_triangle_bytes = 120;
+    constexpr double model_triangle_seconds = 0.25e-6;
+    constexpr double written_triangle_seconds = 2.6e-6;  // for each triangle of a text
     const DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
     const bool spline = print.style.line == Line::spline;
     Cost cost = base_cost(false);

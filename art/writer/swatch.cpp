@@ -7,7 +7,6 @@
 #include "engine/base/text.h"
 #include "engine/derivation/derivation.h"
 #include "engine/language/grammar.h"
-#include "engine/tiling/lattice_rectangle.h"
 #include "engine/tiling/polygon_place.h"
 #include "engine/tiling/tile_growth.h"
 #include "engine/tiling/tile_lineage.h"
@@ -22,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 #include <vector>
 

@@ -5,9 +5,7 @@
 #include "art/drawing/reading.h"
 
 #include <cstdint>
-#include <optional>
 #include <stdexcept>
-#include <string>
 
 namespace sikku {
 

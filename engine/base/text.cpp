@@ -209,4 +209,23 @@ std::string shell_word(const std::string& word) {
     return text + "'";
 }
 
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> earlier(b.size() + 1);
+    std::vector<std::size_t> above(b.size() + 1);
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        earlier.swap(above);
+        above.swap(row);
+        row[0] = i;
+        for (std::size_t j = 1; j < row.size(); ++j) {
+            row[j] = std::min({above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), above[j] + 1, row[j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = std::min(row[j], earlier[j - 2] + 1);
+            }
+        }
+    }
+    return row.back();
+}
+
 }  // namespace sikku

@@ -1,6 +1,7 @@
-// engine/base/text.h: trims, escapes and formats texts for output files.
+// engine/base/text.h: trims, escapes, compares and formats texts for output files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -64,5 +65,9 @@ std::string shell_word(const std::string& word);
 
 /// Two lower-case hexadecimal digits for each byte.
 std::string to_hex(std::string_view bytes);
+
+/// Edit distance in bytes: the fewest substitutions, deletions, insertions and exchanges of neighbours that turn `a`
+/// into `b` (optimal string alignment). Cost: product of the lengths.
+std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace sikku

@@ -532,6 +532,10 @@ std::unique_ptr<Turtle> make_turtle(const Grammar& grammar, const Sinks& sinks, 
 
 }  // namespace
 
+void throw_at(std::uint64_t position, std::string_view what) {
+    throw WordError(fmt::format("symbol {} of the word: {}", position, what));
+}
+
 std::unique_ptr<Turtle> Turtle::drawing(const Grammar& grammar, PathSink& sink, bool moves_draw) {
     return make_turtle<false>(grammar, {.path = &sink}, moves_draw);
 }

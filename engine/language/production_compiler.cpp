@@ -1,9 +1,9 @@
 #include "engine/language/production_compiler.h"
-#include "engine/language/mirror.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 #include <tuple>
 
 namespace sikku {
@@ -11,6 +11,68 @@ namespace {
 
 // Limit for all tables together: each repeats the productions that they share.
 constexpr std::size_t most_shared = std::size_t{1} << 24;  // symbols of words, 64 more for each production
+
+/// Symbols that are always mirrored, or are their own images.
+constexpr std::string_view turns = "+-\\/|&^$[]{}";
+
+/// Exchanges left and right in words: the symbols of each pair that `mirror:` lists, `+` and `-`, `\` and `/`.
+class Mirror {
+public:
+    /// Reads `mirror:`; without it there are no pairs.
+    Mirror(const Pattern& pattern, WordReader& reader, Diagnostics& diagnostics) : reader_(reader) {
+        const Key* key = pattern.find("mirror");
+        const auto list = key ? reader.symbol_list(*key) : std::nullopt;
+        if (!list) return;
+        if (list->empty() || list->size() % 2 != 0) {
+            diagnostics.error(key->value.empty() ? key->name_at : key->value,
+                              "expected pairs of symbols, such as A a B b");
+            return;
+        }
+        const auto add = [&](Symbol symbol, Symbol other) {
+            const SymbolInfo &from = reader.symbols()[symbol], &to = reader.symbols()[other];
+            if (symbol == other) {
+                diagnostics.error(key->value, fmt::format("'{}' is paired with itself", from.letter));
+            } else if (turns.find(from.letter) != std::string_view::npos) {
+                diagnostics.error(key->value,
+                                  fmt::format("'{}' cannot be listed: turns are mirrored anyway", from.letter));
+            } else if (!images_.try_emplace(from.letter, Image{to.letter, to.is_name}).second) {
+                diagnostics.error(key->value, fmt::format("'{}' is listed twice", from.letter));
+            }
+        };
+        for (std::size_t i = 0; i < list->size(); i += 2) {
+            add((*list)[i], (*list)[i + 1]);
+            add((*list)[i + 1], (*list)[i]);
+        }
+        if (images_.empty()) return;
+        for (const auto& [letter, other] : {std::pair("+", "-"), std::pair("\\", "/")}) {
+            images_.emplace(letter, Image{other});
+            images_.emplace(other, Image{letter});
+        }
+    }
+
+    bool has_pairs() const { return !images_.empty(); }
+    /// The mirror image of a word, whose symbols the reader numbers.
+    Word image(const Word& word) const {
+        Word result;
+        result.reserve(word.size());
+        for (const Symbol symbol : word) {
+            const auto found = images_.find(reader_.symbols()[symbol].letter);
+            result.push_back(found == images_.end()
+                                 ? symbol
+                                 : reader_.renamed(symbol, found->second.letter, found->second.is_name));
+        }
+        return result;
+    }
+
+private:
+    struct Image {
+        std::string letter;
+        bool is_name = false;
+    };
+
+    WordReader& reader_;
+    std::map<std::string, Image> images_;  ///< by letter
+};
 
 /// Productions of equal predecessor and contexts.
 struct Group {

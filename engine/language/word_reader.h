@@ -3,17 +3,31 @@
 
 #include "engine/language/defines.h"
 #include "engine/language/grammar.h"
-#include "engine/language/module_types.h"
 #include "engine/language/word_scanner.h"
 
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 namespace sikku {
+
+/// Types of modules (a letter with a number of parameters) with variable parameters: a predecessor or a context names
+/// them, or a word computes them. Parameters of other modules are part of their symbol.
+class ModuleTypes {
+public:
+    ModuleTypes(const Pattern& pattern, const SymbolNames& names);
+
+    bool empty() const { return types_.empty(); }
+    bool contains(std::string_view letter, std::size_t parameters) const;
+
+private:
+    std::unordered_set<std::string> types_;
+};
 
 /// The position of a word, which determines its syntax.
 enum class WordPlace { axiom_or_successor, predecessor, context, list };

@@ -1,14 +1,34 @@
-// engine/tiling/colour_search.h: the fewest colours with which neighbouring tiles differ.
+// engine/tiling/colour_search.h: neighbours of tiles, and the fewest colours with which they differ.
 #pragma once
 
 #include "engine/base/monitor.h"
-#include "engine/tiling/tile_neighbours.h"
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace sikku {
+
+struct TilePieces;
+
+/// The tiles that share a piece of an edge with each tile, ascending.
+class TileNeighbours {
+public:
+    explicit TileNeighbours(const TilePieces& pieces);
+    /// @param pairs  ascending, each once
+    TileNeighbours(std::uint32_t tiles, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs);
+
+    std::uint32_t tiles() const { return static_cast<std::uint32_t>(begin_.size() - 1); }
+    std::span<const std::uint32_t> of(std::uint32_t tile) const {
+        return std::span(others_).subspan(begin_[tile], begin_[tile + 1] - begin_[tile]);
+    }
+
+private:
+    std::vector<std::uint32_t> begin_;
+    std::vector<std::uint32_t> others_;
+};
 
 /// Answer of an exact search.
 enum class Colourable : std::uint8_t { yes, no, undecided };

@@ -1,10 +1,11 @@
-// engine/tiling/tile_periods.h: the translations that map a tiling onto itself.
+// engine/tiling/tile_periods.h: translations that map a tiling onto itself, and rectangles that they repeat.
 #pragma once
 
 #include "engine/tiling/tiling.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace sikku {
@@ -27,5 +28,19 @@ struct TilePeriods {
 /// @param kinds  of the tiles; tiles of the same kind have to be congruent and parallel besides
 /// Cost: the tiles, times the translations that do not fail at once. @throws Stopped
 TilePeriods find_periods(const TilingPatch& patch, std::span<const std::uint32_t> kinds, const Monitor& monitor);
+
+/// Two perpendicular vectors of a lattice.
+struct LatticeRectangle {
+    glm::dvec2 across{0.0}, up{0.0};
+    double area() const { return across.x * up.y - across.y * up.x; }
+};
+
+/// The smallest rectangle with sides along the axes whose sides are sums of multiples of two vectors, up to multiples
+/// of 1000; across to the right and up. Nullopt if there is none.
+std::optional<LatticeRectangle> upright_rectangle(glm::dvec2 a, glm::dvec2 b);
+
+/// The smallest such rectangle of any direction, among sides of up to 24 vectors. It is returned in the orientation
+/// with `across` within 45 degrees of the x axis.
+std::optional<LatticeRectangle> least_rectangle(glm::dvec2 a, glm::dvec2 b);
 
 }  // namespace sikku

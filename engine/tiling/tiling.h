@@ -39,10 +39,6 @@ struct VertexFigure {
 std::vector<VertexFigure> find_figures(const TilePlane& plane, const TileSet& tiles, const TilePieces& pieces,
                                        std::vector<std::uint32_t>& figure_of, const Monitor& monitor);
 
-/// Returns the first angle or length that keeps the positions of a turtle off a lattice; empty if they are exact.
-/// @param lattice  make_lattice() of the grammar
-std::string inexact_reason(const Grammar& grammar, const Lattice& lattice);
-
 /// Data of an examination, for exports.
 struct TilingPatch {
     TilePlane plane;

@@ -1,7 +1,6 @@
 #include "music/scale/scale.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/base/edit_distance.h"
 #include "engine/base/text.h"
 
 #include <embedded/scales.h>

@@ -8,7 +8,6 @@ import { isAnother } from "./versions";
 const patience = 400; // milliseconds until the status bar shows that the libraries are working
 const fact_seconds = 12; // how long a message stays in the status bar
 
-
 export class Application implements Studio {
     help!: Help; // both are set before the first panel is made
     patterns!: PatternEntry[];

@@ -1,7 +1,7 @@
 // The kolam bench: a grid of dots with gaps in which lines cross, turn back or are joined. Every change is written
 // to the text.
 import { Board, placesAround, type Scene } from "./bench/board";
-import { certificateText, type Examined } from "./bench/certificate";
+import { certificateText } from "./bench/certificate";
 import { makeGrid, parseStates, statesText, crossed, joined, turned, type DotGrid, type GridSymmetry, type Place } from "./bench/dot_grid";
 import { changeText, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
 import { Kolam, type Change } from "./bench/kolam";
@@ -14,7 +14,7 @@ import { RequestFailed } from "./context";
 import { element } from "./elements";
 import { capital, counted, sentence } from "./numbers_shown";
 import { withOption } from "./options";
-import type { Dots, Grid, Request, SymmetryName } from "./protocol";
+import type { Dots, Examined, Grid, Request, SymmetryName } from "./protocol";
 import { makeChance } from "./sound/chance";
 
 type GridRequest = Extract<Request, { do: "grid" }>;

@@ -1,14 +1,18 @@
 // Copying text, also where the page has no clipboard: from a file, or over plain http.
+import type { Studio } from "./context";
 import { element } from "./elements";
 
-/// False if the browser does not allow it.
-export async function copyText(text: string): Promise<boolean> {
+/// Copies the text of a thing, or selects it if the browser does not allow that, and reports which.
+export async function copyOrSelect(studio: Studio, thing: string, text: string, select: () => void): Promise<void> {
+    let isCopied = true;
     try {
         await navigator.clipboard.writeText(text);
-        return true;
     } catch {
-        return copySelected(text);
+        isCopied = copySelected(text);
     }
+    if (isCopied) return studio.say(`The ${thing} is copied.`);
+    select();
+    studio.say(`The browser does not let the page copy; the ${thing} is selected.`, "warning");
 }
 
 // In a dialog, nothing outside of it can be selected.

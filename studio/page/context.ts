@@ -8,6 +8,11 @@ export class RequestFailed extends Error {
     constructor(readonly failure: Failure["error"]) { super(sentenceOf(failure)); }
 }
 
+/// What was thrown, for the user.
+export function messageOf(error: unknown): string {
+    return error instanceof Error ? error.message : String(error);
+}
+
 // Errors of patterns have places: "Line 6: a map has no turtle" instead of "curve.lsys:6:1: …" with the line below.
 function sentenceOf({ message, diagnostics = [] }: Failure["error"]): string {
     const errors = diagnostics.filter((each) => !each.warning);

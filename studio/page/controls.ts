@@ -1,6 +1,7 @@
 // The values of the pattern as sliders: n with its cost, defines, angle, stroke, colours, seed. Changed values are kept
 // separately from the text, like `--set` and `-n` of the program.
 import type { Application } from "./application";
+import { joinedStroke, makeColours, splitStroke } from "./colours";
 import { button, byId, element } from "./elements";
 import { count, counted, rounded, span } from "./numbers_shown";
 import { optionOf } from "./options";
@@ -8,8 +9,6 @@ import { valueInText, withSettings } from "./pattern_text";
 import type { Opened } from "./protocol";
 import { makeSeed } from "./seed";
 import { makeSlider, type Slider } from "./slider";
-import { makeColours } from "./colours";
-import { joinedStroke, splitStroke } from "./stroke_value";
 
 interface Row {
     slider: Slider;
@@ -114,12 +113,8 @@ export class Controls {
                 if (name === "derivation length") return [name, this.lengthRow()];
                 if (name === "angle factor") return [name, this.factorRow()];
                 if (name === "stroke") return [name, this.strokeRow()];
-                return [
-                    name,
-                    name === "angle increment"
-                        ? this.numberRow(name, this.angleLabel, "90")
-                        : this.numberRow(name, name, null),
-                ];
+                if (name === "angle increment") return [name, this.numberRow(name, this.angleLabel, "90")];
+                return [name, this.numberRow(name, name, null)];
             }),
         );
         const focused = document.activeElement instanceof HTMLElement ? document.activeElement.id : "";
@@ -242,13 +237,12 @@ export class Controls {
             this.change("stroke", joinedStroke(width, now.unit, now.rest === "none" ? "" : now.rest));
         };
         const slider = makeSlider("stroke", {
+            ...this.acts("stroke", String),
             slide: (number) => write(rounded(number, 0.01)),
             type: (value) =>
                 /^[\d.]+$/.test(value)
                     ? write(value)
                     : this.change("stroke", value && withColour(value, parse().now.rest)),
-            reset: () => this.change("stroke", null),
-            explain: () => this.explain("stroke"),
         });
         return {
             slider,

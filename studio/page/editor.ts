@@ -20,7 +20,7 @@ import {
 } from "@codemirror/view";
 import type { Application } from "./application";
 import { colour_swatches } from "./colour_swatches";
-import { byId, element } from "./elements";
+import { button, byId, element } from "./elements";
 import { completePattern, cursorHelp, hoverHelp } from "./help_in_text";
 import { counted } from "./numbers_shown";
 import { pattern_colours, pattern_language } from "./pattern_language";
@@ -232,11 +232,7 @@ export class Editor {
         const where = first ? `Line ${first.line}: ` : errors[0]?.setting ? `${errors[0].setting}: ` : "";
         const more = errors.length > 1 ? ` (and ${errors.length - 1} more)` : "";
         this.strip.append(element("span", {}, where + message + more));
-        if (first) {
-            const go = element("button", { type: "button", class: "button quiet" }, "Go to it");
-            go.addEventListener("click", () => this.goTo(first));
-            this.strip.append(go);
-        }
+        if (first) this.strip.append(button("Go to it", () => this.goTo(first), { kind: "quiet" }));
         return where + message + more;
     }
 

@@ -1,6 +1,6 @@
 // Exports the work in every format, or shows the command that makes the same file.
 import type { Application } from "./application";
-import { copyText } from "./clipboard";
+import { copyOrSelect } from "./clipboard";
 import { commandSource } from "./command_source";
 import { RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
@@ -10,11 +10,10 @@ import { drawOptions, windowOnScreen } from "./on_screen";
 import { optionGroups } from "./option_fields";
 import { offered } from "./option_scopes";
 import { optionOf, withOption } from "./options";
-import { isAbort } from "./pictures";
+import { drawInto, isAbort } from "./pictures";
 import type { Command, FormatHelp, Made, Options, Request } from "./protocol";
 import { Refusal } from "./refusal";
 import { ReliefView } from "./relief_view";
-import { drawInto } from "./thumbnails";
 
 type Interpreter = "draw" | "play";
 type CommandRequest = Extract<Request, { do: "command" }>;
@@ -135,7 +134,9 @@ class Export {
             },
         });
         this.dialog.body.classList.add("export");
-        const copy = button("Copy", () => void this.copyCommand(), { kind: "quiet" });
+        const select = () => getSelection()?.selectAllChildren(this.command);
+        const copyCommand = () => copyOrSelect(application, "command", this.command.textContent ?? "", select);
+        const copy = button("Copy", copyCommand, { kind: "quiet" });
         this.dialog.body.append(
             this.formats,
             this.options,
@@ -162,12 +163,6 @@ class Export {
         this.formats.replaceWith(made);
         this.formats = made;
         if (isOther) this.choose(this.choice);
-    }
-
-    private async copyCommand(): Promise<void> {
-        if (await copyText(this.command.textContent ?? "")) return this.application.say("The command is copied.");
-        getSelection()?.selectAllChildren(this.command);
-        this.application.say("The browser does not let the page copy; the command is selected.", "warning");
     }
 
     private nameOf(choice: Choice): string {

@@ -4,8 +4,8 @@ import { button, choices, element } from "./elements";
 import { given_kind, openGiven } from "./given";
 import { askForFile } from "./open_file";
 import { openPattern } from "./opening";
+import { drawInto } from "./pictures";
 import type { Options, PatternEntry } from "./protocol";
-import { drawInto } from "./thumbnails";
 
 const picture_size = 256; // pixels
 const square_page: Options = [["size", "120x120mm"], ["margin", "6mm"]];

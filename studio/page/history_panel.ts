@@ -3,7 +3,7 @@ import type { Application } from "./application";
 import type { Work } from "./context";
 import { place } from "./dialog";
 import { element } from "./elements";
-import { drawInto } from "./thumbnails";
+import { drawInto } from "./pictures";
 
 const rest = 700; // milliseconds without a change until a step is drawn
 const picture_size = 72;

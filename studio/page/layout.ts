@@ -1,5 +1,6 @@
 // The layout of the page: widths, the parts shown on a narrow screen, and the light or dark theme.
 import { byId, choices } from "./elements";
+import { remember, remembered } from "./storage";
 
 const least_side = 260;
 const storage_key = "sikku-studio-layout";
@@ -10,20 +11,10 @@ interface Layout {
 }
 export type Theme = "system" | "light" | "dark";
 
-function saved(): Layout {
-    try {
-        return JSON.parse(localStorage.getItem(storage_key) ?? "{}") as Layout;
-    } catch {
-        return {};
-    }
-}
+const saved = () => remembered<Layout>(storage_key, {});
 
 function save(change: Layout): void {
-    try {
-        localStorage.setItem(storage_key, JSON.stringify({ ...saved(), ...change }));
-    } catch {
-        // without storage, the layout lasts as long as the page
-    }
+    remember(storage_key, { ...saved(), ...change });
 }
 
 const prefersDark = () => matchMedia("(prefers-color-scheme: dark)");

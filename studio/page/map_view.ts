@@ -9,7 +9,7 @@ import { Painter, type Loupe, type Overview } from "./map_painter";
 import { Overviews } from "./overviews";
 import { colourOf, TileLoader, type Bitmap, type Colour, type Subject } from "./pictures";
 import { pageOptions, planeOptions } from "./option_scopes";
-import type { Opened } from "./protocol";
+import type { Opened, Request } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
 import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
@@ -411,9 +411,16 @@ export class MapView {
         else this.rest();
     }
 
-    // Makes an overview of a work from the bitmap that is still to come.
-    private overviewOf(work: Work, rest: Omit<Overview, "pattern" | "bitmap" | "ground">): (bitmap: Bitmap) => Overview {
-        return (bitmap) => ({ ...rest, pattern: work.pattern, bitmap, ground: this.groundOf(work) });
+    // Requests a picture of the work, which becomes an overview.
+    private ask(
+        what: string,
+        picture: Omit<Extract<Request, { do: "pixels" }>, "do" | "pattern">,
+        rest: Omit<Overview, "pattern" | "bitmap" | "ground">,
+    ): void {
+        const { work } = this;
+        const { pattern } = work;
+        const made = (bitmap: Bitmap) => ({ ...rest, pattern, bitmap, ground: this.groundOf(work) });
+        void this.overviews.ask(what, { do: "pixels", ...picture, pattern }, Math.min(1, this.ratio), made);
     }
 
     private askPage(ratio: number): void {
@@ -421,18 +428,11 @@ export class MapView {
         const camera = this.pageCamera;
         const used = ratio * Math.min(1, widest / (Math.max(laid.width, laid.height) * ratio));
         const pixels = (length: number) => Math.max(16, Math.round(length * used));
-        void this.overviews.ask(
+        const options = pageOptions(this.studio.help, work.draw);
+        this.ask(
             `${name} ${ratio} ${laid.width}`,
-            {
-                do: "pixels",
-                width: pixels(laid.width),
-                height: pixels(laid.height),
-                ratio: used,
-                options: pageOptions(this.studio.help, work.draw),
-                pattern: work.pattern,
-            },
-            Math.min(1, this.ratio),
-            this.overviewOf(work, { kind: "page", name, ratio, camera, size, laid }),
+            { width: pixels(laid.width), height: pixels(laid.height), ratio: used, options },
+            { kind: "page", name, ratio, camera, size, laid },
         );
     }
 
@@ -453,19 +453,11 @@ export class MapView {
         const pixels = (length: number) => Math.max(16, Math.round(length * (1 + 2 * around) * ratio));
         const [across, down] = [pixels(this.size.width), pixels(this.size.height)];
         const size = { width: across / ratio, height: down / ratio };
-        void this.overviews.ask(
+        const options = planeOptions(this.studio.help, work.draw);
+        this.ask(
             `${name} ${ratio} ${camera.x} ${camera.y} ${camera.scale} ${across}`,
-            {
-                do: "pixels",
-                width: across,
-                height: down,
-                window: windowOf(camera, size),
-                ratio,
-                options: planeOptions(this.studio.help, work.draw),
-                pattern: work.pattern,
-            },
-            Math.min(1, this.ratio),
-            this.overviewOf(work, { kind: "plane", name, ratio, camera, size, laid }),
+            { width: across, height: down, window: windowOf(camera, size), ratio, options },
+            { kind: "plane", name, ratio, camera, size, laid },
         );
     }
 
@@ -550,8 +542,7 @@ export class MapView {
         const isOfPage = overview.kind === "page" && overview.camera !== null;
         const entering = isOfPage ? Math.min(1, Math.max(0, (now - this.entered) / enteringTime)) : 1;
         const layers = layersOf(this.tiles, this.planeName, this.camera, this.size, this.grid);
-        const isCurrent = overview.name === (overview.kind === "plane" ? this.planeName : this.pageName);
-        painter.plane(overview, this.camera, this.size, isCurrent && entering >= 1 ? layers : [], entering);
+        painter.plane(overview, this.camera, this.size, this.isCurrent && entering >= 1 ? layers : [], entering);
     }
 
     // For tests.

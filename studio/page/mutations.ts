@@ -90,9 +90,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             );
             if (places.length === 0) return null;
             const at = chance.one(places);
-            const made = [...modules];
-            [made[at], made[at + 1]] = [made[at + 1]!, made[at]!];
-            return made;
+            return spliced(modules, at, 2, modules[at + 1]!, modules[at]!);
         },
     },
     {
@@ -100,9 +98,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
         weight: 4,
         edit: (modules, alphabet, chance) => {
             if (alphabet.length === 0) return null;
-            const made = [...modules];
-            made.splice(chance.below(modules.length + 1), 0, chance.one(alphabet));
-            return made;
+            return spliced(modules, chance.below(modules.length + 1), 0, chance.one(alphabet));
         },
     },
     {
@@ -163,7 +159,7 @@ const edits: readonly { edit: Edit; weight: number }[] = [
             const choices = stretches(modules, 4);
             if (choices.length === 0) return null;
             const [from, to] = chance.one(choices);
-            return [...modules.slice(0, from), "[", ...modules.slice(from, to), "]", ...modules.slice(to)];
+            return spliced(modules, from, to - from, "[", ...modules.slice(from, to), "]");
         },
     },
 ];

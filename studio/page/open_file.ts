@@ -2,7 +2,7 @@
 // their pattern.
 import { RequestFailed, type Studio } from "./context";
 import { openDialog } from "./dialog";
-import { byId, element } from "./elements";
+import { button, byId, element } from "./elements";
 import { bytes as sizeOf } from "./numbers_shown";
 import { openPattern } from "./opening";
 import type { Imported, PatternRequest, Shown } from "./protocol";
@@ -104,12 +104,12 @@ async function openCollection(studio: Studio, name: string, bytes: Uint8Array, a
     const dialog = openDialog(`${json.systems.length} patterns in ${name}`);
     const list = element("div", { class: "choices" });
     for (const system of json.systems) {
-        const entry = element("button", { type: "button", class: "button quiet" }, system.name);
-        if (system.losses.length > 0) entry.title = `Left out: ${lossesOf(system)}`;
-        entry.addEventListener("click", () => {
+        const choose = () => {
             dialog.close();
             open(system);
-        });
+        };
+        const entry = button(system.name, choose, { kind: "quiet" });
+        if (system.losses.length > 0) entry.title = `Left out: ${lossesOf(system)}`;
         list.append(entry);
     }
     dialog.body.append(list);

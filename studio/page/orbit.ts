@@ -1,23 +1,35 @@
 // Turns a drawing in space with pointer, wheel and keys.
+import { turnedEye, type Eye } from "./eye";
+import { turnedLight, type Light } from "./lamp";
 
+/// A view of a drawing in space.
 export interface Orbit {
-    turn(right: number, up: number): void; // degrees
-    shift(right: number, down: number): void; // pixels
-    zoom(factor: number): void;
-    light(right: number, up: number): void; // degrees
+    eye: Eye;
+    light: Light;
+    zoom: number;
+    draw(): void;
     reset(): void;
-    stop(): void; // ends automatic motion
+    shiftBy?(right: number, down: number): void; // pixels; absent: the drawing stays centred
+    stop?(): void; // ends automatic motion
 }
 
 const degreesOfPixel = 0.4;
 
-export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit): void {
+export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit, leastZoom: number, mostZoom: number): void {
+    const turn = (right: number, up: number) => {
+        orbit.eye = turnedEye(orbit.eye, right, up);
+        orbit.draw();
+    };
+    const zoom = (factor: number) => {
+        orbit.zoom = Math.max(leastZoom, Math.min(mostZoom, orbit.zoom * factor));
+        orbit.draw();
+    };
     const fingers = new Map<number, { x: number; y: number }>();
     canvas.addEventListener("pointerdown", (event) => {
         canvas.setPointerCapture(event.pointerId);
         fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
         canvas.classList.add("held");
-        orbit.stop();
+        orbit.stop?.();
     });
     canvas.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
@@ -28,14 +40,15 @@ export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit): void {
         if (fingers.size === 2) {
             const other = [...fingers].find(([id]) => id !== event.pointerId)![1];
             const apart = (point: { x: number; y: number }) => Math.hypot(point.x - other.x, point.y - other.y);
-            orbit.zoom(apart(now) / Math.max(1, apart(before)));
-            orbit.shift(right / 2, down / 2);
+            zoom(apart(now) / Math.max(1, apart(before)));
+            orbit.shiftBy?.(right / 2, down / 2);
         } else if (event.altKey || event.buttons === 2) {
-            orbit.light(right * degreesOfPixel, -down * degreesOfPixel);
+            orbit.light = turnedLight(orbit.light, right * degreesOfPixel, -down * degreesOfPixel);
+            orbit.draw();
         } else if (event.shiftKey || event.buttons === 4) {
-            orbit.shift(right, down);
+            orbit.shiftBy?.(right, down);
         } else {
-            orbit.turn(-right * degreesOfPixel, down * degreesOfPixel);
+            turn(-right * degreesOfPixel, down * degreesOfPixel);
         }
     });
     const release = (event: PointerEvent) => {
@@ -51,7 +64,7 @@ export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit): void {
         (event) => {
             event.preventDefault();
             const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
-            orbit.zoom(2 ** (-Math.max(-400, Math.min(400, event.deltaY * unit)) / (event.ctrlKey ? 60 : 300)));
+            zoom(2 ** (-Math.max(-400, Math.min(400, event.deltaY * unit)) / (event.ctrlKey ? 60 : 300)));
         },
         { passive: false },
     );
@@ -59,21 +72,21 @@ export function addOrbit(canvas: HTMLCanvasElement, orbit: Orbit): void {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const step = event.shiftKey ? 15 : 5;
         const act: Record<string, () => void> = {
-            ArrowLeft: () => orbit.turn(-step, 0),
-            ArrowRight: () => orbit.turn(step, 0),
-            ArrowUp: () => orbit.turn(0, step),
-            ArrowDown: () => orbit.turn(0, -step),
-            "+": () => orbit.zoom(1.25),
-            "=": () => orbit.zoom(1.25),
-            "-": () => orbit.zoom(0.8),
-            _: () => orbit.zoom(0.8),
+            ArrowLeft: () => turn(-step, 0),
+            ArrowRight: () => turn(step, 0),
+            ArrowUp: () => turn(0, step),
+            ArrowDown: () => turn(0, -step),
+            "+": () => zoom(1.25),
+            "=": () => zoom(1.25),
+            "-": () => zoom(0.8),
+            _: () => zoom(0.8),
             0: () => orbit.reset(),
             Home: () => orbit.reset(),
         };
         const chosen = act[event.key];
         if (!chosen) return;
         event.preventDefault();
-        orbit.stop();
+        orbit.stop?.();
         chosen();
     });
 }

@@ -1,4 +1,4 @@
-// Pictures of the map: of the whole view, and tiles of the endless plane.
+// Pictures of patterns: of pages, of the whole view of the map, and tiles of the endless plane.
 import type { Answer, Engine } from "./context";
 import { element } from "./elements";
 import type { Options, PatternRequest, Pixels } from "./protocol";
@@ -40,6 +40,23 @@ export function putImage(canvas: HTMLCanvasElement, image: ImageData): void {
     canvas.width = image.width;
     canvas.height = image.height;
     canvas.getContext("2d")!.putImageData(image, 0, 0);
+}
+
+/// Draws a pattern's page into a canvas in the back lane. The canvas gets the page's proportions and at most `size`
+/// pixels on each side.
+export async function drawInto(
+    canvas: HTMLCanvasElement,
+    size: number,
+    engine: Engine,
+    pattern: PatternRequest,
+    options: Options,
+    key?: string,
+): Promise<void> {
+    const answer = await engine.request<Pixels>(
+        { do: "pixels", width: size, height: size, options, pattern },
+        { lane: "back", seconds: 10, ...(key === undefined ? {} : { key }) },
+    );
+    putImage(canvas, imageOf(answer));
 }
 
 function factsOf(json: Pixels, { width, height, data }: ImageData) {

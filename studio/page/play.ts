@@ -71,7 +71,7 @@ class PlayPanel implements Panel {
             seek: (tick) => this.seek(tick),
             tempo: (value) => this.setTempo(value),
             looped: (loop) => {
-                this.roll.setLoop(loop);
+                this.roll.shownLoop = loop;
                 this.redraw();
             },
         });
@@ -345,7 +345,7 @@ class PlayPanel implements Panel {
         if (state !== this.mutedState) {
             this.mutedState = state;
             this.curve.setMuted(muted);
-            this.roll.setMuted(muted);
+            this.roll.muted = muted;
         }
         if (!this.player.transport.playing) {
             this.litNote = -1;

@@ -184,4 +184,8 @@ export interface ReadLink {
     withheld: [string, string][]; // options with commands for a plotter, which a link does not set
 }
 export interface Command { command: string }
+export interface Examined { // with more members: see kolam_json()
+    kolam: boolean; faults: string[]; lines: number; open_lines: number; symmetry: string; dots: unknown[];
+    meetings: number; reused_edges: number;
+}
 export interface Affordable { n: string } // empty: none, or unknown

@@ -1,5 +1,5 @@
 // Why a drawing was not made, in a note, with a button that sets the largest derivation length that can be drawn.
-import { RequestFailed, type Studio, type Work } from "./context";
+import { messageOf, RequestFailed, type Studio, type Work } from "./context";
 import { button, element } from "./elements";
 import { counted, sentence } from "./numbers_shown";
 import type { Affordable } from "./protocol";
@@ -8,7 +8,7 @@ const search_seconds = 5; // for the derivation length
 
 /// The reason for an error about a pattern.
 export function reasonOf(studio: Studio, error: unknown, pattern: Work["pattern"]): string {
-    if (!(error instanceof RequestFailed)) return error instanceof Error ? error.message : String(error);
+    if (!(error instanceof RequestFailed)) return messageOf(error);
     if (error.failure.kind !== "stopped") return sentence(error.message);
     const { opened } = studio;
     const facts = opened?.work.pattern === pattern ? opened.facts : null;

@@ -1,10 +1,10 @@
 // Shows a relief before it is exported, as a small model that can be turned.
 import { element } from "./elements";
-import { turnedEye, type Eye } from "./eye";
+import type { Eye } from "./eye";
 import { readModel, type Model } from "./glb";
-import { turnedLight, usualLight } from "./lamp";
+import { usualLight } from "./lamp";
 import { isDark } from "./layout";
-import { addOrbit } from "./orbit";
+import { addOrbit, type Orbit } from "./orbit";
 import { fittingHalf, Stage, type Staged } from "./space_stage";
 
 const usualEye: Eye = { azimuth: -24, elevation: 46, distance: 4 };
@@ -25,13 +25,13 @@ function lay(model: Model): Model {
     return { ...model, low: [low[0], low[2], -high[1]], high: [high[0], high[2], -low[1]] };
 }
 
-export class ReliefView {
+export class ReliefView implements Orbit {
+    eye = usualEye;
+    light = usualLight;
+    zoom = usualZoom;
     private model: Staged | null = null;
-    private eye = usualEye;
-    private light = usualLight;
-    private zoom = usualZoom;
 
-    /// Null if the browser does not support WebGL2.
+    /// Null if the browser cannot show models.
     static make(size: number): ReliefView | null {
         const canvas = element("canvas", {
             class: "export-preview relief-preview",
@@ -41,39 +41,20 @@ export class ReliefView {
             role: "img",
             "aria-label": "The relief; arrow keys turn it, plus and minus zoom, 0 resets the view",
         });
-        try {
-            const stage = Stage.on(canvas);
-            return stage && new ReliefView(canvas, stage);
-        } catch (error) {
-            console.error(error);
-            return null;
-        }
+        const stage = Stage.on(canvas);
+        return stage && new ReliefView(canvas, stage);
     }
 
     private constructor(
         readonly canvas: HTMLCanvasElement,
         private readonly stage: Stage,
     ) {
-        addOrbit(canvas, {
-            turn: (right, up) => {
-                this.eye = turnedEye(this.eye, right, up);
-                this.draw();
-            },
-            shift: () => {}, // the model stays centred
-            zoom: (factor) => {
-                this.zoom = Math.max(0.5, Math.min(12, this.zoom * factor));
-                this.draw();
-            },
-            light: (right, up) => {
-                this.light = turnedLight(this.light, right, up);
-                this.draw();
-            },
-            reset: () => {
-                [this.eye, this.light, this.zoom] = [usualEye, usualLight, usualZoom];
-                this.draw();
-            },
-            stop: () => {},
-        });
+        addOrbit(canvas, this, 0.5, 12);
+    }
+
+    reset(): void {
+        [this.eye, this.light, this.zoom] = [usualEye, usualLight, usualZoom];
+        this.draw();
     }
 
     /// Shows a model of binary glTF.
@@ -84,7 +65,7 @@ export class ReliefView {
         this.draw();
     }
 
-    private draw(): void {
+    draw(): void {
         const { model, canvas } = this;
         if (!model) return;
         this.stage.draw({

@@ -1,15 +1,10 @@
 // Scale files that the user opened: stored in the browser, and passed to the libraries at every start.
 import type { Engine } from "./context";
+import { remember, remembered } from "./storage";
 
 const storage_key = "sikku-studio-scales";
 
-function saved(): Record<string, string> {
-    try {
-        return JSON.parse(localStorage.getItem(storage_key) ?? "{}") as Record<string, string>;
-    } catch {
-        return {};
-    }
-}
+const saved = () => remembered<Record<string, string>>(storage_key, {});
 
 /// Each byte as a letter.
 export function lettersOf(bytes: Uint8Array): string {
@@ -26,11 +21,7 @@ export function bytesOf(letters: string): Uint8Array {
 }
 
 export function keepScale(name: string, bytes: Uint8Array): void {
-    try {
-        localStorage.setItem(storage_key, JSON.stringify({ ...saved(), [name]: lettersOf(bytes) }));
-    } catch {
-        // without storage, the scale lasts as long as the page
-    }
+    remember(storage_key, { ...saved(), [name]: lettersOf(bytes) });
 }
 
 export function restoreScales(engine: Engine): void {

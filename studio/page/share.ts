@@ -1,8 +1,8 @@
 // Makes a link with a QR code, and inspects links before they are opened.
 import { generate } from "lean-qr";
 import type { Application } from "./application";
-import { RequestFailed } from "./context";
-import { copyText } from "./clipboard";
+import { copyOrSelect } from "./clipboard";
+import { messageOf, RequestFailed } from "./context";
 import { openDialog, type Dialog } from "./dialog";
 import { button, checkbox, element, field, labelled } from "./elements";
 import { excerpt, readLocked, readPlace, unknownOptions } from "./link_contents";
@@ -38,7 +38,8 @@ export function openShare(application: Application): void {
     const box = checkbox(() => void make(), { checked: hasView });
     const view = labelled(box, "Include the current view");
     view.hidden = !hasView;
-    const copy = button("Copy the link", () => void copyLink(application, address), { kind: "primary" });
+    const copyLink = () => copyOrSelect(application, "link", address.value, () => address.select());
+    const copy = button("Copy the link", copyLink, { kind: "primary" });
 
     const make = async () => {
         try {
@@ -72,12 +73,6 @@ export function openShare(application: Application): void {
     dialog.footer.append(copy);
     copy.focus();
     void make();
-}
-
-async function copyLink(application: Application, field: HTMLTextAreaElement): Promise<void> {
-    if (await copyText(field.value)) return application.say("The link is copied.");
-    field.select();
-    application.say("The browser does not let the page copy; the link is selected.", "warning");
 }
 
 function showCode(canvas: HTMLCanvasElement, facts: HTMLElement, text: string): void {
@@ -117,10 +112,7 @@ export async function inspectLink(application: Application, link: string): Promi
         }
     } catch (error) {
         if (inspection !== inspections) return;
-        application.say(
-            `The link cannot be read: ${error instanceof Error ? error.message : String(error)}`,
-            "error",
-        );
+        application.say(`The link cannot be read: ${messageOf(error)}`, "error");
         forget();
         return;
     }

@@ -4,7 +4,7 @@ import { hashOf } from "./chance";
 import { RequestFailed, type Engine } from "./context";
 import { imageOf, isAbort } from "./pictures";
 import { thumbnailOptions } from "./option_scopes";
-import type { Help, Options, Pixels } from "./protocol";
+import type { Examined, Help, Options, Pixels } from "./protocol";
 import type { Variant } from "./variants";
 
 export interface Filter {
@@ -19,14 +19,6 @@ export const filters: readonly Filter[] = [
     { name: "avoiding", label: "Self-avoiding", help: "Only lines that do not meet themselves" },
     { name: "kolam", label: "Kolam", help: "Only kolams: all dots surrounded, all lines closed, nothing drawn twice" },
 ];
-
-interface Examined {
-    kolam: boolean;
-    lines: number;
-    open_lines: number;
-    meetings: number;
-    reused_edges: number;
-}
 
 /// A variant that has been found, with its picture as RGBA bytes.
 export interface Found {

@@ -3,11 +3,11 @@ import type { MakePanel, Studio, Work } from "./context";
 import { button, checkbox, element, labelled, slideTo } from "./elements";
 import { between, eyeText, readEye, turnedEye, type Eye } from "./eye";
 import { Growth, type Grown } from "./growth";
-import { makeLamp, turnedLight, usualLight } from "./lamp";
+import { makeLamp, usualLight } from "./lamp";
 import { isDark, onTheme } from "./layout";
 import { isStill } from "./map_motion";
 import { withOption } from "./options";
-import { addOrbit } from "./orbit";
+import { addOrbit, type Orbit } from "./orbit";
 import { Pace } from "./pace";
 import { isAbort } from "./pictures";
 import type { Opened } from "./protocol";
@@ -66,7 +66,10 @@ export const makeSpacePanel: MakePanel = (studio) => {
 
 const flatReason = "This pattern is flat: prints show it from above, so they need no view.";
 
-class SpaceView {
+class SpaceView implements Orbit {
+    eye: Eye = front;
+    light = usualLight;
+    zoom = 1;
     private readonly growth: Growth;
     private readonly note = element("div", { class: "note space-note", role: "status", hidden: true });
     private readonly refusal: Refusal;
@@ -91,11 +94,8 @@ class SpaceView {
     private work: Work;
     private opened: Opened | null = null;
     private subject = "";
-    private eye: Eye = front;
     private half = 0; // of the picture; 0: unknown
-    private zoom = 1;
     private shift: [number, number] = [0, 0];
-    private light = usualLight;
     private n = 0;
     private most = 0;
     private model: Grown | null = null;
@@ -119,13 +119,8 @@ class SpaceView {
             "aria-label": "Model",
             "aria-describedby": "space-hint",
         });
-        try {
-            const stage = Stage.on(canvas);
-            return stage && new SpaceView(studio, panel, canvas, stage);
-        } catch (error) {
-            console.error(error);
-            return null;
-        }
+        const stage = Stage.on(canvas);
+        return stage && new SpaceView(studio, panel, canvas, stage);
     }
 
     private constructor(
@@ -186,29 +181,7 @@ class SpaceView {
 
     private wire(): void {
         const { canvas, studio } = this;
-        addOrbit(canvas, {
-            turn: (right, up) => {
-                this.eye = turnedEye(this.eye, right, up);
-                this.draw();
-            },
-            shift: (right, down) => {
-                this.shift = [
-                    Math.max(-2, Math.min(2, this.shift[0] + (2 * right) / canvas.clientWidth)),
-                    Math.max(-2, Math.min(2, this.shift[1] - (2 * down) / canvas.clientHeight)),
-                ];
-                this.draw();
-            },
-            zoom: (factor) => {
-                this.zoom = Math.max(0.3, Math.min(40, this.zoom * factor));
-                this.draw();
-            },
-            light: (right, up) => {
-                this.light = turnedLight(this.light, right, up);
-                this.draw();
-            },
-            reset: () => this.reset(),
-            stop: () => this.spin(false),
-        });
+        addOrbit(canvas, this, 0.3, 40);
         this.slider.addEventListener("input", () => {
             this.grow(false);
             this.seek(Number(this.slider.value));
@@ -402,7 +375,19 @@ class SpaceView {
 
     // --- motion
 
-    private reset(): void {
+    shiftBy(right: number, down: number): void {
+        this.shift = [
+            Math.max(-2, Math.min(2, this.shift[0] + (2 * right) / this.canvas.clientWidth)),
+            Math.max(-2, Math.min(2, this.shift[1] - (2 * down) / this.canvas.clientHeight)),
+        ];
+        this.draw();
+    }
+
+    stop(): void {
+        this.spin(false);
+    }
+
+    reset(): void {
         const text = this.opened ? styleOf("view", this.opened, this.work.draw) : undefined;
         this.eye = readEye(text ?? "front") ?? front;
         this.zoom = 1;
@@ -462,7 +447,7 @@ class SpaceView {
         this.last = now;
     }
 
-    private draw(): void {
+    draw(): void {
         if (!this.isShown || this.frame) return;
         this.frame = requestAnimationFrame((now) => {
             this.frame = 0;

@@ -49,10 +49,15 @@ export class Stage {
     private readonly floor: WebGLVertexArrayObject;
     private shadowed = ""; // state for which the shadows were drawn
 
-    /// Null if the browser does not support WebGL2.
+    /// Null if the browser does not support WebGL2, or its graphics driver fails.
     static on(canvas: HTMLCanvasElement): Stage | null {
-        const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
-        return gl && new Stage(gl);
+        try {
+            const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
+            return gl && new Stage(gl);
+        } catch (error) {
+            console.error(error);
+            return null;
+        }
     }
 
     private constructor(private readonly gl: WebGL2RenderingContext) {

@@ -1,6 +1,7 @@
 // The user's work and its history, stored in the browser so that a reload loses nothing.
 import type { Store, Work } from "./context";
 import { withOption } from "./options";
+import { remember } from "./storage";
 import { isAnother, renamed } from "./versions";
 
 const most_steps = 100;
@@ -170,13 +171,7 @@ export class History implements Store {
 }
 
 function store(saved: Saved): boolean {
-    if (saved.steps.length === 1 && sizeOf(saved.steps[0]!) > most_tried) return false;
-    try {
-        localStorage.setItem(storage_key, JSON.stringify(saved));
-        return true;
-    } catch {
-        return false;
-    }
+    return (saved.steps.length > 1 || sizeOf(saved.steps[0]!) <= most_tried) && remember(storage_key, saved);
 }
 
 function sizeOf(step: Step): number {

@@ -1,5 +1,5 @@
 // The panel with a sheet of variants: other seeds, one value against another, or edited productions. A click uses one.
-import type { MakePanel, Studio, Work } from "./context";
+import { messageOf, type MakePanel, type Studio, type Work } from "./context";
 import { button, choices, element } from "./elements";
 import { putImage } from "./pictures";
 import type { Opened } from "./protocol";
@@ -306,10 +306,7 @@ class Variations {
             });
         } catch (error) {
             if (search.signal.aborted) return;
-            this.studio.say(
-                `The variants cannot be drawn: ${error instanceof Error ? error.message : String(error)}`,
-                "error",
-            );
+            this.studio.say(`The variants cannot be drawn: ${messageOf(error)}`, "error");
         }
         if (search.signal.aborted) return;
         this.search = null;

@@ -1,7 +1,7 @@
 // tests/art/hand_test.cpp: lines as a hand draws them: order, width, clearance, grain, outlines.
 #include "art/hand/hand.h"
 #include "art/drawing/drawing.h"
-#include "art/hand/hand_order.h"
+#include "art/hand/hand_line.h"
 #include "art/prints.h"
 #include "art/raster/raster.h"
 #include "art/writer/draw.h"

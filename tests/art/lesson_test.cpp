@@ -2,7 +2,7 @@
 #include "art/motion/lesson.h"
 #include "art/drawing/drawing.h"
 #include "art/drawing/lesson_drawing.h"
-#include "art/hand/hand_order.h"
+#include "art/hand/hand_line.h"
 #include "art/prints.h"
 #include "art/writer/draw_options.h"
 #include "art/writer/make_drawing.h"

@@ -1,6 +1,5 @@
 #include "art/style/style.h"
 
-#include "art/style/powders.h"
 #include "engine/base/keys.h"
 #include "tests/checks.h"
 

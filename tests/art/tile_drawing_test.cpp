@@ -1,6 +1,5 @@
 // Colours and edges of tiles: against sums over a grid, facts of the literature, and the SVG that is drawn.
 #include "art/prints.h"
-#include "art/tiles/border_cuts.h"
 #include "art/tiles/tile_colours.h"
 #include "art/tiles/united_lines.h"
 #include "engine/base/diagnostic.h"

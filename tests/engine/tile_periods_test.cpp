@@ -2,7 +2,6 @@
 // divisors.
 #include "engine/tiling/tile_periods.h"
 #include "engine/language/document.h"
-#include "engine/tiling/lattice_rectangle.h"
 
 #include <gtest/gtest.h>
 #include <glm/common.hpp>

@@ -1,16 +1,6 @@
 // Summarises the examination of a kolam in a sentence.
 import { counted } from "../numbers_shown";
-
-/// The part of the answer to `kolam` that the bench shows.
-export interface Examined {
-    kolam: boolean;
-    faults: string[];
-    lines: number;
-    open_lines: number;
-    symmetry: string;
-    dots: unknown[];
-    loose_dots: number;
-}
+import type { Examined } from "../protocol";
 
 function many(count: number, one: string, more: string): string {
     return count === 1 ? `One ${one}` : `${count.toLocaleString("en")} ${more}`;

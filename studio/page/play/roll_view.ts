@@ -21,6 +21,8 @@ export interface RollActs {
 
 export class RollView {
     follows = true;
+    shownLoop: Loop | null = null;
+    muted: (voice: number) => boolean = () => false;
     private readonly surface: Surface;
     private melody: Melody | null = null;
     private ink: Ink = readInk();
@@ -28,8 +30,6 @@ export class RollView {
     private pixels = 0.05; // per tick
     private low = 55;
     private high = 75;
-    private shownLoop: Loop | null = null;
-    private muted: (voice: number) => boolean = () => false;
     private drag: { x: number; left: number; isRuler: boolean; tick: number; moved: boolean } | null = null;
 
     constructor(
@@ -59,13 +59,6 @@ export class RollView {
             this.scrollTo(this.left);
         }
         this.reset();
-    }
-
-    setMuted(muted: (voice: number) => boolean): void {
-        this.muted = muted;
-    }
-    setLoop(loop: Loop | null): void {
-        this.shownLoop = loop;
     }
 
     reset(): void {

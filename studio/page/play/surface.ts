@@ -3,12 +3,10 @@ import { element } from "../elements";
 import { isDark } from "../layout";
 
 export interface Ink {
-    paper: string;
     raised: string;
     line: string;
     strong: string;
     ink: string;
-    soft: string;
     faint: string;
     accent: string;
     isDark: boolean;
@@ -19,12 +17,10 @@ export function readInk(): Ink {
     const style = getComputedStyle(document.documentElement);
     const of = (name: string) => style.getPropertyValue(`--${name}`).trim();
     return {
-        paper: of("sunken"),
         raised: of("raised"),
         line: of("line"),
         strong: of("line-strong"),
         ink: of("ink"),
-        soft: of("ink-soft"),
         faint: of("ink-faint"),
         accent: of("accent"),
         isDark: isDark(),

@@ -3,8 +3,8 @@ import { button, element, icon, slideTo } from "../elements";
 import type { Melody } from "../sound/melody";
 import { barsOf, placeText } from "../sound/melody";
 import type { Loop } from "../sound/transport";
+import { remember, remembered } from "../storage";
 import type { Player } from "./player";
-import { rememberedVolume, rememberVolume } from "./volume_memory";
 
 const icons = {
     play: "M5 3v10l8-5z",
@@ -14,6 +14,7 @@ const icons = {
 };
 const slowest = 20; // of the slider; the field accepts other values
 const fastest = 300;
+const volume_key = "sikku-volume";
 
 function timeText(seconds: number): string {
     const whole = Math.max(0, Math.round(seconds));
@@ -83,7 +84,8 @@ export class TransportBar {
             element("div", { class: "play-levels" }, tempo, volume),
         );
         this.listen();
-        player.setVolume(rememberedVolume());
+        const loudness = remembered<number>(volume_key, player.volume);
+        if (loudness >= 0 && loudness <= 1) player.setVolume(loudness);
         this.showVolume();
     }
 
@@ -112,7 +114,7 @@ export class TransportBar {
         this.volume.addEventListener("input", () => {
             player.setVolume(this.volume.valueAsNumber / 100);
             this.showVolume();
-            rememberVolume(player.volume);
+            remember(volume_key, player.volume);
         });
         for (const field of [this.from, this.to]) field.addEventListener("change", () => this.readRange());
     }

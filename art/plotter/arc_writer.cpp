@@ -1,4 +1,4 @@
-#include "art/plotter/arc_follower.h"
+#include "art/plotter/arc_writer.h"
 
 #include "engine/geometry/box.h"
 
@@ -11,12 +11,14 @@
 namespace sikku {
 namespace {
 
-// A curve may be off by 0.01 mm. Chords between its points are off by ArcFollower::chord, an arc is off its chords by
-// at most twice as much, and the points are off the fitted arc by `fit` (all in mm). The rest is for rounding ends
-// and centres to 0.001 mm.
+// A curve may be off by 0.01 mm. Chords between its points are off by `arc_chord`, an arc is off its chords by at
+// most twice as much, and the points are off the fitted arc by `fit` (all in mm). The rest is for rounding ends and
+// centres to 0.001 mm.
+constexpr double arc_chord = 0.0005;
 constexpr double fit = 0.0065;
 constexpr double largest_radius = 1000.0;  // controllers count in single precision
 constexpr double largest_sweep = 4.7;      // radians; an arc's ends must not fall together
+constexpr std::size_t most_pending = 8192;
 
 /// The circle through three points; nullopt if they are almost on a line.
 std::optional<PlotArc> arc_through(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
@@ -56,7 +58,7 @@ std::optional<PlotArc> fitting_arc(std::span<const glm::dvec2> points) {
         const glm::dvec2 to = points[i] - arc->centre;
         const glm::dvec2 way = to - from;
         sweep += determinant(from, to) / (radius * radius) * (arc->is_left ? 1 : -1);
-        if (std::fabs(glm::length(to) - radius) > fit || glm::dot(way, way) > 16 * ArcFollower::chord * radius ||
+        if (std::fabs(glm::length(to) - radius) > fit || glm::dot(way, way) > 16 * arc_chord * radius ||
             (determinant(from, to) > 0) != arc->is_left) {
             return std::nullopt;
         }
@@ -79,8 +81,24 @@ std::size_t longest(std::size_t known, std::size_t count, std::size_t step, cons
 
 }  // namespace
 
+// Four chords are enough for an arc of a small circle.
+ArcWriter::ArcWriter(const Print& print, Output& file, bool arcs, double least)
+    : PlotWriter(print, file, arc_chord, 4), arcs_(arcs), least_(least) {}
+
+void ArcWriter::lines(std::span<const glm::dvec2> ends) {
+    start();
+    finish_curve();
+    for (const glm::dvec2 end : ends) line_to(on_page(here_ = end));
+    begin_curve(on_page(here_));
+}
+
+void ArcWriter::curve_point(glm::dvec2 point) {
+    points_.push_back(point);
+    if (points_.size() >= most_pending) follow(false);
+}
+
 /// Passes on lines and arcs along the pending points; the last one is kept if more may come.
-void ArcFollower::follow(bool is_all) {
+void ArcWriter::follow(bool is_all) {
     const std::span<const glm::dvec2> all(points_);
     std::size_t done = 0;
     while (done + 1 < all.size()) {
@@ -93,19 +111,18 @@ void ArcFollower::follow(bool is_all) {
         });
         if (!is_all && done > 0 && last + 1 == rest.size()) break;
         if (last > line && !is_short(rest.first(last + 1))) {
-            arc_to_(*fitting_arc(rest.first(last + 1)), rest[last]);
+            arc_to(*fitting_arc(rest.first(last + 1)), rest[last]);
+            done += last;
         } else {
-            line_to_(rest[line]);
+            line_to(rest[line]);
             done += line;
-            continue;
         }
-        done += last;
     }
     points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(done));
 }
 
 /// True for arcs that are to become lines.
-bool ArcFollower::is_short(std::span<const glm::dvec2> points) const {
+bool ArcWriter::is_short(std::span<const glm::dvec2> points) const {
     double length = 0;
     for (std::size_t i = 1; i < points.size() && length < least_; ++i) {
         length += glm::distance(points[i - 1], points[i]);

@@ -1,0 +1,20 @@
+// Values that the browser keeps between visits, as JSON.
+
+/// `absent` if the browser has none, or no storage.
+export function remembered<Value>(name: string, absent: Value): Value {
+    try {
+        return JSON.parse(localStorage.getItem(name) ?? "null") ?? absent;
+    } catch {
+        return absent;
+    }
+}
+
+/// False if the browser has no room for it, or no storage: then it lasts as long as the page.
+export function remember(name: string, value: unknown): boolean {
+    try {
+        localStorage.setItem(name, JSON.stringify(value));
+        return true;
+    } catch {
+        return false;
+    }
+}
