@@ -135,9 +135,9 @@ private:
     bool is_in_reach(glm::dvec2 at) const {
         if (!options_.paper) return true;
         const HpglPaper& paper = *options_.paper;
-        constexpr double slack = 1e-6;
-        return at.x >= paper.low.x - slack && at.y >= paper.low.y - slack && at.x <= paper.high.x + slack &&
-               at.y <= paper.high.y + slack;
+        constexpr double reach_slack = 1e-6;
+        return at.x >= paper.low.x - reach_slack && at.y >= paper.low.y - reach_slack &&
+               at.x <= paper.high.x + reach_slack && at.y <= paper.high.y + reach_slack;
     }
 
     std::string sheet_name() const {

@@ -16,7 +16,7 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_crossings = 5'000'000;  // some 500 MB
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
 /// A crossing of a line with the outline; crossings are numbered along the outline.
 struct Crossing {
@@ -30,7 +30,7 @@ struct Crossing {
 struct Stretch {
     std::int64_t line = 0;
     double from = 0, to = 0;
-    std::size_t crossings[2] = {none, none};  ///< crossings at its ends
+    std::size_t crossings[2] = {nowhere, nowhere};  ///< crossings at its ends
     bool is_drawn = false;
 };
 
@@ -88,9 +88,9 @@ private:
             const Crossing &a = crossings_[i], &b = crossings_[k];
             return a.line != b.line ? a.line < b.line : a.at != b.at ? a.at < b.at : i < k;
         });
-        stretch_of_.assign(crossings_.size(), none);
+        stretch_of_.assign(crossings_.size(), nowhere);
         int winding = 0;
-        std::size_t begin = none;
+        std::size_t begin = nowhere;
         for (const std::size_t i : order) {
             pulse_();
             const int before = winding;
@@ -108,7 +108,7 @@ private:
     /// Joins stretches upwards along the outline into one line.
     std::vector<glm::dvec2> zigzag(std::size_t i) {
         std::vector<glm::dvec2> points;
-        for (int side = 0; i != none; side = 1 - side) {
+        for (int side = 0; i != nowhere; side = 1 - side) {
             pulse_();
             Stretch& stretch = stretches_[i];
             stretch.is_drawn = true;
@@ -126,11 +126,12 @@ private:
         for (const bool forwards : {true, false}) {
             const std::size_t there = forwards ? (here + 1) % count : (here + count - 1) % count;
             const std::size_t found = stretch_of_[there];
-            if (found == none || stretches_[found].is_drawn || crossings_[there].line != stretch.line + 1) continue;
+            if (found == nowhere || stretches_[found].is_drawn || crossings_[there].line != stretch.line + 1)
+                continue;
             if (stretches_[found].crossings[side] != there) continue;
             if (follows_outline(here, there, forwards)) return found;
         }
-        return none;
+        return nowhere;
     }
 
     /// True if the outline between two crossings is nearly straight.

@@ -193,8 +193,8 @@ DrawingCost cost_of_window(const Print& print, const Reading& reading) {
 
 // --- pictures of drawings in space
 
-constexpr double samples = 16;       // for each pixel
-constexpr double facet_bytes = 160;  // for each polygon of a divided surface
+constexpr double pixel_samples = 16;  // for each pixel
+constexpr double facet_bytes = 160;   // for each polygon of a divided surface
 
 /// Processor time of a pixel of a drawing in space, drawn on or not.
 constexpr double sampled_pixel_seconds = 40e-9;
@@ -279,8 +279,8 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
     const double triangles = stems * 12 + drawing.points + pieces;
     const bool is_lit = !print.style.light.is_flat;
     cost.seconds += pixels * (is_lit ? lit_pixel_seconds : sampled_pixel_seconds) + triangles * triangle_seconds +
-                    shown * samples * sample_seconds;
-    cost.memory += samples * 12 * size.width * 32 + pieces * facet_bytes;
+                    shown * pixel_samples * sample_seconds;
+    cost.memory += pixel_samples * 12 * size.width * 32 + pieces * facet_bytes;
     if (!is_lit) return;
     const double reach = drawing.reach * fine;
     const double side = reach < 512 ? 512 : reach <= 2048 ? 1024 : 2048;

@@ -85,9 +85,11 @@ private:
         for (std::size_t at = home(tag);; at = after(at)) {
             const Slot& found = table_[at];
             if (found.number == no_number) return no_number;
-            if (found.tag == tag && std::equal(coordinates, coordinates + rank_, this->coordinates(found.number))) {
-                return found.number;
-            }
+            if (found.tag != tag) continue;
+            const Coordinate* known = this->coordinates(found.number);
+            std::uint32_t i = 0;
+            while (i < rank_ && known[i] == coordinates[i]) ++i;
+            if (i == rank_) return found.number;
         }
     }
     std::uint32_t find_near(glm::dvec2 place) const {

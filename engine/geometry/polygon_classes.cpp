@@ -12,12 +12,12 @@
 namespace sikku {
 namespace {
 
-constexpr double parts = 1e5;  // of a step and of a radian that are distinguished
+constexpr double parts_of_step = 1e5;  // of a step and of a radian that are distinguished
 /// Moves round values away from the borders between parts.
 constexpr double shift = 0.3183;
 
 std::int64_t rounded(double value) {
-    return static_cast<std::int64_t>(std::floor(std::clamp(value * parts + shift, -9e18, 9e18)));
+    return static_cast<std::int64_t>(std::floor(std::clamp(value * parts_of_step + shift, -9e18, 9e18)));
 }
 
 /// The corners, anticlockwise, without those on straight stretches.
@@ -121,7 +121,7 @@ PolygonClass PolygonClasses::classify(std::span<const glm::dvec2> corners, const
     for (const std::size_t start : starts) {
         const glm::dvec2 side = corners[(start + 1) % corners.size()] - corners[start];
         double angle = std::atan2(side.y, side.x);
-        if (angle < -0.5 / parts) angle += 2 * std::numbers::pi;
+        if (angle < -0.5 / parts_of_step) angle += 2 * std::numbers::pi;
         heading = std::min(heading, rounded(angle) % circle);
     }
     Signature directed = own;

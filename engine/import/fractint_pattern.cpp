@@ -22,11 +22,11 @@ constexpr const char* palette =
     "#ffff55 #ffffff";
 
 /// A symbol of the pattern: a letter, or one with a number, unchanged or with left and right exchanged.
-struct Key {
+struct SymbolKey {
     char letter = 0;
     double number = 0.0;
     bool flipped = false;
-    auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is compared
+    auto operator<=>(const SymbolKey&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is compared
 };
 
 std::string repeated(char letter, std::int64_t times) {
@@ -108,14 +108,14 @@ private:
     [[noreturn]] void fail(const std::string& message) const {
         fractint::fail(file_, diagnostics_, entry_.at, message);
     }
-    Key key_of(const Token& token, bool flipped) const {
+    SymbolKey key_of(const Token& token, bool flipped) const {
         const bool numbered = takes_number(token.letter);
         return {token.letter, numbered ? token.number : 0.0,
                 flipped && entry_.rule_of(token.letter) && effects_.leads_to_turns(token.letter)};
     }
 
     /// Name of a symbol that has a rule or no meaning of its own.
-    std::string symbol(const Key& key) {
+    std::string symbol(const SymbolKey& key) {
         if (is_plain(key.letter) && !(takes_number(key.letter) && entry_.rule_of(key.letter))) {
             if (is_letter(key.letter)) {
                 return std::string(1, key.flipped ? key.letter : static_cast<char>(key.letter - 'a' + 'A'));
@@ -201,7 +201,7 @@ private:
             const bool has_rule = entry_.rule_of(letter) != nullptr;
             const bool steps = effects_.leads_to_steps(letter);
             if (has_rule || is_step(letter)) {
-                const Key key = key_of(token, state.flips);
+                const SymbolKey key = key_of(token, state.flips);
                 if (has_rule && wanted_.insert(key).second) pending_.push_back(key);
                 std::string name = symbol(key);
                 if (is_step(letter)) step_letters_.insert({letter, name});
@@ -259,7 +259,7 @@ private:
         }
         lines.push_back(std::move(first));
         while (!pending_.empty()) {
-            const Key key = pending_.back();
+            const SymbolKey key = pending_.back();
             pending_.pop_back();
             Line line;
             line.left = symbol(key) + formals(key.letter);
@@ -306,11 +306,11 @@ private:
             comment("The parameter d is the heading of D and M, in degrees to the left of that of F and G.");
         }
         std::string twins;
-        for (const Key& key : wanted_) {
+        for (const SymbolKey& key : wanted_) {
             if (key.flipped) twins += (twins.empty() ? "" : " ") + symbol(key);
         }
         if (!twins.empty()) comment("With left and right exchanged by an exclamation mark: " + twins);
-        for (const Key& key : wanted_) {
+        for (const SymbolKey& key : wanted_) {
             if (is_plain(key.letter) && !takes_number(key.letter)) continue;
             comment(fmt::format(
                 "{} is Fractint's {}", symbol(key),
@@ -362,7 +362,7 @@ private:
             const bool is_second = letter == 'd' || letter == 'm';
             lines += fmt::format("{}{} --> {}\n", name, formals(letter), is_second ? "+(d)" + step + "-(d)" : step);
         }
-        for (const Key& key : wanted_) {
+        for (const SymbolKey& key : wanted_) {
             if (!takes_number(key.letter)) continue;
             const std::string command = colour_command(key.letter, key.number);
             lines += symbol(key) + " --> " + (command.empty() ? "*" : command) + '\n';
@@ -376,8 +376,8 @@ private:
     Diagnostics& diagnostics_;
     ImportLosses& losses_;
     std::size_t& room_;
-    std::set<Key> wanted_;
-    std::vector<Key> pending_;
+    std::set<SymbolKey> wanted_;
+    std::vector<SymbolKey> pending_;
     std::set<std::string> names_;
     bool names_used_ = false;
     std::set<std::pair<char, std::string>> step_letters_;

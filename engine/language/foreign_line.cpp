@@ -17,8 +17,8 @@
 namespace sikku {
 namespace {
 
-constexpr std::size_t most_advised = 4096;  // bytes of a line; longer ones are not examined
-constexpr int most_levels = 8;              // of brackets and lists within lists
+constexpr std::size_t most_advised_bytes = 4096;  // bytes of a line; longer ones are not examined
+constexpr int most_levels = 8;                    // of brackets and lists within lists
 constexpr std::size_t nothing = std::string_view::npos;
 
 struct OtherNames {
@@ -91,7 +91,7 @@ bool is_prose(std::string_view text) {
     });
 }
 
-std::string folded(std::string_view name) {
+std::string folded_name(std::string_view name) {
     std::string result;
     for (const char byte : lower_case(trimmed(name))) {
         const char plain = byte == '_' || byte == '\t' ? ' ' : byte;
@@ -300,7 +300,7 @@ public:
     explicit Adviser(bool has_axiom) : has_axiom_(has_axiom) {}
 
     LineAdvice read(std::string_view line) {
-        if (line.size() > most_advised) return {};
+        if (line.size() > most_advised_bytes) return {};
         text_ = without_entities(line);
         if (line_is_read(text_, 0)) return accepted();
         advice_ = {};
@@ -332,7 +332,7 @@ private:
         if (const auto inner = enclosed(line); inner && line.front() != '"') return list_is_read(*inner, level + 1);
         if (const std::size_t sign = find_top(line, "=:,;");
             sign != nothing && (line[sign] == '=' || line[sign] == ':')) {
-            if (is_needless(folded(without_quotes(trimmed(line.substr(0, sign)))))) return true;
+            if (is_needless(folded_name(without_quotes(trimmed(line.substr(0, sign)))))) return true;
         }
         if (const auto parts = split_top(line, ",;"); parts.size() > 1) return list_is_read(line, level + 1);
         if (const std::size_t arrow = line.find("-->"); arrow != nothing && foreign_arrow(line).empty()) {
@@ -389,7 +389,8 @@ private:
         const std::size_t second_colon = find_top(second, ":=");
         if (first_colon == nothing || second_colon == nothing) return false;
         const std::string_view symbol = trimmed(first.substr(first_colon + 1));
-        if (!contains(predecessor_names, folded(without_quotes(trimmed(first.substr(0, first_colon)))))) return false;
+        if (!contains(predecessor_names, folded_name(without_quotes(trimmed(first.substr(0, first_colon))))))
+            return false;
         if (symbol == without_quotes(symbol) || !is_predecessor(without_quotes(symbol))) return false;
         return production_is_read(symbol, second.substr(second_colon + 1));
     }
@@ -399,7 +400,7 @@ private:
         right = trimmed(right);
         if (const std::size_t colon = left.find(':'); colon != nothing) {
             const std::string_view name = left.substr(0, colon), rest = trimmed(left.substr(colon + 1));
-            if (is_label(trimmed(name), rest) || contains(rule_names, folded(name))) left = rest;
+            if (is_label(trimmed(name), rest) || contains(rule_names, folded_name(name))) left = rest;
         }
         left = without_quotes(left);
         left.remove_prefix(item_number_length(left));
@@ -413,7 +414,7 @@ private:
             right.remove_suffix(1);
         }
         if (left.empty()) return false;
-        const std::string name = folded(left);
+        const std::string name = folded_name(left);
         if (left.size() != 1 && (name == "axiom" || key_of_other_name(name) == "axiom")) return axiom_is_read(right);
         has_symbol_ = has_symbol_ || utf8_length(left) == left.size();
         advice_.lines.push_back(fmt::format("{} --> {}", trimmed(plain(left)), word(right)));
@@ -439,7 +440,7 @@ private:
 
     bool setting_is_read(std::string_view left, std::string_view right, int level) {
         if (right.starts_with(':') || right.starts_with('=')) right = trimmed(right.substr(1));  // F :: F+F
-        const std::string name = folded(without_quotes(left));
+        const std::string name = folded_name(without_quotes(left));
         if (name.empty()) return false;
         if (is_needless(name)) return true;
         // rules[0], rules["F"], rule1, p_1
