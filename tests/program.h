@@ -36,7 +36,7 @@ struct Surroundings {
     std::string output = {};               ///< standard output goes to this file
     std::string errors = {};               ///< and standard error to this one
     std::string program = SIKKU_PROGRAM;
-    unsigned seconds = sanitized ? 150 : 60;  ///< then it is killed
+    unsigned seconds = sanitized ? 300 : 150;  ///< of real time; then it is killed
 };
 
 /// What became of it.
