@@ -15,11 +15,14 @@ echo "clang-format: ${#sources[@]} files"
 # Single sources instead of the batches of the build, or with --all the batches, which take less than half the time;
 # without precompiled headers of g++, which clang-tidy cannot read, without options that it does not have, and without
 # warnings of names that sources of a batch share, as g++ gives those that matter.
-batches=OFF
-[ "$all" != --all ] || batches=ON
+batches=OFF options=() unknown='no-restrict|no-stringop-[a-z]*|no-subobject-linkage'
+if [ "$all" = --all ]; then
+    batches=ON unknown="shadow|$unknown"
+    options=(--checks=-bugprone-suspicious-include '--header-filter=(engine|art|music|cli|python|studio)/.*\.(h|cpp)$')
+fi
 cmake --preset "$(basename "$build")" -B "$build/tidy" -DCMAKE_UNITY_BUILD=$batches \
     -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > "$build/tidy.log" 2>&1 || { cat "$build/tidy.log"; exit 1; }
-sed -i -E 's/ --param ggc[^ ]*//g; s/ -W(shadow|no-restrict|no-stringop-[a-z]*|no-subobject-linkage)//g' "$build/tidy/compile_commands.json"
+sed -i -E "s/ --param ggc[^ ]*//g; s/ -W($unknown)//g" "$build/tidy/compile_commands.json"
 if [ "$all" = --all ]; then
     mapfile -t wanted < <(sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' "$build/tidy/compile_commands.json" |
         grep -v -e /tests/ -e sikku_headers | sort -u)
@@ -40,14 +43,14 @@ sources_of() {
 }
 tidy() {
     local source=$1 stamp
+    shift
     stamp=$build/tidy/$({ sources_of "$source" | xargs cat; echo "$seen"; } | sha256sum | cut -c1-32)
     [ ! -e "$stamp" ] || return 0
-    clang-tidy -p "$build/tidy" --quiet --warnings-as-errors='*' --checks=-bugprone-suspicious-include \
-        --header-filter='(engine|art|music|cli|python|studio)/.*\.(h|cpp)$' "$source" 2> /dev/null && touch "$stamp"
+    clang-tidy -p "$build/tidy" --quiet --warnings-as-errors='*' "$@" "$source" 2> /dev/null && touch "$stamp"
 }
 export -f sources_of tidy
 if [ "${#wanted[@]}" -gt 0 ]; then
     printf '%s\n' "${wanted[@]}" |
-        xargs -P "$(nproc)" -I{} bash -c 'tidy {}'
+        xargs -P "$(nproc)" -I{} bash -c 'tidy "$@"' bash {} "${options[@]}"
 fi
 echo "clang-tidy: ${#wanted[@]} sources$([ "$batches" = OFF ] || echo ' and batches of sources')"

@@ -18,7 +18,7 @@ constexpr std::string_view turns = "+-\\/|&^$[]{}";
 /// Exchanges left and right in words: the symbols of each pair that `mirror:` lists, `+` and `-`, `\` and `/`.
 class Mirror {
 public:
-    /// Reads `mirror:`; without it there are no pairs.
+    /// Reads the key `mirror`. A pattern without it has no pairs.
     Mirror(const Pattern& pattern, WordReader& reader, Diagnostics& diagnostics) : reader_(reader) {
         const Key* key = pattern.find("mirror");
         const auto list = key ? reader.symbol_list(*key) : std::nullopt;

@@ -8,7 +8,7 @@ export class RequestFailed extends Error {
     constructor(readonly failure: Failure["error"]) { super(sentenceOf(failure)); }
 }
 
-/// What was thrown, for the user.
+/// The message of an error that was thrown, as the user sees it.
 export function messageOf(error: unknown): string {
     return error instanceof Error ? error.message : String(error);
 }
