@@ -155,7 +155,7 @@ std::vector<Formal> Words::formal_modules(Reader& reader) {
         if (module.letter == "%") lose(at, "the cut symbol is removed before productions apply");
         if (reader.peek() == '(') {
             module.names = parameters(reader, at, [&] {
-                const std::string name = expressions_.identifier(reader);
+                std::string name = expressions_.identifier(reader);
                 if (name.empty()) mistake(reader.where(), "expected the name of a parameter");
                 if (defines_.macros.contains(name)) {
                     mistake(reader.where(), fmt::format("the parameter '{}' is a define", printable(name, 80)));
