@@ -295,6 +295,7 @@ private:
         const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
         if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;
+        if (const std::string& variant = document.overrides().variant; !variant.empty()) cell.title += ", " + variant;
         if (place.title) cell.title = *place.title;
         if (shared_.sheet.titles == Titles::title || (place.title && shared_.sheet.titles == Titles::none)) {
             cell.caption = {cell.title};

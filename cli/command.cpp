@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 namespace sikku {
 double seconds_now() {
@@ -101,7 +102,11 @@ NamedText read_pattern_text(const std::string& pattern) {
                          (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
     }
     try {
-        if (pattern == "-") return {"-", read_pattern(stdin, "standard input", stop_monitor())};
+        if (pattern == "-") {
+            static bool was_read = false;
+            if (std::exchange(was_read, true)) throw UsageError("-: standard input can be read only once");
+            return {"-", read_pattern(stdin, "standard input", stop_monitor())};
+        }
         return {found.name, read_pattern({pattern, found.path}, stop_monitor())};
     } catch (const std::runtime_error& error) {
         throw UsageError(error.what());
@@ -109,6 +114,10 @@ NamedText read_pattern_text(const std::string& pattern) {
 }
 
 std::string foreign_message(const std::string& pattern, const NamedText& text) {
+    constexpr std::string_view track = "[[track]]";  // a line of every arrangement
+    if (text.text.starts_with(track) || text.text.find("\n" + std::string(track)) != std::string::npos) {
+        return pattern + ": this is an arrangement; `sikku play` reads it from a file whose name ends in .toml";
+    }
     const ForeignKind kind = foreign_kind(text.text);
     if (kind == ForeignKind::none) return {};
     std::string message = fmt::format("{}: this is {}, not a pattern", pattern, foreign_kind_name(kind));

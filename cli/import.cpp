@@ -2,15 +2,19 @@
 #include "engine/import/import.h"
 
 #include "cli/command.h"
+#include "engine/base/input_file.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/language/foreign_text.h"
+#include "engine/language/pattern.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
+#include <system_error>
 
 namespace sikku {
 namespace {
@@ -76,7 +80,8 @@ void list_systems(const std::vector<ImportedSystem>& systems, const std::vector<
     }
 }
 
-/// Writes each system to a file of its name; a number is added to names in use.
+/// Writes each system to a file of its name; a number is added to names in use. @throws std::runtime_error for a file
+/// that is there with other contents, which may be an edited pattern
 void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<std::size_t>& indices,
                   const std::string& folder, bool quiet) {
     std::filesystem::create_directories(folder);
@@ -96,7 +101,15 @@ void write_folder(const std::vector<ImportedSystem>& systems, const std::vector<
             tell_unless(quiet, "sikku: {}.lsys already exists: '{}' on line {} becomes {}.lsys\n", plain,
                         printable(system.name), system.line, name);
         }
-        files.add(std::filesystem::path(folder) / (name + ".lsys"), system.pattern);
+        const std::filesystem::path file = std::filesystem::path(folder) / (name + ".lsys");
+        std::error_code error;
+        if (std::filesystem::exists(file, error) &&
+            read_file(file, file.string(), most_pattern_bytes, stop_monitor()) != system.pattern) {
+            throw std::runtime_error(
+                fmt::format("{}: this file has other contents; remove it, or choose another folder",
+                            printable(file.string(), 2000)));
+        }
+        files.add(file, system.pattern);
         ++written;
         if (!system.losses.empty()) ++lossy;
         if (!system.draws) ++empty;

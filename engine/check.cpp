@@ -17,17 +17,20 @@ constexpr std::size_t most_variant_bytes = std::size_t{256} << 20;  // of all va
 constexpr std::size_t most_pattern_errors = 50;
 constexpr double most_compositions = 100'000;  // symbols times steps, which take a few milliseconds
 
-/// True if each bracket in the text has its counterpart.
+/// True if each bracket and each brace in the text has its counterpart.
 bool is_balanced(std::string_view text) {
-    std::int64_t depth = 0;
-    for (const char byte : text) {
-        depth += byte == '[' ? 1 : byte == ']' ? -1 : 0;
-        if (depth < 0) return false;
+    for (const auto& [opening, closing] : {std::pair('[', ']'), std::pair('{', '}')}) {
+        std::int64_t depth = 0;
+        for (const char byte : text) {
+            depth += byte == opening ? 1 : byte == closing ? -1 : 0;
+            if (depth < 0) return false;
+        }
+        if (depth != 0) return false;
     }
-    return depth == 0;
+    return true;
 }
 
-/// The axiom or the first successor whose brackets do not balance; else the axiom.
+/// The axiom or the first successor whose brackets or braces do not balance; else the axiom.
 Span unbalanced_span(const Pattern& pattern) {
     std::vector<const std::vector<ProductionText>*> lists = {&pattern.common};
     for (const TableText& table : pattern.tables) lists.push_back(&table.productions);
@@ -116,7 +119,7 @@ void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics&
     if (grammar.map() || grammar.is_spatial()) return;
     if (static_cast<double>(1 + grammar.symbols().size()) * steps > most_compositions) return;
     try {
-        fold(grammar);
+        fold(grammar, true);
     } catch (const WordError& error) {
         diagnostics.error(unbalanced_span(pattern), error.what());
     }

@@ -9,8 +9,8 @@
 
 namespace sikku {
 
-/// Reports brackets of the word that do not balance, at the first successor or axiom in which they do not. Words in
-/// space and those whose composition takes long are not checked.
+/// Reports brackets and braces of the word that do not balance, at the first successor or axiom in which they do not.
+/// Words in space and those whose composition takes long are not checked.
 void check_brackets(const Pattern& pattern, const Grammar& grammar, Diagnostics& diagnostics);
 
 /// Checks a pattern with each of its variants: the language, the keys of the interpreters, and whether the brackets

@@ -322,8 +322,8 @@ bool PatchesOf<Headings>::compose(std::string& why) {
     kinds_.assign((levels() + 1) * symbols_, Kind::unknown);
     pieces_.resize((levels() + 1) * symbols_ * headings_.count());
     why =
-        "a window needs brackets, polygons and changes of the pen that end in the word in which they begin, or "
-        "within 10,000 symbols";
+        "a window needs brackets that balance in each successor, and polygons and changes of the pen within symbols "
+        "whose words have at most 10,000 symbols, such as T --> {F+F+F}";
     if (kind_of_word(grammar_.axiom(), levels()) != Kind::composed) return false;
     const Heading first = headings_.composed(headings_.number(headings_.first()));
     whole_ = headings_.box(composed(grammar_.axiom(), levels(), first).bound, headings_.first());

@@ -150,7 +150,7 @@ void Composition::read_lines_and_dots(const Print& print, const Window& window, 
         OldColours old(areas, drawn_);
         lines_->read(print, window, old);
         read_parallel(print, own);
-    } else if (options_.colours_strokes) {
+    } else if (options_.colours_strokes && !options_.only_dots) {
         StrokeColours coloured(own, drawn_, stroke_colours_, orbit_of_stroke_);
         lines_->read(print, window, coloured);
     } else if (!options_.only_dots) {

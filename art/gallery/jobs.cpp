@@ -68,6 +68,11 @@ public:
             add(name);
             add(value);
         }
+        const std::vector<Setting> settings = job.key_settings();
+        for (const Setting& setting : settings) {
+            add(setting.key);
+            add(setting.value);
+        }
         const auto found = known_.find(key);
         if (found != known_.end()) return found->second;
         bytes_ += key.size();
@@ -75,13 +80,19 @@ public:
             known_.clear();
             bytes_ = key.size();
         }
-        return known_.emplace(std::move(key), compile(job)).first->second;
+        return known_.emplace(std::move(key), compile(job, settings)).first->second;
     }
 
 private:
-    static Result compile(const GalleryJob& job) {
+    static Result compile(const GalleryJob& job, const std::vector<Setting>& settings) {
         try {
-            return {"", fmt::format("{}", job.document().grammar().steps())};
+            const Document document = job.document();
+            if (!settings.empty()) {
+                Diagnostics diagnostics;
+                job.interpreter().check_keys(document.with(settings).pattern(), diagnostics);
+                diagnostics.throw_if_errors();
+            }
+            return {"", fmt::format("{}", document.grammar().steps())};
         } catch (const std::runtime_error& error) {
             std::string message = error.what();
             while (message.ends_with('\n')) message.pop_back();
@@ -277,15 +288,34 @@ private:
             const bool is_of_pattern =
                 !row || row->overrides || axis->key == "n" || axis->key == "seed" || axis->key == "variant";
             if (!is_of_pattern) continue;
+            const bool is_option = !row && find_option(player.options(), axis->key);
             fail(axis->place.empty() ? item.place : axis->place,
-                 fmt::format("{}: '{}' is an arrangement, whose tracks set the keys of their patterns",
-                             printable(axis->key, 80), name));
+                 fmt::format("{}: '{}' is an arrangement, whose tracks set the keys of their patterns{}",
+                             printable(axis->key, 80), name,
+                             is_option ? fmt::format("; '{}' without 'set' applies to all tracks", axis->key) : ""));
+        }
+    }
+
+    /// @throws GalleryError if a key of `set` is also set by a key of the gallery
+    void check_sets(const GalleryItem& item, const GalleryPattern& pattern) {
+        for (const GalleryItem::Axis& axis : item.axes) {
+            if (!axis->in_set) continue;
+            for (const GalleryItem::Axis& other : item.axes) {
+                if (other->in_set) continue;
+                const std::string key = other->key == "n" ? "derivation length" : override_key(other->key, pattern);
+                const GalleryKey* known = keys_.find(other->key);
+                const bool sets_key = find_language_key(key) || (known && known->overrides);
+                if (key != axis->key || !sets_key) continue;
+                fail(axis->place.empty() ? item.place : axis->place,
+                     fmt::format("'{}' and '{}' in 'set' are the same; use one of them", other->key, axis->key));
+            }
         }
     }
 
     std::vector<Choice> choices_of(const GalleryItem& item, const GalleryPattern& pattern,
                                    const std::string& format) {
         if (pattern.is_piece) check_piece(item, pattern, format);
+        check_sets(item, pattern);
         std::vector<Choice> choices;
         for (const GalleryItem::Axis& axis : item.axes) {
             if (!matters(*axis, keys_.interpreter_of(format))) continue;
@@ -628,6 +658,18 @@ OptionValues GalleryJob::values() const {
     return values;
 }
 
+std::vector<Setting> GalleryJob::key_settings() const {
+    std::vector<Setting> settings;
+    for (const OptionValue& value : values()) {
+        const OptionInfo& info = *find_option(interpreter().options(), value.name);
+        if (!info.is_key || info.sets_more || (info.names_file && info.names_file(value.text))) continue;
+        std::string key = value.name;
+        std::replace(key.begin(), key.end(), '-', ' ');
+        settings.push_back({value.name, std::move(key), value.text});
+    }
+    return settings;
+}
+
 Document GalleryJob::document() const {
     if (!pattern->text) throw std::runtime_error(pattern->problem);
     if (pattern->piece) return pattern->piece->documents.front();
@@ -686,6 +728,13 @@ std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys&
     Expansion expansion(std::move(items.list), request, keys);
     expansion.require_few(request.most_jobs);
     std::vector<GalleryJob> jobs = expansion.jobs();
+    const auto is_print = [](const GalleryJob& job) { return job.interpreter().owner() == KeyOwner::art; };
+    if (!std::any_of(jobs.begin(), jobs.end(), is_print)) {
+        for (const auto& [option, size] :
+             {std::pair("poster", request.poster), std::pair("contact", request.contact)}) {
+            if (!size.empty()) throw SettingError(option, size, "this gallery has no prints for a sheet");
+        }
+    }
     if (request.title.empty()) request.title = title_of(jobs);
     return jobs;
 }

@@ -40,6 +40,8 @@ struct GalleryJob {
     const Interpreter& interpreter() const { return language->interpreter_of(format); }
     /// Its options, for the interpreter.
     OptionValues values() const;
+    /// Those of its options that set keys of the pattern and name no file.
+    std::vector<Setting> key_settings() const;
     /// Its pattern with its overrides, compiled once for all jobs with the same pattern and overrides; for a piece,
     /// the document of its first part. @throws PatternError, GalleryError
     Document document() const;

@@ -92,6 +92,8 @@ constexpr Rule plot_rules[] = {
 constexpr Rule product_rules[] = {
     {when::untrimmed, {{trim}}, "applies only to trimmed prints, not to plots and tiles"},
     {when::windowed, {{"border"}}, "a border frames the whole drawing; a window shows only part of it"},
+    {when::page_filled, {{"border"}}, "a border frames the whole drawing; a filled page shows only part of it"},
+    {when::part, {{extras}}, "the drawing fills the page, and would cross the text"},
     {when::still, {{"animate"}}, "only SVG can draw itself"},
     {when::without_names, {{"name-tiles"}}, no_names},
     {when::drawn_plot, {{"name-tiles"}}, "a plot has lines only, no tiles"},

@@ -20,6 +20,8 @@ constexpr PrintKind model = [](const S& s, Format f) { return is_model(s, f); };
 constexpr PrintKind fitted = [](const S& s, Format) { return s.place.fit; };
 constexpr PrintKind stepped = [](const S& s, Format) { return s.look.placement.step.has_value(); };
 constexpr PrintKind windowed = [](const S& s, Format) { return s.look.window.has_value(); };
+constexpr PrintKind page_filled = [](const S& s, Format) { return s.place.fills_page; };
+constexpr PrintKind part = [](const S& s, Format) { return s.look.window || s.place.fills_page; };
 constexpr PrintKind placed = [](const S& s, Format) {
     return s.place.fit || s.look.window || s.look.dot_spacing || s.look.repeat || s.look.composes ||
            s.time.generations || s.look.placement.rotate != 0;

@@ -74,6 +74,7 @@ void PrintWork::place_swatch(const Swatch& swatch) {
 void PrintWork::drop_border() {
     if (!print_.style.border) return;
     const char* why = settings_.place.swatch_place   ? "a swatch is a part of the drawing"
+                      : settings_.place.fills_page   ? "a filled page shows only part of the drawing"
                       : settings_.look.window        ? "a window shows only part of the drawing"
                       : settings_.time.lesson        ? "a lesson teaches the lines of the drawing"
                       : is_model(settings_, format_) ? "a model has no page"
@@ -146,6 +147,18 @@ void warn_of_letters(const Grammar& grammar, Made& made) {
     }
 }
 
+/// Filled pages and swatches determine their own derivation length, which is the last that the document was given.
+void warn_of_length(const Document& document, const DrawSettings& settings, Made& made) {
+    const bool is_swatch = settings.place.swatch_place.has_value();
+    if (!settings.place.fills_page && !is_swatch) return;
+    const char* option = is_swatch ? "swatch" : "fill-page";
+    for (const Setting& setting : document.overrides().settings) {
+        if (setting.key != "derivation length" || setting.origin == option) continue;
+        made.warn(
+            fmt::format("the derivation length {} is not used: '{}' determines its own", setting.value, option));
+    }
+}
+
 }  // namespace
 
 Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
@@ -153,6 +166,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     Made made;
     if (!dropped_border_.empty()) made.warn(dropped_border_);
     warn_of_letters(document_.grammar(), made);
+    warn_of_length(document_, settings_, made);
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;

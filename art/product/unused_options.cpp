@@ -71,6 +71,9 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
     std::vector<Unused> list;
     list.push_back({"colour-by", report.has_one_strand_colour,
                     "the drawing has one line, or all its lines are images of each other"});
+    for (const char* lines : {"colour-by", "weave", "parallel", "fields"}) {
+        list.push_back({lines, settings.look.only_dots, "only the dots are drawn"});
+    }
     if (report.plot) {
         const PlotReport& plot = *report.plot;
         const auto colours = static_cast<int>(plot.colours);

@@ -22,6 +22,9 @@ constexpr std::uint64_t most_corners = 5'000'000;  // corners of all hulls toget
 
 struct Overflow {};  // 64 bits do not suffice
 struct TooMuch {};   // composition is too costly
+struct BracesError : WordError {
+    using WordError::WordError;
+};
 
 // --- sines in any precision ----------------------------------------------------------------------------------------
 
@@ -546,8 +549,12 @@ private:
             throw WordError(fmt::format("symbol {} of the word: this '[' is not closed",
                                         Integer(whole.open.back().position + 1).str()));
         }
+        if (!whole.braces.is_balanced()) {
+            throw BracesError(whole.braces.low < 0 ? "the word has a '}' without '{'"
+                                                   : "the word has a '{' that is not closed");
+        }
         // A walk finds the place of the error.
-        if (!whole.braces.is_balanced() || !whole.edges.is_balanced() || whole.has_cylinder) throw TooMuch();
+        if (!whole.edges.is_balanced() || whole.has_cylinder) throw TooMuch();
         const typename Space::Embedding embedding(space_);
         const Frame& frame = whole.frames.front();
         Fold fold;
@@ -642,7 +649,7 @@ Quantity Quantity::of(double value) {
     return {value, std::fabs(value) < 0x1p53 || !std::isfinite(value) ? "" : fmt::format("{:.0f}", value)};
 }
 
-std::optional<Fold> fold(const Grammar& grammar) {
+std::optional<Fold> fold(const Grammar& grammar, bool refuses_braces) {
     if (!grammar.is_plain() || grammar.map() || grammar.whole_word_steps() > 0) return std::nullopt;
     const Lattice lattice = make_lattice(grammar);
     const double bits = std::max(0.0, estimate(grammar, true)->log10_length) * 3.33 + 48 + extra_bits(grammar);
@@ -661,6 +668,9 @@ std::optional<Fold> fold(const Grammar& grammar) {
         return Folder(plane, grammar).run();
     } catch (const TooMuch&) {
         return std::nullopt;
+    } catch (const BracesError&) {
+        if (refuses_braces) throw;
+        return std::nullopt;  // a walk finds the place
     }
 }
 

@@ -38,8 +38,9 @@ struct Fold {
 /// is too costly (about 3 x 10^7 compositions of 64-bit numbers, 5 x 10^6 corners of hulls, axioms of 10^6 symbols),
 /// if a part has more than 4096 unmatched brackets, if braces do not balance, or if coordinates exceed the range of
 /// doubles.
+/// @param refuses_braces  throw WordError, without a place, for braces that do not balance
 /// @throws WordError for brackets that do not balance in the word
 /// Cost: O(symbols x steps) compositions, each linear in the corners of the hulls (usually below 30).
-std::optional<Fold> fold(const Grammar& grammar);
+std::optional<Fold> fold(const Grammar& grammar, bool refuses_braces = false);
 
 }  // namespace sikku

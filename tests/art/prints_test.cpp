@@ -59,6 +59,10 @@ TEST(Prints, DotsStandWhereTheExaminationSetsThem) {
     const auto only = svg("snake-kolam", {{"n", "3"}, {"dots", "only"}, {"dot-spacing", "15mm"}});
     EXPECT_EQ(count(only, "//path"), 0u);
     ASSERT_EQ(count(only, "//circle"), 85u);
+    const auto coloured =
+        svg("snake-kolam", {{"n", "3"}, {"dots", "only"}, {"dot-spacing", "15mm"}, {"colour-by", "strand"}});
+    EXPECT_EQ(count(coloured, "//path"), 0u);
+    EXPECT_EQ(count(coloured, "//circle"), 85u);
     std::vector<std::pair<double, double>> spaced;
     for (const auto& found : only.select_nodes("//circle")) {
         spaced.emplace_back(found.node().attribute("cx").as_double(), found.node().attribute("cy").as_double());
@@ -70,6 +74,14 @@ TEST(Prints, DotsStandWhereTheExaminationSetsThem) {
         }
     }
     EXPECT_NEAR(least, 15'000, 2);
+}
+
+TEST(Prints, NothingStandsAroundAPartOfADrawing) {
+    const Document penrose = load("penrose-rhombs");
+    const auto refusal = [&](const OptionValues& values) { return error_of([&] { draw(penrose, "svg", values); }); };
+    EXPECT_TRUE(has(refusal({{"fill-page", "true"}, {"border", "rope"}}), "a filled page shows only part of it"));
+    EXPECT_TRUE(has(refusal({{"fill-page", "true"}, {"title-line", ""}}), "would cross the text"));
+    EXPECT_TRUE(has(refusal({{"window", "0,0,9,9"}, {"edition", "3/50"}}), "would cross the text"));
 }
 
 TEST(Prints, ABorderIsALayerOfItsOwnWithinTheMargins) {

@@ -46,6 +46,14 @@ std::vector<Window> grounds(const std::string& svg) {
     return windows;
 }
 
+TEST(SeveralDrawings, VariantsAreNamedInTitles) {
+    const std::string text = square + "variant same: heading = 90\n";
+    const SheetItem plain{parse("test.lsys", text, {}), {}};
+    const SheetItem varied{parse("test.lsys", text, {"same", {}}), {}};
+    EXPECT_NE(made({plain}, "svg", {{"titles", "title"}}), made({varied}, "svg", {{"titles", "title"}}));
+    EXPECT_EQ(grounds(made({plain, varied}, "svg", {{"titles", "title"}})).size(), 2u);
+}
+
 TEST(SeveralDrawings, StandInColumnsWithAGutter) {
     const std::string svg = made({item(square), item(kolam), item(square), item(kolam)}, "svg",
                                  {{"columns", "2"}, {"gutter", "17mm"}, {"size", "200x300mm"}});

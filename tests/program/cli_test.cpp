@@ -99,6 +99,13 @@ TEST(Program, NamesNearToKnownOnesAreSuggested) {
     expect_failure(run({"measure", "snake-kolan"}), 2, "did you mean 'snake-kolam'");
     expect_failure(run({"measure", "qqqqqqqqqqqq"}), 2, "sikku patterns");
     expect_failure(run({"measure", "-"}, {.input = "axim: F"}), 2, "did you mean 'axiom'");
+    expect_failure(run({"play", "-", "-o", "x.mid"}, {.input = "tempo = 90\n[[track]]\npattern = 'hilbert'\n"}), 2,
+                   "-: this is an arrangement");
+    expect_failure(run({"sheet", "-", "-", "-o", "x.svg"}, {.input = "axiom: F"}), 2,
+                   "-: standard input can be read only once");
+    const Outcome open = run({"check", "-"}, {.input = "axiom: A\nderivation length: 2\nA --> F{F+FA\n"});
+    EXPECT_EQ(open.status, 2);
+    EXPECT_TRUE(has(open.output, "-:3:7: the word has a '{' that is not closed"));
     expect_failure(run({"measure", "hilbert", "--set", "strok=1mm"}), 2, "did you mean 'stroke'");
     expect_failure(run({"patterns", "plant"}), 2, "unknown kind of patterns 'plant'; did you mean 'plants'?");
     expect_failure(run({"patterns", "klams"}), 2, "did you mean 'kolams'?");

@@ -109,6 +109,9 @@ TEST_F(GalleryArrangement, RefusesWhatItCannotHave) {
         EXPECT_TRUE(has(outcome.errors, "items.toml:3:"));
         EXPECT_TRUE(has(outcome.errors, "whose tracks set the keys of their patterns"));
     }
+    const Outcome tempo = gallery({"pieces/piece.toml", "--set", "tempo=90", "--list"});
+    EXPECT_TRUE(has(tempo.errors, "; 'tempo' without 'set' applies to all tracks"));
+    EXPECT_EQ(gallery({"pieces/piece.toml", "--tempo", "90", "--list"}).status, 0);
     // Mistakes in the arrangement, and in its patterns, have their places there.
     folder.write("pieces/piece.toml", "tempo = 100\n[[track]]\npattern = 'mine.lsys'\nscael = 'dorian'\n");
     const Outcome key = gallery({"pieces/piece.toml", "hilbert", "-f", "mid", "--keep-going", "-o", "out"});

@@ -89,6 +89,12 @@ TEST(GalleryMistakes, HavePlaces) {
     refused("dpi = 100\nanlge = 3\n", "gallery.toml:2:1: unknown key 'anlge'; did you mean 'angle'?");
     refused("[[item]]\npattern = 'hilbert'\n  marign = '1cm'\n", "gallery.toml:3:3: unknown key 'marign'");
     refused("x = \n", "gallery.toml:1:5");
+    refused("pattern = 'hilbert'\nn = 2\nset = { 'derivation length' = [1, 2] }\n",
+            "gallery.toml:3:9: 'n' and 'derivation length' in 'set' are the same; use one of them");
+    refused("pattern = 'hilbert'\nstroke = '1mm red'\nset = { stroke = '2mm blue' }\n",
+            "'stroke' and 'stroke' in 'set' are the same");
+    refused("pattern = 'hilbert'\nformat = 'mid'\nscale = ['dorian', 'foo']\n", "gallery.toml:3:1: ");
+    refused("pattern = 'hilbert'\nformat = 'mid'\ntempo = 0\n", "gallery.toml:3:1: ");
     refused("pattern = 'hilbert'\nn = 'a'\n", "gallery.toml:2:1: n: expected a whole number");
     refused("pattern = 'hilbert'\nn = -1\n", "gallery.toml:2:1: n: expected a whole number");
     refused("pattern = 'hilbert'\nn = '5:1'\n", "gallery.toml:2:1: n: the range 5:1 is empty");

@@ -544,6 +544,10 @@ TEST_F(GalleryTest, RecordsOfDeepBracketsAreSkipped) {
 TEST_F(GalleryTest, MistakesInValuesAreReported) {
     EXPECT_TRUE(has(gallery({"hilbert", "--contact", "3x", "-o", "out"}).errors, "contact 3x"));
     EXPECT_TRUE(has(gallery({"hilbert", "-n", "5:1"}).errors, "n: the range 5:1 is empty"));
+    const Outcome poster = gallery({"hilbert", "-f", "mid", "--poster", "A3", "-o", "scores"});
+    EXPECT_EQ(poster.status, 2);
+    EXPECT_TRUE(has(poster.errors, "poster A3: this gallery has no prints for a sheet"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "scores"));
     EXPECT_EQ(gallery({"hilbert", "--json"}).status, 2);
     EXPECT_EQ(gallery({"hilbert", "--name", "\xFFx", "--list"}).status, 2);
     // Not mistakes.

@@ -37,6 +37,14 @@ TEST(ImportProgram, CollectionsBecomeFolders) {
     const std::string before = contents(folder / "out/koch.lsys");
     EXPECT_EQ(run({"import", file, "Koch", "-o", folder.file("out")}).status, 0);
     EXPECT_EQ(contents(folder / "out/koch.lsys"), before);
+    // A pattern that was edited stays, and nothing else is written.
+    folder.write("out/koch.lsys", before + "# mine\n");
+    std::filesystem::remove(folder / "out/kites-darts.lsys");
+    outcome = run({"import", file, "-o", folder.file("out")});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "koch.lsys: this file has other contents"));
+    EXPECT_EQ(contents(folder / "out/koch.lsys"), before + "# mine\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/kites-darts.lsys"));
 }
 
 TEST(ImportProgram, OneSystemGoesToOneFileOrOut) {

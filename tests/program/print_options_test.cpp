@@ -108,6 +108,14 @@ TEST_F(PrintOptions, KolamsAreMadeAndExamined) {
     EXPECT_EQ(run({"kolam", "--grid", "3x4", "--symmetry", "C4"}).status, 2);
 }
 
+TEST(FilledPage, DeterminesItsDerivationLength) {
+    ScratchFolder folder;
+    const Outcome outcome =
+        run({"draw", "penrose-rhombs", "-n", "3", "--fill-page", "--size", "60x60mm", "-o", folder.file("x.svg")});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(has(outcome.errors, "the derivation length 3 is not used: --fill-page determines its own"));
+}
+
 TEST(ScreenedPrint, OfAGalleryIsThatOfTheLibrary) {
     ScratchFolder folder;
     folder.write("g.toml",
