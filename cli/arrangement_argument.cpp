@@ -37,13 +37,10 @@ NamedArrangement read_from(const std::filesystem::path& path, const std::string&
     const auto read = [&](const std::string& pattern) {
         if (pattern == "-" && !reads_input)
             throw UsageError(name + ": a gallery reads no pattern from standard input");
-        std::error_code missing;
-        const std::filesystem::path beside = folder / pattern;
-        const bool is_beside = pattern != "-" && std::filesystem::exists(beside, missing);
-        NamedText found = read_pattern_text(is_beside ? beside.string() : pattern);
+        NamedText found = read_pattern_text(pattern);
         return NamedPattern{std::move(found.name), std::move(found.text)};
     };
-    return {read_arrangement(name, text, read), folder};
+    return {read_arrangement(name, text, beside_first(folder, read)), folder};
 }
 
 }  // namespace

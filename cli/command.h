@@ -142,10 +142,6 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 /// The extension of a file name in lower case, with its dot.
 std::string extension_of(const std::string& file);
 
-/// Reads the pattern in a MIDI file (a regular file). @throws std::runtime_error, naming the file, if it contains
-/// no pattern or is damaged
-Provenance read_score_provenance(const std::string& file);
-
 /// Runs `sikku check` on a MIDI file of up to 128 MB: prints its faults; returns true if there are none.
 /// @throws UsageError if the file cannot be read or is larger
 bool check_midi_file(const std::string& file);

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "engine/base/memory.h"
 #include "engine/derivation/forecast.h"
+#include "engine/derivation/word_printer.h"
 #include "engine/map/map_step.h"
 
 #include <fcntl.h>
@@ -30,96 +31,6 @@ void write_all(int descriptor, std::string_view text) {
         text.remove_prefix(static_cast<std::size_t>(written));
     }
 }
-
-/// Prints symbols to a file descriptor. Blocks that recur are turned into text once.
-class TextSink : public SymbolSink {
-public:
-    TextSink(const Grammar& grammar, int descriptor) : grammar_(grammar), descriptor_(descriptor) {
-        for (const SymbolInfo& symbol : grammar.symbols()) {
-            texts_.push_back(symbol.arity > 0 ? std::string() : symbol_text(symbol));
-        }
-        has_names_ = !grammar.names().empty();
-        are_bytes_ = !has_names_ && std::all_of(texts_.begin(), texts_.end(),
-                                                [](const std::string& text) { return text.size() == 1; });
-        for (const std::string& text : texts_) bytes_ += text.substr(0, 1);
-        buffer_.reserve(buffer_size + 4096);
-#ifdef F_SETPIPE_SZ
-        // A larger pipe means fewer turns between writer and reader; if it is refused, the old size remains.
-        fcntl(descriptor, F_SETPIPE_SZ, 1 << 20);
-#endif
-    }
-
-    void symbols(const Run& run) override {
-        if (has_last_ && has_names_ && needs_blank(grammar_, last_, run.symbols.front())) buffer_ += ' ';
-        if (!run.arguments.empty()) {
-            append_modules(run);
-        } else if (run.block < 0) {
-            append(run.symbols, buffer_);
-        } else {
-            const auto number = static_cast<std::size_t>(run.block);
-            if (number >= blocks_.size()) blocks_.resize(number + 1);
-            std::string& text = blocks_[number];
-            if (text.empty()) append(run.symbols, text);
-            buffer_ += text;
-        }
-        last_ = run.symbols.back();
-        has_last_ = true;
-        if (buffer_.size() >= buffer_size) flush();
-    }
-
-    void finish() override {
-        buffer_ += '\n';
-        flush();
-    }
-
-private:
-    static constexpr std::size_t buffer_size = std::size_t{1} << 18;
-
-    void append(std::span<const Symbol> symbols, std::string& text) const {
-        if (are_bytes_) {
-            const std::size_t before = text.size();
-            text.resize(before + symbols.size());
-            std::transform(symbols.begin(), symbols.end(), text.begin() + static_cast<std::ptrdiff_t>(before),
-                           [this](Symbol symbol) { return bytes_[symbol]; });
-            return;
-        }
-        for (std::size_t i = 0; i < symbols.size(); ++i) {
-            if (i > 0 && has_names_ && needs_blank(grammar_, symbols[i - 1], symbols[i])) text += ' ';
-            text += texts_[symbols[i]];
-        }
-    }
-
-    void append_modules(const Run& run) {
-        const double* next = run.arguments.data();
-        for (std::size_t i = 0; i < run.symbols.size(); ++i) {
-            const Symbol symbol = run.symbols[i];
-            if (i > 0 && has_names_ && needs_blank(grammar_, run.symbols[i - 1], symbol)) buffer_ += ' ';
-            const SymbolInfo& info = grammar_.symbols()[symbol];
-            if (info.arity == 0) {
-                buffer_ += texts_[symbol];
-            } else {
-                append_symbol(info, {next, info.arity}, buffer_);
-                next += info.arity;
-            }
-        }
-    }
-
-    void flush() {
-        write_all(descriptor_, buffer_);
-        buffer_.clear();
-    }
-
-    const Grammar& grammar_;
-    int descriptor_;
-    std::vector<std::string> texts_;
-    bool are_bytes_ = false;
-    std::string bytes_;  ///< the byte of each symbol, if are_bytes_
-    bool has_names_ = false;
-    bool has_last_ = false;
-    Symbol last_ = 0;
-    std::string buffer_;
-    std::vector<std::string> blocks_;
-};
 
 void derive_as_text(const Document& document, Progress& progress) {
     const MapLimits limits{std::numeric_limits<double>::infinity(), static_cast<double>(available_memory()) / 2};
@@ -150,7 +61,11 @@ void add_derive(CLI::App& app, bool& quiet) {
         if (loaded.map()) return derive_as_text(loaded, progress);
         const Grammar grammar = shorten(loaded.grammar());
         if (!silent) progress.expect(expected_symbols(grammar, *interpreted));
-        TextSink sink(grammar, STDOUT_FILENO);
+#ifdef F_SETPIPE_SZ
+        // A larger pipe means fewer turns between writer and reader; if it is refused, the old size remains.
+        fcntl(STDOUT_FILENO, F_SETPIPE_SZ, 1 << 20);
+#endif
+        WordPrinter sink(grammar, [](std::string_view text) { write_all(STDOUT_FILENO, text); });
         DerivationOptions derivation;
         derivation.interpreted = *interpreted;
         // Modules with parameters take more than symbols.

@@ -39,10 +39,8 @@ SourcePointer read_source(const std::string& file) {
 /// The view file that was named, or that beside a cpfg file.
 SourcePointer view_of(const ImportOptions& options) {
     if (!options.view.empty()) return read_source(options.view);
-    std::error_code error;
-    const auto beside = std::filesystem::path(options.file).replace_extension(".v");
-    if (options.file == "-" || !std::filesystem::is_regular_file(beside, error)) return nullptr;
-    return read_source(beside.string());
+    const std::filesystem::path beside = options.file == "-" ? "" : view_file_beside(options.file);
+    return beside.empty() ? nullptr : read_source(beside.string());
 }
 
 /// The systems that the command line names, in the order of the file; all if it names none.

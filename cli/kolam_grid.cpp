@@ -2,8 +2,7 @@
 #include "cli/kolam_grid.h"
 
 #include "art/kolam/dot_grid_enumeration.h"
-#include "art/kolam/dot_grid_making.h"
-#include "art/kolam/dot_grid_pattern.h"
+#include "art/kolam/grid_kolam.h"
 #include "art/kolam/radial_kolam.h"
 #include "art/reading/kolam_file.h"
 #include "cli/command.h"
@@ -39,90 +38,6 @@ std::string text_of(const std::string& value) {
     return value.starts_with('@') ? read_pattern_text(value.substr(1)).text : value;
 }
 
-/// A kolam and its origin.
-struct MadeKolam {
-    GapStates states;
-    GridSymmetry symmetry = GridSymmetry::none;
-    std::size_t changed = 0;
-    int attempt = 1;
-};
-
-MadeKolam make_of_gaps(const KolamGridOptions& options, const DotGrid& grid) {
-    MadeKolam made;
-    made.states = of_option("--crossings", [&] { return parse_gap_states(grid, text_of(*options.crossings)); });
-    if (options.single_line) {
-        if (const auto obstacle = single_line_obstacle(grid, GridSymmetry::none)) throw std::runtime_error(*obstacle);
-        made.changed = make_single_line(grid, made.states, options.seed, stop_monitor());
-    }
-    return made;
-}
-
-MadeKolam make_single(const KolamGridOptions& options, const DotGrid& grid, RandomKolam random,
-                      const std::vector<GridSymmetry>& symmetries) {
-    // Large grids seldom have a symmetric line that can be found; all symmetries together take at most seconds.
-    std::uint64_t steps = 100'000'000;
-    for (const GridSymmetry symmetry : symmetries) {
-        random.symmetry = symmetry;
-        if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
-            throw std::runtime_error(*obstacle);
-        }
-        // If no symmetry is requested, the next one is tried sooner.
-        const int attempts = options.symmetry ? options.attempts : std::min(options.attempts, 100);
-        auto found = find_single_line(grid, random, attempts, stop_monitor(), options.symmetry ? nullptr : &steps);
-        if (found) return {std::move(found->states), symmetry, found->changed, found->attempt};
-    }
-    throw std::runtime_error(fmt::format(
-        "no single line with the symmetry {} was found in {}; try another --seed or --density, or more --attempts; "
-        "on a small grid --enumerate shows whether one exists",
-        grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
-}
-
-MadeKolam make_kolam(const KolamGridOptions& options, const DotGrid& grid,
-                     const std::vector<GridSymmetry>& symmetries) {
-    if (options.crossings) return make_of_gaps(options, grid);
-    RandomKolam random{.seed = options.seed, .joined = options.joined, .connects = !options.density};
-    random.density = options.density.value_or(random.density);
-    if (options.single_line) return make_single(options, grid, random, symmetries);
-    random.symmetry = symmetries.front();
-    return {random_states(grid, random), random.symmetry};
-}
-
-/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; searched for
-/// only as long as that is quick.
-std::optional<std::uint64_t> same_seed(const KolamGridOptions& options, const DotGrid& grid, const MadeKolam& made) {
-    constexpr std::uint64_t most_seeds = 100;
-    constexpr std::size_t most_gaps = 1000;
-    constexpr int most_attempts = 20;
-    if (options.crossings || options.seed > most_seeds || grid.gaps().size() > most_gaps) return std::nullopt;
-    const GapStates canonical = canonical_states(grid, made.states);
-    RandomKolam random{.joined = options.joined, .symmetry = made.symmetry, .connects = !options.density};
-    random.density = options.density.value_or(random.density);
-    std::uint64_t steps = 5'000'000;
-    for (random.seed = 0; random.seed < options.seed; ++random.seed) {
-        GapStates states;
-        if (options.single_line) {
-            auto found = find_single_line(grid, random, most_attempts, stop_monitor(), &steps);
-            if (!found) continue;
-            states = std::move(found->states);
-        } else {
-            states = random_states(grid, random);
-        }
-        if (canonical_states(grid, states) == canonical) return random.seed;
-    }
-    return std::nullopt;
-}
-
-/// The second count, if it takes seconds at most.
-std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& states) {
-    const std::vector<std::uint32_t> rows = grid.rows();
-    const std::size_t longest = *std::max_element(rows.begin(), rows.end());
-    const bool has_joined = std::find(states.begin(), states.end(), GapState::joined) != states.end();
-    const auto dots = static_cast<double>(grid.dots().size());
-    const double width = has_joined ? dots : static_cast<double>(std::min(rows.size(), longest));
-    if (dots * width * width > 1e12) return std::nullopt;
-    return laplacian_nullity(grid, states, stop_monitor());
-}
-
 /// Refuses outputs that cannot represent the kolam, and JSON on the output of the pattern.
 void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
@@ -142,45 +57,27 @@ void check_output(const KolamGridOptions& options) {
     }
 }
 
-void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const std::vector<GridSymmetry>& symmetries,
+void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::optional<GridSymmetry> symmetry,
                   bool quiet) {
     check_output(options);
-    const MadeKolam made = make_kolam(options, grid, symmetries);
-    // A shape is too long to name.
-    const std::string dots = counted(grid.dots().size(), "dot");
-    const std::string name = grid.is_solid() ? printable(grid.text(), 80) + " dots" : dots;
-    const std::size_t lines = count_lines(grid, made.states, stop_monitor());
-    const auto nullity = second_count(grid, made.states);
-    if (nullity && *nullity != lines) {
-        throw std::logic_error(fmt::format("{} by following them, but {} by the Laplacian", lines, *nullity));
+    GridKolamOptions request{.seed = options.seed,
+                             .symmetry = symmetry,
+                             .density = options.density,
+                             .joined = options.joined,
+                             .single_line = options.single_line,
+                             .attempts = options.attempts};
+    if (options.crossings) {
+        request.gaps = of_option("--crossings", [&] { return parse_gap_states(grid, text_of(*options.crossings)); });
     }
-
-    KolamPatternOptions pattern;
-    pattern.title = fmt::format("Kolam on {}", name);
-    pattern.description = fmt::format("{}, {}, {}", dots, summary_of(made.states), counted(lines, "line"));
-    if (!options.crossings) {
-        pattern.description +=
-            fmt::format("; seed {}, density {}", options.seed, options.density.value_or(RandomKolam().density));
-        if (options.joined > 0) pattern.description += fmt::format(", joined {}", options.joined);
-        if (made.symmetry != GridSymmetry::none) {
-            pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(made.symmetry));
-        }
-    }
+    const GridKolam made = make_grid_kolam(grid, request, stop_monitor());
+    KolamPatternOptions pattern = describe_grid_kolam(grid, request, made);
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
     const auto other = text_for(options.output, grid, made.states);
     write_file(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
-
     if (options.as_json) {
-        const auto count = [&](GapState state) { return std::count(made.states.begin(), made.states.end(), state); };
-        fmt::print(
-            "{}", JsonText::object("grid", grid.text(), "dots", grid.dots().size(), "gaps", grid.gaps().size(),
-                                   "crossed", count(GapState::crossed), "joined", count(GapState::joined), "lines",
-                                   lines, "laplacian_nullity", nullity, "symmetry", grid_symmetry_name(made.symmetry),
-                                   "code", kolam_code(grid, made.states), "changed", made.changed, "attempt",
-                                   made.attempt, "crossings", gap_states_text(grid, made.states))
-                      .line());
+        fmt::print("{}", grid_kolam_json(grid, made));
     } else {
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
@@ -188,7 +85,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, const st
         tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
                     pattern.description, note);
     }
-    if (const auto same = same_seed(options, grid, made)) {
+    if (const auto same = same_seed(grid, request, made, stop_monitor())) {
         tell_unless(quiet,
                     "sikku: note: seed {} gives the same kolam as seed {}; another --density or --symmetry gives "
                     "others\n",
@@ -271,11 +168,7 @@ void kolam_radial(const KolamGridOptions& options, bool quiet) {
     check_output(options);
     const RadialKolam kolam =
         of_option("--radial", [&] { return parse_radial_kolam(options.radial, options.order); });
-    KolamPatternOptions pattern;
-    pattern.title = fmt::format("Radial kolam of {} arms with {}", kolam.arms, counted(kolam.dots(), "dot"));
-    pattern.description = fmt::format("{}, the greatest common divisor of {} and {}; dots in the order {}",
-                                      counted(kolam.lines(), "line"), kolam.arms, kolam.dots(),
-                                      printable(fmt::format("{}", fmt::join(kolam.order, "-")), 80));
+    KolamPatternOptions pattern = describe_radial_kolam(kolam);
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.monitor = stop_monitor();
@@ -300,8 +193,7 @@ void kolam_grid(const KolamGridOptions& options, bool quiet) {
         return wanted;
     });
     if (options.enumerate) return enumerate(options, grid, symmetry.value_or(GridSymmetry::none));
-    make_pattern(options, grid, symmetry ? std::vector{*symmetry} : usual_symmetries(grid, options.single_line),
-                 quiet);
+    make_pattern(options, grid, symmetry, quiet);
 }
 
 }  // namespace sikku

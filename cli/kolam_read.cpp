@@ -3,9 +3,8 @@
 
 #include "art/image/image_file.h"
 #include "art/kolam/dot_grid_pattern.h"
-#include "art/kolam/dot_grid_symmetry.h"
 #include "art/reading/kolam_file.h"
-#include "art/reading/photograph.h"
+#include "art/reading/kolam_report.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
 #include "engine/base/input_file.h"
@@ -23,106 +22,11 @@
 namespace sikku {
 namespace {
 
-/// Tables of a hundred large kolams have 30 MB.
-constexpr std::size_t most_text = std::size_t{64} << 20U;
 constexpr std::size_t most_listed = 20;
 
-/// The largest of the named symmetries that the kolam has.
-GridSymmetry symmetry_of(const ReadKolam& kolam) {
-    GridSymmetry best = GridSymmetry::none;
-    for (const GridSymmetry symmetry : grid_symmetry_list()) {
-        if (is_symmetric(kolam.grid, kolam.states, symmetry)) best = symmetry;
-    }
-    return best;
-}
-
-struct Certificate {
-    std::size_t lines = 0;
-    std::string gaps;  ///< `12 of 20 gaps crossed`
-    GridSymmetry symmetry = GridSymmetry::none;
-};
-
-Certificate certify(const ReadKolam& kolam) {
-    Certificate certificate;
-    certificate.lines = count_lines(kolam.grid, kolam.states, stop_monitor());
-    // The second count takes seconds at most.
-    const auto dots = static_cast<double>(kolam.grid.dots().size());
-    if (dots * dots * dots < 1e10) {
-        const std::size_t again = laplacian_nullity(kolam.grid, kolam.states, stop_monitor());
-        if (again != certificate.lines) {
-            throw std::logic_error(
-                fmt::format("{} lines by following them, but {} by the Laplacian", certificate.lines, again));
-        }
-    }
-    certificate.gaps = summary_of(kolam.states);
-    certificate.symmetry = symmetry_of(kolam);
-    return certificate;
-}
-
-std::string summary(const ReadKolam& kolam, const Certificate& certificate) {
-    std::string text = fmt::format("{}, {}, {}", counted(kolam.grid.dots().size(), "dot"), certificate.gaps,
-                                   counted(certificate.lines, "line"));
-    if (certificate.symmetry != GridSymmetry::none) {
-        text += fmt::format(", symmetry {}", grid_symmetry_name(certificate.symmetry));
-    }
-    return text;
-}
-
-std::string pattern_of(const ReadKolam& kolam, const Certificate& certificate, const std::string& source) {
-    KolamPatternOptions options;
-    options.title = kolam.title;
-    if (options.title.empty()) options.title = fmt::format("Kolam on {} dots", printable(kolam.grid.text(), 80));
-    options.description = fmt::format("{}; read from {}", summary(kolam, certificate), source);
-    options.monitor = stop_monitor();
-    std::string text = kolam_pattern(kolam.grid, kolam.states, options).text;
-    const std::vector<std::uint32_t> doubts = kolam.doubtful();
-    if (!doubts.empty()) {
-        text += "\n// doubtful gaps, as row,gap:";
-        const std::vector<GapPlace> places = gap_places(kolam.grid);
-        for (std::size_t i = 0; i < std::min<std::size_t>(doubts.size(), 200); ++i) {
-            if (i % 16 == 0) text += "\n//";
-            text += fmt::format(" {},{}", places[doubts[i]].row, places[doubts[i]].number);
-        }
-        text += doubts.size() > 200 ? " …\n" : "\n";
-    }
-    return text;
-}
-
-/// Findings in a photograph besides the kolam that was read.
-JsonText photograph_json(const Photograph& photograph) {
-    const auto pixels = [&](GridDot place) {
-        const glm::dvec2 at = photograph.in_file(place);
-        return JsonText::object("x", JsonText::raw(fmt::format("{:.1f}", at.x)), "y",
-                                JsonText::raw(fmt::format("{:.1f}", at.y)));
-    };
-    return JsonText::object("kolams", photograph.kolams, "open_ends", JsonText::list(photograph.open_ends, pixels),
-                            "missing", JsonText::list(photograph.missing, pixels));
-}
-
-std::string json_of(const ReadKolam& kolam, const Certificate& certificate, const Photograph* photograph) {
-    const std::vector<GapPlace> places = gap_places(kolam.grid);
-    const auto gap = [&](std::uint32_t number) {
-        const float certainty = kolam.certainty.empty() ? 1.0F : kolam.certainty[number];
-        return JsonText::object("row", places[number].row, "gap", places[number].number, "state",
-                                gap_state_name(kolam.states[number]), "certainty",
-                                JsonText::raw(fmt::format("{:.2f}", certainty)));
-    };
-    const auto count = [&](GapState state) { return std::count(kolam.states.begin(), kolam.states.end(), state); };
-    JsonText found =
-        JsonText::object("grid", kolam.grid.text(), "dots", kolam.grid.dots().size(), "gaps", kolam.states.size(),
-                         "crossed", count(GapState::crossed), "joined", count(GapState::joined), "lines",
-                         certificate.lines, "symmetry", grid_symmetry_name(certificate.symmetry), "doubtful",
-                         JsonText::list(kolam.doubtful(), gap), "repaired", JsonText::list(kolam.repaired, gap));
-    if (photograph != nullptr) found = found.and_members_of(photograph_json(*photograph));
-    return found
-        .and_members_of(
-            JsonText::object("notes", kolam.notes, "crossings", gap_states_text(kolam.grid, kolam.states)))
-        .line();
-}
-
-void report(const ReadKolam& kolam, const Certificate& certificate, const std::string& source, bool quiet) {
+void report(const ReadKolam& kolam, const KolamReport& facts, const std::string& source, bool quiet) {
     tell_unless(quiet, "sikku: {}: {}: {}\n", printable(source), printable(kolam.grid.text(), 80),
-                summary(kolam, certificate));
+                kolam_summary(kolam, facts));
     for (const std::string& note : kolam.notes) tell_unless(quiet, "sikku: {}\n", note);
     const std::vector<std::uint32_t> doubts = kolam.doubtful();
     if (doubts.empty()) return;
@@ -163,8 +67,8 @@ bool write_gesture_drawing(const KolamReadOptions& options, const std::string& s
     if (!std::filesystem::is_regular_file(options.file, error) || is_picture(InputFile(options.file).read(0, 64))) {
         return false;
     }
-    const std::string text = read_file(options.file, options.file, most_text, stop_monitor());
-    if (text.size() > most_text) return false;
+    const std::string text = read_file(options.file, options.file, most_kolam_text, stop_monitor());
+    if (text.size() > most_kolam_text) return false;
     const std::optional<GestureDrawing> drawing = read_gesture_drawing(text);
     if (!drawing) return false;
     const char* const reason = "lines meet in the middle of four dots, where a grid of gaps has no crossing";
@@ -195,71 +99,32 @@ bool write_gesture_drawing(const KolamReadOptions& options, const std::string& s
     return true;
 }
 
-/// The kolam of a file, and the photograph if it is one.
-struct FoundKolam {
-    ReadKolam kolam;
-    std::optional<Photograph> photograph;
-};
-
 FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
-    const std::filesystem::path path = options.file;
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw UsageError(fmt::format("--read {}: no such file", options.file));
-    std::optional<DotLattice> lattice;
-    if (options.lattice == "square") lattice = DotLattice::square;
-    if (options.lattice == "interlaced") lattice = DotLattice::triangular;
+    if (!std::filesystem::exists(options.file, error)) {
+        throw UsageError(fmt::format("--read {}: no such file", options.file));
+    }
+    KolamFileOptions reading{.number = options.number, .repair = !options.no_repair};
+    if (options.lattice == "square") reading.lattice = DotLattice::square;
+    if (options.lattice == "interlaced") reading.lattice = DotLattice::triangular;
     Progress progress(quiet);
-    std::string start;
-    if (std::filesystem::is_regular_file(path, error)) start = InputFile(path).read(0, 64);
-    if (is_picture(start)) {
-        PhotographOptions picture;
-        picture.lattice = lattice;
-        picture.repair = !options.no_repair;
-        picture.number = options.number;
-        try {
-            Photograph photograph = read_photograph(path, picture, progress.monitor());
-            ReadKolam kolam = photograph.kolam;
-            return {std::move(kolam), std::move(photograph)};
-        } catch (const NoKolam& refused) {
-            if (!options.overlay.empty()) {
-                OutputFile file(options.overlay);
-                write_overlay(refused.picture(), file.temporary());
-                file.commit();
-            }
-            throw;
-        }
-    }
-    const std::string text = read_file(path, options.file, most_text, progress.monitor());
-    if (text.size() > most_text) {
-        throw std::runtime_error(fmt::format("larger than {} MB", most_text >> 20U));
-    }
-    auto kolam = read_kolam_text(text, {options.number, lattice, !options.no_repair}, progress.monitor());
-    const auto refuse = [](const std::string& why) {
-        throw std::runtime_error(
-            "unknown format; expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV "
-            "of one-stroke kolams, an SVG, gestures or a pattern" +
-            why);
-    };
-    if (!kolam && !states_axiom(text)) refuse("");
-    if (!options.overlay.empty()) throw UsageError("--overlay applies only to photographs");
-    if (kolam) return {std::move(*kolam), std::nullopt};
-    PatternOptions pattern;
-    pattern.pattern = options.file;
     try {
-        return {read_kolam_document(load(pattern, quiet), options.budget, progress.monitor()), std::nullopt};
-    } catch (const PatternError& damaged) {
-        // Every text with a line `axiom:` looks like a pattern.
-        if (options.file.ends_with(".lsys")) throw;
-        const Diagnostic& first = damaged.diagnostics().front();
-        refuse(fmt::format("; as a pattern it has errors, at line {}: {}", first.where.line, first.message));
+        FoundKolam found = read_kolam_file(options.file, options.file, reading, options.budget, progress.monitor());
+        if (!found.photograph && !options.overlay.empty()) throw UsageError("--overlay applies only to photographs");
+        return found;
+    } catch (const NoKolam& refused) {
+        if (!options.overlay.empty()) {
+            OutputFile file(options.overlay);
+            write_overlay(refused.picture(), file.temporary());
+            file.commit();
+        }
         throw;
     }
 }
 
-void write(const ReadKolam& kolam, const Certificate& certificate, const std::string& output,
-           const std::string& source) {
+void write(const ReadKolam& kolam, const KolamReport& facts, const std::string& output, const std::string& source) {
     const auto other = text_for(output, kolam.grid, kolam.states);
-    write_file(output, other ? *other : pattern_of(kolam, certificate, source));
+    write_file(output, other ? *other : read_kolam_pattern(kolam, facts, source, stop_monitor()));
 }
 
 }  // namespace
@@ -355,8 +220,8 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
             throw UsageError(fmt::format("--fix {}", error.what()));
         }
     }
-    const Certificate certificate = certify(found.kolam);
-    write(found.kolam, certificate, options.output, source);
+    const KolamReport facts = report_kolam(found.kolam, stop_monitor());
+    write(found.kolam, facts, options.output, source);
     if (!options.overlay.empty() && found.photograph) {
         found.photograph->kolam = found.kolam;
         OutputFile file(options.overlay);
@@ -364,9 +229,9 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
         file.commit();
     }
     const Photograph* photograph = found.photograph ? &*found.photograph : nullptr;
-    if (options.as_json) fmt::print("{}", json_of(found.kolam, certificate, photograph));
+    if (options.as_json) fmt::print("{}", read_kolam_json(found.kolam, facts, photograph));
     if (options.as_json) return;
-    report(found.kolam, certificate, source, quiet);
+    report(found.kolam, facts, source, quiet);
     if (photograph != nullptr) report_places(*photograph, quiet);
 }
 
@@ -374,10 +239,10 @@ void kolam_convert(const Document& document, const std::string& output, double b
     check_kolam_output(output);
     Progress progress(quiet);
     const ReadKolam kolam = read_kolam_document(document, budget, progress.monitor());
-    const Certificate certificate = certify(kolam);
+    const KolamReport facts = report_kolam(kolam, stop_monitor());
     const std::string name = document.pattern().text("title");
-    write(kolam, certificate, output, name.empty() ? "a pattern" : name);
-    report(kolam, certificate, output, quiet);
+    write(kolam, facts, output, name.empty() ? "a pattern" : name);
+    report(kolam, facts, output, quiet);
 }
 
 }  // namespace sikku

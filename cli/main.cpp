@@ -4,6 +4,7 @@
 #include "cli/mistakes.h"
 #include "cli/options.h"
 #include "cli/signals.h"
+#include "cli/version.h"
 #include "engine/base/toml_file.h"
 #include "engine/derivation/derivation.h"
 #include "music/score/score.h"
@@ -78,7 +79,7 @@ void add_commands(CLI::App& app, bool& quiet, const std::vector<std::string>& ar
 int run(int argc, char** argv) {
     using namespace sikku;
     CLI::App app("Kolams, tilings and fractal music from L-systems.", "sikku");
-    app.set_version_flag("--version", "sikku " SIKKU_VERSION, "show the version");
+    app.set_version_flag("--version", version_text(), "show the version");
     bool quiet = false;
     app.set_help_flag("-h,--help", "show this help");
     app.add_flag("-q,--quiet", quiet, "show no progress and no warnings");

@@ -4,7 +4,6 @@
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -177,7 +176,8 @@ std::string above_zero(const std::string& text) {
 Check one_of(std::vector<std::string> words) {
     return [words = std::move(words)](const std::string& text) {
         if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
-        return fmt::format("expected {}, not '{}'", fmt::join(words, " or "), printable(text, 80));
+        const std::vector<std::string_view> all(words.begin(), words.end());
+        return fmt::format("expected {}, not '{}'", alternatives(all), printable(text, 80));
     };
 }
 

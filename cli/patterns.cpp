@@ -87,7 +87,9 @@ void show(const std::string& what, bool quiet) {
         throw UsageError(fmt::format("{}: the pattern is in the .obj file beside this one", what));
     }
     std::optional<Provenance> found = read_provenance(what);
-    if (!found && is_midi_file(what)) found = read_score_provenance(what);
+    if (!found) {
+        if (auto texts = read_midi_file_texts(what)) found = {std::move(texts->pattern), std::move(texts->made)};
+    }
     if (found) {
         std::fwrite(found->pattern.data(), 1, found->pattern.size(), stdout);
         if (!found->made.empty() && !quiet) tell("made with {}\n", printable(found->made, std::string::npos));

@@ -35,12 +35,13 @@ struct StudioCommand {
     std::string output;
 };
 
-/// Finds the studio page, in the build folder or as installed. @throws std::runtime_error if it has not been built
+/// Finds the studio page, in the build folder or as installed. @throws std::runtime_error if it is not there
 fs::path find_page() {
     std::error_code error;
     fs::path page = installed_file("sikku-studio.html");
     if (fs::is_regular_file(page, error)) return page;
-    throw std::runtime_error("the studio page has not been built; run `./demo --studio` to build it");
+    throw std::runtime_error(
+        "the studio page is not installed; install the package sikku-studio, or build it with `./demo --studio`");
 }
 
 /// Reads a pattern as a work without values, or the work of a link. The studio reports errors in patterns.

@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -439,6 +440,15 @@ Setting part_setting(std::string_view key, std::string value) {
             : is_known                  ? name
                                         : std::string(key),
             is_known ? name : std::string(key), std::move(value)};
+}
+
+PatternReader beside_first(std::filesystem::path folder, PatternReader read) {
+    return [folder = std::move(folder), read = std::move(read)](const std::string& pattern) {
+        std::error_code error;
+        const std::filesystem::path beside = folder / pattern;
+        const bool is_beside = pattern != "-" && std::filesystem::exists(beside, error);
+        return read(is_beside ? beside.string() : pattern);
+    };
 }
 
 Arrangement read_arrangement(const std::string& file, const std::string& text, const PatternReader& read) {

@@ -48,6 +48,9 @@ struct NamedPattern {
 /// Reads the pattern that a track names.
 using PatternReader = std::function<NamedPattern(const std::string& pattern)>;
 
+/// Wraps a reader: names of files in `folder` come first. `read` gets their paths, or other names as they are.
+PatternReader beside_first(std::filesystem::path folder, PatternReader read);
+
 /// Reads an arrangement and compiles its patterns. Those in `[[pattern]]` tables of the file come first; `read` reads
 /// the others.
 /// @param file  name of the file, for places

@@ -6,8 +6,12 @@
 #include "art/sheets.h"
 #include "engine/measurement.h"
 #include "music/scores.h"
+#include "python/collections.h"
+#include "python/contents.h"
 #include "python/errors.h"
 #include "python/interruption.h"
+#include "python/kolams.h"
+#include "python/tiles.h"
 #include "python/values.h"
 #include "python/word_iterator.h"
 
@@ -28,7 +32,7 @@ struct Loaded {
     std::vector<Diagnostic> warnings;
 };
 
-/// @param text  text of the pattern; if absent, `name` is a file or a bundled pattern
+/// @param text  text of the pattern; if absent, `name` is a file, a print or score of a pattern, or a bundled pattern
 Loaded load_document(const std::string& name, const std::optional<std::string>& text, const std::string& variant,
                      const TextPairs& settings) {
     return long_call([&](const Monitor& monitor) {
@@ -39,8 +43,10 @@ Loaded load_document(const std::string& name, const std::optional<std::string>& 
         } else {
             const PatternFile found = find_pattern(name);
             shown = found.name;
-            content = read_pattern(PatternFile{name, found.path}, monitor);
+            auto stored = stored_pattern(found.path);
+            content = stored ? std::move(stored->pattern) : read_pattern(PatternFile{name, found.path}, monitor);
         }
+        refuse_foreign(shown, content);
         const std::array interpreters = {&prints(), &scores()};
         Diagnostics diagnostics;
         Document document = compile(std::move(shown), std::move(content), {variant, to_settings(settings)},
@@ -50,49 +56,48 @@ Loaded load_document(const std::string& name, const std::optional<std::string>& 
     });
 }
 
-py::object content_of(const std::string& bytes, bool is_text) {
-    if (is_text) return to_text(bytes);
-    return py::bytes(bytes);
-}
-
 /// Makes an output in memory. Returns (contents by name, remarks).
 py::tuple make_outputs(const Document& document, const std::string& interpreter_name, const std::string& format,
-                       const TextPairs& values) {
+                       const TextPairs& values, const py::object& progress) {
     const Interpreter& interpreter = interpreter_of(interpreter_name);
-    const FormatName* row = find_format(interpreter.formats(), format);
     MemoryDestination memory;
-    const Made made = long_call([&](const Monitor& monitor) {
+    const auto make = [&](const Monitor& monitor) {
         const Assignment assigned = assign(interpreter, document, to_values(values));
         return interpreter.plan(assigned.document, format, assigned.options)
             ->make(memory, "memory." + format, monitor);
-    });
-    py::dict outputs;
-    for (const auto& [name, bytes] : memory.outputs()) {
-        outputs[to_text(name)] = content_of(bytes, row && row->is_text);
-    }
-    return py::make_tuple(outputs, to_list(made.remarks));
+    };
+    const Made made = long_call(make, progress);
+    return py::make_tuple(to_dict(memory, find_format(interpreter.formats(), format)), to_list(made.remarks));
 }
 
 /// Writes an output and returns the remarks.
 py::list write_outputs(const Document& document, const std::string& interpreter_name, const std::string& format,
-                       const TextPairs& values, const std::string& path) {
+                       const TextPairs& values, const std::string& path, const py::object& progress) {
     const Interpreter& interpreter = interpreter_of(interpreter_name);
-    const Made made = long_call([&](const Monitor& monitor) {
+    const auto make = [&](const Monitor& monitor) {
         const Assignment assigned = assign(interpreter, document, to_values(values));
         return interpreter.plan(assigned.document, format, assigned.options)->make(file_system(), path, monitor);
-    });
-    return to_list(made.remarks);
+    };
+    return to_list(long_call(make, progress).remarks);
 }
 
 /// Writes several documents, each with its own options, on one sheet, and returns the remarks.
 py::list write_sheet(const std::vector<std::pair<Document, TextPairs>>& drawings, const std::string& format,
-                     const TextPairs& values, const std::string& path) {
-    const Made made = long_call([&](const Monitor& monitor) {
+                     const TextPairs& values, const std::string& path, const py::object& progress) {
+    const auto make = [&](const Monitor& monitor) {
         std::vector<SheetItem> items;
         for (const auto& [document, own] : drawings) items.push_back({document, to_values(own)});
         return plan_sheet(items, format, to_values(values))->make(file_system(), path, monitor);
-    });
-    return to_list(made.remarks);
+    };
+    return to_list(long_call(make, progress).remarks);
+}
+
+/// Returns (array of shape (height, width, 4), remarks): red, green, blue and straight alpha, rows from the top.
+py::tuple pixels_of(const Document& document, const TextPairs& values, const py::object& progress) {
+    const auto draw = [&](const Monitor& monitor) { return draw_pixels(document, to_values(values), monitor); };
+    DrawnPixels drawn = long_call(draw, progress);
+    const py::list remarks = to_list(drawn.remarks);
+    return py::make_tuple(to_array(std::move(drawn)), remarks);
 }
 
 py::str measure_document(const Document& document, double budget) {
@@ -110,13 +115,11 @@ py::tuple path_of(const Document& document, double budget) {
     return to_arrays(long_call([&](const Monitor& monitor) { return drawn_lines(document, budget, monitor); }));
 }
 
-/// Returns (arrays of the notes, end, tempo, beats of a bar, their unit).
 py::tuple notes_of(const Document& document, const TextPairs& values) {
-    const NoteList list = long_call([&](const Monitor& monitor) {
+    return to_tuple(long_call([&](const Monitor& monitor) {
         const Assignment assigned = assign(scores(), document, to_values(values));
         return list_notes(std::span(&assigned.document, 1), assigned.options, monitor);
-    });
-    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit);
+    }));
 }
 
 /// Returns (name, kind, title, source) for each bundled pattern.
@@ -138,6 +141,12 @@ void add_documents(py::module_& module) {
         .def_property_readonly("source_text", [](const Document& self) { return to_text(self.source().text()); })
         .def_property_readonly("steps", [](const Document& self) { return self.grammar().steps(); })
         .def_property_readonly("is_melody", [](const Document& self) { return sets_keys_of(scores(), self); })
+        .def_property_readonly("variant", [](const Document& self) { return to_text(self.overrides().variant); })
+        .def_property_readonly("settings", &settings_of)
+        .def_property_readonly("keys", &key_values_of)
+        .def_property_readonly("defines", &defines_of)
+        .def_property_readonly("variants", &variants_of)
+        .def_property_readonly("productions", &productions_of)
         .def("key", [](const Document& self, const std::string& key) { return to_text(self.text(key)); })
         .def("with_settings", [](const Document& self, const TextPairs& settings) {
             return long_call([&](const Monitor&) { return self.with(to_settings(settings)); });
@@ -148,6 +157,33 @@ void add_documents(py::module_& module) {
         return py::make_tuple(loaded.document, to_list(loaded.warnings));
     });
     module.def("patterns", &list_patterns);
+    module.def("import_systems", &import_systems);
+    module.def("provenance", &provenance_of);
+}
+
+void add_collections(py::module_& module) {
+    py::class_<LoadedArrangement>(module, "Arrangement", "An arrangement that was read and compiled. Immutable.")
+        .def_property_readonly("title", [](const LoadedArrangement& self) { return to_text(self.arrangement.title); })
+        .def_property_readonly("text", [](const LoadedArrangement& self) { return to_text(self.arrangement.text); })
+        .def_property_readonly("folder",
+                               [](const LoadedArrangement& self) { return py::bytes(self.folder.string()); })
+        .def_property_readonly("documents", [](const LoadedArrangement& self) {
+            std::vector<Document> documents;
+            for (const Track& track : self.arrangement.tracks) documents.push_back(track.document);
+            return documents;
+        });
+    module.def("load_arrangement", &load_arrangement);
+    module.def("make_piece", &make_piece);
+    module.def("write_piece", &write_piece);
+    module.def("notes_of_piece", &notes_of_piece);
+    module.def("make_gallery",
+               [](std::vector<std::string> patterns, std::string file, std::string folder, std::string poster,
+                  std::string contact, std::map<std::string, std::string> keys, bool force, bool keep_going,
+                  double memory, int threads, const py::object& progress) {
+                   return make_gallery({std::move(patterns), std::move(file), std::move(folder), std::move(poster),
+                                        std::move(contact), std::move(keys), force, keep_going, memory, threads},
+                                       progress);
+               });
 }
 
 void add_words(py::module_& module) {
@@ -168,12 +204,19 @@ PYBIND11_MODULE(_core, module) {
     register_errors();
     add_documents(module);
     add_words(module);
+    add_collections(module);
     module.def("make", &make_outputs);
     module.def("write", &write_outputs);
     module.def("write_sheet", &write_sheet);
     module.def("measure", &measure_document);
     module.def("kolam", &examine_document);
     module.def("path", &path_of);
+    module.def("pixels", &pixels_of);
+    module.def("tiles", &tiles_of);
+    module.def("make_kolam", &make_kolam);
+    module.def("make_radial_kolam", &make_radial_kolam);
+    module.def("read_kolam", &read_kolam);
+    module.def("tile_counts", &count_tiles);
     module.def("notes", &notes_of);
     module.def("options", [](const std::string& name) { return list_options(interpreter_of(name).options()); });
     module.def("sheet_options", [] { return list_options(sheet_options()); });

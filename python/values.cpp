@@ -1,11 +1,9 @@
 #include "python/values.h"
 
-#include "art/prints.h"
 #include "engine/base/keys.h"
 #include "python/errors.h"
 
-#include <pybind11/numpy.h>
-
+#include <array>
 #include <memory>
 
 namespace py = pybind11;
@@ -57,11 +55,21 @@ py::list to_list(const std::vector<Remark>& remarks) {
     return list;
 }
 
+py::dict to_dict(const MemoryDestination& outputs, const FormatName* format) {
+    py::dict dict;
+    for (const auto& [name, bytes] : outputs.outputs()) {
+        const bool is_text = format && format->is_text;
+        dict[to_text(name)] = is_text ? py::object(to_text(bytes)) : py::object(py::bytes(bytes));
+    }
+    return dict;
+}
+
 py::list list_options(std::span<const OptionInfo* const> options) {
+    constexpr std::array kinds = {"text", "number", "whole", "flag"};  // in the order of OptionKind
     py::list list;
     for (const OptionInfo* option : options) {
-        list.append(py::make_tuple(option->name, option->is_list, option->kind == OptionKind::flag, option->value,
-                                   option->help));
+        list.append(py::make_tuple(option->name, option->is_list, kinds[static_cast<std::size_t>(option->kind)],
+                                   option->value, option->help));
     }
     return list;
 }
@@ -92,6 +100,15 @@ py::tuple to_arrays(DrawnLines lines) {
                 array_of<std::int64_t>(std::move(drawn.begins), std::vector<py::ssize_t>{begins}));
         },
         lines);
+}
+
+py::array to_array(DrawnPixels pixels) {
+    const std::vector<py::ssize_t> shape = {pixels.height, pixels.width, 4};
+    return array_of<std::uint8_t>(std::move(pixels.bytes), shape);
+}
+
+py::tuple to_tuple(const NoteList& list) {
+    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit);
 }
 
 py::tuple to_arrays(const std::vector<Note>& notes) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "art/analysis.h"
+#include "art/prints.h"
 #include "engine/interpreter.h"
 #include "music/scores.h"
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <span>
@@ -27,7 +29,11 @@ const Interpreter& interpreter_of(const std::string& name);
 /// Returns a list of (is a warning, text).
 pybind11::list to_list(const std::vector<Remark>& remarks);
 
-/// Returns (name, may be repeated, is a flag, placeholder of the value, help) for each option.
+/// The outputs by name: str or, if the format is not a text, bytes. @param format  may be null
+pybind11::dict to_dict(const MemoryDestination& outputs, const FormatName* format);
+
+/// Returns (name, may be repeated, kind, placeholder of the value, help) for each option; kinds are text, number,
+/// whole and flag.
 pybind11::list list_options(std::span<const OptionInfo* const> options);
 /// Returns (extension, alias, is text) for each format of an interpreter.
 pybind11::list list_formats(const Interpreter& interpreter);
@@ -38,6 +44,11 @@ pybind11::list list_keys();
 /// int64 of shape (strokes + 1,). The arrays take over the vectors, without copies.
 pybind11::tuple to_arrays(DrawnLines lines);
 
+/// uint8 of shape (height, width, 4); takes over the bytes, without a copy.
+pybind11::array to_array(DrawnPixels pixels);
+
+/// Returns (arrays of the notes, end, tempo, beats of a bar, their unit).
+pybind11::tuple to_tuple(const NoteList& list);
 /// For each note: onset and duration (int64, ticks), key (float64), velocity (uint8), voice (int16), and piece of the
 /// curve (float64, 2 x 2).
 pybind11::tuple to_arrays(const std::vector<Note>& notes);

@@ -45,7 +45,7 @@ DerivationOptions reading(const Grammar& grammar, bool interpreted) {
 WordIterator::WordIterator(const Document& document, bool interpreted)
     : grammar_(std::make_shared<const Grammar>(shorten(document.grammar()))),
       process_(::getpid()),
-      type_(py::module_::import("sikku.pattern").attr("Module")) {
+      type_(py::module_::import("sikku.data").attr("Module")) {
     for (const SymbolInfo& symbol : grammar_->symbols()) {
         constants_.push_back(symbol.arity > 0 ? py::none() : type_(symbol.letter, to_tuple(symbol.arguments)));
     }

@@ -6,8 +6,12 @@
 #include "art/prints.h"
 #include "engine/base/json.h"
 #include "engine/base/keys.h"
+#include "engine/base/memory.h"
 #include "engine/check.h"
+#include "engine/derivation/forecast.h"
+#include "engine/derivation/word_printer.h"
 #include "engine/language/command_table.h"
+#include "engine/map/map_step.h"
 #include "engine/measurement.h"
 #include "music/scores.h"
 #include "studio/bridge_answers.h"
@@ -17,6 +21,7 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -131,6 +136,34 @@ Json answer_make(const Json& request, const Monitor& monitor, std::string& bytes
     return {{"outputs", std::move(outputs)}, {"remarks", json_of(made.remarks)}};
 }
 
+/// The text of the word or the map, cut off at the limit of a link.
+Json answer_derive(const Json& request, const Monitor& monitor, std::string& bytes) {
+    constexpr std::size_t most_bytes = std::size_t{64} << 20U;
+    struct Cut {};
+    const auto append = [&](std::string_view text) {
+        bytes += text;
+        if (bytes.size() > most_bytes) throw Cut();
+    };
+    const Document document = document_of(request);
+    try {
+        if (document.map()) {
+            const double half = static_cast<double>(available_memory()) / 2;
+            print_map(derive_map(document.grammar(), {std::numeric_limits<double>::infinity(), half}, monitor),
+                      *document.map(), append);
+        } else {
+            const Grammar grammar = shorten(document.grammar());
+            WordPrinter sink(grammar, append);
+            DerivationOptions options = DerivationOptions::within(200e6, [&](std::uint64_t) { monitor.check(); });
+            options.interpreted = flag_of(request, "interpreted");
+            derive(grammar, sink, options);
+        }
+    } catch (const Cut&) {
+        bytes.resize(most_bytes);
+        return {{"is_whole", false}};
+    }
+    return {{"is_whole", true}};
+}
+
 Json answer_measure(const Json& request, const Monitor& monitor, std::string& bytes) {
     constexpr double budget = 200e6;
     const Document document = document_of(request);
@@ -204,6 +237,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "open") return answer_open(request, monitor);
     if (what == "make") return answer_make(request, monitor, bytes);
     if (what == "pixels") return answer_pixels(request, monitor, bytes);
+    if (what == "derive") return answer_derive(request, monitor, bytes);
     if (what == "measure") return answer_measure(request, monitor, bytes);
     if (what == "kolam") return answer_kolam(request, monitor, bytes);
     if (what == "check") return answer_check(request, monitor);

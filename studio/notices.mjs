@@ -53,9 +53,9 @@ function packagesOf({ dependencies = {} }, folder, found = new Set()) {
     return found;
 }
 
-/// Returns a list of {name, version, licence, text}.
-export function notices(folder) {
-    const packages = [...packagesOf(read(folder, ".."), folder)].sort().map((name) => {
+/// Returns a list of {name, version, licence, text}. @param names  npm packages; by default all that the page contains
+export function notices(folder, names = [...packagesOf(read(folder, ".."), folder)]) {
+    const packages = names.sort().map((name) => {
         const { version, license: licence } = read(folder, name);
         const file = readdirSync(join(folder, name)).find((each) => /^licen[cs]e/i.test(each));
         const text = file ? readFileSync(join(folder, name, file), "utf8").trim() : "";

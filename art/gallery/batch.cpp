@@ -84,9 +84,10 @@ void Batch::run(std::vector<Task> tasks, double memory) {
 
 /// Finds the first job that fits in memory and that no other run is making; nullopt if no job is left to begin.
 std::optional<Batch::Turn> Batch::next() {
-    std::unique_lock lock(mutex_);
     while (true) {
-        if (stopped_ || monitor_.stop_requested() || waiting_.empty()) return std::nullopt;
+        const bool is_asked = monitor_.stop_requested();  // may call Python, which takes its time
+        std::unique_lock lock(mutex_);
+        if (stopped_ || is_asked || waiting_.empty()) return std::nullopt;
         for (auto task = waiting_.begin(); task != waiting_.end(); ++task) {
             if (task->forecast.own_memory() > free_ && under_way_ > 0) continue;
             if (!record_.take(jobs_[task->job].file())) {

@@ -43,9 +43,9 @@ std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, 
 }
 
 /// True if the job uses the module for pictures.
-bool is_picture(const GalleryJob& job) {
+bool uses_module(const GalleryJob& job) {
     const auto format = print_format(job.file());
-    return &job.interpreter() == &prints() && format && !is_vector(*format);
+    return &job.interpreter() == &prints() && format && !is_vector(*format) && *format != PrintFormat::png;
 }
 
 /// The page and the sheets: remade if their contents have changed.
@@ -136,10 +136,9 @@ Gallery::Gallery(GalleryRequest request, GalleryOptions options, const GalleryKe
     jobs_ = gallery_jobs(request_, keys);
     forecasts_.resize(jobs_.size());
     select();
-    const bool pictures =
-        !request_.poster.empty() || !request_.contact.empty() ||
-        std::any_of(chosen_.begin(), chosen_.end(), [&](std::size_t job) { return is_picture(jobs_[job]); });
-    const double base = base_memory(pictures) + static_cast<double>(jobs_.size()) * job_bytes;
+    const bool has_module =
+        std::any_of(chosen_.begin(), chosen_.end(), [&](std::size_t job) { return uses_module(jobs_[job]); });
+    const double base = base_memory(has_module) + static_cast<double>(jobs_.size()) * job_bytes;
     memory_ = std::max(options_.memory - base, options_.memory / 8);
 }
 
@@ -226,8 +225,8 @@ GalleryResult Gallery::make(GalleryListener& listener) {
     std::vector<Task> tasks;
     tasks.reserve(pending.size());
     for (const std::size_t job : pending) tasks.push_back({job, *forecasts_[job], false});
-    if (std::any_of(pending.begin(), pending.end(), [&](std::size_t job) { return is_picture(jobs_[job]); })) {
-        prepare_images(thread_count(options_.threads));
+    for (const std::size_t job : pending) {
+        if (uses_module(jobs_[job])) prepare_images(jobs_[job].format, thread_count(options_.threads));
     }
     Batch batch(
         jobs_, hashes, folder, record,

@@ -29,7 +29,8 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters, PieceRead
     for (const Interpreter* interpreter : interpreters_) {
         for (const OptionInfo* info : interpreter->options()) {
             const std::string name = (info->is_on ? "no-" : "") + std::string(info->name);
-            if (info->is_alone || info->is_key || find(name)) continue;
+            // Keys of patterns are added below, but those that accept more as options, such as no value.
+            if (info->is_alone || (info->is_key && !info->sets_more) || find(name)) continue;
             const bool has_optional_value = info->value.starts_with('[');
             keys_.push_back({.name = name,
                              .help = std::string(info->help) + (has_optional_value ? "; true: without a value" : ""),
@@ -54,11 +55,12 @@ GalleryKeys::GalleryKeys(std::vector<const Interpreter*> interpreters, PieceRead
         if (key.owner == KeyOwner::engine || key.is_for_symbols()) continue;
         const Interpreter* reader = reader_of(key.owner);
         if (!reader) continue;
-        // Keys that are also options of the interpreter use its table.
-        const OptionInfo* option = find_option(reader->options(), key.name);
-        const bool is_option = option && option->is_key && !option->sets_more && !option->is_alone;
         std::string name(key.name);
         std::replace(name.begin(), name.end(), ' ', '-');
+        if (find(name)) continue;
+        // Keys that are also options of the interpreter use its table.
+        const OptionInfo* option = find_option(reader->options(), key.name);
+        const bool is_option = option && option->is_key && !option->is_alone;
         keys_.push_back(
             {.name = std::move(name), .help = std::string(key.help), .use = reader, .overrides = !is_option});
     }

@@ -76,10 +76,6 @@ struct Closer {
 };
 using Profile = std::unique_ptr<void, Closer>;
 
-struct CurveFreer {
-    void operator()(cmsToneCurve* curve) const { cmsFreeToneCurve(curve); }
-};
-
 /// Errors of the library are reported by the return values of its functions.
 struct Context {
     Context() : handle(cmsCreateContext(Memory::plugin(), &memory)) {
@@ -93,17 +89,6 @@ struct Context {
     Memory memory;
     cmsContext handle;
 };
-
-std::vector<std::uint8_t> saved(cmsHPROFILE profile) {
-    cmsUInt32Number size = 0;
-    if (!profile || !cmsSaveProfileToMem(profile, nullptr, &size)) throw std::runtime_error("lcms2: out of memory");
-    std::vector<std::uint8_t> bytes(size);
-    if (!cmsSaveProfileToMem(profile, bytes.data(), &size)) throw std::runtime_error("lcms2: out of memory");
-    // The time of creation, ICC.1:2010, 7.2.8: the standard's year, so that it does not change.
-    constexpr std::uint8_t date[12] = {1999 >> 8, 1999 & 0xFF, 0, 1, 0, 1};
-    std::copy(std::begin(date), std::end(date), bytes.begin() + 24);
-    return bytes;
-}
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw std::runtime_error("the ICC profile '" + file.string() + "': " + why);
@@ -136,22 +121,6 @@ std::string description(cmsHPROFILE profile) {
 }
 
 }  // namespace
-
-std::vector<std::uint8_t> srgb_profile() {
-    const Context context;
-    const Profile profile(cmsCreate_sRGBProfileTHR(context.handle));
-    return saved(profile.get());
-}
-
-std::vector<std::uint8_t> grey_profile() {
-    const Context context;
-    // The curve of sRGB as in lcms2: type 4 is ((x + 0.055) / 1.055)^2.4, below 0.04045 x / 12.92.
-    const cmsFloat64Number values[] = {2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045};
-    const std::unique_ptr<cmsToneCurve, CurveFreer> curve(cmsBuildParametricToneCurve(context.handle, 4, values));
-    if (!curve) throw std::runtime_error("lcms2: out of memory");
-    const Profile profile(cmsCreateGrayProfileTHR(context.handle, cmsD50_xyY(), curve.get()));
-    return saved(profile.get());
-}
 
 struct InkTransform::Handles {
     Context context;

@@ -11,10 +11,6 @@
 
 namespace sikku {
 
-/// The profile of sRGB (IEC 61966-2-1), or of grey with the same curve: ICC version 4, always the same bytes.
-std::vector<std::uint8_t> srgb_profile();
-std::vector<std::uint8_t> grey_profile();
-
 /// Turns sRGB into the inks of a CMYK profile: relative colorimetric with black point compensation.
 class InkTransform {
 public:

@@ -2,6 +2,7 @@
 
 #include "art/image/image_module.h"
 #include "art/image/module_folders.h"
+#include "art/image/png_writer.h"
 #include "engine/base/threads.h"
 
 #include <dlfcn.h>
@@ -61,19 +62,21 @@ const ImageModule& image_module(int threads = 0) {
         for (const std::filesystem::path& folder : module_folders()) {
             if (const ImageModule* found = load(folder / "sikku_image.so")) return *found;
         }
-        throw std::runtime_error("pictures need the module with OpenImageIO, which could not be loaded:" + reasons);
+        throw std::runtime_error(
+            "these pictures need the module with OpenImageIO, which could not be loaded; PNG does not need it:" +
+            reasons);
     }();
     return loaded;
 }
 
 }  // namespace
 
-void prepare_images(int threads) {
-    image_module(threads);
+void prepare_images(std::string_view format, int threads) {
+    if (format != "png") image_module(threads);
 }
 
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec) {
-    return image_module().open(path, spec);
+    return spec.format == "png" ? open_png(path, spec) : image_module().open(path, spec);
 }
 
 std::unique_ptr<InkProfile> open_inks(const std::filesystem::path& file) {

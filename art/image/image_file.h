@@ -1,4 +1,5 @@
-// art/image/image_file.h: writes and reads picture files with OpenImageIO, which is loaded on first use.
+// art/image/image_file.h: writes and reads picture files: PNG by png_writer.h, others with OpenImageIO, which is
+// loaded on first use.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -53,12 +54,13 @@ public:
     virtual void close() = 0;
 };
 
-/// Loads the module and checks that it can start its threads, for pictures using this many (0: one for each core).
-/// Call before long work: under a low `ulimit -u` or `-v` the libraries of the module would abort the program.
+/// Loads the module with OpenImageIO unless the format is PNG, and checks that it can start its threads, for pictures
+/// using this many (0: one for each core). Call before long work: under a low `ulimit -u` or `-v` the libraries of
+/// the module would abort the program. @param format  as in ImageSpec
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
-void prepare_images(int threads);
+void prepare_images(std::string_view format, int threads);
 
-/// Loads the module with OpenImageIO (about 0.2 s, once) and opens `path`, whatever its extension, for writing.
+/// Opens `path`, whatever its extension, for writing. Loads the module unless the format is PNG (about 0.2 s, once).
 /// @throws std::runtime_error also for options that the format does not support, and if `cmyk` is not a profile of
 /// inks
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec);

@@ -3,6 +3,7 @@
 #include "art/image/image_module.h"
 
 #include "art/image/icc.h"
+#include "art/image/profiles.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -85,7 +86,7 @@ private:
         return std::runtime_error(std::generic_category().message(error));
     }
 
-    // Neighbouring small writes, of which PNG makes many, become one.
+    // Neighbouring small writes become one.
     std::size_t append(const char* data, std::size_t size, std::int64_t offset) {
         if (offset != buffer_at_ + static_cast<std::int64_t>(buffer_.size()) || buffer_.size() + size > buffer_size) {
             flush_buffer();
@@ -164,7 +165,6 @@ constexpr std::size_t most_jpeg_texts = 65'300;
 class FileWriter final : public ImageWriter {
 public:
     FileWriter(const std::filesystem::path& path, const ImageSpec& spec);
-    ~FileWriter() override;
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels) override {
         const std::size_t channels = static_cast<std::size_t>(spec_.channels);
         if (spec_.format == "exr") {
@@ -266,9 +266,8 @@ void set_threads(int threads) {
 }
 
 FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec) : spec_(spec), file_(path) {
-    const bool png = spec.format == "png", tiff = spec.format == "tif", jpeg = spec.format == "jpg",
-               exr = spec.format == "exr";
-    if (!png && !tiff && !jpeg && !exr) throw std::runtime_error("unknown picture format: " + spec.format);
+    const bool tiff = spec.format == "tif", jpeg = spec.format == "jpg", exr = spec.format == "exr";
+    if (!tiff && !jpeg && !exr) throw std::runtime_error("unknown picture format: " + spec.format);
     if (jpeg && std::max(spec.width, spec.height) > most_jpeg_pixels) {
         throw std::runtime_error("a JPEG has at most " + std::to_string(most_jpeg_pixels) + " pixels per side");
     }
@@ -283,7 +282,7 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     // Debian's OpenImageIO would print warnings about attributes.
     OIIO::attribute("debug", 0);
     set_threads(spec.threads);
-    output_ = OIIO::ImageOutput::create(png ? "png" : tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
+    output_ = OIIO::ImageOutput::create(tiff ? "tiff" : jpeg ? "jpeg" : "openexr");
     if (!output_) throw std::runtime_error(OIIO::geterror());
     if (jpeg) stream_.emplace(file_);
     if (!output_->supports("ioproxy") || !output_->set_ioproxy(jpeg ? stream_->proxy() : &file_)) {
@@ -299,15 +298,14 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
         image.attribute("tiff:ColorSpace", "CMYK");
     }
     if (!exr && !bitmap && spec.icc) {
-        const std::vector<std::uint8_t> profile = inks_          ? inks_->profile()
-                                                  : channels < 3 ? grey_profile()
-                                                                 : srgb_profile();
+        const std::string_view usual = channels < 3 ? grey_profile() : srgb_profile();
+        const std::vector<std::uint8_t> profile =
+            inks_ ? inks_->profile() : std::vector<std::uint8_t>(usual.begin(), usual.end());
         image.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size())),
                         profile.data());
     }
-    // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's, and
-    // not in a PNG with a profile, which contains the same information.
-    if (!tiff && !(png && spec.icc)) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+    // Not in TIFF, where it becomes an EXIF directory, which this libtiff then puts in the place of the image's.
+    if (!tiff) image.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
     if (channels == 4 && !exr && !inks_) image.attribute("oiio:UnassociatedAlpha", 1);
     image.attribute("XResolution", static_cast<float>(spec.dpi));
     image.attribute("YResolution", static_cast<float>(spec.dpi));
@@ -316,28 +314,14 @@ FileWriter::FileWriter(const std::filesystem::path& path, const ImageSpec& spec)
     // written.
     if (tiff || exr) image.attribute("DateTime", 0);
     image.attribute("compression", jpeg ? "jpeg:95" : "zip");
-    if (png) {
-        image.attribute("png:compressionLevel", spec.compression);
-        // libpng's PNG_FILTER_NONE: left to itself it tries every filter on every row, for more than twice the time
-        // and no smaller files where areas are flat.
-        image.attribute("png:filter", 8);
-    }
     const auto text = [&](const char* name, const std::string& value) {
         if (!value.empty() && keeps_text(spec.format, value)) image.attribute(name, value);
     };
     text("ImageDescription", spec.description);
     // libjpeg ends the program if the two do not fit into one segment.
     if (!jpeg || spec.description.size() + spec.software.size() <= most_jpeg_texts) text("Software", spec.software);
-    if (png) text("Title", spec.title);
     if (tiff) text("DocumentName", spec.title);
     if (!output_->open(path.string(), image)) fail();
-}
-
-FileWriter::~FileWriter() {
-    // The unfinished file is not closed: without its proxy the library does not complete the PNG, for which libpng
-    // would report missing pixels on standard error.
-    if (output_ && spec_.format == "png") output_->set_ioproxy(nullptr);
-    output_.reset();
 }
 
 /// The library cannot be initialised, or its threads be set, by two threads at once.

@@ -2,6 +2,7 @@
 // tolerance.
 #pragma once
 
+#include "engine/base/numbers.h"
 #include "engine/geometry/cyclotomic.h"
 #include "engine/geometry/lattice.h"
 #include "engine/geometry/place_table.h"
@@ -23,7 +24,7 @@
 
 namespace sikku::kolam_plane {
 
-__extension__ using Wide = __int128;
+using Wide = Int128;
 
 constexpr std::uint32_t none = no_number;
 constexpr double steps_are_one = 1e-6;

@@ -5,6 +5,7 @@
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -160,6 +161,15 @@ RadialKolam parse_radial_kolam(std::string_view size, std::string_view order) {
                         sides[1], printable(fmt::format("{}", fmt::join(odd_then_even(sides[1]), "-")), 80)));
     }
     return kolam;
+}
+
+KolamPatternOptions describe_radial_kolam(const RadialKolam& kolam) {
+    KolamPatternOptions pattern;
+    pattern.title = fmt::format("Radial kolam of {} arms with {}", kolam.arms, counted(kolam.dots(), "dot"));
+    pattern.description = fmt::format("{}, the greatest common divisor of {} and {}; dots in the order {}",
+                                      counted(kolam.lines(), "line"), kolam.arms, kolam.dots(),
+                                      printable(fmt::format("{}", fmt::join(kolam.order, "-")), 80));
+    return pattern;
 }
 
 KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions& options) {

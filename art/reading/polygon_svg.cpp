@@ -67,7 +67,7 @@ struct Around {
 };
 
 /// Something without straight edges.
-struct Curve {
+struct OutlineCurve {
     bool is_filled = false;
     double area = 0;  ///< area of a circle or ellipse
     pugi::xml_node node;
@@ -120,7 +120,7 @@ public:
         const bool has_fills = filled_.list.size() > 0;
         Polygons& chosen = has_fills ? filled_ : outlined_;
         std::size_t circles = 0, curved_lines = 0;
-        for (const Curve& curve : curves_) {
+        for (const OutlineCurve& curve : curves_) {
             // A filled circle no larger than the smallest tile marks a place; a larger one would be a tile.
             const bool counts = curve.is_filled || !has_fills;
             if (counts && !(curve.area > 0 && curve.area <= chosen.least_area)) {
@@ -360,7 +360,7 @@ private:
     SvgStyle style_;
     pugi::xml_node node_;  ///< the element that is being read
     Polygons filled_, outlined_;
-    std::vector<Curve> curves_;
+    std::vector<OutlineCurve> curves_;
     std::unordered_map<std::string_view, pugi::xml_node> ids_;
     std::vector<pugi::xml_node> copied_;  ///< targets of the `use` elements around node_
     std::map<std::string, std::int32_t> colours_;

@@ -59,6 +59,12 @@ std::optional<ImportFormat> import_format(std::string_view text) {
     return has_fractint_entry(text) ? std::optional(ImportFormat::fractint) : std::nullopt;
 }
 
+std::filesystem::path view_file_beside(const std::filesystem::path& file) {
+    std::error_code error;
+    auto beside = std::filesystem::path(file).replace_extension(".v");
+    return std::filesystem::is_regular_file(beside, error) ? beside : std::filesystem::path();
+}
+
 std::string import_file_name(std::string_view name) {
     std::string result;
     for (const char byte : lower_case(name.substr(0, 200))) {

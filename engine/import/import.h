@@ -4,6 +4,7 @@
 #include "engine/base/diagnostic.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ std::optional<ImportFormat> import_format(std::string_view text);
 /// Source: Mech, CPFG Version 4.0 User's Manual, 2005, section 5.
 std::vector<ImportedSystem> import_cpfg(const SourcePointer& file, const SourcePointer& view,
                                         Diagnostics& diagnostics);
+
+/// The view file beside a cpfg file, NAME.v; empty if there is none.
+std::filesystem::path view_file_beside(const std::filesystem::path& file);
 
 /// Imports the entries of a Fractint collection, at most 10,000, except those without a name or named `comment`. The
 /// patterns draw the same as Fractint, at any order: `@` becomes a parameter of the steps, symbols that `!` exchanges

@@ -129,6 +129,11 @@ JsonText loop_json(const TilingPatch& patch, const TileLoop& loop) {
 
 }  // namespace
 
+std::string tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                        const TileGrowth& growth) {
+    return facts_json(title, n, result, growth).line();
+}
+
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
                        const TileGrowth& growth, const std::function<std::string(std::uint32_t)>& path,
                        const std::function<void(std::string_view)>& write) {

@@ -16,6 +16,9 @@ namespace sikku {
 /// @param n  derivation length; of polygons from a file: none
 std::string tiling_text(const std::string& title, std::optional<std::int64_t> n, const TilingExamination& examination,
                         const TileGrowth& growth);
+/// One line of JSON with the facts, without the border and the list of tiles.
+std::string tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,
+                        const TileGrowth& growth);
 /// Writes one line of JSON in parts: the facts, then all tiles with their corners in steps and, on a lattice, in
 /// whole coordinates. @param path  returns the path of a tile from the axiom by its number; may be empty
 void write_tiling_json(const std::string& title, std::optional<std::int64_t> n, const TilingResult& result,

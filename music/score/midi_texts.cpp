@@ -4,6 +4,7 @@
 #include "engine/language/pattern.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -95,6 +96,21 @@ bool is_midi_file(const std::filesystem::path& file) {
     } catch (const std::system_error&) {
         return false;
     }
+}
+
+std::optional<MidiTexts> read_midi_file_texts(const std::filesystem::path& file) {
+    if (!is_midi_file(file)) return std::nullopt;
+    // The texts come first; the data around them are small.
+    constexpr std::size_t most_bytes = most_pattern_bytes + (std::size_t{2} << 20);
+    const std::string bytes = InputFile(file).read(0, most_bytes);
+    std::optional<MidiTexts> found;
+    try {
+        found = read_midi_texts({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(file.string() + ": this MIDI file " + error.what());
+    }
+    if (found->pattern.empty()) throw std::runtime_error(file.string() + ": this MIDI file contains no pattern");
+    return found;
 }
 
 }  // namespace sikku

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,5 +22,9 @@ bool is_midi_file(const std::filesystem::path& file);
 /// @throws std::runtime_error, whose text continues "this MIDI file …", if the file is damaged before the second text
 /// or if a text exceeds 64 MB
 MidiTexts read_midi_texts(std::span<const std::uint8_t> bytes);
+
+/// Reads the texts of a MIDI file. Returns nullopt if it is not a MIDI file.
+/// @throws std::runtime_error, naming the file, if it contains no pattern or is damaged
+std::optional<MidiTexts> read_midi_file_texts(const std::filesystem::path& file);
 
 }  // namespace sikku

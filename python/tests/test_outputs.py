@@ -176,19 +176,19 @@ def test_warnings() -> None:
 
 
 def test_notebooks_show_drawings() -> None:
-    pattern = sikku.load("snake-kolam")
-    drawn = pattern._repr_svg_()
-    assert drawn is not None
-    assert xml.etree.ElementTree.fromstring(drawn).tag.endswith("svg")
-    assert pattern._repr_html_() is None
-    assert sikku.load("hilbert", n=40)._repr_svg_() is None
+    bundle = sikku.load("snake-kolam")._repr_mimebundle_()
+    assert xml.etree.ElementTree.fromstring(bundle["image/svg+xml"]).tag.endswith("svg")
+    assert set(bundle) == {"text/plain", "image/svg+xml"}
+    assert set(sikku.load("hilbert", n=40)._repr_mimebundle_()) == {"text/plain"}
+    large = sikku.load("bush-3d")._repr_mimebundle_()
+    assert set(large) == {"text/plain", "image/png"} and len(large["image/png"]) < 1_000_000
 
 
 def test_notebooks_play_melodies() -> None:
     pattern = sikku.load("hilbert-in-c")
-    page = pattern._repr_html_()
-    assert page is not None
-    assert pattern._repr_svg_() is None
+    bundle = pattern._repr_mimebundle_()
+    assert set(bundle) == {"text/plain", "text/html"}
+    page = str(bundle["text/html"])
     frame = xml.etree.ElementTree.fromstring(page)
     assert frame.tag == "iframe"
     assert html.unescape(page.split('"')[1]) == pattern.play("html")
@@ -196,8 +196,7 @@ def test_notebooks_play_melodies() -> None:
 
 def test_a_hostile_title_stays_inside_the_frame() -> None:
     text = 'title: "></iframe><script>alert(1)</script>\naxiom: F+F-F\ntempo: 90\n'
-    page = sikku.load(text=text)._repr_html_()
-    assert page is not None
+    page = str(sikku.load(text=text)._repr_mimebundle_()["text/html"])
     assert "<script" not in page
     xml.etree.ElementTree.fromstring(page)
 

@@ -22,6 +22,8 @@ export type Request =
     | { do: "pixels"; width: number; height: number; window?: [string, string, string, string];
         ratio?: number; // pixels of the picture per CSS pixel (1); strokes keep their width on the screen
         options?: Options; pattern: PatternRequest }
+    /// The text of the word, or of a map, as bytes in UTF-8.
+    | { do: "derive"; interpreted?: boolean; pattern: PatternRequest }
     | { do: "measure"; pattern: PatternRequest }
     | { do: "kolam"; pattern: PatternRequest }
     | { do: "check"; pattern: PatternRequest }
@@ -123,6 +125,7 @@ export interface Opened {
     extent?: [string, string, string, string];
 }
 
+export interface Derived { is_whole: boolean } // false: cut off after 64 MB
 export interface Made { outputs: { name: string; size: number }[]; remarks: { is_warning: boolean; text: string }[] } // bytes: the outputs, one after the other
 export interface Pixels { width: number; height: number; remarks: { is_warning: boolean; text: string }[] } // bytes: RGBA, straight alpha, from the top
 

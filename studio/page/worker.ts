@@ -1,19 +1,12 @@
 // A worker: one instance of the C++ libraries, which answers requests one after the other.
 import makeModule from "sikku-bridge";
-import { type Bridge, startBridge } from "./bridge";
+import { type Bridge, hooksOf, startBridge } from "../npm/bridge";
 import type { FromWorker, ToWorker } from "./engine";
 
 let bridge: Promise<Bridge> | null = null;
 
 function start(module: WebAssembly.Module): Promise<Bridge> {
-    return startBridge(makeModule, {
-        instantiateWasm(imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) {
-            WebAssembly.instantiate(module, imports).then(done, (error) => send({ failed: String(error) }));
-            return {};
-        },
-        print: () => {},
-        printErr: () => {},
-    });
+    return startBridge(makeModule, hooksOf(module, (error) => send({ failed: String(error) })));
 }
 
 function send(message: FromWorker, transfer: Transferable[] = []): void {

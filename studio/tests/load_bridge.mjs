@@ -12,7 +12,7 @@ export async function loadBridge(module_folder = join(root, "build/studio")) {
     const folder = mkdtempSync(join(tmpdir(), "sikku-bridge-"));
     const script = join(folder, "bridge.mjs");
     await build({
-        entryPoints: [join(root, "studio/page/bridge.ts")], bundle: true, format: "esm", outfile: script,
+        entryPoints: [join(root, "studio/npm/bridge.ts")], bundle: true, format: "esm", outfile: script,
         logLevel: "warning",
     });
     const { startBridge } = await import(pathToFileURL(script));

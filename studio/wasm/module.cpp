@@ -1,4 +1,4 @@
-// studio/wasm/module.cpp: request() for JavaScript; see studio/page/bridge.ts.
+// studio/wasm/module.cpp: request() for JavaScript; see studio/npm/bridge.ts.
 #include "studio/bridge.h"
 
 #include <emscripten.h>

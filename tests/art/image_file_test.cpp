@@ -192,7 +192,7 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     const std::filesystem::path program = SIKKU_PROGRAM;
     const std::string said = run_tool("'" + program.string() + "' --version").text;
     ASSERT_TRUE(said.starts_with("sikku ") && said.ends_with("\n")) << said;
-    const std::string version = said.substr(6, said.size() - 7);
+    const std::string version = said.substr(6, said.find_first_of(" \n", 6) - 6);
     // The program and its module, with another number in it.
     const auto built = program.parent_path().parent_path();
     std::filesystem::path module;
@@ -208,7 +208,7 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     const auto pattern = folder / "x.lsys";
     std::ofstream(pattern) << "axiom: F\n";
     const std::string draw = "'" + copied_program.string() + "' draw '" + pattern.string() + "' --dpi 10 -o '" +
-                             (folder / "x.png").string() + "'";
+                             (folder / "x.tif").string() + "'";
     std::string bytes = contents(module);
     const std::uint64_t number = image_module_version(version);
     const std::string_view sought(reinterpret_cast<const char*>(&number), sizeof number);
@@ -224,6 +224,11 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     // Where sikku is installed as well, its module serves.
     if (other.ok) GTEST_SKIP() << "an installed module was found";
     EXPECT_TRUE(has(other.text, "made for another version of sikku"));
+    std::filesystem::remove(copied_module);
+    const auto none = run_tool(draw);
+    EXPECT_TRUE(has(none.text, "PNG does not need it")) << none.text;
+    const auto png = run_tool(draw.substr(0, draw.size() - 4) + "png'");
+    EXPECT_TRUE(png.ok) << png.text;
 }
 
 }  // namespace sikku::image_file_test

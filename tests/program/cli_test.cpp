@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -37,7 +38,9 @@ TEST(Program, EveryCommandHasHelpWithExamples) {
         EXPECT_TRUE(has(help.output, "Examples:\n  sikku " + std::string(command))) << command;
         EXPECT_EQ(help.errors, "") << command;
     }
-    EXPECT_EQ(run({"--version"}).output.substr(0, 6), "sikku ");
+    static const std::regex version(R"(sikku \d+\.\d+\.\d+( \([0-9a-f]{12}(, with changes)?\))?\n)");
+    const std::string said = run({"--version"}).output;
+    EXPECT_TRUE(std::regex_match(said, version)) << said;
 }
 
 TEST(Program, WrongUsageIsTwo) {
@@ -56,7 +59,7 @@ TEST(Program, WrongUsageIsTwo) {
                                                          {"draw", "hilbert"},
                                                          {"draw", "hilbert", "-o", "x.unknown"},
                                                          {"draw", "hilbert", "-o", "x.svg", "--fit", "--step", "5mm"},
-                                                         {"completion", "fish"},
+                                                         {"completion", "csh"},
                                                          {"patterns", "nonsense"},
                                                          {"show"},
                                                          {"check"}};
@@ -81,7 +84,7 @@ TEST(Program, EveryMessageSaysWhoSpeaks) {
                                                                        {"measure", "hilbert", "--nonsense"},
                                                                        {"measure", "nosuch"},
                                                                        {"draw", "hilbert", "-o", "x.svg", "-j", "x"},
-                                                                       {"completion", "fish"},
+                                                                       {"completion", "csh"},
                                                                        {"patterns", "nonsense"}}) {
         EXPECT_EQ(run(arguments).errors.substr(0, 7), "sikku: ");
     }
@@ -577,6 +580,10 @@ std::set<std::string> completed(const std::vector<std::string>& words) {
 TEST(Program, CompletionLoadsAndCompletes) {
     EXPECT_EQ(run({"-n"}, {.input = run({"completion", "bash"}).output, .program = "bash"}).status, 0);
     EXPECT_EQ(run({"completion", "zsh"}).output.substr(0, 14), "#compdef sikku");
+    const std::string fish = run({"completion", "fish"}).output;
+    EXPECT_TRUE(has(fish, "\ncomplete -c sikku -n '__fish_seen_subcommand_from draw' -l size -r -d 'page size: "));
+    EXPECT_TRUE(
+        has(fish, "\ncomplete -c sikku -n '__fish_seen_subcommand_from draw' -l landscape -d 'landscape page'\n"));
     EXPECT_EQ(completed({"sikku", "d"}), (std::set<std::string>{"derive", "draw"}));
     EXPECT_EQ(completed({"sikku", "draw", "--s"}),
               (std::set<std::string>{"--screen", "--seed", "--set", "--size", "--swatch", "--sway", "--stroke",

@@ -26,15 +26,17 @@ std::string contents(const std::filesystem::path& file) {
 }
 
 std::vector<std::filesystem::path> pages() {
-    std::vector<std::filesystem::path> found = {root / "README.md"};
-    for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
-        if (entry.path().extension() == ".md") found.push_back(entry.path());
+    std::vector<std::filesystem::path> found;
+    for (const auto& folder : {root, root / "docs"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().extension() == ".md") found.push_back(entry.path());
+        }
     }
     return found;
 }
 
 TEST(Docs, FilesThatAreNamedExist) {
-    static const std::regex form("`((?:engine|art|music|cli|python|studio|tests|patterns)/[a-z0-9_./-]*)`");
+    static const std::regex form("`((?:engine|art|music|cli|packaging|python|studio|tests|patterns)/[a-z0-9_./-]*)`");
     for (const auto& page : pages()) {
         const std::string text = contents(page);
         for (std::sregex_iterator match(text.begin(), text.end(), form), end; match != end; ++match) {

@@ -57,7 +57,7 @@ TEST_F(Mistakes, WordsOfTheCommandLine) {
         {{"draw", "mine.lsys", "--stroke", "wide", "-o", "m.svg"}, "sikku: --stroke wide: "},
         {{"draw", "mine.lsys", "--fields", "mood", "-o", "m.svg"}, "sikku: --fields mood: "},
         {{"play", "mine.lsys", "--scale", "dorain", "-o", "m.mid"}, "sikku: --scale dorain: "},
-        {{"completion", "fish"}, "SHELL: expected bash or zsh, not 'fish'"},
+        {{"completion", "csh"}, "SHELL: expected bash, zsh or fish, not 'csh'"},
         {{"gallery", "-j", "5000", "mine.lsys"}, "--jobs: expected a whole number from 0 to 1024, not '5000'"}};
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
 }

@@ -9,6 +9,8 @@
 See docs/python.md.
 """
 
+from sikku.collection import Arrangement, GalleryFile, GalleryResult, gallery, load_arrangement
+from sikku.data import Module, Notes, Path, Production, Tiles
 from sikku.errors import (
     BudgetError,
     Diagnostic,
@@ -20,15 +22,23 @@ from sikku.errors import (
     SikkuWarning,
     WordError,
 )
+from sikku.files import ImportedSystem, Provenance, import_systems, show
+from sikku.kolams import Kolam, make_kolam, radial_kolam, read_kolam
 from sikku.lib import _core
-from sikku.pattern import Module, Notes, Path, Pattern, PatternInfo, load, patterns, sheet
+from sikku.outputs import sheet
+from sikku.pattern import Pattern, PatternInfo, load, patterns
 
 __version__: str = _core.version
 
 __all__ = [
+    "Arrangement",
     "BudgetError",
     "Diagnostic",
     "Error",
+    "GalleryFile",
+    "GalleryResult",
+    "ImportedSystem",
+    "Kolam",
     "Module",
     "NotFoundError",
     "Notes",
@@ -36,11 +46,21 @@ __all__ = [
     "Pattern",
     "PatternError",
     "PatternInfo",
+    "Production",
+    "Provenance",
     "ScoreError",
     "SettingError",
     "SikkuWarning",
+    "Tiles",
     "WordError",
+    "gallery",
+    "import_systems",
     "load",
+    "load_arrangement",
+    "make_kolam",
     "patterns",
+    "radial_kolam",
+    "read_kolam",
     "sheet",
+    "show",
 ]

@@ -6,79 +6,19 @@ import html
 import itertools
 import json
 import os
-import re
-import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional, Union
 
-import numpy
-import numpy.typing
-
 from sikku import errors
+from sikku.data import Module, Path, PathName, Production, Tiles, exact, warn
 from sikku.lib import _core
-from sikku.settings import Texts, Value, number_text, to_options, to_settings, whole
+from sikku.outputs import Outputs
+from sikku.settings import Texts, Value, to_settings, whole
 
-__all__ = ["Module", "Notes", "Path", "Pattern", "PatternInfo", "load", "patterns"]
-
-PathName = Union[str, "os.PathLike[str]"]
-Numbers = numpy.typing.NDArray[numpy.float64]
-Wholes = numpy.typing.NDArray[numpy.int64]
+__all__ = ["Pattern", "PatternInfo", "load", "patterns"]
 
 _most_shown = 2_000_000  # derivation nodes of the drawings and pages that notebooks show
-
-
-class Module(NamedTuple):
-    """A symbol of a word with its parameters."""
-
-    name: str
-    """The symbol without parameters: `F`, `+`, `@o`."""
-    parameters: tuple[float, ...]
-    """Parameters; empty for most symbols."""
-
-    def __str__(self) -> str:
-        """The module as written in patterns: `F(2.5)`."""
-        return f"{self.name}({','.join(map(number_text, self.parameters))})" if self.parameters else self.name
-
-
-class Path(NamedTuple):
-    """The lines of a drawing, in turtle steps; the turtle starts at the origin."""
-
-    points: Numbers
-    """float64 of shape (points, 2), or (points, 3) for drawings in space."""
-    strokes: Wholes
-    """int64 of shape (strokes + 1,): stroke i consists of `points[strokes[i]:strokes[i + 1]]`, at least two points."""
-
-
-@dataclass(frozen=True)
-class Notes:
-    """The notes of a score, sorted by onset, then by voice. Each array has one entry per note."""
-
-    onset: Wholes
-    """Onsets in ticks, int64. A quarter note has 480 ticks."""
-    duration: Wholes
-    """Durations in ticks, int64, greater than 0."""
-    key: Numbers
-    """MIDI keys, float64; 60 is C4, fractions are microtones."""
-    velocity: numpy.typing.NDArray[numpy.uint8]
-    """Loudness, 1 to 127."""
-    voice: numpy.typing.NDArray[numpy.int16]
-    """Voices, counted from 0."""
-    curve: Numbers
-    """Pieces of the curve that produce the notes, float64 of shape (notes, 2, 2), in turtle steps."""
-    end: int
-    """End of the score in ticks, rests included."""
-    tempo: float
-    """Quarter notes per minute."""
-    meter: tuple[int, int]
-    """Beats per bar and their unit: (6, 8)."""
-
-    def __len__(self) -> int:
-        return len(self.onset)
-
-    def seconds(self, ticks: Any) -> Any:
-        """Converts ticks, a number or an array such as `onset`, to seconds."""
-        return ticks * (60.0 / (self.tempo * _core.ticks_per_quarter))
+_longest_shown = 1_000_000  # characters of a drawing that a notebook shows as SVG
 
 
 class PatternInfo(NamedTuple):
@@ -86,60 +26,16 @@ class PatternInfo(NamedTuple):
 
     name: str
     kind: str
-    """Name of its folder: kolams, kolam-library, tilings, curves, plants, words or melodies."""
+    """Name of its folder: kolams, kolam-library, tilings, curves, maps, plants, words or melodies."""
     title: str
     source: str
     """Source of the pattern in the literature."""
 
 
-def _warn(remarks: list[tuple[bool, str]]) -> list[str]:
-    """Issues the warnings among the remarks and returns the facts."""
-    for is_warning, text in remarks:
-        if is_warning:
-            warnings.warn(text, errors.SikkuWarning, stacklevel=4)
-    return [text for is_warning, text in remarks if not is_warning]
-
-
-def _exact(value: object) -> object:
-    """Converts strings of digits, which JSON contains for large integers, to int, also in lists and dicts."""
-    if isinstance(value, str):
-        # Python refuses to convert more than 4300 digits at once (CVE-2020-10735).
-        return _whole_of_digits(value) if re.fullmatch(r"-?[0-9]+", value) else value
-    if isinstance(value, list):
-        return [_exact(one) for one in value]
-    if isinstance(value, dict):
-        return {name: _exact(one) for name, one in value.items()}
-    return value
-
-
-def _whole_of_digits(digits: str) -> int:
-    if digits.startswith("-"):
-        return -_whole_of_digits(digits[1:])
-    if len(digits) <= 4000:
-        return int(digits)
-    half = len(digits) // 2
-    power: int = 10 ** (len(digits) - half)
-    return _whole_of_digits(digits[:half]) * power + _whole_of_digits(digits[half:])
-
-
-def _format_of(path: str) -> tuple[str, str]:
-    """The interpreter and the format of a file by its extension. Raises SettingError."""
-    name = os.path.basename(path).lower()
-    extension = os.path.splitext(name)[1][1:]
-    for score in ("notes.svg", "score.pdf"):
-        if name.endswith("." + score):
-            return "scores", score
-    known = []
-    for interpreter in ("prints", "scores"):
-        for format, alias, _ in _core.formats(interpreter):
-            if extension and extension in (format, alias):
-                return interpreter, format
-            known.append(format)
-    raise errors.SettingError("format", extension, f"unknown extension; expected {', '.join(known)}")
-
-
-class Pattern:
+class Pattern(Outputs):
     """A pattern that was read, checked and compiled. Immutable; several threads may use it at once.
+
+    Patterns are equal if their names, texts, variants and settings are. They can be copied, hashed and pickled.
 
     Options of methods are those of `sikku draw` and `sikku play`, with underscores instead of hyphens
     (`dot_spacing="7mm"`), and keys and defines of the pattern (`angle_factor=6`). Flags are True or False; numbers may
@@ -182,6 +78,56 @@ class Pattern:
         """True if the pattern sets a key of melodies, such as `scale`."""
         return self._document.is_melody
 
+    @property
+    def variant(self) -> str:
+        """Name of the variant that was chosen, or an empty string."""
+        return self._document.variant
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """Keys and defines that were set besides the text of the pattern, with their values."""
+        return dict(self._document.settings)
+
+    @property
+    def keys(self) -> dict[str, str]:
+        """Keys of the pattern and their values, settings applied: `axiom`, `angle factor`, `stroke`, …"""
+        return self._document.keys
+
+    @property
+    def defines(self) -> dict[str, str]:
+        """Names of the pattern's `define` lines and their values, settings applied."""
+        return self._document.defines
+
+    @property
+    def variants(self) -> dict[str, dict[str, str]]:
+        """For the name of each variant, the keys and defines that it sets."""
+        return self._document.variants
+
+    @property
+    def productions(self) -> list[Production]:
+        """Productions in the order of the text: of all tables, of each table, and those that interpret."""
+        return self._document.productions
+
+    def _state(self) -> tuple[str, str, str, list[tuple[str, str]]]:
+        return self.name, self.text, self.variant, self._document.settings
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, self._state()
+
+    def __copy__(self) -> Pattern:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Pattern:
+        return self
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Pattern):
+            return NotImplemented
+        return self._state()[:3] == other._state()[:3] and self.settings == other.settings
+
+    def __hash__(self) -> int:
+        return hash((*self._state()[:3], frozenset(self.settings.items())))
+
     def __repr__(self) -> str:
         return f"<sikku.Pattern {self.title or self.name!r}, n = {self.n}>"
 
@@ -195,44 +141,6 @@ class Pattern:
         texts = _shared_settings(n, seed) + to_settings(settings)
         return Pattern(self._document.with_settings(texts))
 
-    def draw(self, format: str = "svg", **options: Value) -> Union[str, bytes]:
-        """Draws a print or a model and returns it: text for SVG, HP-GL and G-code, otherwise bytes.
-
-        format: svg, pdf, png, tif, jpg, exr, gif, hpgl, gcode, dxf, obj, glb or stl.
-        options: `n=3`, `size="A3"`, `stroke="0.3mm navy"`, `dots=True`, … (docs/commands.md).
-
-        Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, and Error if
-        nothing is drawn or the output has several files, which save() writes.
-        """
-        return self._made("prints", format, options)
-
-    def play(self, format: str = "mid", **options: Value) -> Union[str, bytes]:
-        """Plays the pattern and returns the score: text for MusicXML, LilyPond, SVG and HTML, otherwise bytes.
-
-        format: mid, musicxml, mxl, ly, pdf (printed by LilyPond), abc, wav, flac, csd, sco, strudel, svg (curve and piano
-        roll) or html (a page that plays).
-        options: `n=5`, `scale="dorian"`, `bars=16`, `tempo=96`, … (docs/commands.md).
-
-        Warnings are issued as SikkuWarning. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
-        """
-        return self._made("scores", format, options)
-
-    def save(self, path: PathName, **options: Value) -> list[str]:
-        """Writes a print, a model or a score; the extension of `path` selects the format.
-
-        Each file appears whole or not at all, because it is written to a temporary name and renamed. Some outputs have
-        several files, such as models (.obj and .mtl) and tiled prints (`tile="A4"`). The extension `.notes.svg` selects
-        the curve and the piano roll of a melody, `.score.pdf` its printed score.
-
-        Returns facts about the output, such as the length that a plotter draws. Options, warnings and errors are those
-        of draw() and play(). Raises Error if a file cannot be written.
-        """
-        interpreter, format = _format_of(os.fsdecode(path))
-        remarks = _core.write(
-            self._document, interpreter, format, to_options(interpreter, options), os.fsencode(path)
-        )
-        return _warn(remarks)
-
     def measure(self, *, budget: float = 2e8) -> dict[str, Any]:
         """Measures the word, without deriving it if productions have no contexts: n = 60 costs as little as n = 6.
 
@@ -244,7 +152,7 @@ class Pattern:
         Raises BudgetError, WordError.
         """
         facts: dict[str, Any] = json.loads(_core.measure(self._document, budget))
-        return {name: value if name == "title" else _exact(value) for name, value in facts.items()}
+        return {name: value if name == "title" else exact(value) for name, value in facts.items()}
 
     def kolam(self, *, budget: float = 2e8) -> dict[str, Any]:
         """Examines the drawing as a kolam: lines, crossings, faces, symmetry, dots.
@@ -280,50 +188,93 @@ class Pattern:
         """
         return Path(*_core.path(self._derived(n), budget))
 
-    def notes(self, **options: Value) -> Notes:
-        """Returns the notes of the score that play() writes with the same options, as NumPy arrays.
+    def tiles(self, n: Optional[int] = None, *, budget: float = 2e8) -> Tiles:
+        """Examines the polygons as tiles, as `sikku tiling` does, and returns them as NumPy arrays with the certificate.
 
-        Cost: about 200 bytes per note. Raises SettingError, PatternError, BudgetError, WordError, ScoreError.
+        Cost: about 3 s and 1 GB for a million tiles; at most 10 million.
+
+        n: derivation length, instead of the pattern's.
+        budget: maximum number of derivation nodes visited.
+        Raises PatternError (also for maps), WordError, BudgetError, and Error for drawings in space.
         """
-        arrays, end, tempo, beats, unit = _core.notes(self._document, to_options("scores", options))
-        onset, duration, key, velocity, voice, curve = arrays
-        return Notes(onset, duration, key, velocity, voice, curve, end, tempo, (beats, unit))
+        text, corners, *columns = _core.tiles(self._derived(n), budget)
+        certificate = _growth_of(json.loads(text))
+        (points, begins), (number, shape, orientation, colour, is_reflected, letter, neighbours, differing) = (
+            corners,
+            columns,
+        )
+        return Tiles(
+            certificate,
+            points,
+            begins,
+            number,
+            shape,
+            orientation,
+            colour,
+            is_reflected,
+            letter,
+            neighbours,
+            differing,
+        )
+
+    def tile_counts(self, n: Optional[int] = None) -> dict[str, Any]:
+        """Counts the tiles and finds their growth from the productions alone: n = 60 costs as little as n = 6.
+
+        Returns the output of `sikku tiling --counts --json`. Integers are exact and of any size.
+        Raises PatternError, also for maps.
+        """
+        return _growth_of(json.loads(_core.tile_counts(self._derived(n))))
 
     def _derived(self, n: Optional[int]) -> _core.Document:
         return self._document if n is None else self.with_settings(n=n)._document
 
-    def _made(self, interpreter: str, format: str, options: dict[str, Value]) -> Union[str, bytes]:
-        outputs, remarks = _core.make(self._document, interpreter, format, to_options(interpreter, options))
-        _warn(remarks)
-        if len(outputs) != 1:
-            raise errors.Error(f"this output has {len(outputs)} files; save() writes them")
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, Union[str, bytes]]:
+        """For notebooks: a page that plays a melody, in a frame; otherwise the drawing as SVG, or as PNG if that has
+        more than a million characters. Nothing for drawings of more than 2 million nodes."""
+        bundle: dict[str, Union[str, bytes]] = {"text/plain": repr(self)}
+        if self.is_melody:
+            page = self._shown("scores", "html")
+            if page is not None:
+                bundle["text/html"] = (
+                    f'<iframe srcdoc="{html.escape(str(page))}" sandbox="allow-scripts" '
+                    f'title="{html.escape(self.title)}" style="width: 100%; height: 640px; border: 0"></iframe>'
+                )
+            return bundle
+        drawing = self._shown("prints", "svg")
+        if drawing is not None and len(drawing) <= _longest_shown:
+            bundle["image/svg+xml"] = drawing
+        elif drawing is not None:
+            picture = self._shown("prints", "png")
+            if picture is not None:
+                bundle["image/png"] = picture
+        return bundle
+
+    def _shown(self, interpreter: str, format: str) -> Union[str, bytes, None]:
+        try:
+            options = [("budget", str(_most_shown))]
+            if format == "png":
+                options.append(("dpi", "96"))  # of screens
+            outputs, _ = _core.make(self._document, interpreter, format, options, None)
+        except errors.Error:  # over the budget, or nothing is drawn
+            return None
         content: Union[str, bytes] = next(iter(outputs.values()))
         return content
 
-    def _repr_svg_(self) -> Optional[str]:
-        """The drawing, for notebooks; None for melodies and drawings of more than 2 million nodes."""
-        if self.is_melody:
-            return None
-        return self._shown("prints", "svg")
 
-    def _repr_html_(self) -> Optional[str]:
-        """A page that plays the melody, in a frame, for notebooks; None for other patterns."""
-        if not self.is_melody:
-            return None
-        page = self._shown("scores", "html")
-        if page is None:
-            return None
-        return (
-            f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts" title="{html.escape(self.title)}" '
-            'style="width: 100%; height: 640px; border: 0"></iframe>'
-        )
+def _restore(name: str, text: str, variant: str, settings: Texts) -> Pattern:
+    """Reads a pickled pattern."""
+    document, _ = _core.load(os.fsencode(name), text.encode("utf-8", "surrogateescape"), variant, settings)
+    return Pattern(document)
 
-    def _shown(self, interpreter: str, format: str) -> Optional[str]:
-        try:
-            outputs, _ = _core.make(self._document, interpreter, format, [("budget", str(_most_shown))])
-        except errors.Error:  # over the budget, or nothing is drawn
-            return None
-        return str(next(iter(outputs.values())))
+
+def _growth_of(facts: dict[str, Any]) -> dict[str, Any]:
+    """Converts large integers, which JSON contains as text."""
+    facts["n"] = exact(facts["n"])
+    growth = facts["growth"]
+    growth["tiles"] = exact(growth["tiles"])
+    for one in growth["counts"]:
+        one["count"] = exact(one["count"])
+    return facts
 
 
 def _shared_settings(n: Optional[int], seed: Optional[int]) -> Texts:
@@ -333,26 +284,6 @@ def _shared_settings(n: Optional[int], seed: Optional[int]) -> Texts:
     if seed is not None:
         texts.append(("seed", whole("seed", seed)))
     return texts
-
-
-def sheet(path: PathName, *drawings: Union[Pattern, tuple[Pattern, dict[str, Value]]], **options: Value) -> list[str]:
-    """Draws several patterns on one page; the extension of `path` selects the format.
-
-    drawings: patterns, or pairs of a pattern and options of its own: `(kolam, {"border": "rope", "x": "20mm"})`.
-    options: those of `sikku sheet`: `columns=2`, `gutter="20mm"`, `dots=True`, `size="A2"`, …
-
-    Returns facts about the output. Warnings are issued as SikkuWarning. Raises SettingError, PatternError,
-    BudgetError, WordError, and Error if a drawing has no room or the file cannot be written.
-    """
-    items = [one if isinstance(one, tuple) else (one, {}) for one in drawings]
-    _, format = _format_of(os.fsdecode(path))
-    remarks = _core.write_sheet(
-        [(pattern._document, to_options("prints", own)) for pattern, own in items],
-        format,
-        to_options("sheet", options),
-        os.fsencode(path),
-    )
-    return _warn(remarks)
 
 
 def load(
@@ -366,7 +297,8 @@ def load(
 ) -> Pattern:
     """Reads, checks and compiles a pattern.
 
-    pattern: name of a bundled pattern, or path of a pattern file; with `text`, the name of the text in messages.
+    pattern: name of a bundled pattern, or path of a pattern file, or of a print or score that Sikku made, which contains
+        its pattern; with `text`, the name of the text in messages.
     text: text of the pattern, instead of a file.
     n: derivation length, instead of the pattern's.
     seed: random seed, 0 or more.
@@ -383,7 +315,7 @@ def load(
     texts = _shared_settings(n, seed) + to_settings(settings)
     document, found = _core.load(name, content, variant, texts)
     for warning in found:
-        warnings.warn(str(warning), errors.SikkuWarning, stacklevel=2)
+        warn(str(warning))
     return Pattern(document)
 
 

@@ -84,6 +84,11 @@ def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
     return texts
 
 
+def to_gallery_keys(values: dict[str, Value]) -> dict[str, str]:
+    """Keys of a gallery, with hyphens, and the texts of their values."""
+    return {name.replace("_", "-"): to_text(name, value) for name, value in values.items() if value is not None}
+
+
 def whole(option: str, value: object) -> str:
     """The text of an integer of any type, including NumPy's. Raises SettingError for other values."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):

@@ -1,5 +1,5 @@
 // studio/wasm/include/zlib.h: the parts of zlib that the libraries use, implemented by pako, a port of zlib to
-// JavaScript that writes the same bytes: see studio/page/zlib.ts.
+// JavaScript that writes the same bytes: see studio/npm/zlib.ts.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct z_stream {
 };
 
 enum { Z_NO_FLUSH = 0, Z_FULL_FLUSH = 3, Z_FINISH = 4 };
-enum { Z_OK = 0, Z_STREAM_END = 1 };
+enum { Z_OK = 0, Z_STREAM_END = 1, Z_STREAM_ERROR = -2 };
 enum { Z_DEFLATED = 8, Z_DEFAULT_STRATEGY = 0 };
 
 int deflateInit2(z_stream* stream, int level, int method, int window_bits, int memory_level, int strategy);

@@ -8,6 +8,18 @@ export interface RawAnswer {
 }
 export type Bridge = (json: string, bytes?: Uint8Array) => RawAnswer;
 
+/// Hooks that use a compiled module and print nothing. @param failed  called if it cannot be instantiated
+export function hooksOf(module: WebAssembly.Module, failed: (error: unknown) => void): object {
+    return {
+        instantiateWasm(imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) {
+            WebAssembly.instantiate(module, imports).then(done, failed);
+            return {};
+        },
+        print: () => {},
+        printErr: () => {},
+    };
+}
+
 /// Starts the module. `makeModule` is the default export of sikku-bridge.cjs; `hooks` may contain `instantiateWasm`.
 export async function startBridge(makeModule: (hooks: object) => Promise<any>, hooks: object = {}): Promise<Bridge> {
     const module = await makeModule({ zlib: makeZlib(), ...hooks });

@@ -1,0 +1,50 @@
+// art/kolam/grid_kolam.h: makes a kolam on a grid of dots, by chance or from given gaps, and describes it.
+#pragma once
+
+#include "art/kolam/dot_grid_making.h"
+#include "art/kolam/dot_grid_pattern.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sikku {
+
+struct GridKolamOptions {
+    std::uint64_t seed = 0;
+    std::optional<GridSymmetry> symmetry = {};  ///< absent: the largest that the grid and a single line permit
+    std::optional<double> density = {};         ///< share of crossed gaps; absent: 0.7, and all dots connected
+    double joined = 0.0;                        ///< share of joined gaps among the others
+    std::optional<GapStates> gaps = {};         ///< instead of chance
+    bool single_line = false;
+    int attempts = 1000;  ///< to find a single line with a symmetry
+};
+
+/// A kolam, and how it was found.
+struct GridKolam {
+    GapStates states;
+    GridSymmetry symmetry = GridSymmetry::none;
+    std::size_t changed = 0;               ///< gaps changed to join the lines
+    int attempt = 1;                       ///< number of the attempt that succeeded
+    std::size_t lines = 0;                 ///< counted by following them
+    std::optional<std::size_t> nullity{};  ///< counted by the Laplacian of the dots; absent if that would take long
+};
+
+/// Makes a kolam; the same on every machine. Cost: at most seconds.
+/// @throws std::runtime_error if the grid does not have the symmetry, no single line can have it, or none was found;
+/// Stopped
+GridKolam make_grid_kolam(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor);
+
+/// The least seed below that of the options which makes the same kolam, up to symmetries of the grid; searched for
+/// only as long as that is quick.
+std::optional<std::uint64_t> same_seed(const DotGrid& grid, const GridKolamOptions& options, const GridKolam& kolam,
+                                       const Monitor& monitor);
+
+/// Title and description for kolam_pattern(): dots, gaps, lines, and how to make it again.
+KolamPatternOptions describe_grid_kolam(const DotGrid& grid, const GridKolamOptions& options, const GridKolam& kolam);
+
+/// One line of JSON with grid, counts, symmetry, code and gaps.
+std::string grid_kolam_json(const DotGrid& grid, const GridKolam& kolam);
+
+}  // namespace sikku

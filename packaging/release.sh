@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Builds everything that a release consists of: Debian packages, an archive to unpack anywhere, the source distribution
+# and the wheel for Python, the npm package, the page of the studio; the list of what they contain (SPDX) and SHA256SUMS.
+# The same commit gives the same bytes in every folder and at every time, with the same Debian packages.
+# usage: packaging/release.sh [OUTPUT_FOLDER]
+set -euo pipefail
+[ $# -le 1 ] || { echo "usage: packaging/release.sh [OUTPUT_FOLDER]" >&2; exit 2; }
+output=$(realpath -m "${1:-$(dirname "$0")/../dist}")
+cd "$(dirname "$0")/.."
+. tests/packages.sh
+install_packages "${build_packages[@]}" "${studio_packages[@]}" "${release_packages[@]}"
+umask 022
+export LC_ALL=C.UTF-8 TZ=UTC
+if [ -n "$(git status --porcelain)" ]; then
+    echo "warning: there are changes that are not committed" >&2
+fi
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+if [ -n "$(ls -A "$output" 2> /dev/null)" ] && [ ! -e "$output/SHA256SUMS" ]; then
+    echo "$output is not empty and was not made by this script" >&2
+    exit 1
+fi
+rm -rf "$output"
+mkdir -p "$output" build
+
+build=build/dist
+cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DSIKKU_PYTHON=ON \
+    -DPython_EXECUTABLE=/usr/bin/python3 -DSIKKU_TESTS=OFF -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$PWD=." \
+    > build/dist.log 2>&1 || { cat build/dist.log >&2; exit 1; }
+cmake --build "$build" -j "$(nproc)"
+studio/build.sh
+page=build/studio/sikku-studio.html
+(cd studio && node npm/build.mjs --output "$output")
+packaging/deb.sh "$build" "$page" "$output"
+packaging/portable.sh "$build" "$page" "$output"
+packaging/wheel.sh "$build" "$output"
+packaging/sdist.sh "$output"
+version=$(packaging/version.sh)
+cp "$page" "$output/sikku-studio-$version.html"
+packaging/sbom.py "$output" "$build"
+cd "$output"
+sha256sum -- * > SHA256SUMS
+cat SHA256SUMS

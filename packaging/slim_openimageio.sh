@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Builds OpenImageIO as Debian 13 distributes it, with PNG, TIFF, JPEG, EXR, WebP and BMP only, and installs it in FOLDER.
+# That of Debian 12 has all formats, and pulls in 259 libraries.
+# usage: packaging/slim_openimageio.sh FOLDER
+set -euo pipefail
+[ $# -eq 1 ] || { echo "usage: packaging/slim_openimageio.sh FOLDER" >&2; exit 2; }
+version=2.5.18.0
+archive=http://deb.debian.org/debian/pool/main/o/openimageio/openimageio_$version+dfsg.orig.tar.xz
+# As Debian signed it: Checksums-Sha256 in the index of sources.
+sha256=0dc2185aac5e01a2e5a1a804f558c1190ea048650a7fedef1033a1616abcac80
+mkdir -p "$1"
+folder=$(realpath "$1")
+[ "$(cat "$folder/version" 2> /dev/null)" != "$version" ] || exit 0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+/usr/lib/apt/apt-helper download-file "$archive" source.tar.xz "SHA256:$sha256" > log 2>&1 || { cat log >&2; exit 1; }
+mkdir source
+tar -xf source.tar.xz -C source --strip-components=1
+
+formats=() packages=()
+for format in cineon dds dicom dpx ffmpeg fits gif heif hdr ico iff jpeg2000 null openvdb pnm psd ptex raw rla sgi \
+    softimage targa term zfile; do
+    formats+=("-DENABLE_$format=OFF")
+done
+for package in Python OpenCV FFmpeg GIF Libheif LibRaw OpenJPEG OpenVDB Ptex OpenColorIO Freetype Nuke QT DCMTK TBB BZip2 \
+    R3DSDK; do
+    packages+=("-DUSE_${package^^}=OFF" "-DUSE_$package=OFF")
+done
+cmake -S source -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$folder" \
+    -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$work=." -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_UNITY_BUILD=ON -DEMBEDPLUGINS=ON \
+    -DOpenImageIO_BUILD_TOOLS=OFF -DOpenImageIO_BUILD_TESTS=OFF -DBUILD_DOCS=OFF -DINSTALL_DOCS=OFF -DINSTALL_FONTS=OFF \
+    -DCMAKE_SKIP_RPATH=ON -DSTOP_ON_WARNING=OFF -DUSE_STD_FILESYSTEM=ON -DBUILD_MISSING_ROBINMAP=OFF -DBUILD_MISSING_FMT=OFF \
+    "${formats[@]}" "${packages[@]}" > log 2>&1 || { tail -n 40 log >&2; exit 1; }
+cmake --build build -j "$(nproc)" > log 2>&1 || { tail -n 40 log >&2; exit 1; }
+cmake --install build > /dev/null
+cp source/LICENSE.md source/THIRD-PARTY.md "$folder"
+echo "$version" > "$folder/version"

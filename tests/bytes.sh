@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Makes ten thousand outputs, described in tests/bytes/bytes.toml, and prints the SHA-256 and the name of each, sorted by
+# name: the list is the same on every machine. COMMAND may be preceded by others, such as `env LC_ALL=C` or `qemu-aarch64`.
+# usage: tests/bytes.sh JOBS COMMAND… > LIST
+set -euo pipefail
+[ $# -ge 2 ] || { echo "usage: tests/bytes.sh JOBS COMMAND… > LIST" >&2; exit 2; }
+jobs=$1
+shift
+file=$(dirname "$(readlink -f "$0")")/bytes/bytes.toml
+folder=$(mktemp -d)
+trap 'rm -rf "$folder" "$folder.errors"' EXIT
+# Patterns that draw nothing, or have no solid, fail everywhere.
+"$@" --quiet gallery --file "$file" -o "$folder" --jobs "$jobs" --keep-going 2> "$folder.errors" || true
+# Errors of the gallery itself leave no file.
+made=$(find "$folder" -type f | wc -l)
+[ "$made" -gt 9000 ] || { head -n 20 "$folder.errors" >&2; echo "only $made files were made" >&2; exit 1; }
+rm -f "$folder/gallery.jsonl" "$folder/index.html"
+cd "$folder"
+find . -type f | LC_ALL=C sort | xargs sha256sum

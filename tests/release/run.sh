@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Builds a release twice, in different folders and at different times, compares the bytes, and tests what was built in
+# systems without any files of Sikku. Takes up to three hours.
+# usage: tests/release/run.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tests/packages.sh
+. tests/release/root.sh
+[ "$(id -u)" -eq 0 ] || fail "roots of other systems need root"
+install_packages "${root_packages[@]}"
+version=$(packaging/version.sh)
+first=$PWD/build/release-1
+second=$(mktemp -d)/elsewhere
+trap 'rm -rf "$(dirname "$second")"' EXIT
+packaging/release.sh "$first" > build/release-1.log || { tail -n 40 build/release-1.log; exit 1; }
+for test in packages portable wheel npm desktop; do tests/release/$test.sh "$first"; done
+
+# An sdist builds without the checkout.
+work=$(mktemp -d)
+python3 -m venv --system-site-packages "$work/venv"
+"$work/venv/bin/pip" install -q --no-index --no-build-isolation "$first/sikku-$version.tar.gz" > "$work/log" 2>&1 ||
+    { tail -n 40 "$work/log"; fail "the sdist does not build"; }
+(cd "$work" && venv/bin/python -c 'import sikku; assert sikku.load("hilbert").draw("svg")')
+rm -rf "$work"
+echo "sdist: builds and runs without the checkout"
+
+git clone -q . "$second"
+(cd "$second" && packaging/release.sh "$second/out" > "$second.log") || { tail -n 40 "$second.log"; exit 1; }
+diff "$first/SHA256SUMS" "$second/out/SHA256SUMS" || fail "the second build has other bytes"
+echo "a second build elsewhere: the same bytes"
+tests/release/bytes.sh build/dist/bin/sikku build/studio
