@@ -32,7 +32,7 @@ pybind11::list write_piece(const LoadedArrangement& piece, const std::string& fo
                            const std::string& path, const pybind11::object& progress);
 pybind11::tuple notes_of_piece(const LoadedArrangement& piece, const TextPairs& values);
 
-/// What a gallery consists of, and how it is made.
+/// Arguments of make_gallery().
 struct GalleryCall {
     std::vector<std::string> patterns;
     std::string file, folder, poster, contact;

@@ -65,7 +65,7 @@ TEST_F(LowLimits, OfThreads) {
     const Outcome refused = limited("-u 2", {"draw", "hilbert", "-j", "4", "-o", "x.tif"}, true);
     EXPECT_EQ(refused.status, 1);
     EXPECT_TRUE(has(refused.errors, "threads"));
-    // What does without it gets along with the threads there are.
+    // Outputs that do not need it are made with the threads that can be started.
     EXPECT_EQ(limited("-u 1", {"gallery", "hilbert", "dragon", "-f", "svg,png", "-j", "4", "-o", "g"}, true).status,
               0);
     EXPECT_EQ(limited("-u 1", {"kolam", "--grid", "3x3", "--enumerate"}, true).status, 0);
