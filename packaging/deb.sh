@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/sikku"
-cp -r packaging/debian CHANGELOG.md python "$folder/sikku"
+cp -r packaging/debian python "$folder/sikku"
 cd "$folder/sikku"
 SOURCE_DATE_EPOCH=$(dpkg-parsechangelog -S Timestamp)
 export SOURCE_DATE_EPOCH DEB_BUILD_OPTIONS=noautodbgsym

@@ -32,7 +32,6 @@ done
 SIKKU_INSTEAD=$slim/lib packaging/bundle.sh "$modules/libraries" "$staged/bin/sikku" "$modules/sikku_image.so" \
     "$modules/sikku_decoder" > "$work/libraries"
 cp "$page" "$staged/share/sikku"
-cp README.md CHANGELOG.md LICENSE "$staged"
 licences=$staged/share/doc/sikku/licences
 mkdir -p "$licences"
 packaging/licences.py program "$licences" "$work/libraries" "$slim"

@@ -11,19 +11,21 @@ output=$(realpath "$2")
 cd "$(dirname "$0")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-python3 -m pip wheel -q --no-build-isolation --no-deps --no-index -w "$work" ./python > "$work/log" 2>&1 ||
+/usr/bin/python3 -m pip wheel -q --no-build-isolation --no-deps --no-index -w "$work" ./python > "$work/log" 2>&1 ||
     { tail -n 40 "$work/log" >&2; exit 1; }
-python3 -m wheel unpack -d "$work" "$work"/*.whl > /dev/null
+/usr/bin/python3 -m wheel unpack -d "$work" "$work"/*.whl > /dev/null
 rm "$work"/*.whl
 package=$(echo "$work"/sikku-*)
 modules=$package/sikku/lib
 packaging/bundle.sh "$modules/libraries" "$modules"/_core.*.so > "$work/libraries"
-packaging/licences.py module "$package"/sikku-*.dist-info/licences "$work/libraries"
+about=$(echo "$package"/sikku-*.dist-info)
+cp LICENSE "$about"
+packaging/licences.py module "$about/licences" "$work/libraries"
 # The module for pictures uses its own copies of the same libraries where there are, and those of the system otherwise.
 patchelf --set-rpath '$ORIGIN/../libraries' "$modules"/sikku/*
 # pip refuses the wheel where the C library is older than that of the build.
 glibc=$(getconf GNU_LIBC_VERSION)
 glibc=${glibc#glibc }
-sed -i "s/-linux_\([a-z0-9_]*\)$/-manylinux_${glibc/./_}_\1/" "$package"/sikku-*.dist-info/WHEEL
+sed -i "s/-linux_\([a-z0-9_]*\)$/-manylinux_${glibc/./_}_\1/" "$about/WHEEL"
 find "$package" -exec touch -d "@${SOURCE_DATE_EPOCH:-315532800}" {} +
-python3 -m wheel pack -d "$output" "$package" > /dev/null
+/usr/bin/python3 -m wheel pack -d "$output" "$package" > /dev/null

@@ -17,7 +17,7 @@ for test in packages portable wheel npm desktop; do tests/release/$test.sh "$fir
 
 # An sdist builds without the checkout.
 work=$(mktemp -d)
-python3 -m venv --system-site-packages "$work/venv"
+/usr/bin/python3 -m venv --system-site-packages "$work/venv"
 "$work/venv/bin/pip" install -q --no-index --no-build-isolation "$first/sikku-$version.tar.gz" > "$work/log" 2>&1 ||
     { tail -n 40 "$work/log"; fail "the sdist does not build"; }
 (cd "$work" && venv/bin/python -c 'import sikku; assert sikku.load("hilbert").draw("svg")')

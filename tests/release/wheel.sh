@@ -36,7 +36,7 @@ in_root "$root" sh -euc 'apt-get -qq update > /dev/null; apt-get -qq install -y 
     /venv/bin/python tutorial.py && /venv/bin/python manual.py docs/python.md' > "$work/log" 2>&1 || { tail -n 30 "$work/log"; fail "the manual fails with the wheel"; }
 # Other machines and older C libraries.
 accepts() {
-    python3 -m pip download -q --no-deps --no-index --find-links "$dist" --only-binary :all: --platform "$1" \
+    /usr/bin/python3 -m pip download -q --no-deps --no-index --find-links "$dist" --only-binary :all: --platform "$1" \
         --python-version 3.11 -d "$work/none" sikku > /dev/null 2>&1
 }
 accepts manylinux_2_36_x86_64 || fail "pip refuses the wheel for the system that it was built on"
