@@ -6,6 +6,8 @@
 #endif
 
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <system_error>
 
 namespace sikku {
@@ -34,6 +36,12 @@ std::filesystem::path binary_folder() {
     return error ? std::filesystem::path() : file.parent_path();
 }
 
+bool is_of_this_version(const std::filesystem::path& folder) {
+    std::ifstream file(folder / "version");
+    std::string version;
+    return std::getline(file, version) && version == SIKKU_VERSION;
+}
+
 std::filesystem::path& chosen_folder() {
     static std::filesystem::path folder;
     return folder;
@@ -49,9 +57,13 @@ std::vector<std::filesystem::path> data_folders() {
     if (const char* folder = std::getenv("SIKKU_DATA"); folder && *folder) return {folder};
     std::vector<std::filesystem::path> folders;
     if (!chosen_folder().empty()) folders.push_back(chosen_folder());
-    const std::filesystem::path beside = binary_folder();
-    if (!beside.empty()) folders.push_back((beside / SIKKU_DATA_RELATIVE).lexically_normal());
-    folders.emplace_back(SIKKU_DATA_INSTALLED);
+    const std::filesystem::path binary = binary_folder();
+    const std::filesystem::path beside = (binary / SIKKU_DATA_RELATIVE).lexically_normal();
+    std::error_code error;
+    const bool is_installed = !binary.empty() && std::filesystem::is_directory(beside, error);
+    if (!binary.empty()) folders.push_back(beside);
+    // The prefix that was configured may hold another version by now, and a damaged installation should not borrow.
+    if (!is_installed && is_of_this_version(SIKKU_DATA_INSTALLED)) folders.emplace_back(SIKKU_DATA_INSTALLED);
     return folders;
 }
 

@@ -11,7 +11,9 @@ namespace sikku {
 void set_data_folder(const std::filesystem::path& folder);
 
 /// Candidates for the data folder, best first: that of the environment variable SIKKU_DATA; if it is not set, that of
-/// set_data_folder(), the one installed with the running program or shared library, and the configured one.
+/// set_data_folder() and the one installed with the running program or shared library; for programs that are not part
+/// of an installation the configured one, if it contains this version. Never empty, except where the system does not
+/// report the program's folder and nothing of this version is installed.
 std::vector<std::filesystem::path> data_folders();
 
 /// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
