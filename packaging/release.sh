@@ -20,8 +20,9 @@ if [ -n "$(ls -A "$output" 2> /dev/null)" ] && [ ! -e "$output/SHA256SUMS" ]; th
     echo "$output is not empty and was not made by this script" >&2
     exit 1
 fi
-rm -rf "$output"
-mkdir -p "$output" build
+made=$output.part
+rm -rf "$made"
+mkdir -p "$made" build
 
 build=build/dist
 cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DSIKKU_PYTHON=ON \
@@ -30,14 +31,16 @@ cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_L
 cmake --build "$build" -j "$(nproc)"
 studio/build.sh
 page=build/studio/sikku-studio.html
-(cd studio && node npm/build.mjs --output "$output")
-packaging/deb.sh "$build" "$page" "$output"
-packaging/portable.sh "$build" "$page" "$output"
-packaging/wheel.sh "$build" "$output"
-packaging/sdist.sh "$output"
+(cd studio && node npm/build.mjs --output "$made")
+packaging/deb.sh "$build" "$page" "$made"
+packaging/portable.sh "$build" "$page" "$made"
+packaging/wheel.sh "$build" "$made"
+packaging/sdist.sh "$made"
 version=$(packaging/version.sh)
-cp "$page" "$output/sikku-studio-$version.html"
-packaging/sbom.py "$output" "$build"
-cd "$output"
-sha256sum -- * > SHA256SUMS
-cat SHA256SUMS
+cp "$page" "$made/sikku-studio-$version.html"
+packaging/sbom.py "$made" "$build"
+(cd "$made" && sha256sum -- *) > "$made.sums"
+mv "$made.sums" "$made/SHA256SUMS"
+rm -rf "$output"
+mv "$made" "$output"
+cat "$output/SHA256SUMS"
