@@ -15,10 +15,12 @@ browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth
     timgm6mb-soundfont flac slurm-wlm munge librecad)
-# For packaging/release.sh: tools that make packages, and what a slim OpenImageIO is built from.
-release_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
-    python3-wheel python3-pip libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev libwebp-dev
-    robin-map-dev)
+# For packages, and for the test of what they contain.
+packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
+    python3-wheel python3-pip)
+# For packaging/release.sh, also what a slim OpenImageIO is built from.
+release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev
+    libwebp-dev robin-map-dev)
 # For ./check --release: roots of other systems and machines, and tools that examine packages and desktop files.
 root_packages=(mmdebstrap lintian qemu-user-static g++-aarch64-linux-gnu g++-i686-linux-gnu desktop-file-utils
     shared-mime-info xdg-utils)
