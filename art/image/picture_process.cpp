@@ -94,7 +94,8 @@ private:
         fmt::format("the program that decodes pictures, {}, does not start: {}", program.string(), reason));
 }
 
-std::filesystem::path find_decoder(const char* name) {
+std::filesystem::path find_decoder(bool is_heif) {
+    const char* const name = is_heif ? heif_decoder_name : decoder_name;
     std::string places;
     for (const std::filesystem::path& folder : module_folders()) {
         std::error_code error;
@@ -102,7 +103,8 @@ std::filesystem::path find_decoder(const char* name) {
         if (std::filesystem::is_regular_file(program, error)) return program;
         places += "\n  " + program.string();
     }
-    throw std::runtime_error("the program that decodes pictures was not found:" + places);
+    throw std::runtime_error(
+        fmt::format("the program that decodes {} was not found:{}", is_heif ? "HEIF" : "pictures", places));
 }
 
 /// Explains an answer that ended too early.
@@ -155,7 +157,7 @@ DecodedPicture read_picture(const std::filesystem::path& path, int longest_side,
     if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("not a regular file");
     const InputFile file(path);
     const bool is_heif = file.read(4, 4) == "ftyp";
-    const std::filesystem::path program = find_decoder(is_heif ? heif_decoder_name : decoder_name);
+    const std::filesystem::path program = find_decoder(is_heif);
     Decoder decoder(program, file, longest_side, most_pixels);
     const auto next = [&]() -> std::optional<DecoderAnswer> {
         char byte = 0;

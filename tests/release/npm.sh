@@ -29,25 +29,30 @@ console.log(svg.length);
 END
 "$tsc" --noEmit --strict --target es2022 --module nodenext --moduleResolution nodenext types.ts
 # A page made with esbuild.
+# It reports to the server what it has drawn.
 cat > page.ts <<'END'
 import { start } from "sikku";
 start("sikku.wasm").then((sikku) => {
     const svg = sikku.draw("hilbert", "svg", { n: 3, size: "40x40mm" });
     document.body.innerHTML = typeof svg === "string" ? svg : new TextDecoder().decode(svg);
-    document.title = `drawn ${document.querySelectorAll("svg path").length}`;
-}).catch((error) => { document.title = `failed: ${error}`; });
+    return `drawn-${document.querySelectorAll("svg path").length}`;
+}).catch((error) => `failed-${error}`).then((report) => fetch(report));
 END
 "$esbuild" page.ts --bundle --format=esm --outfile=page.js --log-level=warning
 cp node_modules/sikku/sikku.wasm .
-echo '<!DOCTYPE html><meta charset="utf-8"><title>waiting</title><body><script type="module" src="page.js"></script>' > index.html
+echo '<!DOCTYPE html><meta charset="utf-8"><body><script type="module" src="page.js"></script>' > index.html
 if command -v chromium > /dev/null; then
     python3 -u -m http.server 0 --bind 127.0.0.1 > server.out 2>&1 &
     server=$!
-    trap 'kill $server; rm -rf "$work"' EXIT
-    until grep -q port server.out; do sleep 0.1; done
+    trap 'kill $server $browser 2> /dev/null; wait; rm -rf "$work"' EXIT
+    browser=
+    timeout 30 sh -c 'until grep -q port server.out; do sleep 0.1; done'
     port=$(sed -n 's/.* port \([0-9]*\) .*/\1/p' server.out)
-    chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=20000 --dump-dom "http://127.0.0.1:$port/index.html" 2> /dev/null > page.html
-    grep -q '<title>drawn 1<' page.html || { head -c 2000 page.html; echo "the page draws nothing" >&2; exit 1; }
+    chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --remote-debugging-port=0 \
+        "http://127.0.0.1:$port/index.html" > /dev/null 2>&1 &
+    browser=$!
+    timeout 60 sh -c "until grep -q 'drawn-\|failed-' server.out; do sleep 0.1; done" || true
+    grep -q 'GET /drawn-1 ' server.out || { cat server.out; echo "the page draws nothing" >&2; exit 1; }
 else
     echo "skipped: the page made with esbuild (chromium is not installed)"
 fi
