@@ -23,6 +23,7 @@ cp LICENSE "$about"
 packaging/licences.py module "$about/licences" "$work/libraries"
 # The module for pictures uses its own copies of the same libraries where there are, and those of the system otherwise.
 patchelf --set-rpath '$ORIGIN/../libraries' "$modules"/sikku/*
+chmod 755 "$modules"/sikku/*  # `wheel unpack` loses modes
 # pip refuses the wheel where the C library is older than that of the build.
 glibc=$(getconf GNU_LIBC_VERSION)
 glibc=${glibc#glibc }

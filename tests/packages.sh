@@ -17,7 +17,7 @@ full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescor
     timgm6mb-soundfont flac slurm-wlm munge librecad)
 # For packages, and for the test of what they contain.
 packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
-    python3-wheel python3-pip)
+    python3-wheel python3-pip unzip)
 # For packaging/release.sh, also what a slim OpenImageIO is built from.
 release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev
     libwebp-dev robin-map-dev)

@@ -115,7 +115,7 @@ std::vector<DrawReport> write_pieces(const std::vector<PieceShape>& shapes, cons
                                      const PieceWriting& writing, const std::filesystem::path& file,
                                      Destination& destination) {
     const PrintFormat format = writing.drawing.format;
-    if (info(format).kind == FormatKind::pixels) prepare_images(info(format).extension, writing.drawing.threads);
+    if (uses_image_module(format)) prepare_images(writing.drawing.threads);
     std::vector<Print> prints;
     for (const PieceSheet& sheet : sheets) prints.push_back(print_of(sheet, writing));
     std::vector<std::unique_ptr<PieceDrawing>> drawings;

@@ -45,7 +45,7 @@ std::vector<SheetRequest> sheets_of(const GalleryRequest& request, int threads, 
 /// True if the job uses the module for pictures.
 bool uses_module(const GalleryJob& job) {
     const auto format = print_format(job.file());
-    return &job.interpreter() == &prints() && format && !is_vector(*format) && *format != PrintFormat::png;
+    return &job.interpreter() == &prints() && format && uses_image_module(*format);
 }
 
 /// The page and the sheets: remade if their contents have changed.
@@ -226,7 +226,7 @@ GalleryResult Gallery::make(GalleryListener& listener) {
     tasks.reserve(pending.size());
     for (const std::size_t job : pending) tasks.push_back({job, *forecasts_[job], false});
     for (const std::size_t job : pending) {
-        if (uses_module(jobs_[job])) prepare_images(jobs_[job].format, thread_count(options_.threads));
+        if (uses_module(jobs_[job])) prepare_images(thread_count(options_.threads));
     }
     Batch batch(
         jobs_, hashes, folder, record,

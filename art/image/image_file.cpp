@@ -71,8 +71,8 @@ const ImageModule& image_module(int threads = 0) {
 
 }  // namespace
 
-void prepare_images(std::string_view format, int threads) {
-    if (format != "png") image_module(threads);
+void prepare_images(int threads) {
+    image_module(threads);
 }
 
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec) {

@@ -54,11 +54,11 @@ public:
     virtual void close() = 0;
 };
 
-/// Loads the module with OpenImageIO unless the format is PNG, and checks that it can start its threads, for pictures
-/// using this many (0: one for each core). Call before long work: under a low `ulimit -u` or `-v` the libraries of
-/// the module would abort the program. @param format  as in ImageSpec
+/// Loads the module with OpenImageIO, which every picture but PNG needs, and checks that it can start its threads, for
+/// pictures using this many (0: one for each core). Call before long work: under a low `ulimit -u` or `-v` the libraries
+/// of the module would abort the program.
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
-void prepare_images(std::string_view format, int threads);
+void prepare_images(int threads);
 
 /// Opens `path`, whatever its extension, for writing. Loads the module unless the format is PNG (about 0.2 s, once).
 /// @throws std::runtime_error also for options that the format does not support, and if `cmyk` is not a profile of

@@ -148,9 +148,7 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     Print print = given;
     DrawOptions options = with_locked_watch(given_options);
     options.may_be_empty = true;
-    if (!is_vector(options.format) && !growth.is_animation) {
-        prepare_images(info(options.format).extension, options.threads);
-    }
+    if (uses_image_module(options.format)) prepare_images(options.threads);
     if (grammar.map()) {
         options.map_frames = std::make_shared<MapFrames>(generation_of(grammar, growth.last), options.budget,
                                                          options.monitor, KeptFrames::all);

@@ -29,7 +29,7 @@ Cost growth_cost(const Grammar& grammar, const Print& print, const DrawOptions& 
                  const GrowthOptions& growth) {
     constexpr std::int64_t most_looked_at = 8;
     constexpr double motion_frames = 8;  // between generations of a map
-    Cost sum = base_cost(!growth.is_animation && !is_vector(options.format));
+    Cost sum = base_cost(uses_image_module(options.format));
     const std::int64_t count = growth.last - growth.first + 1;
     const std::int64_t looked_at = std::min(count, most_looked_at);
     const double each = static_cast<double>(count) / static_cast<double>(looked_at);
@@ -87,7 +87,7 @@ Cost lesson_cost(const Grammar& grammar, const Print& print, const DrawOptions& 
     const bool has_pixels = !is_vector(options.format);
     const double steps =
         std::clamp(drawing.lines / lines_of_step, 1.0, has_pixels && !is_animation ? most_cells : most_pages);
-    Cost cost = base_cost(has_pixels && !is_animation);
+    Cost cost = base_cost(uses_image_module(options.format));
     cost.memory += drawing.memory;
     cost.seconds += drawing.seconds;
     if (is_animation) {

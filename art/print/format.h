@@ -60,6 +60,10 @@ inline bool is_vector(PrintFormat format) {
     const FormatKind kind = info(format).kind;
     return kind == FormatKind::vectors || kind == FormatKind::plot;
 }
+/// Pictures that OpenImageIO writes: all but PNG.
+inline bool uses_image_module(PrintFormat format) {
+    return info(format).kind == FormatKind::pixels && format != PrintFormat::png;
+}
 /// HP-GL, G-code and DXF, which describe movements of a pen or another tool.
 inline bool is_for_plotters(PrintFormat format) {
     return info(format).kind == FormatKind::plot;

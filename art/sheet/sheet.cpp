@@ -743,7 +743,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
                        const std::filesystem::path& file, Destination& destination) {
     SheetOptions options = given;
     load_inks(options.press, options.format);
-    if (!is_vector(options.format)) prepare_images(info(options.format).extension, options.threads);
+    if (uses_image_module(options.format)) prepare_images(options.threads);
     SheetLayout layout;
     on_threads(options.threads, [&] {
         Sheet sheet(cells, options);

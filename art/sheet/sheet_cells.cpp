@@ -52,7 +52,7 @@ double sheet_memory(const std::vector<SheetCell>& cells, const SheetOptions& opt
 }
 
 Cost sheet_cost(const std::vector<SheetCell>& cells, const SheetOptions& options) {
-    Cost cost = base_cost(!is_vector(options.format));
+    Cost cost = base_cost(uses_image_module(options.format));
     cost.memory += sheet_memory(cells, options);
     double largest = 0;
     for (const SheetCell& cell : cells) {

@@ -192,9 +192,7 @@ void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& 
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file, Destination& destination) {
     const DrawOptions options = with_locked_watch(given_options);
-    if (!is_vector(options.format) && !options.show_pixels) {
-        prepare_images(info(options.format).extension, options.threads);
-    }
+    if (uses_image_module(options.format) && !options.show_pixels) prepare_images(options.threads);
     if (grammar.is_spatial() && print.animation) {
         throw std::runtime_error("animations apply only to drawings in the plane");
     }

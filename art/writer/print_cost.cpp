@@ -299,17 +299,17 @@ void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost) {
                     distant * (questions * question_seconds + ground * ground_block_seconds);
 }
 
-Cost base_cost(bool pictures) {
+Cost base_cost(bool has_module) {
     Cost base;
-    base.seconds = base.shared_seconds = pictures ? 0.26 : 0.003;
-    base.memory = base.shared_memory = pictures ? 130e6 : 7e6;
+    base.seconds = base.shared_seconds = has_module ? 0.26 : 0.003;
+    base.memory = base.shared_memory = has_module ? 130e6 : 7e6;
     return base;
 }
 
 Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& options) {
     const DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
     const bool has_pixels = !is_vector(options.format);
-    Cost cost = base_cost(has_pixels);
+    Cost cost = base_cost(uses_image_module(options.format));
     cost.is_doubtful = drawing.is_doubtful;
     cost.seconds += drawing.seconds + 0.001;
     cost.memory += drawing.memory + static_cast<double>(print.pattern.size());

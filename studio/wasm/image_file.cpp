@@ -14,7 +14,7 @@ namespace {
 
 }  // namespace
 
-void prepare_images(std::string_view /*format*/, int /*threads*/) {}
+void prepare_images(int /*threads*/) {}
 
 std::unique_ptr<ImageWriter> open_image(const std::filesystem::path& path, const ImageSpec& spec) {
     if (spec.format != "png") refuse();

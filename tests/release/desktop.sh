@@ -16,9 +16,12 @@ in_root "$root" sh -euc '
     apt-get -qq install -y --no-install-recommends /tmp/sikku_*.deb > /dev/null 2>&1
     [ -z "$(desktop-file-validate /usr/share/applications/sikku.desktop 2>&1 | tee /dev/stderr)" ]
     cp /usr/share/sikku/patterns/*/hilbert.lsys /tmp/a.lsys
-    [ "$(xdg-mime query filetype /tmp/a.lsys)" = text/x-lsystem ]
-    gio mime text/x-lsystem | grep -q sikku.desktop
-    cat > /tmp/thumbnail.py <<END
+    export XDG_CURRENT_DESKTOP=GNOME
+    xdg-mime query filetype /tmp/a.lsys
+    xdg-mime query default text/x-lsystem' > "$work/log" 2>&1 || { cat "$work/log"; fail "the desktop files fail"; }
+[ "$(cat "$work/log")" = $'text/x-lsystem\nsikku.desktop' ] || { cat "$work/log"; fail "the desktop does not open patterns"; }
+
+cat > "$root/tmp/thumbnail.py" <<'END'
 import gi
 gi.require_version("GnomeDesktop", "3.0")
 from gi.repository import GnomeDesktop
@@ -26,7 +29,12 @@ factory = GnomeDesktop.DesktopThumbnailFactory.new(GnomeDesktop.DesktopThumbnail
 address, kind = "file:///tmp/a.lsys", "text/x-lsystem"
 assert factory.can_thumbnail(address, kind, 0), "no thumbnailer"
 picture = factory.generate_thumbnail(address, kind, None)
-print(picture.get_width(), picture.get_height())
+values = picture.get_pixels()
+assert len(set(values)) > 1, "an empty thumbnail"
+print(f"{picture.get_width()}x{picture.get_height()}")
 END
-    python3 /tmp/thumbnail.py' > "$work/log" 2>&1 || { cat "$work/log"; fail "the desktop files fail"; }
-echo "desktop: valid, opens patterns; thumbnail of $(tail -n 1 "$work/log" | tr ' ' x) pixels"
+# The factory runs thumbnailers in a sandbox, which needs a root of its own rather than one by chroot.
+env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 unshare --mount --pid --fork --propagation private \
+    sh -c 'mount --bind "$0" "$0" && mount -t proc proc "$0/proc" && cd "$0" && pivot_root . mnt && umount -l /mnt &&
+        exec "$@"' "$root" python3 /tmp/thumbnail.py > "$work/log" 2>&1 || { cat "$work/log"; fail "no thumbnail"; }
+echo "desktop: valid, opens patterns; thumbnail of $(tail -n 1 "$work/log") pixels"

@@ -20,9 +20,9 @@ packaging/sdist.sh "$work"
 
 contents() {
     case $1 in
-        *.deb) dpkg-deb --fsys-tarfile "$1" | tar -tf - ;;
-        *.whl) /usr/bin/python3 -m zipfile -l "$1" | sed '1d; s/ *[0-9-]* [0-9:]* *[0-9]*$//' ;;
-        *) tar -tzf "$1" ;;
+        *.deb) dpkg-deb --fsys-tarfile "$1" | tar -tvf - ;;
+        *.whl) zipinfo "$1" | grep '^[-?]' ;;
+        *) tar -tvzf "$1" ;;
     esac
 }
 # Patterns are a line a kind, and so are sources and headers; libraries are without versions, which depend on the system.
@@ -30,8 +30,9 @@ lists() {
     local artefact
     for artefact in "$work"/*.deb "$work"/*.whl "$work"/*.tar.gz; do
         basename "$artefact"
-        contents "$artefact" | grep -v '/$' | sed -E 's:(patterns/[^/]*)/.*:\1/*:
-            s:/(include|source|tests)/.*:/\1/*:; s:^\./::; s:(libraries/[^.]*)\.so.*:\1.so:' | LC_ALL=C sort -u | sed 's/^/    /'
+        contents "$artefact" | grep -v '/$' | sed -E '/->/s/ -> .*/ (link)/; /^...x/s/$/ (executable)/
+            s:^.* [0-9][0-9]\:[0-9][0-9](\:[0-9][0-9])? ::; s:(patterns/[^/]*)/.*:\1/*:
+            s:/(include|source|tests)/.*:/\1/*:; s:^\./::; s:(libraries/[^.]*)\.so[.0-9]*:\1.so:' | LC_ALL=C sort -u | sed 's/^/    /'
     done | sed "s/$version/VERSION/g"
 }
 lists > "$work/lists"
