@@ -19,8 +19,21 @@ std::vector<std::filesystem::path> data_folders();
 /// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
 std::filesystem::path installed_file(const std::filesystem::path& relative);
 
-#ifdef SIKKU_DATA_FOLDER
-// CMake's package and pkg-config define it for programs that link the libraries.
+// CMake's package defines SIKKU_DATA_FOLDER for programs that link the libraries, and pkg-config SIKKU_DATA_PATH, without
+// the quotation marks that would not survive in `c++ $(pkg-config --cflags sikku)`.
+#ifdef SIKKU_DATA_PATH
+#pragma push_macro("linux")
+#pragma push_macro("unix")
+#undef linux
+#undef unix
+#define SIKKU_QUOTED(path) #path
+#define SIKKU_QUOTED_VALUE(path) SIKKU_QUOTED(path)
+inline const bool has_data_folder = (set_data_folder(SIKKU_QUOTED_VALUE(SIKKU_DATA_PATH)), true);
+#undef SIKKU_QUOTED_VALUE
+#undef SIKKU_QUOTED
+#pragma pop_macro("unix")
+#pragma pop_macro("linux")
+#elif defined SIKKU_DATA_FOLDER
 inline const bool has_data_folder = (set_data_folder(SIKKU_DATA_FOLDER), true);
 #endif
 

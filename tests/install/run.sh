@@ -45,8 +45,9 @@ echo "$(ls program-*.cpp | wc -l) programs of docs/library.md work"
 if command -v pkg-config > /dev/null; then
     PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name sikku.pc)")
     export PKG_CONFIG_PATH
-    # Words of the answer are options. eval: the folder of data is quoted.
-    eval "quietly $cxx -std=c++20 ${sanitize:+-fsanitize=$sanitize} program-1.cpp -o $work/consumers/by-hand $(pkg-config --cflags --libs sikku)"
+    # Words of the answer are options. gnu++20: the name `linux` is a macro.
+    # shellcheck disable=SC2046
+    quietly "$cxx" -std=gnu++20 ${sanitize:+-fsanitize=$sanitize} program-1.cpp -o "$work/consumers/by-hand" $(pkg-config --cflags --libs sikku)
     "$work/consumers/by-hand" > /dev/null
     echo "pkg-config works"
 else
