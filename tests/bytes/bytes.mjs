@@ -3,9 +3,10 @@
 //     node bytes.mjs BRIDGE_FOLDER < LIST
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
 import { loadBridge } from "../../studio/tests/load_bridge.mjs";
 
-const bridge = await loadBridge(process.argv[2]);
+const bridge = await loadBridge(resolve(process.argv[2]));
 const ask = (request) => {
     const { json, bytes } = bridge(JSON.stringify(request));
     return { answer: JSON.parse(json), bytes };

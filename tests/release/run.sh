@@ -28,4 +28,5 @@ git clone -q . "$second"
 (cd "$second" && packaging/release.sh "$second/out" > "$second.log") || { tail -n 40 "$second.log"; exit 1; }
 diff "$first/SHA256SUMS" "$second/out/SHA256SUMS" || fail "the second build has other bytes"
 echo "a second build elsewhere: the same bytes"
+tests/release/debian13.sh
 tests/release/bytes.sh build/dist/bin/sikku build/studio
