@@ -57,7 +57,7 @@ fi
 libraries=(libc6-dev libstdc++-12-dev libtbb-dev libfmt-dev zlib1g-dev libpugixml-dev libboost-dev libglm-dev
     libcli11-dev libtomlplusplus-dev nlohmann-json3-dev)
 cross() {
-    local machine=$1 architecture=$2 flags=$3
+    local machine=$1 architecture=$2
     local root=$build/root-$architecture
     if [ ! -d "$root" ]; then
         rm -rf "$root.new"
@@ -65,16 +65,16 @@ cross() {
         mv "$root.new" "$root"
     fi
     cmake -S . -B "$build/$architecture" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$here/cross.cmake" -DMACHINE="$machine" \
-        -DROOT="$root" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="$flags" -DSIKKU_TESTS=OFF -DSIKKU_PICTURES=OFF \
+        -DROOT="$root" -DCMAKE_BUILD_TYPE=Release -DSIKKU_TESTS=OFF -DSIKKU_PICTURES=OFF \
         -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 > "$build/$architecture.log" 2>&1 ||
         { tail -n 30 "$build/$architecture.log"; fail "$architecture: not configured"; }
     cmake --build "$build/$architecture" -j "$(nproc)" --target sikku > "$build/$architecture.log" 2>&1 ||
         { tail -n 30 "$build/$architecture.log"; fail "$architecture: not built"; }
 }
-cross aarch64-linux-gnu arm64 ""
+cross aarch64-linux-gnu arm64
 same "arm64 (qemu-user)" list "$(nproc)" qemu-aarch64-static -L "$build/root-arm64" "$build/arm64/bin/sikku"
-cross i686-linux-gnu i386 "-msse2 -mfpmath=sse"
-same "i386" list "$(nproc)" env SIKKU_DATA="$(dirname "$program")/../share/sikku" \
+cross i686-linux-gnu i386
+same "i386" list "$(nproc)" env SIKKU_DATA="$build/i386/share/sikku" \
     "$build/root-i386/lib/ld-linux.so.2" --library-path "$build/root-i386/usr/lib/i386-linux-gnu:$build/root-i386/lib/i386-linux-gnu" \
     "$build/i386/bin/sikku"
 
