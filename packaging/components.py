@@ -8,7 +8,6 @@ from pathlib import Path
 # of tests, tools and packaging, which no artefact contains.
 LICENCES = {
     "alsa-lib": "LGPL-2.1-or-later",
-    "boost-defaults": "BSL-1.0",
     "boost1.74": "BSL-1.0",
     "cli11": "BSD-3-Clause",
     "fmtlib": "MIT",
@@ -30,14 +29,22 @@ LICENCES = {
     "openimageio": "Apache-2.0",
     "pugixml": "MIT",
     "pybind11": "BSD-3-Clause",
+    "robin-map": "MIT",
     "tiff": "libtiff",
     "tomlplusplus": "MIT",
     "xz-utils": "LicenseRef-public-domain",
     "zlib": "Zlib",
 }
 
-# Libraries of headers, which are compiled in.
-LIBRARY_HEADERS = ["libboost-dev", "libglm-dev", "libtomlplusplus-dev", "nlohmann-json3-dev"]
+def query(package: str, field: str) -> str:
+    return subprocess.run(
+        ["dpkg-query", "-W", "-f", f"${{{field}}}", package], check=True, capture_output=True, text=True
+    ).stdout
+
+
+# Libraries of headers, which are compiled in. libboost-dev is empty: it depends on the package with the headers.
+BOOST = query("libboost-dev", "Depends").split(" ")[0]
+LIBRARY_HEADERS = [BOOST, "libglm-dev", "libtomlplusplus-dev", "nlohmann-json3-dev"]
 PROGRAM_HEADERS = [*LIBRARY_HEADERS, "libcli11-dev"]
 MODULE_HEADERS = [*LIBRARY_HEADERS, "pybind11-dev"]  # of the Python module
 
@@ -48,12 +55,6 @@ class Component:
     version: str
     licence: str  # SPDX expression
     text: str = ""  # copyright notices and licences in full
-
-
-def query(package: str, field: str) -> str:
-    return subprocess.run(
-        ["dpkg-query", "-W", "-f", f"${{{field}}}", package], check=True, capture_output=True, text=True
-    ).stdout
 
 
 def of_package(package: str) -> Component:
@@ -90,6 +91,7 @@ def of_libraries(paths: list[str], slim: Path | None = None) -> list[Component]:
             texts = [(slim / name).read_text() for name in ("LICENSE.md", "THIRD-PARTY.md")]
             version = (slim / "version").read_text().strip()
             found.add(Component("openimageio", version, LICENCES["openimageio"], "\n\n".join(texts)))
+            found.add(of_package("robin-map-dev"))  # compiled into it
         else:
             found.add(of_library(path))
     return sorted(found)

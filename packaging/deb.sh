@@ -4,7 +4,8 @@
 set -euo pipefail
 [ $# -eq 3 ] || { echo "usage: packaging/deb.sh BUILD_FOLDER STUDIO_PAGE OUTPUT_FOLDER" >&2; exit 2; }
 SIKKU_BUILD=$(realpath "$1") SIKKU_STUDIO=$(realpath "$2")
-export SIKKU_BUILD SIKKU_STUDIO
+SIKKU_PACKAGING=$(realpath "$(dirname "$0")")
+export SIKKU_BUILD SIKKU_STUDIO SIKKU_PACKAGING
 mkdir -p "$3"
 output=$(realpath "$3")
 cd "$(dirname "$0")/.."

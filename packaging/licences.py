@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Writes the licences of libraries into a folder, a file each, and `components.tsv`, a list of them.
+"""Writes the licences of libraries into a folder, a file each, with the licences that they refer to, and
+`components.tsv`, a list of them.
 
 usage: packaging/licences.py program|module FOLDER LIST [SLIM]
 
 LIST is a file with the paths of shared libraries, a line each; SLIM is the folder of an OpenImageIO that is not Debian's.
 """
 
+import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -18,7 +21,10 @@ folder = Path(sys.argv[2])
 folder.mkdir(parents=True, exist_ok=True)
 slim = Path(sys.argv[4]) if len(sys.argv) == 5 else None
 rows = []
+common = Path("/usr/share/common-licenses")
 for component in sorted({*of_packages(headers), *of_libraries(Path(sys.argv[3]).read_text().split(), slim)}):
     (folder / f"{component.name}.txt").write_text(component.text)
+    for name in re.findall(rf"{common}/([A-Za-z0-9.-]*[A-Za-z0-9])", component.text):
+        shutil.copyfile(common / name, folder / name)
     rows.append(f"{component.name}\t{component.version}\t{component.licence}\n")
 (folder / "components.tsv").write_text("".join(rows))

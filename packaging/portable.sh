@@ -13,7 +13,7 @@ packaging/slim_openimageio.sh "$slim"
 # The same sources as in the build, against the slim library.
 pictures=$PWD/build/portable
 cmake --preset release -B "$pictures" -DSIKKU_TESTS=OFF -DSIKKU_PROGRAM=OFF -DCMAKE_PREFIX_PATH="$slim" -DCMAKE_SKIP_RPATH=ON \
-    -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$PWD=." > build/portable.log 2>&1 || { cat build/portable.log >&2; exit 1; }
+    > build/portable.log 2>&1 || { cat build/portable.log >&2; exit 1; }
 cmake --build "$pictures" -j "$(nproc)" --target sikku_image sikku_decoder > build/portable.log 2>&1 ||
     { tail -n 40 build/portable.log >&2; exit 1; }
 
@@ -36,9 +36,12 @@ licences=$staged/share/doc/sikku/licences
 mkdir -p "$licences"
 packaging/licences.py program "$licences" "$work/libraries" "$slim"
 {
-    echo "Sikku $version: unpack anywhere and run bin/sikku."
+    echo "Sikku $version: unpack anywhere and run bin/sikku, on x86-64 with glibc 2.36 or newer (Debian 12, Ubuntu 24.04)."
+    echo "Photographs in HEIF cannot be read by this copy; those in JPEG, PNG, TIFF and WebP can."
     echo
-    echo "Licences of the libraries inside are in share/doc/sikku/licences, which also lists their versions. Their sources"
-    echo "are those of the Debian packages of these names and versions: https://sources.debian.org"
+    echo "Licences of the libraries inside are in share/doc/sikku/licences, which also lists their versions. libjbig is under"
+    echo "the GPL, version 2 or later: who passes this archive on does so under the terms of the GPL, version 3. Sources are"
+    echo "those of the Debian packages of these names and versions: https://snapshot.debian.org. OpenImageIO was built from"
+    echo "those of Debian 13, with few formats, by packaging/slim_openimageio.sh of Sikku."
 } > "$staged/INSTALL"
 packaging/archive.sh "$work" "$name" "$output/$name.tar.gz"

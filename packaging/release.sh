@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything that a release consists of: Debian packages, an archive to unpack anywhere, the source distribution
 # and the wheel for Python, the npm package, the page of the studio; the list of what they contain (SPDX) and SHA256SUMS.
-# The same commit gives the same bytes in every folder and at every time, with the same Debian packages.
+# The same commit gives the same bytes in every folder and at every time, with the same Debian packages and the same npm.
+# Everything is built from nothing, except a slim OpenImageIO whose sources have not changed.
 # usage: packaging/release.sh [OUTPUT_FOLDER]
 set -euo pipefail
 [ $# -le 1 ] || { echo "usage: packaging/release.sh [OUTPUT_FOLDER]" >&2; exit 2; }
@@ -16,22 +17,27 @@ if [ -n "$(git status --porcelain)" ]; then
 fi
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
-if [ -n "$(ls -A "$output" 2> /dev/null)" ] && [ ! -e "$output/SHA256SUMS" ]; then
-    echo "$output is not empty and was not made by this script" >&2
-    exit 1
-fi
-made=$output.part
-rm -rf "$made"
-mkdir -p "$made" build
+for file in "$output"/* "$output"/.[!.]*; do
+    if [ -e "$file" ] && [ "$(basename "$file")" != SHA256SUMS ] &&
+        ! grep -q -s "  $(basename "$file")\$" "$output/SHA256SUMS"; then
+        echo "$output contains $(basename "$file"), which is not part of a release" >&2
+        exit 1
+    fi
+done
+mkdir -p "$(dirname "$output")" build
+made=$(mktemp -d "$output.XXXXXX")
+trap 'rm -rf "$made" "$made.sums"' EXIT
+rm -rf build/dist build/portable build/studio build/npm
 
-build=build/dist
-cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DSIKKU_PYTHON=ON \
-    -DPython_EXECUTABLE=/usr/bin/python3 -DSIKKU_TESTS=OFF -DCMAKE_CXX_FLAGS="-ffile-prefix-map=$PWD=." \
-    > build/dist.log 2>&1 || { cat build/dist.log >&2; exit 1; }
-cmake --build "$build" -j "$(nproc)"
 studio/build.sh
 page=build/studio/sikku-studio.html
 (cd studio && node npm/build.mjs --output "$made")
+# Programs that read strangers' files are hardened; no path of this folder gets into them.
+export CXXFLAGS="-ffile-prefix-map=$PWD=. -fstack-protector-strong -D_FORTIFY_SOURCE=2" LDFLAGS="-Wl,-z,relro -Wl,-z,now"
+build=build/dist
+cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DSIKKU_PYTHON=ON \
+    -DPython_EXECUTABLE=/usr/bin/python3 -DSIKKU_TESTS=OFF > build/dist.log 2>&1 || { cat build/dist.log >&2; exit 1; }
+cmake --build "$build" -j "$(nproc)"
 packaging/deb.sh "$build" "$page" "$made"
 packaging/portable.sh "$build" "$page" "$made"
 packaging/wheel.sh "$build" "$made"
@@ -41,6 +47,7 @@ cp "$page" "$made/sikku-studio-$version.html"
 packaging/sbom.py "$made" "$build"
 (cd "$made" && sha256sum -- *) > "$made.sums"
 mv "$made.sums" "$made/SHA256SUMS"
+chmod 755 "$made"
 rm -rf "$output"
 mv "$made" "$output"
 cat "$output/SHA256SUMS"

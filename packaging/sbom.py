@@ -17,7 +17,7 @@ import tarfile
 import zipfile
 from pathlib import Path
 
-from components import LIBRARY_HEADERS, MODULE_HEADERS, PROGRAM_HEADERS, Component, of_libraries, of_packages, query
+from components import BOOST, LIBRARY_HEADERS, MODULE_HEADERS, PROGRAM_HEADERS, Component, of_libraries, of_packages, query
 
 NAMESPACE = "https://sikku.example/spdx"
 
@@ -43,7 +43,7 @@ def listed(text: str) -> list[Component]:
 
 # Debian packages of the C++ libraries in WebAssembly, by their names in studio/notices.mjs.
 WEB = {
-    "Boost": "libboost-dev", "GLM": "libglm-dev", "fmt": "libfmt-dev", "nlohmann/json": "nlohmann-json3-dev",
+    "Boost": BOOST, "GLM": "libglm-dev", "fmt": "libfmt-dev", "nlohmann/json": "nlohmann-json3-dev",
     "fast_float": "libfast-float-dev", "toml++": "libtomlplusplus-dev",
     "Emscripten": "emscripten", "musl": "emscripten", "libc++, libc++abi": "emscripten",
 }  # fmt: skip
@@ -125,9 +125,11 @@ def main(folder: Path, build: Path) -> None:
             needed = of_libraries(direct_libraries(python))
         elif artefact.name.startswith("libsikku-dev_"):
             inside = of_packages(LIBRARY_HEADERS)
-            needed = of_libraries(direct_libraries(program))
+            needed = of_packages(["libfmt-dev", "libtbb-dev", "zlib1g-dev", "libpugixml-dev", "libglm-dev"])
         else:
             inside = contained(artefact)
+            if "-linux-" in artefact.name and artefact.suffix == ".gz":
+                inside += page
             if artefact.suffix == ".whl":
                 needed = of_libraries(direct_libraries(modules))
         licences = sorted({component.licence for component in inside} - {"MIT"})
@@ -137,7 +139,7 @@ def main(folder: Path, build: Path) -> None:
         for component in inside:
             relationships.append((key, "CONTAINS", add(component)))
         for component in needed:
-            if component not in inside:
+            if (component.name, component.version) not in {(each.name, each.version) for each in inside}:
                 relationships.append((key, "DEPENDS_ON", add(component)))
 
     seconds = int(os.environ.get("SOURCE_DATE_EPOCH", "0"))

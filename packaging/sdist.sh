@@ -8,7 +8,10 @@ output=$(realpath "$1")
 cd "$(dirname "$0")/.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-(cd python && /usr/bin/python3 setup.py -q sdist --dist-dir "$work" > "$work/log" 2>&1) || { tail -n 40 "$work/log" >&2; exit 1; }
+# Only files of the project.
+mkdir "$work/checkout"
+git ls-files -z | xargs -0 cp --parents -t "$work/checkout"
+(cd "$work/checkout/python" && /usr/bin/python3 setup.py -q sdist --dist-dir "$work" > "$work/log" 2>&1) || { tail -n 40 "$work/log" >&2; exit 1; }
 name=$(basename "$work"/*.tar.gz .tar.gz)
 # Packed again, because setuptools writes the time into the archive.
 tar -xzf "$work/$name.tar.gz" -C "$work"

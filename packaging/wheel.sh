@@ -17,12 +17,18 @@ trap 'rm -rf "$work"' EXIT
 rm "$work"/*.whl
 package=$(echo "$work"/sikku-*)
 modules=$package/sikku/lib
-packaging/bundle.sh "$modules/libraries" "$modules"/_core.*.so > "$work/libraries"
+SIKKU_LEFT='libstdc\+\+|libgcc_s' packaging/bundle.sh "$modules/libraries" "$modules"/_core.*.so > "$work/libraries"
+# Under names of their own, because a process loads each name once, and other modules may bring other versions.
+for library in "$modules"/libraries/*; do
+    name=$(basename "$library")
+    patchelf --set-soname "sikku-$name" "$library"
+    mv "$library" "$modules/libraries/sikku-$name"
+    patchelf --replace-needed "$name" "sikku-$name" "$modules"/libraries/* "$modules"/_core.*.so
+done
 about=$(echo "$package"/sikku-*.dist-info)
 cp LICENSE "$about"
 packaging/licences.py module "$about/licences" "$work/libraries"
-# The module for pictures uses its own copies of the same libraries where there are, and those of the system otherwise.
-patchelf --set-rpath '$ORIGIN/../libraries' "$modules"/sikku/*
+chmod -R u=rwX,go=rX "$package"
 chmod 755 "$modules"/sikku/*  # `wheel unpack` loses modes
 # pip refuses the wheel where the C library is older than that of the build.
 glibc=$(getconf GNU_LIBC_VERSION)

@@ -31,7 +31,7 @@ def version() -> str:
 
 # What a build of the module needs.
 SOURCES = ["CMakeLists.txt", "LICENSE", "art", "engine", "music", "packaging", "patterns", "python"]
-SKIPPED = {"__pycache__", "sikku.egg-info", "build", "dist", "tests", f"sikku-{version()}"}
+SKIPPED = {"__pycache__", "sikku.egg-info", "build", "dist", "tests", ".pytest_cache", f"sikku-{version()}"}
 
 
 def build_folder() -> Path:

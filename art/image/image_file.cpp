@@ -63,7 +63,8 @@ const ImageModule& image_module(int threads = 0) {
             if (const ImageModule* found = load(folder / "sikku_image.so")) return *found;
         }
         throw std::runtime_error(
-            "these pictures need the module with OpenImageIO, which could not be loaded; PNG does not need it:" +
+            "these pictures need the module with OpenImageIO, which could not be loaded (on Debian 12, install "
+            "libopenimageio2.4 and liblcms2-2); PNG does not need it:" +
             reasons);
     }();
     return loaded;

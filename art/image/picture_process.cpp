@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -94,6 +95,18 @@ private:
         fmt::format("the program that decodes pictures, {}, does not start: {}", program.string(), reason));
 }
 
+/// Why a decoder ended before it was ready. @param state  as from waitpid()
+const char* reason_not_to_start(std::optional<int> state, bool is_heif) {
+    constexpr int library_is_missing = 127;  // said by the dynamic loader, also if a limit leaves no room for one
+    rlimit space{};
+    const bool is_limited = ::getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY;
+    if (state && WIFEXITED(*state) && WEXITSTATUS(*state) == library_is_missing && !is_limited) {
+        return is_heif ? "libheif is not installed (on Debian, install libheif1)"
+                       : "OpenImageIO is not installed (on Debian 12, install libopenimageio2.4)";
+    }
+    return "raise `ulimit -v`, `-n` or `-u`";
+}
+
 std::filesystem::path find_decoder(bool is_heif) {
     const char* const name = is_heif ? heif_decoder_name : decoder_name;
     std::string places;
@@ -166,7 +179,7 @@ DecodedPicture read_picture(const std::filesystem::path& path, int longest_side,
     };
     const auto first = next();
     if (first == DecoderAnswer::version) refuse_start(program, "it was made for another version of sikku");
-    if (first != DecoderAnswer::ready) refuse_start(program, "raise `ulimit -v`, `-n` or `-u`");
+    if (first != DecoderAnswer::ready) refuse_start(program, reason_not_to_start(decoder.end(), is_heif));
     const auto second = next();
     if (second == DecoderAnswer::picture) return read_pixels(decoder, longest_side, most_pixels, monitor);
     if (second == DecoderAnswer::memory) {

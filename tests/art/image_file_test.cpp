@@ -229,6 +229,15 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     EXPECT_TRUE(has(none.text, "PNG does not need it")) << none.text;
     const auto png = run_tool(draw.substr(0, draw.size() - 4) + "png'");
     EXPECT_TRUE(png.ok) << png.text;
+
+    // A decoder whose libraries are missing: the dynamic loader ends it so.
+    const auto decoder = copied_module.parent_path() / "sikku_decoder";
+    std::ofstream(decoder) << "#!/bin/sh\nexit 127\n";
+    std::filesystem::permissions(decoder, std::filesystem::perms::owner_all);
+    const auto read = run_tool("'" + copied_program.string() + "' kolam --read '" + (folder / "x.png").string() +
+                               "' -o '" + (folder / "y.lsys").string() + "'");
+    EXPECT_FALSE(read.ok);
+    EXPECT_TRUE(has(read.text, "OpenImageIO is not installed")) << read.text;
 }
 
 }  // namespace sikku::image_file_test

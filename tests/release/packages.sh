@@ -35,6 +35,10 @@ if in_root "$root" sikku draw hilbert -o /tmp/first.tif 2> "$work/message"; then
 grep -q -i 'openimageio' "$work/message" || { cat "$work/message"; fail "the message does not name OpenImageIO"; }
 [ ! -e "$root/tmp/first.tif" ] || fail "a refused picture is there"
 
+for package in libopenimageio2.4 libheif1 liblcms2-2 sikku-studio; do
+    dpkg-deb -f "$dist"/sikku_*.deb Recommends | grep -q "$package" || fail "sikku does not recommend $package"
+done
+
 # Two versions side by side do not mix: a copy elsewhere uses its own patterns.
 mkdir -p "$root/opt/other/bin" "$root/opt/other/share/sikku"
 cp "$root/usr/bin/sikku" "$root/opt/other/bin"

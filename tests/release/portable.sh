@@ -16,6 +16,8 @@ name=$(basename "$archive" .tar.gz)
 size=$(du -sm "$root/opt/$name" | cut -f1)
 [ "$size" -le 60 ] || fail "$size MB unpacked; at most 60 are wanted"
 [ -s "$root/opt/$name/share/doc/sikku/licences/components.tsv" ] || fail "no licences"
+(cd "$root/opt/$name/share/doc/sikku/licences" && grep -h -o '/usr/share/common-licenses/[A-Za-z0-9.-]*[A-Za-z0-9]' ./*.txt) | sort -u |
+    while read -r licence; do [ -s "$root/opt/$name/share/doc/sikku/licences/$(basename "$licence")" ] || fail "no $licence"; done
 while IFS=$'\t' read -r component _; do
     [ -s "$root/opt/$name/share/doc/sikku/licences/$component.txt" ] || fail "no licence of $component"
 done < "$root/opt/$name/share/doc/sikku/licences/components.tsv"
