@@ -54,9 +54,9 @@ public:
     virtual void close() = 0;
 };
 
-/// Loads the module with OpenImageIO, which every picture but PNG needs, and checks that it can start its threads, for
-/// pictures using this many (0: one for each core). Call before long work: under a low `ulimit -u` or `-v` the libraries
-/// of the module would abort the program.
+/// Loads the module with OpenImageIO, which every picture but PNG needs, and checks that it can start its threads,
+/// for pictures using this many (0: one for each core). Call before long work: under a low `ulimit -u` or `-v` the
+/// libraries of the module would abort the program.
 /// @throws std::runtime_error if it cannot be loaded, or needs more threads or memory than the limits allow
 void prepare_images(int threads);
 

@@ -19,8 +19,8 @@ std::vector<std::filesystem::path> data_folders();
 /// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
 std::filesystem::path installed_file(const std::filesystem::path& relative);
 
-// CMake's package defines SIKKU_DATA_FOLDER for programs that link the libraries, and pkg-config SIKKU_DATA_PATH, without
-// the quotation marks that would not survive in `c++ $(pkg-config --cflags sikku)`.
+// CMake's package defines SIKKU_DATA_FOLDER for programs that link the libraries, and pkg-config SIKKU_DATA_PATH,
+// without the quotation marks that would not survive in `c++ $(pkg-config --cflags sikku)`.
 #ifdef SIKKU_DATA_PATH
 #pragma push_macro("linux")
 #pragma push_macro("unix")
