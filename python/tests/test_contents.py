@@ -97,8 +97,8 @@ def test_pixels_are_those_of_a_png(tmp_path: Path) -> None:
 def test_progress() -> None:
     calls: list[tuple[int, float]] = []
     pattern = sikku.load("hilbert")
-    svg = pattern.draw("svg", n=10, progress=lambda done, expected: calls.append((done, expected)))
-    assert svg == pattern.draw("svg", n=10)
+    svg = pattern.draw("svg", n=11, progress=lambda done, expected: calls.append((done, expected)))
+    assert svg == pattern.draw("svg", n=11)
     assert all(isinstance(done, int) and expected >= 0 for done, expected in calls)
     assert any(done > 0 for done, _ in calls)
 
