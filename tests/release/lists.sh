@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 version=$(packaging/version.sh)
 # The studio's page takes minutes to build, and has tests of its own.
 echo '<!DOCTYPE html><title>Sikku</title>' > "$work/sikku-studio.html"
-SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2> /dev/null || echo 0)
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2> /dev/null || echo 315532800)
 export SOURCE_DATE_EPOCH
 # Neither small nor the same bytes, but quick.
 DPKG_DEB_COMPRESSOR_TYPE=none packaging/deb.sh "$build" "$work/sikku-studio.html" "$work"
