@@ -15,6 +15,44 @@ PixelGrid read_ppm(const std::filesystem::path& path) {
     return pixels;
 }
 
+namespace {
+
+PixelGrid converted(const std::filesystem::path& file, const std::string& channels, bool is_raw) {
+    const std::string picture = file.string() + ".ppm";
+    const ToolOutcome outcome = run_tool(std::string("oiiotool ") + (is_raw ? "--iconfig oiio:RawColor 1 '" : "'") +
+                                         file.string() + "' --ch " + channels + " -d uint8 -o '" + picture + "'");
+    EXPECT_TRUE(outcome.ok) << outcome.text;
+    return read_ppm(picture);
+}
+
+/// OpenImageIO 2.5 writes PPM upside down.
+bool oiiotool_turns_ppm() {
+    static const bool turns = [] {
+        const ScratchFolder folder;
+        // Red above blue, from the bottom up.
+        const std::string bmp(
+            "BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\2\0\0\0\1\0\x18\0\0\0\0\0\x08\0\0\0"
+            "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xff\0\0\0\0\0\xff\0",
+            62);
+        return converted(folder.write("turned.bmp", bmp), "R,G,B", false).at(0, 0).blue == 255;
+    }();
+    return turns;
+}
+
+}  // namespace
+
+PixelGrid read_by_oiiotool(const std::filesystem::path& file, const std::string& channels, bool is_raw) {
+    PixelGrid grid = converted(file, channels, is_raw);
+    if (!oiiotool_turns_ppm()) return grid;
+    const std::size_t stride = 3 * static_cast<std::size_t>(grid.width);
+    std::string turned;
+    for (std::size_t end = grid.bytes.size(); end >= stride && stride > 0; end -= stride) {
+        turned += grid.bytes.substr(end - stride, stride);
+    }
+    grid.bytes = std::move(turned);
+    return grid;
+}
+
 std::string pdf_complaints(const std::filesystem::path& pdf) {
     const ToolOutcome outcome = run_tool("qpdf --check '" + pdf.string() + "'");
     return outcome.ok && outcome.text.find("WARNING") == std::string::npos ? "" : outcome.text;

@@ -35,6 +35,10 @@ struct PixelGrid {
 };
 PixelGrid read_ppm(const std::filesystem::path& path);
 
+/// Three channels of a picture, read by oiiotool. @param is_raw  inks as they are, instead of as colours
+PixelGrid read_by_oiiotool(const std::filesystem::path& file, const std::string& channels = "R,G,B",
+                           bool is_raw = false);
+
 /// Errors that qpdf finds in a PDF.
 std::string pdf_complaints(const std::filesystem::path& pdf);
 

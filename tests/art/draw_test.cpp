@@ -150,11 +150,7 @@ TEST_F(Draw, FilledSplinesCoverTheSamePixelsInEveryFormat) {
     draw(text, "print.pdf");
     ASSERT_TRUE(
         run_tool("rsvg-convert -w 100 '" + folder_.file("print.svg") + "' -o '" + folder_.file("svg.png") + "'").ok);
-    const auto pixels = [&](const std::string& name) {
-        const std::string ppm = folder_.file(name + ".ppm");
-        EXPECT_TRUE(run_tool("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'").ok);
-        return read_ppm(ppm);
-    };
+    const auto pixels = [&](const std::string& name) { return read_by_oiiotool(folder_ / name); };
     const PixelGrid page = pixels("svg.png");
     const PixelGrid picture = pixels("print.png");
     ASSERT_EQ(picture.width, 100);

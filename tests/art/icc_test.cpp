@@ -88,13 +88,7 @@ protected:
     }
     /// The inks of a TIFF, 4 bytes a pixel, read by another program.
     Bytes inks(const std::filesystem::path& file) {
-        const auto read = [&](const std::string& channels) {
-            const std::string picture = (folder_ / "inks.ppm").string();
-            const ToolOutcome outcome = run_tool("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
-                                                 channels + " -d uint8 -o '" + picture + "'");
-            EXPECT_TRUE(outcome.ok) << outcome.text;
-            return read_ppm(picture).bytes;
-        };
+        const auto read = [&](const std::string& channels) { return read_by_oiiotool(file, channels, true).bytes; };
         const std::string first = read("0,1,2");
         const std::string black = read("3,3,3");
         Bytes result;
@@ -300,11 +294,7 @@ TEST_F(Icc, OneBitIsALuminanceOfAHalf) {
         image->rows(0, 32, std::span(pixels).first(split));
         image->rows(32, 8, std::span(pixels).subspan(split));
         image->close();
-        const std::string picture = folder_.file("bits.ppm");
-        const ToolOutcome outcome =
-            run_tool("oiiotool '" + path.string() + "' --ch 0,0,0 -d uint8 -o '" + picture + "'");
-        ASSERT_TRUE(outcome.ok) << outcome.text;
-        const PixelGrid found = read_ppm(picture);
+        const PixelGrid found = read_by_oiiotool(path, "0,0,0");
         ASSERT_EQ(found.width, 259);
         for (int i = 0; i < 259 * 40; ++i) {
             ASSERT_EQ(found.at(i % 259, i / 259).red, i * 7 % 256 < 128 ? 0 : 255) << channels << ' ' << i;

@@ -84,10 +84,7 @@ TEST(ImageFile, ThePixelsComeBack) {
     for (const std::string format : {"png", "tif"}) {
         const auto path = folder / ("picture." + format);
         write_image(path, image_spec(format, 70, 200, 3), pixels);
-        const auto ppm = folder / (format + ".ppm");
-        const ToolOutcome outcome = run_tool("oiiotool '" + path.string() + "' -o '" + ppm.string() + "'");
-        ASSERT_TRUE(outcome.ok) << outcome.text;
-        const PixelGrid back = read_ppm(ppm);
+        const PixelGrid back = read_by_oiiotool(path);
         EXPECT_EQ(back.width, 70);
         EXPECT_EQ(back.height, 200);
         EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), back.bytes.begin(), back.bytes.end(),

@@ -40,10 +40,7 @@ protected:
                                                  ".tif' '" + pdf.string() + "'");
             EXPECT_TRUE(outcome.ok) << outcome.text;
         }
-        const std::string picture = stem + ".ppm";
-        EXPECT_TRUE(run_tool("oiiotool '" + stem + "(" + plate + ").tif' --ch 0,0,0 -o '" + picture + "'").ok)
-            << plate;
-        const PixelGrid pixels = read_ppm(picture);
+        const PixelGrid pixels = read_by_oiiotool(stem + "(" + plate + ").tif", "0,0,0");
         double sum = 0;
         for (const char byte : pixels.bytes) sum += 255 - static_cast<unsigned char>(byte);
         return sum / 255 / static_cast<double>(pixels.bytes.size());

@@ -127,7 +127,9 @@ TEST(PictureProcess, HeifIsNotLargerThanWhatItCodes) {
             EXPECT_TRUE(has(answer, "damaged")) << width << " x " << height;
         }
         EXPECT_TRUE(has(answer_to(with_stated_size(sound, 30'000, 30'000), name), "at most 100 million"));
-        EXPECT_EQ(answer_to(with_stated_size(sound, 40, 50), name), "40x50");
+        // libheif 1.19 refuses sizes that are too small as well.
+        const std::string smaller = answer_to(with_stated_size(sound, 40, 50), name);
+        EXPECT_TRUE(smaller == "40x50" || has(smaller, "does not have the size")) << smaller;
     }
     // Letters in pixel data are not a box.
     std::string letters = coded("a.heic", 64, 64);

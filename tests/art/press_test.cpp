@@ -173,10 +173,7 @@ protected:
         }
         const std::string file = stem + "(" + name + ").tif";
         if (!std::filesystem::exists(file)) return std::nullopt;
-        const std::string picture = stem + ".ppm";
-        const ToolOutcome outcome = run_tool("oiiotool '" + file + "' --ch 0,0,0 -o '" + picture + "'");
-        EXPECT_TRUE(outcome.ok) << outcome.text;
-        return read_ppm(picture);
+        return read_by_oiiotool(file, "0,0,0");
     }
 
     ScratchFolder folder_;
@@ -459,11 +456,7 @@ protected:
     }
     /// 3 channels, by another program.
     PixelGrid pixels(const std::filesystem::path& file, const std::string& channels = "0,0,0") {
-        const std::string picture = (folder_ / "pixels.ppm").string();
-        const ToolOutcome outcome = run_tool("oiiotool --iconfig oiio:RawColor 1 '" + file.string() + "' --ch " +
-                                             channels + " -d uint8 -o '" + picture + "'");
-        EXPECT_TRUE(outcome.ok) << outcome.text;
-        return read_ppm(picture);
+        return read_by_oiiotool(file, channels, true);
     }
 
     ScratchFolder folder_;

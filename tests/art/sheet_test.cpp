@@ -60,12 +60,7 @@ protected:
         EXPECT_TRUE(outcome.ok) << outcome.text;
         return render_pdf(pdf, static_cast<int>(options_.dpi));
     }
-    PixelGrid image_pixels(const std::string& name) {
-        const std::string ppm = folder_.file(name + ".ppm");
-        const ToolOutcome outcome = run_tool("oiiotool '" + folder_.file(name) + "' --ch R,G,B -o '" + ppm + "'");
-        EXPECT_TRUE(outcome.ok) << outcome.text;
-        return read_ppm(ppm);
-    }
+    PixelGrid image_pixels(const std::string& name) { return read_by_oiiotool(folder_ / name); }
     int at(double millimetres) const { return static_cast<int>(millimetres * options_.dpi / 25.4); }
 
     /// Just within the four corners of each window its ground is seen, and just outside that of the sheet.

@@ -9,7 +9,8 @@ cd "$here/../.."
 root=$PWD/build/debian13
 if [ ! -d "$root" ]; then
     rm -rf "$root.new"
-    make_root trixie "$root.new" minbase "${build_packages[@]}" "${test_packages[@]}" git
+    # Codecs of HEIF are packages of their own.
+    make_root trixie "$root.new" minbase "${build_packages[@]}" "${test_packages[@]}" libheif-plugins-all git
     mv "$root.new" "$root"
 fi
 # Files that did not change keep their times, so that a second run compiles little.

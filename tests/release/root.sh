@@ -15,12 +15,13 @@ make_root() {
     mkdir -p "$folder/proc" "$folder/dev" "$folder/tmp"
 }
 
-# in_root FOLDER COMMAND…: runs a command in a root, as a fresh login would, with /proc for the command only.
+# in_root FOLDER COMMAND…: runs a command in a root, as a fresh login would, with /proc and /dev for the command only.
 in_root() {
     local folder=$1
     shift
     env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-        DEBIAN_FRONTEND=noninteractive unshare --mount --pid --fork --mount-proc="$folder/proc" chroot "$folder" "$@"
+        DEBIAN_FRONTEND=noninteractive unshare --mount --pid --fork --mount-proc="$folder/proc" \
+        sh -c 'mount --rbind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" "$@"
 }
 
 fail() { echo "$0: $*" >&2; exit 1; }
