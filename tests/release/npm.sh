@@ -28,8 +28,7 @@ const svg: Uint8Array | string = sikku.draw("hilbert", "svg", { n: 3 });
 console.log(svg.length);
 END
 "$tsc" --noEmit --strict --target es2022 --module nodenext --moduleResolution nodenext types.ts
-# A page made with esbuild.
-# It reports to the server what it has drawn.
+# A page made with esbuild reports to the server what it has drawn.
 cat > page.ts <<'END'
 import { start } from "sikku";
 start("sikku.wasm").then((sikku) => {
