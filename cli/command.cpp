@@ -24,6 +24,10 @@
 #include <utility>
 
 namespace sikku {
+std::string unwritten(const std::string& cause) {
+    return "cannot write to standard output" + (cause.empty() ? "" : ": " + cause);
+}
+
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

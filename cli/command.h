@@ -41,6 +41,9 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) noe
     }
 }
 
+/// The message for output that is lost. @param cause  may be empty
+std::string unwritten(const std::string& cause);
+
 /// Calls tell() unless `quiet`.
 template <typename... Arguments>
 void tell_unless(bool quiet, fmt::format_string<Arguments...> format, Arguments&&... arguments) noexcept {

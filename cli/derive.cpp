@@ -26,7 +26,7 @@ void write_all(int descriptor, std::string_view text) {
         if (written < 0) {
             if (errno == EINTR && !interrupted()) continue;
             if (interrupted()) throw Interrupted();
-            throw std::runtime_error(fmt::format("standard output: {}", std::strerror(errno)));
+            throw std::runtime_error(unwritten(std::generic_category().message(errno)));
         }
         text.remove_prefix(static_cast<std::size_t>(written));
     }

@@ -125,6 +125,8 @@ int run(int argc, char** argv) {
         return fail(2, option_message(error));
     } catch (const UsageError& error) {
         return fail(2, error.what());
+    } catch (const NotFound& error) {
+        return fail(2, error.what());
     } catch (const FileError& error) {
         return fail(2, with_force(error.what()));
     } catch (const Stopped& stopped) {
@@ -135,6 +137,10 @@ int run(int argc, char** argv) {
         return fail(1, "not enough memory");
     } catch (const std::filesystem::filesystem_error& error) {
         return fail(1, fmt::format("{}: {}", printable(error.path1().string(), 2000), error.code().message()));
+    } catch (const std::system_error& error) {
+        // Thrown by fmt::print, which does not say what it writes to.
+        if (std::ferror(stdout) != 0) return fail(1, unwritten(error.code().message()));
+        return fail(1, with_force(error.what()));
     } catch (const std::exception& error) {
         return fail(1, with_force(error.what()));
     }
@@ -147,6 +153,8 @@ int main(int argc, char** argv) {
     sikku::catch_signals();
     const int status = run(argc, argv);
     // Lost output is a failure, even if it was an error report; other failures were reported already.
-    const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
-    return lost && (status == 0 || status == 2) ? fail(1, "standard output cannot be written") : status;
+    const int error = std::fflush(stdout) != 0 ? errno : 0;
+    const bool lost = error != 0 || std::ferror(stdout) != 0;
+    if (!lost || (status != 0 && status != 2)) return status;
+    return fail(1, sikku::unwritten(error != 0 ? std::generic_category().message(error) : ""));
 }

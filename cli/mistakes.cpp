@@ -63,12 +63,27 @@ std::string unexpected(const CLI::App& command, const std::string& argument,
                        printable(argument, 80));
 }
 
+/// What is wrong with the name of the pattern, which matters more than an option that is missing; empty: nothing.
+std::string mistake_in_pattern(const CLI::App& command) {
+    const CLI::Option* pattern = command.get_option_no_throw("PATTERN");
+    if (!pattern || pattern->results().empty() || pattern->results().front() == "-") return {};
+    try {
+        read_pattern_text(pattern->results().front());
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return {};
+}
+
 std::string missing(const CLI::App& app, const CLI::App& command) {
     const std::string how = fmt::format("; `sikku {} --help` shows how", command.get_name());
     for (const CLI::Option* option : command.get_options()) {
         if (!option->get_required() || option->count() > 0) continue;
         const std::string name = option->get_name();
-        if (!option->get_positional()) return fmt::format("{} {} is missing{}", name, option->get_type_name(), how);
+        if (!option->get_positional()) {
+            std::string mistake = mistake_in_pattern(command);
+            return mistake.empty() ? fmt::format("{} {} is missing{}", name, option->get_type_name(), how) : mistake;
+        }
         for (const CLI::Option* taker : command.get_options()) {
             if (!has_optional_value(*taker) || taker->results().empty() || taker->results().front().empty()) continue;
             return fmt::format("{0} is missing: '{1}' was read as the value of {2}; put {0} first, or write {2}=…",
@@ -119,16 +134,16 @@ void check_arguments(const CLI::App& app, const std::vector<std::string>& argume
 std::string parse_message(const CLI::App& app, const CLI::ParseError& error,
                           const std::vector<std::string>& arguments) {
     const CLI::App& command = used_command(app);
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const bool is_incomplete = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (is_incomplete || dynamic_cast<const CLI::ExtrasError*>(&error)) {
         const std::vector<std::string> extras = app.remaining(true);
         // The value of an unknown option stands before it in this list.
         const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
             return text.starts_with("-") && text != "-";
         });
-        return option == extras.end() ? unexpected(command, extras.front(), arguments)
-                                      : unknown_option(command, *option);
+        if (option != extras.end()) return unknown_option(command, *option);
+        return is_incomplete ? missing(app, command) : unexpected(command, extras.front(), arguments);
     }
-    if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing(app, command);
     for (const CLI::Option* option : command.get_options()) {
         if (option->count() == 0) continue;
         const std::string name = option->get_name();

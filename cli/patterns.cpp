@@ -60,15 +60,21 @@ void list_patterns(const std::string& kind, bool names_only) {
             fmt::print("{}{}\n", last.empty() ? "" : "\n", printable(known.kind));
         }
         last = known.kind;
+        std::string text;
+        try {
+            text = read_pattern_text(known.file.string()).text;
+        } catch (const UsageError& error) {
+            tell("sikku: warning: {}\n", printable(error.what()));
+        }
         Diagnostics diagnostics;
-        const Pattern pattern = parse_pattern(known.name, read_pattern_text(known.file.string()).text, diagnostics);
+        const Pattern pattern = parse_pattern(known.name, std::move(text), diagnostics);
         rows.push_back({printable(known.name), printable(pattern.text("title")), printable(pattern.text("source"))});
     }
     print_rows(rows);
     if (any) return;
     std::set<std::string_view> kinds;
     for (const LibraryPattern& known : patterns) kinds.insert(known.kind);
-    if (kinds.empty()) throw UsageError("no patterns were found");
+    if (kinds.empty()) throw UsageError(missing_patterns());
     kinds.insert("arrangements");
     const std::string_view near = nearest(kind, {kinds.begin(), kinds.end()});
     throw UsageError(fmt::format("unknown kind of patterns '{}'; {}", kind,

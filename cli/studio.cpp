@@ -41,7 +41,8 @@ fs::path find_page() {
     fs::path page = installed_file("sikku-studio.html");
     if (fs::is_regular_file(page, error)) return page;
     throw std::runtime_error(
-        "the studio page is not installed; install the package sikku-studio, or build it with `./demo --studio`");
+        "the studio page is not installed; install the package sikku-studio, or build it in a checkout with "
+        "`./demo --studio`");
 }
 
 /// Reads a pattern as a work without values, or the work of a link. The studio reports errors in patterns.
@@ -191,8 +192,9 @@ void add_studio(CLI::App& app, bool& quiet) {
                      "write a copy of the page that contains the patterns, instead of opening it")
         ->type_name("FILE.html");
     command->footer(
-        "The studio is a single page that needs neither a server nor the internet; `./demo --studio` builds it. It "
-        "is opened with xdg-open; without a display or xdg-open, its address is printed. The browser saves work in "
+        "The studio is a single page that needs neither a server nor the internet; it is part of the package "
+        "sikku-studio, and `./demo --studio` builds it. It is opened with xdg-open; without a display or xdg-open, "
+        "its address is printed. The browser saves work in "
         "the studio; the pattern files do not change.\n\n"
         "Examples:\n"
         "  sikku studio\n"

@@ -6,6 +6,7 @@
 #include "engine/language/document.h"
 #include "music/score/score.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace py = pybind11;
@@ -21,6 +22,16 @@ void raise(const char* name, const Arguments&... arguments) {
     PyErr_SetObject(type.ptr(), error.ptr());
 }
 
+/// An error in a setting is one of the caller, not of the pattern.
+void raise_pattern_error(const PatternError& error) {
+    const auto& all = error.diagnostics();
+    const auto first = std::find_if(all.begin(), all.end(), [](const Diagnostic& one) { return !one.warning; });
+    if (first == all.end() || first->where.line > 0) {
+        return raise("PatternError", to_text(error.what()), to_list(all));
+    }
+    raise("SettingError", to_text(first->setting), to_text(first->value), to_text(first->message));
+}
+
 void translate(const std::exception_ptr& thrown) {
     try {
         if (thrown) std::rethrow_exception(thrown);
@@ -29,7 +40,7 @@ void translate(const std::exception_ptr& thrown) {
     } catch (const py::error_already_set&) {
         throw;
     } catch (const PatternError& error) {
-        raise("PatternError", to_text(error.what()), to_list(error.diagnostics()));
+        raise_pattern_error(error);
     } catch (const SettingError& error) {
         raise("SettingError", to_text(error.option()), to_text(error.value()), to_text(error.message()));
     } catch (const NotFound& error) {

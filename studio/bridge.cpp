@@ -266,7 +266,10 @@ Json failure_of(const std::function<Json()>& work) {
     try {
         return work();
     } catch (const PatternError& error) {
-        return failure("pattern", error.what(), {{"diagnostics", json_of(error.diagnostics())}});
+        Json more = {{"diagnostics", json_of(error.diagnostics())}};
+        const Diagnostic& first = error.diagnostics().front();
+        if (!first.setting.empty()) more["option"] = first.setting;
+        return failure("pattern", error.what(), more);
     } catch (const SettingError& error) {
         return failure("setting", error.what(), {{"option", error.option()}});
     } catch (const BudgetError& error) {

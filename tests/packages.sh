@@ -22,7 +22,7 @@ packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-d
 release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev
     libwebp-dev robin-map-dev)
 # For ./check --release: roots of other systems and machines, and tools that examine packages and desktop files.
-root_packages=(locales mmdebstrap lintian qemu-user-static g++-aarch64-linux-gnu g++-i686-linux-gnu desktop-file-utils
+root_packages=(clang locales mmdebstrap lintian qemu-user-static g++-aarch64-linux-gnu g++-i686-linux-gnu desktop-file-utils
     shared-mime-info xdg-utils)
 command -v npm > /dev/null || studio_packages+=(npm)
 

@@ -42,7 +42,8 @@ struct GalleryResult {
 class Gallery {
 public:
     /// @param keys  must outlive the gallery
-    /// @throws GalleryError for every error that can be detected before anything is made; Stopped
+    /// @throws GalleryError for every error that can be detected before anything is made; NotFound for an unknown
+    /// gallery file; Stopped
     Gallery(GalleryRequest request, GalleryOptions options, const GalleryKeys& keys, const Monitor& monitor);
 
     const std::vector<GalleryJob>& jobs() const { return jobs_; }

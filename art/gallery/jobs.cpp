@@ -564,9 +564,12 @@ std::ifstream open_text_file(const std::string& file) {
 std::string read_gallery_text(const GalleryRequest& request) {
     if (request.gallery_text) return *request.gallery_text;
     if (std::error_code error; !std::filesystem::exists(request.gallery_file, error)) {
-        throw GalleryError(fmt::format("no file or bundled gallery file named '{}'; there are {}",
-                                       printable(request.gallery_file, 200),
-                                       fmt::join(PatternLibrary::bundled().gallery_files(), ", ")));
+        const auto bundled = PatternLibrary::bundled().gallery_files();
+        throw NotFound(
+            fmt::format(
+                "no file or bundled gallery file named '{}'; {}", printable(request.gallery_file, 200),
+                bundled.empty() ? "none are installed" : fmt::format("there are {}", fmt::join(bundled, ", "))),
+            true);
     }
     std::ifstream stream = open_text_file(request.gallery_file);
     std::string text;

@@ -226,6 +226,9 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     }
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
+    if (known().empty()) {
+        fail(place, fmt::format("no file named '{}', and {}", printable(word, 80), missing_patterns()));
+    }
     // The word may also resemble a kind of patterns: `kolams`.
     const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
     const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};
@@ -250,7 +253,7 @@ PatternShelf::List PatternShelf::all() {
     for (const LibraryPattern& pattern : known()) {
         if (pattern.kind != "words") found.push_back(of_known(pattern));
     }
-    if (found.empty()) throw GalleryError("no patterns were found");
+    if (found.empty()) throw GalleryError(missing_patterns());
     return std::make_shared<const std::vector<Pointer>>(std::move(found));
 }
 

@@ -94,7 +94,7 @@ constexpr Rule product_rules[] = {
     {when::windowed, {{"border"}}, "a border frames the whole drawing; a window shows only part of it"},
     {when::page_filled, {{"border"}}, "a border frames the whole drawing; a filled page shows only part of it"},
     {when::part, {{extras}}, "the drawing fills the page, and would cross the text"},
-    {when::still, {{"animate"}}, "only SVG can draw itself"},
+    {when::still, {{"animate"}}, "only SVG can draw itself; a GIF shows the derivation lengths of 'generations'"},
     {when::without_names, {{"name-tiles"}}, no_names},
     {when::drawn_plot, {{"name-tiles"}}, "a plot has lines only, no tiles"},
     {when::hatched, {{"name-tiles"}}, "cannot be combined with 'hatch', which draws tiles as lines"},

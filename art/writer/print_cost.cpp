@@ -7,10 +7,12 @@
 #include "art/drawing/line_work.h"
 #include "art/drawing/map_frames.h"
 #include "art/drawing/repeated_drawing.h"
+#include "art/print/tiles.h"
 #include "art/relief/most_triangles.h"
 #include "art/space/tessellation.h"
 #include "art/tiles/tile_drawing.h"
 #include "art/writer/make_drawing.h"
+#include "art/writer/tiled_print.h"
 #include "engine/derivation/forecast.h"
 #include "engine/map/map_step.h"
 
@@ -236,6 +238,41 @@ void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& 
 constexpr double plot_point_seconds = 1.2e-6;
 constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 200;
 
+/// Places a short word on its page: the whole page of a print in sheets, which is as large as a drawing with a fixed
+/// step, and the step that a spacing of dots asks for.
+void place_short_word(const Grammar& grammar, Print& print, DrawOptions& options) {
+    DrawOptions reading = options;
+    reading.watch = nullptr;
+    reading.begin = nullptr;
+    try {
+        const auto drawing = make_drawing(grammar, print.style, reading);
+        if (options.tiles) {
+            place_whole(*drawing, print);
+        } else {
+            drawing->place(print);
+        }
+        options.placement.step = print.placement.step;
+    } catch (const std::runtime_error&) {
+        // make() reports it
+    }
+}
+
+/// Adds what the sheets of a print have besides its lines: marks, the pattern in each file, and the overview of PDF.
+void add_sheets(const Print& whole, const DrawOptions& options, Cost& cost) {
+    constexpr double marks_bytes = 5500, file_bytes = 400, sheet_seconds = 300e-6;
+    double sheets = 0;
+    try {
+        sheets = static_cast<double>(tiling_of(whole.page, *options.tiles).tiles.size());
+    } catch (const std::runtime_error&) {
+        return;  // make() reports it
+    }
+    const bool is_one_file = options.format == PrintFormat::pdf;
+    cost.seconds += sheets * sheet_seconds;
+    cost.bytes +=
+        is_one_file ? (sheets + 1) * marks_bytes
+                    : sheets * (marks_bytes + file_bytes) + (sheets - 1) * static_cast<double>(whole.pattern.size());
+}
+
 /// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
 double shaded_polygons(const DrawingCost& drawing) {
     constexpr double wide_stem = 0.8;  // millimetres
@@ -306,8 +343,19 @@ Cost base_cost(bool has_module) {
     return base;
 }
 
-Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& options) {
-    const DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
+Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& given) {
+    DrawOptions options = given;
+    DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
+    Print whole = print;
+    if (options.dot_spacing || (options.tiles && options.placement.step)) {
+        if (drawing.nodes <= nodes_read) {
+            place_short_word(grammar, whole, options);
+            if (options.dot_spacing) drawing = drawing_cost(grammar, print, options, options.reading());
+        } else if (options.placement.step) {
+            whole.page.width = drawing.size.x + 2 * print.page.margin;
+            whole.page.height = drawing.size.y + 2 * print.page.margin;
+        }
+    }
     const bool has_pixels = !is_vector(options.format);
     Cost cost = base_cost(uses_image_module(options.format));
     cost.is_doubtful = drawing.is_doubtful;
@@ -315,9 +363,10 @@ Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
     cost.memory += drawing.memory + static_cast<double>(print.pattern.size());
     cost.bytes = static_cast<double>(print.pattern.size());
     if (has_pixels) {
-        add_picture(grammar, print, options, drawing, cost);
+        add_picture(grammar, whole, options, drawing, cost);
         return cost;
     }
+    if (options.tiles) add_sheets(whole, options, cost);
     const bool spline = print.style.line == Line::spline;
     const LineCost writer = line_cost(options.format);
     double points = drawing.points;

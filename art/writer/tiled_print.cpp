@@ -219,8 +219,8 @@ std::uint64_t write_pdf_tiles(const TileWork& work, Output& output) {
     return polygons;
 }
 
-/// Places the whole drawing. With a fixed step the page grows to the size of the drawing and its border, whose width
-/// depends on the page.
+}  // namespace
+
 DrawReport place_whole(Drawing& drawing, Print& print) {
     DrawReport report = drawing.place(print);
     if (!drawing.fixed_step()) return report;
@@ -231,8 +231,6 @@ DrawReport place_whole(Drawing& drawing, Print& print) {
     }
     return drawing.place(print);
 }
-
-}  // namespace
 
 DrawReport draw_tiles(Drawing& drawing, Print print, const DrawOptions& options, const std::filesystem::path& file,
                       Destination& destination) {

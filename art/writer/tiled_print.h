@@ -9,6 +9,10 @@
 
 namespace sikku {
 
+/// Places the drawing on the page of the whole print, which becomes as large as the drawing and its margins if the
+/// step is fixed. The page includes the border, whose width depends on it.
+DrawReport place_whole(Drawing& drawing, Print& print);
+
 /// Cuts a print into the sheets of `options.tiles`: the page of `print` is that of the whole print or, with a fixed
 /// step, as large as the drawing and its margins. A PDF has an overview and then a page for each sheet, and reads the
 /// drawing once; in other formats each sheet is a file (tile_file()) and reads the drawing again.

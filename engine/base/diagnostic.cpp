@@ -199,7 +199,13 @@ void Diagnostics::add(const Span& where, const std::string& message, bool warnin
         return;
     }
     if (where.source->is_value()) {
-        list_.push_back({printable(where.source->name(), 80), {0, 0}, printable(message), "", warning});
+        Diagnostic one{printable(where.source->name(), 80), {0, 0}, printable(message), "", warning};
+        const std::string& text = where.source->text();
+        const std::size_t equals = text.find('=');
+        one.value = equals == std::string::npos ? text : text.substr(equals + 1);
+        one.setting = where.source->name();
+        if (one.setting.ends_with(" " + one.value)) one.setting.resize(one.setting.size() - one.value.size() - 1);
+        list_.push_back(std::move(one));
         return;
     }
     list_.push_back({printable(where.source->name()), where.source->place(where.at), printable(message),

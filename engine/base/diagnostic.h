@@ -72,6 +72,7 @@ struct Diagnostic {
     std::string message;
     std::string excerpt;  ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
     bool warning = false;
+    std::string setting{}, value{};  ///< the setting and its value, if the place is nowhere in a file
 
     /// `file:line:column: message`, the excerpt and the caret below it; `scale dorain: message` for a setting.
     std::string text() const;

@@ -36,10 +36,17 @@ std::filesystem::path binary_folder() {
     return error ? std::filesystem::path() : file.parent_path();
 }
 
-bool is_of_this_version(const std::filesystem::path& folder) {
+/// The version that a data folder states; empty if it states none.
+std::string version_of(const std::filesystem::path& folder) {
     std::ifstream file(folder / "version");
     std::string version;
-    return std::getline(file, version) && version == SIKKU_VERSION;
+    std::getline(file, version);
+    return version;
+}
+
+bool is_of_another_version(const std::filesystem::path& folder) {
+    const std::string version = version_of(folder);
+    return !version.empty() && version != SIKKU_VERSION;
 }
 
 std::filesystem::path& chosen_folder() {
@@ -47,13 +54,8 @@ std::filesystem::path& chosen_folder() {
     return folder;
 }
 
-}  // namespace
-
-void set_data_folder(const std::filesystem::path& folder) {
-    chosen_folder() = folder;
-}
-
-std::vector<std::filesystem::path> data_folders() {
+/// The folders of data_folders(), of any version.
+std::vector<std::filesystem::path> candidates() {
     if (const char* folder = std::getenv("SIKKU_DATA"); folder && *folder) return {folder};
     std::vector<std::filesystem::path> folders;
     if (!chosen_folder().empty()) folders.push_back(chosen_folder());
@@ -63,8 +65,34 @@ std::vector<std::filesystem::path> data_folders() {
     const bool is_installed = !binary.empty() && std::filesystem::is_directory(beside, error);
     if (!binary.empty()) folders.push_back(beside);
     // The prefix that was configured may hold another version by now, and a damaged installation should not borrow.
-    if (!is_installed && is_of_this_version(SIKKU_DATA_INSTALLED)) folders.emplace_back(SIKKU_DATA_INSTALLED);
+    if (!is_installed && version_of(SIKKU_DATA_INSTALLED) == SIKKU_VERSION)
+        folders.emplace_back(SIKKU_DATA_INSTALLED);
     return folders;
+}
+
+}  // namespace
+
+void set_data_folder(const std::filesystem::path& folder) {
+    chosen_folder() = folder;
+}
+
+std::vector<std::filesystem::path> data_folders() {
+    std::vector<std::filesystem::path> folders = candidates();
+    std::erase_if(folders, is_of_another_version);
+    return folders;
+}
+
+std::string missing_patterns() {
+    const char* chosen = std::getenv("SIKKU_DATA");
+    const std::string reason = chosen && *chosen ? " (SIKKU_DATA)" : "";
+    for (const std::filesystem::path& folder : candidates()) {
+        if (!is_of_another_version(folder)) continue;
+        return "the patterns in " + folder.string() + reason + " are those of version " + version_of(folder) +
+               "; this is " SIKKU_VERSION;
+    }
+    const std::filesystem::path patterns = installed_file("patterns");
+    if (patterns.empty()) return "no patterns are installed";
+    return "there are no patterns in " + patterns.string() + reason;
 }
 
 std::filesystem::path installed_file(const std::filesystem::path& relative) {

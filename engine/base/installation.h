@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -12,9 +13,13 @@ void set_data_folder(const std::filesystem::path& folder);
 
 /// Candidates for the data folder, best first: that of the environment variable SIKKU_DATA; if it is not set, that of
 /// set_data_folder() and the one installed with the running program or shared library; for programs that are not part
-/// of an installation the configured one, if it contains this version. Never empty, except where the system does not
-/// report the program's folder and nothing of this version is installed.
+/// of an installation the configured one, if it contains this version. Folders that state another version (in the
+/// file `version`) are left out. Empty if none remains.
 std::vector<std::filesystem::path> data_folders();
+
+/// Why there are no bundled patterns: `there are no patterns in /usr/share/sikku/patterns`. For messages after the
+/// search was in vain.
+std::string missing_patterns();
 
 /// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
 std::filesystem::path installed_file(const std::filesystem::path& relative);

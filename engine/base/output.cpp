@@ -44,7 +44,7 @@ void MemoryOutput::overwrite(std::uint64_t position, std::string_view bytes) {
 
 const std::filesystem::path& MemoryOutput::temporary() {
     if (!file_) {
-        file_ = std::make_unique<OutputFile>(std::filesystem::temp_directory_path() / "sikku");
+        file_ = std::make_unique<OutputFile>(temporary_folder() / "sikku");
         file_->write(bytes_);
     }
     return file_->temporary();

@@ -18,6 +18,7 @@
 #include <map>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -373,6 +374,15 @@ void remove_unfinished_files() noexcept {
             if (const char* path = entry->path.load()) ::unlink(path);
         }
     }
+}
+
+std::filesystem::path temporary_folder() {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (!error) return folder;
+    const char* chosen = std::getenv("TMPDIR");
+    throw std::runtime_error("there is no folder for temporary files: TMPDIR is '" +
+                             std::string(chosen ? chosen : "") + "': " + error.message());
 }
 
 }  // namespace sikku

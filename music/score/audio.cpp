@@ -56,10 +56,7 @@ struct Rendering {
 
 Rendering render(const fs::path& midi, const fs::path& output, const fs::path& shown, const AudioWatch& watch) {
     const std::optional<fs::path> program = find_program("fluidsynth");
-    if (!program) {
-        throw std::runtime_error(fmt::format(
-            "sound needs the program fluidsynth, which is not in PATH; install it and a soundfont: {}", advice));
-    }
+    if (!program) fail_without("sound", "fluidsynth", fmt::format(" and a soundfont: {}", advice));
     const fs::path soundfont = find_soundfont();
     // fluidsynth does not report files that it cannot read, and interprets names with a dash as options.
     if (!is_readable_file(midi)) fail(midi, "read", errno != 0 ? errno : ENOENT);

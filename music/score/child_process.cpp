@@ -1,5 +1,7 @@
 #include "music/score/child_process.h"
 
+#include "engine/base/output_file.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,6 +19,16 @@ namespace fs = std::filesystem;
 void fail(const fs::path& file, std::string_view doing, int error) {
     throw std::runtime_error(
         fmt::format("cannot {} '{}': {}", doing, file.string(), std::generic_category().message(error)));
+}
+
+void fail_without(std::string_view what, std::string_view program, std::string_view advice) {
+#ifdef __EMSCRIPTEN__
+    throw std::runtime_error(
+        fmt::format("{} cannot be made here: `sikku play` makes it, with the program {}", what, program));
+#else
+    throw std::runtime_error(
+        fmt::format("{} needs the program {}, which is not in PATH; install it{}", what, program, advice));
+#endif
 }
 
 void write_all(int descriptor, const char* bytes, std::size_t count, const fs::path& name) {
@@ -49,7 +61,8 @@ Descriptor nameless_file(const fs::path& output) {
     fs::path folder = output.parent_path();
     if (folder.empty()) folder = ".";
     int error = 0;
-    for (const fs::path& place : {folder, fs::temp_directory_path()}) {
+    for (const bool is_beside : {true, false}) {
+        const fs::path place = is_beside ? folder : temporary_folder();
 #ifdef O_TMPFILE
         const int nameless = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
         if (nameless >= 0) return Descriptor(nameless);

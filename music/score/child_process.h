@@ -12,6 +12,10 @@
 
 namespace sikku::child {
 
+/// Reports that a program is missing. @param what  what it makes: `sound` @param advice  how to install it
+/// @throws std::runtime_error always
+[[noreturn]] void fail_without(std::string_view what, std::string_view program, std::string_view advice);
+
 /// @throws std::runtime_error that names the file, the attempted action and the cause
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view doing, int error);
 

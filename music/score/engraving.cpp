@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"
+#include "engine/base/output_file.h"
 #include "music/score/child_process.h"
 
 #include <fcntl.h>
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 /// A folder that is removed with this object.
 class WorkFolder {
 public:
-    WorkFolder() : name_((fs::temp_directory_path() / "sikku-score.XXXXXX").string()) {
+    WorkFolder() : name_((temporary_folder() / "sikku-score.XXXXXX").string()) {
         if (::mkdtemp(name_.data()) == nullptr) child::fail(name_, "write the folder", errno);
     }
     WorkFolder(const WorkFolder&) = delete;
@@ -106,11 +107,7 @@ std::string with_texts(std::string pdf, const ScoreHead& head) {
 void engrave(std::string_view lilypond, const ScoreHead& head, const fs::path& output, const fs::path& shown,
              const std::function<void()>& watch) {
     const auto program = child::find_program("lilypond");
-    if (!program) {
-        throw std::runtime_error(
-            "a printed score as PDF needs the program lilypond, which is not in PATH; install it: apt install "
-            "lilypond");
-    }
+    if (!program) child::fail_without("a printed score as PDF", "lilypond", ": apt install lilypond");
     const WorkFolder folder;
     const fs::path score = folder / "score.ly";
     {

@@ -138,7 +138,7 @@ def test_errors_of_words() -> None:
     with pytest.raises(sikku.WordError, match="negative"):
         next(word)
     assert list(word) == []
-    with pytest.raises(sikku.PatternError):
+    with pytest.raises(sikku.SettingError):
         sikku.load("hilbert").word(-1)
 
 

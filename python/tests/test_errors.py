@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sikku
@@ -35,16 +36,39 @@ def test_keys_of_prints_and_scores_are_checked() -> None:
     assert caught.value.file == "<text>"
 
 
-def test_settings_have_places() -> None:
-    with pytest.raises(sikku.PatternError) as caught:
-        sikku.load("hilbert", angle_factor="x")
-    assert caught.value.file == "angle factor x"
+@pytest.mark.parametrize(
+    ("settings", "option", "value"),
+    [
+        ({"angle_factor": "x"}, "angle factor", "x"),
+        ({"nothing": 1}, "nothing", "1"),
+        ({"variant": "nothing"}, "variant", "nothing"),
+        ({"n": -1}, "derivation length", "-1"),
+        ({"title": "a\nb"}, "title", "a\nb"),
+    ],
+)
+def test_errors_of_settings(settings: dict[str, Any], option: str, value: str) -> None:
+    with pytest.raises(sikku.SettingError) as caught:
+        sikku.load("hilbert", **settings)
+    assert (caught.value.option, caught.value.value) == (option, value)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"), [("n", "x"), ("seed", "q"), ("dots", "maybe"), ("stroke", "zz"), ("step", "zz")]
+)
+def test_options_and_settings_raise_the_same(option: str, value: str) -> None:
+    with pytest.raises(sikku.SettingError) as caught:
+        sikku.load("hilbert").draw("svg", **{option: value})
+    assert (caught.value.option, caught.value.value) == (option, value)
+
+
+def test_an_error_of_the_pattern_and_a_setting_is_one_of_the_pattern() -> None:
     with pytest.raises(sikku.PatternError):
-        sikku.load("hilbert", nothing=1)
-    with pytest.raises(sikku.PatternError):
-        sikku.load("hilbert", variant="nothing")
-    with pytest.raises(sikku.PatternError):
-        sikku.load("hilbert", n=-1)
+        sikku.load(text="axiom: F\nF --> F(\nderivation length: 1\n", angle_factor="6")
+
+
+def test_unknown_gallery_file(tmp_path: Path) -> None:
+    with pytest.raises(sikku.NotFoundError, match="kolam-library"):
+        sikku.gallery(tmp_path / "out", file="nothing")
 
 
 def test_option_errors() -> None:

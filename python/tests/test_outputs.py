@@ -41,7 +41,7 @@ def test_the_derivation_length_is_an_option_named_n(tmp_path: Path) -> None:
     sikku.sheet(ours, (hilbert, {"n": 3}), hilbert)
     sikku.sheet(theirs, three, hilbert)
     assert ours.read_bytes() == theirs.read_bytes()
-    with pytest.raises(sikku.PatternError, match="n many"):
+    with pytest.raises(sikku.SettingError, match="n='many'"):
         hilbert.draw("svg", n="many")
 
 

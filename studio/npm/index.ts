@@ -25,7 +25,7 @@ export class SikkuError extends Error {
     constructor(
         readonly kind: Failure["error"]["kind"],
         message: string,
-        readonly option: string | undefined, // of kind "setting"
+        readonly option: string | undefined, // of kind "setting": the name of an option, a key or a define
         readonly diagnostics: Diagnostic[], // of kind "pattern": every error with its place
     ) {
         super(message);
@@ -112,6 +112,9 @@ export class Sikku {
     }
 
     private request(pattern: Pattern): PatternRequest {
+        if (typeof pattern !== "string" && typeof pattern?.text !== "string") {
+            throw new TypeError("the pattern must be the name of a bundled pattern, or { text }");
+        }
         if (typeof pattern !== "string") return { name: pattern.name ?? "pattern.lsys", text: pattern.text };
         const found = this.library().get(pattern);
         if (!found) throw new SikkuError("other", `no pattern named '${pattern}'; pass { text } for a text`, undefined, []);
@@ -145,7 +148,7 @@ export class Sikku {
         const answer = JSON.parse(json) as Answer | Failure;
         if (answer && typeof answer === "object" && "error" in answer && answer.error) {
             const { kind, message, option, diagnostics } = (answer as Failure).error;
-            throw new SikkuError(kind, message, option, diagnostics ?? []);
+            throw new SikkuError(option ? "setting" : kind, message, option, diagnostics ?? []);
         }
         return { answer: answer as Answer, bytes };
     }

@@ -70,7 +70,7 @@ export interface Failure {
     error: {
         kind: "pattern" | "setting" | "budget" | "word" | "score" | "stopped" | "request" | "other";
         message: string; // plain text, perhaps several lines
-        option?: string; // of kind "setting"
+        option?: string; // of kind "setting", and of "pattern" if a setting is invalid
         diagnostics?: Diagnostic[]; // of kind "pattern"
     };
 }

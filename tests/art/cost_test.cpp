@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
 namespace sikku::cost_test {
 
@@ -62,6 +63,24 @@ TEST(PrintCost, WordsOfUnknownLengthAreDerived) {
             const double growth = at(n + 1).bytes / at(n).bytes;
             EXPECT_GT(growth, 1.4) << rules << ' ' << n;
             EXPECT_LT(growth, 3) << rules << ' ' << n;
+        }
+    }
+}
+
+TEST(PrintCost, SheetsHaveMarksAndThePatternInEachFile) {
+    const Document snake = bundled_pattern("snake-kolam");
+    for (const char* format : {"svg", "pdf", "eps", "png"}) {
+        for (const OptionValues& values : {OptionValues{{"dot-spacing", "30mm"}, {"tile", "A4"}, {"dpi", "150"}},
+                                           OptionValues{{"size", "A1"}, {"tile", "A4"}, {"dpi", "150"}}}) {
+            const auto work = prints().plan(snake, format, values);
+            MemoryDestination memory;
+            work->make(memory, std::string("wall.") + format, {});
+            double bytes = 0;
+            for (const auto& [name, content] : memory.outputs()) bytes += static_cast<double>(content.size());
+            const double ratio = work->forecast().bytes / bytes;
+            const double factor = std::string_view(format) == "png" ? 3.2 : 2.2;  // pictures compress more or less
+            EXPECT_GT(ratio, 1 / factor) << format << ' ' << values[0].text;
+            EXPECT_LT(ratio, factor) << format << ' ' << values[0].text;
         }
     }
 }

@@ -197,12 +197,50 @@ TEST(Program, OutputThatIsLostIsAFailure) {
                                                                        {"--version"}}) {
         const Outcome outcome = run(arguments, {.output = "/dev/full"});
         EXPECT_EQ(outcome.status, 1) << arguments.front();
-        EXPECT_TRUE(has(outcome.errors, "sikku: ")) << arguments.front();
+        EXPECT_TRUE(has(outcome.errors, "sikku: cannot write to standard output")) << arguments.front();
         EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
     }
     // Where nothing is printed nothing is lost.
     EXPECT_EQ(run({"check", "hilbert"}, {.output = "/dev/full"}).status, 0);
     EXPECT_EQ(run({"measure", "nosuch"}, {.output = "/dev/full"}).status, 2);
+}
+
+TEST(Program, OnlyPatternsOfItsVersionAreUsed) {
+    const ScratchFolder folder;
+    const std::string data = folder.path().string();
+    const auto refused = [&](const std::string& place, std::vector<std::string> arguments) {
+        const Outcome outcome =
+            run(std::move(arguments), {.folder = folder.path(), .environment = {{"SIKKU_DATA", place}}});
+        EXPECT_EQ(outcome.status, 2);
+        return outcome.errors;
+    };
+    const std::string none = "there are no patterns in /nowhere/patterns (SIKKU_DATA)\n";
+    EXPECT_EQ(refused("/nowhere", {"measure", "hilbert"}), "sikku: no file named 'hilbert', and " + none);
+    EXPECT_EQ(refused("/nowhere", {"gallery", "hilbert"}), "sikku: no file named 'hilbert', and " + none);
+    EXPECT_EQ(refused("/nowhere", {"patterns"}), "sikku: " + none);
+    EXPECT_EQ(refused("/nowhere", {"gallery"}), "sikku: " + none);
+    std::filesystem::create_directory(folder.path() / "patterns");
+    folder.write("patterns/mine.lsys", "axiom: F\n");
+    const std::vector<std::string> measure = {"measure", "mine"};
+    const Surroundings here{.folder = "/", .environment = {{"SIKKU_DATA", data}}};
+    EXPECT_EQ(run(measure, here).status, 0);
+    folder.write("version", "0.0.1\n");
+    EXPECT_TRUE(has(refused(data, measure),
+                    "the patterns in " + data + " (SIKKU_DATA) are those of version 0.0.1; this is "));
+    const Outcome version = run({"--version"});
+    folder.write("version", version.output.substr(6, version.output.find(' ', 6) - 6) + "\n");
+    EXPECT_EQ(run(measure, here).status, 0) << version.output;
+}
+
+TEST(Program, AFolderForTemporaryFilesThatIsMissing) {
+    const ScratchFolder folder;
+    const std::string program = folder.write("lilypond", "#!/bin/sh\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const Outcome outcome = run({"play", "hilbert", "-o", folder.file("x.pdf")},
+                                {.environment = {{"PATH", folder.path().string()}, {"TMPDIR", "/nowhere"}}});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(has(outcome.errors, "sikku: there is no folder for temporary files: TMPDIR is '/nowhere'"))
+        << outcome.errors;
 }
 
 TEST(Program, PatternsAreFoundFromAnywhere) {

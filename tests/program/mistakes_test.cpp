@@ -97,6 +97,19 @@ TEST_F(Mistakes, ValuesOfOptions) {
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
 }
 
+TEST_F(Mistakes, AWrongNameIsWorseThanAMissingOutput) {
+    const std::vector<Mistake> mistakes = {
+        {{"draw", "mine.lsys"}, "--output FILE is missing"},
+        {{"draw", "hilbrt"}, "no file or pattern named 'hilbrt'; did you mean 'hilbert'?"},
+        {{"draw", "mine.lsys", "--colur", "red"}, "unknown option '--colur'"},
+        {{"sheet", "mine.lsys", "--colur", "red"}, "unknown option '--colur'"},
+        {{"draw", "--colur", "red"}, "unknown option '--colur'"},
+        {{"draw"}, "PATTERN is missing"},
+        {{"draw", "mine.lsys", "--animate", "-o", "m.gif"},
+         "--animate: only SVG can draw itself; a GIF shows the derivation lengths of --generations"}};
+    for (const Mistake& mistake : mistakes) expect_refused(mistake);
+}
+
 TEST_F(Mistakes, UnitsOfTheHelpAreAccepted) {
     EXPECT_EQ(run_here({"draw", "mine.lsys", "--pen-speed", "60mm/s", "--lift-time", "1s", "-o", "m.gcode"}).status,
               0);

@@ -39,12 +39,20 @@ for package in libopenimageio2.4 libheif1 liblcms2-2 sikku-studio; do
     dpkg-deb -f "$dist"/sikku_*.deb Recommends | grep -q "$package" || fail "sikku does not recommend $package"
 done
 
-# Two versions side by side do not mix: a copy elsewhere uses its own patterns.
+# Two versions side by side do not mix: a copy elsewhere uses its own patterns, and only those of its version.
 mkdir -p "$root/opt/other/bin" "$root/opt/other/share/sikku"
 cp "$root/usr/bin/sikku" "$root/opt/other/bin"
-if in_root "$root" /opt/other/bin/sikku draw hilbert -o /tmp/none.svg 2> "$work/message"; then fail "patterns of another installation were used"; fi
-grep -q -i pattern "$work/message" || { cat "$work/message"; fail "the message does not name the missing patterns"; }
+refused() {
+    if in_root "$root" "$@" draw hilbert -o /tmp/none.svg 2> "$work/message"; then fail "patterns of another installation were used"; fi
+    grep -q "$expected" "$work/message" || { cat "$work/message"; fail "the message does not say: $expected"; }
+}
+expected='no patterns in /opt/other/share/sikku/patterns' refused /opt/other/bin/sikku
+cp -r "$root/usr/share/sikku/patterns" "$root/opt/other/share/sikku"
+echo 0.1.0 > "$root/opt/other/share/sikku/version"
+expected='/opt/other/share/sikku are those of version 0.1.0' refused /opt/other/bin/sikku
+expected='/opt/other/share/sikku (SIKKU_DATA) are those of version 0.1.0' refused env SIKKU_DATA=/opt/other/share/sikku sikku
 rm -r "$root/opt/other"
+echo "two versions side by side: only the patterns of its own version are used"
 
 # Everything, as README says.
 install_deb libopenimageio2.4 libheif1 man-db zsh fish bash-completion cmake ninja-build g++ pkg-config python3-pip \

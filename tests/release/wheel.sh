@@ -37,10 +37,13 @@ in_root "$root" sh -euc 'apt-get -qq update > /dev/null; apt-get -qq install -y 
 # Other machines and older C libraries.
 accepts() {
     /usr/bin/python3 -m pip download -q --no-deps --no-index --find-links "$dist" --only-binary :all: --platform "$1" \
-        --python-version 3.11 -d "$work/none" sikku > /dev/null 2>&1
+        --python-version "$2" -d "$work/none" sikku > /dev/null 2>&1
 }
-accepts manylinux_2_36_x86_64 || fail "pip refuses the wheel for the system that it was built on"
-for tag in linux_aarch64 manylinux_2_17_x86_64 win_amd64; do
-    if accepts "$tag"; then fail "pip accepts the wheel for $tag"; fi
+accepts manylinux_2_36_x86_64 3.11 || fail "pip refuses the wheel for the system that it was built on"
+for tag in linux_aarch64 manylinux_2_36_aarch64 manylinux_2_17_x86_64 musllinux_1_2_x86_64 macosx_11_0_arm64 win_amd64; do
+    if accepts "$tag" 3.11; then fail "pip accepts the wheel for $tag"; fi
+done
+for version in 3.10 3.12; do
+    if accepts manylinux_2_36_x86_64 "$version"; then fail "pip accepts the wheel for Python $version"; fi
 done
 echo "wheel: $(printf "%'d" "$size") bytes; PNG without OpenImageIO, TIFF with it; the manual's examples run; refused on other machines"

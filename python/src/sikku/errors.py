@@ -44,10 +44,7 @@ class Error(Exception):
 
 
 class PatternError(Error, ValueError):
-    """A pattern has errors. `file`, `line`, `column` and `message` are those of the first one.
-
-    For an error in a setting, `line` is 0 and `file` is the setting and its value: `angle factor x`.
-    """
+    """A pattern has errors. `file`, `line`, `column` and `message` are those of the first one."""
 
     def __init__(self, text: str, diagnostics: list[Diagnostic]) -> None:
         super().__init__(text, diagnostics)
@@ -64,12 +61,12 @@ class PatternError(Error, ValueError):
 
 
 class SettingError(Error, ValueError):
-    """An option is unknown, has an invalid value, or cannot be combined with another."""
+    """An option or a setting is unknown, has an invalid value, or cannot be combined with another."""
 
     def __init__(self, option: str, value: str, message: str) -> None:
         super().__init__(option, value, message)
         self.option: str = option
-        """Name of the option as in the manual: `dot-spacing`."""
+        """Name of the option as in the manual, `dot-spacing`, or of the setting, `angle factor`."""
         self.value: str = value
         """Text of the value; empty if a combination is invalid."""
         self.message: str = message
@@ -81,7 +78,7 @@ class SettingError(Error, ValueError):
 
 
 class NotFoundError(Error, LookupError):
-    """No file or bundled pattern has the name."""
+    """No file, bundled pattern or bundled gallery file has the name."""
 
 
 class BudgetError(Error):

@@ -136,7 +136,7 @@ class Pattern(Outputs):
     ) -> Pattern:
         """Returns a copy of the pattern with another derivation length, seed, keys or defines.
 
-        Raises PatternError.
+        Raises SettingError, and PatternError if a production no longer fits.
         """
         texts = _shared_settings(n, seed) + to_settings(settings)
         return Pattern(self._document.with_settings(texts))
@@ -172,7 +172,7 @@ class Pattern(Outputs):
 
         n: derivation length, instead of the pattern's.
         interpreted: whether to apply the productions under `interpret:`.
-        Raises PatternError; the iterator raises BudgetError, WordError.
+        Raises SettingError; the iterator raises BudgetError, WordError.
         """
         return itertools.chain.from_iterable(_core.WordIterator(self._derived(n), interpreted))
 
@@ -221,7 +221,7 @@ class Pattern(Outputs):
         """Counts the tiles and finds their growth from the productions alone: n = 60 costs as little as n = 6.
 
         Returns the output of `sikku tiling --counts --json`. Integers are exact and of any size.
-        Raises PatternError, also for maps.
+        Raises SettingError, and PatternError for maps.
         """
         return _growth_of(json.loads(_core.tile_counts(self._derived(n))))
 
