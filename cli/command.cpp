@@ -78,32 +78,36 @@ void keep_input(std::string_view option, const std::string& output, const std::s
     throw UsageError(fmt::format("{} {}: this file is read and would be replaced", option, printable(output)));
 }
 
+PatternFile find_named_pattern(const std::string& pattern) {
+    try {
+        return find_pattern(pattern);
+    } catch (const NotFound& error) {
+        if (bundled_arrangement(pattern))
+            throw UsageError(pattern + ": this is an arrangement; `sikku play` plays it");
+        throw UsageError(std::string(error.what()) +
+                         (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
+    }
+}
+
 NamedText read_pattern_text(const std::string& pattern) {
     if (auto link = read_link_argument(pattern)) {
         check_text_of_link(*link);
         return {std::move(link->name), std::move(link->text)};
     }
     PatternFile found;
-    try {
-        if (pattern != "-") found = find_pattern(pattern);
-        auto format = known_format(found.path);
-        if (is_midi_file(found.path)) format = {"a MIDI file", true};
-        if (format) {
-            throw UsageError(
-                fmt::format("{}: this is {}, not a pattern{}", pattern, format->name,
-                            format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
-        }
-        if (lower_case(pattern).ends_with(".json")) {
-            throw UsageError(
-                fmt::format("{}: this is JSON, not a pattern; `sikku tiling` reads polygons, and "
-                            "`sikku kolam --read` reads kolams",
-                            pattern));
-        }
-    } catch (const NotFound& error) {
-        if (bundled_arrangement(pattern))
-            throw UsageError(pattern + ": this is an arrangement; `sikku play` plays it");
-        throw UsageError(std::string(error.what()) +
-                         (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
+    if (pattern != "-") found = find_named_pattern(pattern);
+    auto format = known_format(found.path);
+    if (is_midi_file(found.path)) format = {"a MIDI file", true};
+    if (format) {
+        throw UsageError(
+            fmt::format("{}: this is {}, not a pattern{}", pattern, format->name,
+                        format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
+    }
+    if (lower_case(pattern).ends_with(".json")) {
+        throw UsageError(
+            fmt::format("{}: this is JSON, not a pattern; `sikku tiling` reads polygons, and "
+                        "`sikku kolam --read` reads kolams",
+                        pattern));
     }
     try {
         if (pattern == "-") {

@@ -55,6 +55,9 @@ struct NamedText {
     std::string name;
     std::string text;
 };
+/// Finds the file of the argument PATTERN, a path or the name of a bundled pattern, and does not open it.
+/// @throws UsageError for an unknown name
+PatternFile find_named_pattern(const std::string& pattern);
 /// Reads the text of the argument PATTERN: a path, the name of a bundled pattern, a link, or `-` for standard input.
 /// @throws UsageError, Stopped
 NamedText read_pattern_text(const std::string& pattern);

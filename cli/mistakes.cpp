@@ -1,6 +1,7 @@
 #include "cli/mistakes.h"
 
 #include "cli/command.h"
+#include "cli/link_argument.h"
 #include "engine/base/diagnostic.h"
 
 #include <fmt/format.h>
@@ -44,8 +45,9 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
     for (const auto& [word, name] : words) {
         if (word == given && command.get_option_no_throw(std::string(name))) near = name;
     }
+    const std::string name = command.get_parent() ? command.get_name() + " " : "";
     return fmt::format("unknown option '{}'{}", printable(given, 80),
-                       near.empty() ? fmt::format("; `sikku {} --help` lists the options", command.get_name())
+                       near.empty() ? fmt::format("; `sikku {}--help` lists the options", name)
                                     : fmt::format("; did you mean '{}'?", near));
 }
 
@@ -63,14 +65,23 @@ std::string unexpected(const CLI::App& command, const std::string& argument,
                        printable(argument, 80));
 }
 
-/// What is wrong with the name of the pattern, which matters more than an option that is missing; empty: nothing.
+/// The error in a name of a pattern, which is reported before a missing option; empty if there is none. Opens no
+/// file.
 std::string mistake_in_pattern(const CLI::App& command) {
-    const CLI::Option* pattern = command.get_option_no_throw("PATTERN");
-    if (!pattern || pattern->results().empty() || pattern->results().front() == "-") return {};
-    try {
-        read_pattern_text(pattern->results().front());
-    } catch (const UsageError& error) {
-        return error.what();
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (name != "PATTERN" && name != "DRAWING") continue;
+        for (const std::string& given : option->results()) {
+            try {
+                const std::size_t at = given.rfind('@');  // of a sheet: PATTERN@SETTINGS
+                const bool has_settings = at != std::string::npos && !is_link(given);
+                if (given != "-" && !is_link(given)) find_named_pattern(has_settings ? given.substr(0, at) : given);
+            } catch (const UsageError& error) {
+                return error.what();
+            } catch (const std::exception&) {
+                // The command reports it.
+            }
+        }
     }
     return {};
 }

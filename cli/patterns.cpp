@@ -42,7 +42,7 @@ void print_rows(const std::vector<std::array<std::string, 3>>& rows) {
     }
 }
 
-void list_patterns(const std::string& kind, bool names_only) {
+void list_patterns(const std::string& kind, bool names_only, bool quiet) {
     std::string last;
     bool any = false;
     const auto& patterns = PatternLibrary::bundled().patterns();
@@ -64,7 +64,7 @@ void list_patterns(const std::string& kind, bool names_only) {
         try {
             text = read_pattern_text(known.file.string()).text;
         } catch (const UsageError& error) {
-            tell("sikku: warning: {}\n", printable(error.what()));
+            tell_unless(quiet, "sikku: warning: {}\n", printable(error.what()));
         }
         Diagnostics diagnostics;
         const Pattern pattern = parse_pattern(known.name, std::move(text), diagnostics);
@@ -135,7 +135,9 @@ bool check_arrangement(const std::string& file) {
 bool list_arrangements(const std::string& kind, bool names_only) {
     if (!kind.empty() && kind != "arrangements") return false;
     std::vector<std::array<std::string, 3>> rows;
-    for (const std::string& name : bundled_arrangements()) {
+    const std::vector<std::string> names = bundled_arrangements();
+    if (names.empty()) throw UsageError(missing_patterns());
+    for (const std::string& name : names) {
         if (names_only) {
             fmt::print("{}\n", name);
             continue;
@@ -185,7 +187,7 @@ bool check(const std::string& file) {
 
 }  // namespace
 
-void add_patterns(CLI::App& app, bool& /*quiet*/) {
+void add_patterns(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("patterns", "List the bundled patterns");
     auto kind = std::make_shared<std::string>();
     auto names_only = std::make_shared<bool>(false);
@@ -193,8 +195,8 @@ void add_patterns(CLI::App& app, bool& /*quiet*/) {
         "KIND", *kind, "kolams, kolam-library, tilings, curves, plants, maps, words, melodies or arrangements (all)");
     command->add_flag("--names", *names_only, "print names only, one in each line");
     command->footer("Examples:\n  sikku patterns\n  sikku patterns kolams");
-    command->callback([kind, names_only] {
-        if (*kind != "arrangements") list_patterns(*kind, *names_only);
+    command->callback([kind, names_only, &quiet] {
+        if (*kind != "arrangements") list_patterns(*kind, *names_only, quiet);
         list_arrangements(*kind, *names_only);
     });
 }

@@ -40,6 +40,7 @@ fs::path find_page() {
     std::error_code error;
     fs::path page = installed_file("sikku-studio.html");
     if (fs::is_regular_file(page, error)) return page;
+    if (const std::string refused = refused_data(); !refused.empty()) throw std::runtime_error(refused);
     throw std::runtime_error(
         "the studio page is not installed; install the package sikku-studio, or build it in a checkout with "
         "`./demo --studio`");
@@ -192,8 +193,9 @@ void add_studio(CLI::App& app, bool& quiet) {
                      "write a copy of the page that contains the patterns, instead of opening it")
         ->type_name("FILE.html");
     command->footer(
-        "The studio is a single page that needs neither a server nor the internet; it is part of the package "
-        "sikku-studio, and `./demo --studio` builds it. It is opened with xdg-open; without a display or xdg-open, "
+        "The studio is a single page that needs neither a server nor the internet; the package sikku-studio "
+        "installs it, and `./demo --studio` builds it in a checkout. It is opened with xdg-open; without a display "
+        "or xdg-open, "
         "its address is printed. The browser saves work in "
         "the studio; the pattern files do not change.\n\n"
         "Examples:\n"

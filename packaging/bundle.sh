@@ -9,7 +9,7 @@ mkdir -p "$1"
 folder=$(realpath "$1")
 shift
 left="^(linux-vdso|ld-linux[^.]*|libc|libm|libdl|libpthread|librt${SIKKU_LEFT:+|$SIKKU_LEFT})\.so"
-# RPATH rather than RUNPATH: LD_LIBRARY_PATH of a cluster does not replace them.
+# RPATH instead of RUNPATH, so that LD_LIBRARY_PATH, as set on clusters, does not override it.
 find_by() { patchelf --force-rpath --set-rpath "\$ORIGIN/$(realpath --relative-to "$(dirname "$1")" "$folder")" "$1"; }
 for file in "$@"; do
     LD_LIBRARY_PATH=${SIKKU_INSTEAD:-} ldd "$file" | awk '$2 == "=>" { print $1, $3 }'

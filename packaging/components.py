@@ -42,7 +42,7 @@ def query(package: str, field: str) -> str:
     ).stdout
 
 
-# Libraries of headers, which are compiled in. libboost-dev is empty: it depends on the package with the headers.
+# Header-only libraries, which are compiled in. libboost-dev is empty and depends on the package with the headers.
 BOOST = query("libboost-dev", "Depends").split(" ")[0]
 LIBRARY_HEADERS = [BOOST, "libglm-dev", "libtomlplusplus-dev", "nlohmann-json3-dev"]
 PROGRAM_HEADERS = [*LIBRARY_HEADERS, "libcli11-dev"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the licences of libraries into a folder, a file each, with the licences that they refer to, and
-`components.tsv`, a list of them.
+"""Writes the licence of each library into a folder, one file per library, with the common licences that it refers to,
+and `components.tsv`, a list of the libraries.
 
 usage: packaging/licences.py program|module FOLDER LIST [SLIM]
 

@@ -36,12 +36,12 @@ licences=$staged/share/doc/sikku/licences
 mkdir -p "$licences"
 packaging/licences.py program "$licences" "$work/libraries" "$slim"
 {
-    echo "Sikku $version: unpack anywhere and run bin/sikku, on x86-64 with glibc 2.36 or newer (Debian 12, Ubuntu 24.04)."
-    echo "Photographs in HEIF cannot be read by this copy; those in JPEG, PNG, TIFF and WebP can."
+    echo "Sikku $version, for x86-64 with glibc 2.36 or newer (Debian 12, Ubuntu 24.04). Unpack it anywhere and run bin/sikku."
+    echo "This copy reads photographs in JPEG, PNG, TIFF and WebP, but not in HEIF."
     echo
-    echo "Licences of the libraries inside are in share/doc/sikku/licences, which also lists their versions. libjbig is under"
-    echo "the GPL, version 2 or later: who passes this archive on does so under the terms of the GPL, version 3. Sources are"
-    echo "those of the Debian packages of these names and versions: https://snapshot.debian.org. OpenImageIO was built from"
-    echo "those of Debian 13, with few formats, by packaging/slim_openimageio.sh of Sikku."
+    echo "The licences and versions of the bundled libraries are in share/doc/sikku/licences. libjbig is under the GPL, version 2"
+    echo "or later: if you redistribute this archive, do so under the terms of the GPL, version 3. The sources are the Debian"
+    echo "packages with these names and versions, at https://snapshot.debian.org. OpenImageIO was built from the source package"
+    echo "of Debian 13, with few formats, by packaging/slim_openimageio.sh of Sikku."
 } > "$staged/INSTALL"
 packaging/archive.sh "$work" "$name" "$output/$name.tar.gz"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything that a release consists of: Debian packages, an archive to unpack anywhere, the source distribution
 # and the wheel for Python, the npm package, the page of the studio; the list of what they contain (SPDX) and SHA256SUMS.
-# The same commit gives the same bytes in every folder and at every time, with the same Debian packages and the same npm.
-# Everything is built from nothing, except a slim OpenImageIO whose sources have not changed.
+# The same commit, Debian packages and npm give the same bytes in any folder at any time.
+# Everything is built from scratch, except the slim OpenImageIO if it is up to date.
 # usage: packaging/release.sh [OUTPUT_FOLDER]
 set -euo pipefail
 [ $# -le 1 ] || { echo "usage: packaging/release.sh [OUTPUT_FOLDER]" >&2; exit 2; }
@@ -20,7 +20,7 @@ export SOURCE_DATE_EPOCH
 for file in "$output"/* "$output"/.[!.]*; do
     if [ -e "$file" ] && [ "$(basename "$file")" != SHA256SUMS ] &&
         ! grep -q -s "  $(basename "$file")\$" "$output/SHA256SUMS"; then
-        echo "$output contains $(basename "$file"), which is not part of a release" >&2
+        echo "$output contains $(basename "$file"), which this script did not make; move it or choose another folder" >&2
         exit 1
     fi
 done
@@ -32,7 +32,7 @@ rm -rf build/dist build/portable build/studio build/npm
 studio/build.sh
 page=build/studio/sikku-studio.html
 (cd studio && node npm/build.mjs --output "$made")
-# Programs that read strangers' files are hardened; no path of this folder gets into them.
+# Harden the programs, which read untrusted files, and keep the path of this folder out of them.
 export CXXFLAGS="-ffile-prefix-map=$PWD=. -fstack-protector-strong -D_FORTIFY_SOURCE=2" LDFLAGS="-Wl,-z,relro -Wl,-z,now"
 build=build/dist
 cmake --preset release -B "$build" -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_LIBDIR=lib -DSIKKU_PYTHON=ON \

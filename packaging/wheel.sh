@@ -18,7 +18,7 @@ rm "$work"/*.whl
 package=$(echo "$work"/sikku-*)
 modules=$package/sikku/lib
 SIKKU_LEFT='libstdc\+\+|libgcc_s' packaging/bundle.sh "$modules/libraries" "$modules"/_core.*.so > "$work/libraries"
-# Under names of their own, because a process loads each name once, and other modules may bring other versions.
+# Rename the libraries: a process loads only one library of each name, and other modules may bring other versions.
 for library in "$modules"/libraries/*; do
     name=$(basename "$library")
     patchelf --set-soname "sikku-$name" "$library"

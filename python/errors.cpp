@@ -6,7 +6,6 @@
 #include "engine/language/document.h"
 #include "music/score/score.h"
 
-#include <algorithm>
 #include <exception>
 
 namespace py = pybind11;
@@ -22,14 +21,12 @@ void raise(const char* name, const Arguments&... arguments) {
     PyErr_SetObject(type.ptr(), error.ptr());
 }
 
-/// An error in a setting is one of the caller, not of the pattern.
+/// Raises SettingError if all errors are in settings that the caller gave, and PatternError otherwise.
 void raise_pattern_error(const PatternError& error) {
-    const auto& all = error.diagnostics();
-    const auto first = std::find_if(all.begin(), all.end(), [](const Diagnostic& one) { return !one.warning; });
-    if (first == all.end() || first->where.line > 0) {
-        return raise("PatternError", to_text(error.what()), to_list(all));
+    if (const Diagnostic* first = error.setting_error()) {
+        return raise("SettingError", to_text(first->setting), to_text(first->value), to_text(first->message));
     }
-    raise("SettingError", to_text(first->setting), to_text(first->value), to_text(first->message));
+    raise("PatternError", to_text(error.what()), to_list(error.diagnostics()));
 }
 
 void translate(const std::exception_ptr& thrown) {

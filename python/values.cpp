@@ -39,7 +39,10 @@ OptionValues to_values(const TextPairs& pairs) {
 
 std::vector<Setting> to_settings(const TextPairs& pairs) {
     std::vector<Setting> settings;
-    for (const auto& [name, text] : pairs) settings.emplace_back(name, text);
+    for (const auto& [name, text] : pairs) {
+        // Named as the argument.
+        settings.emplace_back(name == "derivation length" ? "n" : name, name, text);
+    }
     return settings;
 }
 

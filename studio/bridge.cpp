@@ -267,8 +267,7 @@ Json failure_of(const std::function<Json()>& work) {
         return work();
     } catch (const PatternError& error) {
         Json more = {{"diagnostics", json_of(error.diagnostics())}};
-        const Diagnostic& first = error.diagnostics().front();
-        if (!first.setting.empty()) more["option"] = first.setting;
+        if (const Diagnostic* first = error.setting_error()) more["option"] = first->setting;
         return failure("pattern", error.what(), more);
     } catch (const SettingError& error) {
         return failure("setting", error.what(), {{"option", error.option()}});

@@ -15,10 +15,10 @@ browser_packages=(chromium firefox-esr)
 # For ./check --full, together with those of the studio.
 full_packages=(clang libclang-rt-14-dev libc++-13-dev inkscape lilypond musescore3 abcmidi csound fluidsynth
     timgm6mb-soundfont flac slurm-wlm munge librecad)
-# For packages, and for the test of what they contain.
+# For building packages and testing their contents.
 packaging_packages=(debhelper dh-python fakeroot patchelf pybind11-dev python3-dev python3-numpy python3-setuptools
     python3-wheel python3-pip unzip)
-# For packaging/release.sh, also what a slim OpenImageIO is built from.
+# For packaging/release.sh: these, and the packages that the slim OpenImageIO is built from.
 release_packages=("${packaging_packages[@]}" libboost-thread-dev libopenexr-dev libtiff-dev libjpeg-dev libpng-dev
     libwebp-dev robin-map-dev)
 # For ./check --release: roots of other systems and machines, and tools that examine packages and desktop files.

@@ -35,7 +35,7 @@ struct PixelGrid {
 };
 PixelGrid read_ppm(const std::filesystem::path& path);
 
-/// Three channels of a picture, read by oiiotool. @param is_raw  inks as they are, instead of as colours
+/// Three channels of a picture, read by oiiotool. @param is_raw  read ink values without converting them to colours
 PixelGrid read_by_oiiotool(const std::filesystem::path& file, const std::string& channels = "R,G,B",
                            bool is_raw = false);
 

@@ -198,11 +198,12 @@ DrawnCensus by_counts(const Grammar& grammar, const Forecast& known, const Style
     const auto drawn_then = shorter ? estimate(*shorter, true) : std::nullopt;
     if (const auto found = steps >= 0 && drawn_then ? read(*shorter, style, orientation, 4 * most) : std::nullopt) {
         census = *found;
-        const double then = drawn_symbols(grammar, *drawn_then) + label_lines(grammar, *drawn_then);
-        const double now = drawn_symbols(grammar, known) + label_lines(grammar, known);
+        const double then =
+            drawn_symbols(grammar, *drawn_then, style.moves_draw()) + label_lines(grammar, *drawn_then);
+        const double now = drawn_symbols(grammar, known, style.moves_draw()) + label_lines(grammar, known);
         if (then > 0) scale(census, now / then);
     } else {
-        census.strokes = census.lines = census.length = drawn_symbols(grammar, known);
+        census.strokes = census.lines = census.length = drawn_symbols(grammar, known, style.moves_draw());
         census.mean_width = census.widest = style.pen_width({});
         census.is_read = false;
     }

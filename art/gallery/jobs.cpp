@@ -566,9 +566,8 @@ std::string read_gallery_text(const GalleryRequest& request) {
     if (std::error_code error; !std::filesystem::exists(request.gallery_file, error)) {
         const auto bundled = PatternLibrary::bundled().gallery_files();
         throw NotFound(
-            fmt::format(
-                "no file or bundled gallery file named '{}'; {}", printable(request.gallery_file, 200),
-                bundled.empty() ? "none are installed" : fmt::format("there are {}", fmt::join(bundled, ", "))),
+            fmt::format("no file or bundled gallery file named '{}'; {}", printable(request.gallery_file, 200),
+                        bundled.empty() ? missing_patterns() : fmt::format("there are {}", fmt::join(bundled, ", "))),
             true);
     }
     std::ifstream stream = open_text_file(request.gallery_file);

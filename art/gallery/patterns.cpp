@@ -225,10 +225,10 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
         return list;
     }
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
-    if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     if (known().empty()) {
-        fail(place, fmt::format("no file named '{}', and {}", printable(word, 80), missing_patterns()));
+        fail(place, fmt::format("no file is named '{}', and {}", printable(word, 80), missing_patterns()));
     }
+    if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     // The word may also resemble a kind of patterns: `kolams`.
     const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
     const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};

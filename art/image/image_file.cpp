@@ -62,9 +62,10 @@ const ImageModule& image_module(int threads = 0) {
         for (const std::filesystem::path& folder : module_folders()) {
             if (const ImageModule* found = load(folder / "sikku_image.so")) return *found;
         }
+        if (const std::string refused = refused_data(); reasons.empty() && !refused.empty()) reasons = ' ' + refused;
         throw std::runtime_error(
-            "these pictures need the module with OpenImageIO, which could not be loaded (on Debian 12, install "
-            "libopenimageio2.4 and liblcms2-2); PNG does not need it:" +
+            "TIFF, JPEG, EXR and CMYK profiles need the OpenImageIO module, which could not be loaded (on Debian 12, "
+            "install libopenimageio2.4 and liblcms2-2; PNG does not need it):" +
             reasons);
     }();
     return loaded;

@@ -97,7 +97,7 @@ private:
 
 /// Why a decoder ended before it was ready. @param state  as from waitpid()
 const char* reason_not_to_start(std::optional<int> state, bool is_heif) {
-    constexpr int library_is_missing = 127;  // said by the dynamic loader, also if a limit leaves no room for one
+    constexpr int library_is_missing = 127;  // of the dynamic loader, also if a memory limit prevents loading
     rlimit space{};
     const bool is_limited = ::getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY;
     if (state && WIFEXITED(*state) && WEXITSTATUS(*state) == library_is_missing && !is_limited) {

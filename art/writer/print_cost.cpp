@@ -25,7 +25,9 @@
 namespace sikku {
 namespace {
 
-constexpr double nodes_read = 50'000;   // maximum for a word whose drawing is forecast: a millisecond
+constexpr double nodes_read = 50'000;  // maximum for a word whose drawing is forecast: a millisecond
+constexpr double nodes_placed =
+    5'000;  // maximum for a word whose drawing is made to find its size: some milliseconds
 constexpr double edges_made = 300'000;  // maximum for maps, likewise
 
 // Memory that is kept, in bytes.
@@ -238,39 +240,74 @@ void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& 
 constexpr double plot_point_seconds = 1.2e-6;
 constexpr double hidden_point_seconds = 2.5e-6, hidden_point_bytes = 200;
 
-/// Places a short word on its page: the whole page of a print in sheets, which is as large as a drawing with a fixed
-/// step, and the step that a spacing of dots asks for.
-void place_short_word(const Grammar& grammar, Print& print, DrawOptions& options) {
-    DrawOptions reading = options;
-    reading.watch = nullptr;
-    reading.begin = nullptr;
+/// Makes the drawing of a word of few nodes, and places it on `print`. False if it cannot be drawn, which make()
+/// reports.
+bool place_short_word(const Grammar& grammar, Print& print, DrawOptions options) {
+    options.watch = nullptr;
+    options.begin = nullptr;
+    Style style = print.style;
+    style.hand = 0;  // takes long, and hardly changes the size
     try {
-        const auto drawing = make_drawing(grammar, print.style, reading);
+        const auto drawing = make_drawing(grammar, style, options);
         if (options.tiles) {
             place_whole(*drawing, print);
         } else {
             drawing->place(print);
         }
-        options.placement.step = print.placement.step;
+        return true;
     } catch (const std::runtime_error&) {
-        // make() reports it
+        return false;
     }
 }
 
-/// Adds what the sheets of a print have besides its lines: marks, the pattern in each file, and the overview of PDF.
-void add_sheets(const Print& whole, const DrawOptions& options, Cost& cost) {
-    constexpr double marks_bytes = 5500, file_bytes = 400, sheet_seconds = 300e-6;
-    double sheets = 0;
-    try {
-        sheets = static_cast<double>(tiling_of(whole.page, *options.tiles).tiles.size());
-    } catch (const std::runtime_error&) {
-        return;  // make() reports it
+/// The step that `dot-spacing` gives: dots are as many steps apart in a shorter word.
+std::optional<double> step_of_spacing(const Grammar& grammar, Print print, DrawOptions options) {
+    options.repeat.reset();
+    options.tiles.reset();
+    const std::int64_t steps = largest_affordable(grammar, true, nodes_placed);
+    const auto shorter = steps < 0 ? std::nullopt : grammar.with_steps(steps);
+    if (!shorter || !place_short_word(*shorter, print, options)) return std::nullopt;
+    return print.placement.step;
+}
+
+/// The sheets of a tiled print. With a fixed step, the page is as large as the drawing.
+/// @throws std::runtime_error if it is certain that there are too many
+Tiling sheets_of(const Grammar& grammar, Print whole, const DrawOptions& options, const DrawingCost& drawing) {
+    const double copies = options.repeat ? options.repeat->copies() : 1;
+    bool is_exact = !options.placement.step;
+    if (!is_exact && !grammar.map() && drawing.nodes * copies <= nodes_placed) {
+        is_exact = place_short_word(grammar, whole, options);
     }
-    const bool is_one_file = options.format == PrintFormat::pdf;
+    if (!is_exact) {
+        const glm::dvec2 cells =
+            options.repeat ? glm::dvec2(options.repeat->columns, options.repeat->rows) : glm::dvec2(1.0);
+        whole.page.width = drawing.size.x * cells.x + 2 * whole.page.margin;
+        whole.page.height = drawing.size.y * cells.y + 2 * whole.page.margin;
+    }
+    try {
+        return tiling_of(whole.page, *options.tiles);
+    } catch (const std::runtime_error&) {
+        if (is_exact) throw;
+        Tiling most;
+        most.sheet = options.tiles->sheet;
+        most.rows = most.columns = 20;
+        return most;
+    }
+}
+
+/// Adds the cost of the sheets of a tiled print: marks, the pattern in each file, and the overview page of a PDF.
+/// Sheets that are files read the drawing again.
+void add_sheets(const Print& print, const DrawOptions& options, const DrawingCost& drawing, double sheets,
+                Cost& cost) {
+    constexpr double marks_bytes = 5500, picture_marks_bytes = 2000, sheet_seconds = 300e-6;
     cost.seconds += sheets * sheet_seconds;
-    cost.bytes +=
-        is_one_file ? (sheets + 1) * marks_bytes
-                    : sheets * (marks_bytes + file_bytes) + (sheets - 1) * static_cast<double>(whole.pattern.size());
+    if (options.format == PrintFormat::pdf) {
+        cost.bytes += (sheets + 1) * marks_bytes;
+        return;
+    }
+    cost.seconds += (sheets - 1) * drawing.seconds / 2;
+    cost.bytes += sheets * (is_vector(options.format) ? marks_bytes : picture_marks_bytes) +
+                  (sheets - 1) * static_cast<double>(print.pattern.size());
 }
 
 /// Polygons of which a vector print of a drawing in space consists: wide stems are lit in strips.
@@ -345,31 +382,30 @@ Cost base_cost(bool has_module) {
 
 Cost print_cost(const Grammar& grammar, const Print& print, const DrawOptions& given) {
     DrawOptions options = given;
-    DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
-    Print whole = print;
-    if (options.dot_spacing || (options.tiles && options.placement.step)) {
-        if (drawing.nodes <= nodes_read) {
-            place_short_word(grammar, whole, options);
-            if (options.dot_spacing) drawing = drawing_cost(grammar, print, options, options.reading());
-        } else if (options.placement.step) {
-            whole.page.width = drawing.size.x + 2 * print.page.margin;
-            whole.page.height = drawing.size.y + 2 * print.page.margin;
-        }
-    }
+    if (options.dot_spacing && !grammar.map()) options.placement.step = step_of_spacing(grammar, print, options);
+    const DrawingCost drawing = drawing_cost(grammar, print, options, options.reading());
     const bool has_pixels = !is_vector(options.format);
     Cost cost = base_cost(uses_image_module(options.format));
     cost.is_doubtful = drawing.is_doubtful;
     cost.seconds += drawing.seconds + 0.001;
     cost.memory += drawing.memory + static_cast<double>(print.pattern.size());
     cost.bytes = static_cast<double>(print.pattern.size());
+    Print paper = print;
+    if (options.tiles) {
+        const Tiling tiling = sheets_of(grammar, print, options, drawing);
+        paper.page.width = tiling.sheet.width * tiling.columns;
+        paper.page.height = tiling.sheet.height * tiling.rows;
+        add_sheets(print, options, drawing, static_cast<double>(tiling.columns) * tiling.rows, cost);
+    }
     if (has_pixels) {
-        add_picture(grammar, whole, options, drawing, cost);
+        add_picture(grammar, paper, options, drawing, cost);
         return cost;
     }
-    if (options.tiles) add_sheets(whole, options, cost);
     const bool spline = print.style.line == Line::spline;
     const LineCost writer = line_cost(options.format);
-    double points = drawing.points;
+    // A kolam has about a dot for every four curves, and a dot takes the bytes of two.
+    constexpr double with_dots = 1.5;
+    double points = drawing.points * (print.style.dots ? with_dots : 1);
     const bool is_plot = options.plot || is_for_plotters(options.format);
     if (grammar.is_spatial() && !is_plot) {
         const double shades = shaded_polygons(drawing);

@@ -18,7 +18,7 @@ Cost solid_cost(const Grammar& grammar, const Print& print, const DrawOptions& o
 /// Adds the pixels of a scene in space and their light.
 void add_scene(const Print& print, const DrawingCost& drawing, Cost& cost);
 
-/// The part of a cost that is shared within one program: the program, and OpenImageIO if it is used.
+/// The cost that arises once per program: starting it, and loading OpenImageIO if it is used.
 Cost base_cost(bool has_module);
 
 }  // namespace sikku

@@ -9,8 +9,8 @@
 
 namespace sikku {
 
-/// Places the drawing on the page of the whole print, which becomes as large as the drawing and its margins if the
-/// step is fixed. The page includes the border, whose width depends on it.
+/// Places the drawing on the page of the whole print. With a fixed step, the page becomes as large as the drawing,
+/// its border and its margins; the width of the border depends on the page.
 DrawReport place_whole(Drawing& drawing, Print& print);
 
 /// Cuts a print into the sheets of `options.tiles`: the page of `print` is that of the whole print or, with a fixed

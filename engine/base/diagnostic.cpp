@@ -153,10 +153,15 @@ std::string plain_text(std::string_view text, std::size_t most, char line_end) {
 
 }  // namespace
 
-Source::Source(std::string given_name, std::string given_text, bool is_value)
-    : name_(std::move(given_name)),
-      text_(std::move(given_text)),
+Source::Source(std::string name, std::string text, bool is_value)
+    : Source(std::move(name), std::move(text), is_value, {}, {}) {}
+
+Source::Source(std::string shown, std::string text, bool is_value, std::string setting, std::string value)
+    : name_(std::move(shown)),
+      text_(std::move(text)),
       is_value_(is_value),
+      setting_(std::move(setting)),
+      value_(std::move(value)),
       cleaned_(clean(text_, open_comment_)) {}
 
 Place Source::place(std::size_t at) const {
@@ -200,11 +205,8 @@ void Diagnostics::add(const Span& where, const std::string& message, bool warnin
     }
     if (where.source->is_value()) {
         Diagnostic one{printable(where.source->name(), 80), {0, 0}, printable(message), "", warning};
-        const std::string& text = where.source->text();
-        const std::size_t equals = text.find('=');
-        one.value = equals == std::string::npos ? text : text.substr(equals + 1);
-        one.setting = where.source->name();
-        if (one.setting.ends_with(" " + one.value)) one.setting.resize(one.setting.size() - one.value.size() - 1);
+        one.setting = where.source->setting();
+        one.value = where.source->value();
         list_.push_back(std::move(one));
         return;
     }
@@ -231,6 +233,16 @@ void Diagnostics::throw_if_errors() const {
 
 PatternError::PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors)
     : std::runtime_error(text_of(diagnostics, errors)), diagnostics_(std::move(diagnostics)) {}
+
+const Diagnostic* PatternError::setting_error() const {
+    const Diagnostic* first = nullptr;
+    for (const Diagnostic& one : diagnostics_) {
+        if (one.warning) continue;
+        if (one.setting.empty()) return nullptr;
+        if (!first) first = &one;
+    }
+    return first;
+}
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& known) {
     if (word.size() > 64) return {};

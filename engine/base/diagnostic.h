@@ -24,14 +24,18 @@ struct Place {
 /// Immutable; has to outlive every Span cut from it.
 class Source {
 public:
-    /// @param is_value  the value of a setting outside of the file: messages show `name` and no place
+    /// @param is_value  a value outside of the file: messages show `name` and no place
     Source(std::string name, std::string text, bool is_value = false);
+    /// A setting that the caller gave. @param shown  for messages: its name, and perhaps its value
+    Source(std::string shown, std::string text, bool is_value, std::string setting, std::string value);
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
     const std::string& name() const { return name_; }  ///< as the user gave it: a path, "-", "--set"
     const std::string& text() const { return text_; }  ///< the bytes as they were read
     bool is_value() const { return is_value_; }
+    const std::string& setting() const { return setting_; }  ///< its name; empty for other texts
+    const std::string& value() const { return value_; }
     /// The text with comments, continuations and carriage returns replaced by blanks, at its full length.
     std::string_view cleaned() const { return cleaned_.empty() ? text_ : cleaned_; }
     /// Offset of a comment without end; npos if there is none.
@@ -43,6 +47,7 @@ private:
     std::string name_;
     std::string text_;
     bool is_value_;
+    std::string setting_, value_;
     std::size_t open_comment_ = std::string::npos;  // before cleaned_, which is made together with it
     std::string cleaned_;                           // empty if nothing had to be blanked
 };
@@ -72,7 +77,7 @@ struct Diagnostic {
     std::string message;
     std::string excerpt;  ///< at most 80 columns of the line, valid UTF-8, and a line with the caret
     bool warning = false;
-    std::string setting{}, value{};  ///< the setting and its value, if the place is nowhere in a file
+    std::string setting{}, value{};  ///< name and value of the invalid setting that the caller gave; empty otherwise
 
     /// `file:line:column: message`, the excerpt and the caret below it; `scale dorain: message` for a setting.
     std::string text() const;
@@ -125,6 +130,8 @@ class PatternError : public std::runtime_error {
 public:
     explicit PatternError(std::vector<Diagnostic> diagnostics, std::size_t errors);
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+    /// The first error if all errors are in settings that the caller gave; otherwise null.
+    const Diagnostic* setting_error() const;
 
 private:
     std::vector<Diagnostic> diagnostics_;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -40,7 +41,7 @@ std::filesystem::path binary_folder() {
 std::string version_of(const std::filesystem::path& folder) {
     std::ifstream file(folder / "version");
     std::string version;
-    std::getline(file, version);
+    file >> version;
     return version;
 }
 
@@ -54,9 +55,20 @@ std::filesystem::path& chosen_folder() {
     return folder;
 }
 
+/// The folder of SIKKU_DATA; empty if it is not set.
+std::filesystem::path folder_of_environment() {
+    const char* folder = std::getenv("SIKKU_DATA");
+    return folder ? folder : "";
+}
+
+/// Why a folder was searched, for messages.
+std::string reason() {
+    return folder_of_environment().empty() ? "" : " (SIKKU_DATA)";
+}
+
 /// The folders of data_folders(), of any version.
 std::vector<std::filesystem::path> candidates() {
-    if (const char* folder = std::getenv("SIKKU_DATA"); folder && *folder) return {folder};
+    if (std::filesystem::path folder = folder_of_environment(); !folder.empty()) return {std::move(folder)};
     std::vector<std::filesystem::path> folders;
     if (!chosen_folder().empty()) folders.push_back(chosen_folder());
     const std::filesystem::path binary = binary_folder();
@@ -64,7 +76,8 @@ std::vector<std::filesystem::path> candidates() {
     std::error_code error;
     const bool is_installed = !binary.empty() && std::filesystem::is_directory(beside, error);
     if (!binary.empty()) folders.push_back(beside);
-    // The prefix that was configured may hold another version by now, and a damaged installation should not borrow.
+    // The prefix that was configured may hold another version by now, and a damaged installation must not use the
+    // patterns of another.
     if (!is_installed && version_of(SIKKU_DATA_INSTALLED) == SIKKU_VERSION)
         folders.emplace_back(SIKKU_DATA_INSTALLED);
     return folders;
@@ -82,17 +95,20 @@ std::vector<std::filesystem::path> data_folders() {
     return folders;
 }
 
-std::string missing_patterns() {
-    const char* chosen = std::getenv("SIKKU_DATA");
-    const std::string reason = chosen && *chosen ? " (SIKKU_DATA)" : "";
+std::string refused_data() {
     for (const std::filesystem::path& folder : candidates()) {
         if (!is_of_another_version(folder)) continue;
-        return "the patterns in " + folder.string() + reason + " are those of version " + version_of(folder) +
-               "; this is " SIKKU_VERSION;
+        return "the patterns in " + folder.string() + reason() + " belong to sikku " + version_of(folder) +
+               ", but this is sikku " SIKKU_VERSION;
     }
+    return {};
+}
+
+std::string missing_patterns() {
+    if (std::string refused = refused_data(); !refused.empty()) return refused;
     const std::filesystem::path patterns = installed_file("patterns");
     if (patterns.empty()) return "no patterns are installed";
-    return "there are no patterns in " + patterns.string() + reason;
+    return "there are no patterns in " + patterns.string() + reason();
 }
 
 std::filesystem::path installed_file(const std::filesystem::path& relative) {

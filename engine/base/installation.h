@@ -11,17 +11,21 @@ namespace sikku {
 /// Call it before the first pattern is loaded; empty: unset. Programs linked by the CMake package do not need it.
 void set_data_folder(const std::filesystem::path& folder);
 
-/// Candidates for the data folder, best first: that of the environment variable SIKKU_DATA; if it is not set, that of
-/// set_data_folder() and the one installed with the running program or shared library; for programs that are not part
-/// of an installation the configured one, if it contains this version. Folders that state another version (in the
-/// file `version`) are left out. Empty if none remains.
+/// Candidates for the data folder, best first. If the environment variable SIKKU_DATA is set, it is the only
+/// candidate. Otherwise: the folder of set_data_folder(), the folder installed with the running program or shared
+/// library and, for a program outside of an installation, the configured folder if it states this version. Folders
+/// that state another version (in the file `version`) are left out, so the list may be empty.
 std::vector<std::filesystem::path> data_folders();
 
-/// Why there are no bundled patterns: `there are no patterns in /usr/share/sikku/patterns`. For messages after the
-/// search was in vain.
+/// Which data folder was left out because it states another version; empty if none was.
+std::string refused_data();
+
+/// Explains why no bundled patterns were found: `there are no patterns in /usr/share/sikku/patterns`. Call it after a
+/// failed search.
 std::string missing_patterns();
 
-/// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched.
+/// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched, which
+/// is empty if all data folders are left out.
 std::filesystem::path installed_file(const std::filesystem::path& relative);
 
 // CMake's package defines SIKKU_DATA_FOLDER for programs that link the libraries, and pkg-config SIKKU_DATA_PATH,

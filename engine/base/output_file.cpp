@@ -380,9 +380,12 @@ std::filesystem::path temporary_folder() {
     std::error_code error;
     std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (!error) return folder;
-    const char* chosen = std::getenv("TMPDIR");
-    throw std::runtime_error("there is no folder for temporary files: TMPDIR is '" +
-                             std::string(chosen ? chosen : "") + "': " + error.message());
+    std::string where;
+    for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"}) {
+        const char* chosen = std::getenv(name);
+        if (chosen && where.empty()) where = " (" + std::string(name) + " is '" + chosen + "')";
+    }
+    throw std::runtime_error("the folder for temporary files cannot be used" + where + ": " + error.message());
 }
 
 }  // namespace sikku

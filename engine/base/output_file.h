@@ -77,7 +77,8 @@ private:
 /// May be called from a signal handler that then ends the program.
 void remove_unfinished_files() noexcept;
 
-/// The folder for temporary files. @throws std::runtime_error if the environment variable TMPDIR names no folder
+/// The folder for temporary files. @throws std::runtime_error if the environment variable TMPDIR, TMP, TEMP
+/// or TEMPDIR, the first that is set, names no folder
 std::filesystem::path temporary_folder();
 
 }  // namespace sikku

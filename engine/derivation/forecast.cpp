@@ -397,11 +397,12 @@ double matching_seconds(const Grammar& grammar, double budget) {
     return std::min(compared, budget / 4) * seconds_a_symbol;
 }
 
-double drawn_symbols(const Grammar& grammar, const Forecast& forecast) {
+double drawn_symbols(const Grammar& grammar, const Forecast& forecast, bool moves_draw) {
     double drawn = 0;
     for (std::size_t i = 0; i < std::min(forecast.rough_counts.size(), grammar.symbols().size()); ++i) {
         const Action action = grammar.symbols()[i].command.action;
-        if (action == Action::draw || action == Action::disc || action == Action::surface)
+        if (action == Action::draw || action == Action::disc || action == Action::surface ||
+            (moves_draw && action == Action::move))
             drawn += forecast.rough_counts[i];
     }
     return drawn;

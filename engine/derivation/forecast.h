@@ -44,7 +44,8 @@ std::optional<Forecast> forecast(const Grammar& grammar, bool interpreted);
 std::optional<Forecast> estimate(const Grammar& grammar, bool interpreted);
 
 /// Estimates the number of symbols of a forecast word that draw lines, discs or surfaces.
-double drawn_symbols(const Grammar& grammar, const Forecast& forecast);
+/// @param moves_draw  moves count, too: splines pass through them
+double drawn_symbols(const Grammar& grammar, const Forecast& forecast, bool moves_draw = false);
 
 /// Estimates the number of lines and curves in the letters of labels.
 double label_lines(const Grammar& grammar, const Forecast& forecast);

@@ -72,7 +72,7 @@ PatternFile find_pattern(const std::string& pattern, const PatternLibrary& libra
     if (const LibraryPattern* known = library.find(pattern)) return {known->name + ".lsys", known->file};
     if (is_folder) throw NotFound(fmt::format("{} is a folder", pattern), true);
     if (library.patterns().empty()) {
-        throw NotFound(fmt::format("no file named '{}', and {}", pattern, missing_patterns()), true);
+        throw NotFound(fmt::format("no file is named '{}', and {}", pattern, missing_patterns()), true);
     }
     const auto similar = library.similar(pattern);
     throw NotFound(fmt::format("no file or pattern named '{}'{}", pattern, did_you_mean(similar)), !similar.empty());

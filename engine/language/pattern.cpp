@@ -655,8 +655,8 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
         if (chosen == pattern.variants.end()) {
             std::vector<std::string_view> known;
             for (const Variant& other : pattern.variants) known.push_back(other.name.view());
-            const auto source =
-                std::make_shared<const Source>("variant " + std::string(variant), std::string(variant), true);
+            const auto source = std::make_shared<const Source>(
+                "variant " + std::string(variant), std::string(variant), true, "variant", std::string(variant));
             pattern.overrides.push_back(source);
             diagnostics.error({source, 0, variant.size()},
                               known.empty()
@@ -669,9 +669,9 @@ void apply_overrides(Pattern& pattern, std::string_view variant, const std::vect
     for (const Setting& setting : settings) {
         const bool is_value = !setting.is_assignment;
         const bool is_shown = is_value && !setting.value.empty();
-        const auto source =
-            std::make_shared<const Source>(is_shown ? setting.origin + " " + setting.value : setting.origin,
-                                           setting.key + "=" + setting.value, is_value);
+        const auto source = std::make_shared<const Source>(
+            is_shown ? setting.origin + " " + setting.value : setting.origin, setting.key + "=" + setting.value,
+            is_value, setting.origin, setting.value);
         pattern.overrides.push_back(source);
         const Span whole{source, 0, source->text().size()};
         if (first_bad_byte(source->text()) != std::string_view::npos ||

@@ -31,11 +31,12 @@ std::vector<LibraryPattern> listed(const std::filesystem::path& folder) {
     return found;
 }
 
-/// Names of the TOML files in a folder, sorted.
-std::vector<std::string> toml_names(const std::filesystem::path& folder) {
+/// Names of the TOML files in a folder of a library, sorted. @param library  empty: there is none
+std::vector<std::string> toml_names(const std::filesystem::path& library, const char* kind) {
     std::vector<std::string> names;
+    if (library.empty()) return names;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    for (const auto& entry : std::filesystem::directory_iterator(library / kind, error)) {
         if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
     }
     std::sort(names.begin(), names.end());
@@ -45,7 +46,7 @@ std::vector<std::string> toml_names(const std::filesystem::path& folder) {
 }  // namespace
 
 std::vector<std::string> bundled_arrangements() {
-    return toml_names(installed_file("patterns") / "arrangements");
+    return toml_names(installed_file("patterns"), "arrangements");
 }
 
 std::optional<std::filesystem::path> bundled_arrangement(std::string_view name) {
@@ -87,12 +88,12 @@ std::string_view PatternLibrary::nearest_kind(std::string_view name) const {
 }
 
 std::vector<std::string> PatternLibrary::gallery_files() const {
-    return toml_names(folder_ / "posters");
+    return toml_names(folder_, "posters");
 }
 
 std::string PatternLibrary::gallery_file(const std::string& name) const {
     std::error_code error;
-    if (name.empty() || std::filesystem::exists(name, error)) return name;
+    if (name.empty() || folder_.empty() || std::filesystem::exists(name, error)) return name;
     const auto known = folder_ / "posters" / (name + ".toml");
     return std::filesystem::exists(known, error) ? known.string() : name;
 }

@@ -21,10 +21,10 @@ void fail(const fs::path& file, std::string_view doing, int error) {
         fmt::format("cannot {} '{}': {}", doing, file.string(), std::generic_category().message(error)));
 }
 
-void fail_without(std::string_view what, std::string_view program, std::string_view advice) {
+void fail_without(std::string_view what, std::string_view program, [[maybe_unused]] std::string_view advice) {
 #ifdef __EMSCRIPTEN__
     throw std::runtime_error(
-        fmt::format("{} cannot be made here: `sikku play` makes it, with the program {}", what, program));
+        fmt::format("{} cannot be made here; use `sikku play`, which needs the program {}", what, program));
 #else
     throw std::runtime_error(
         fmt::format("{} needs the program {}, which is not in PATH; install it{}", what, program, advice));

@@ -12,7 +12,8 @@
 
 namespace sikku::child {
 
-/// Reports that a program is missing. @param what  what it makes: `sound` @param advice  how to install it
+/// Reports that a program is missing. @param what  what it makes: `sound` @param advice  continues "install it": `:
+/// apt install lilypond`
 /// @throws std::runtime_error always
 [[noreturn]] void fail_without(std::string_view what, std::string_view program, std::string_view advice);
 

@@ -42,7 +42,9 @@ def test_keys_of_prints_and_scores_are_checked() -> None:
         ({"angle_factor": "x"}, "angle factor", "x"),
         ({"nothing": 1}, "nothing", "1"),
         ({"variant": "nothing"}, "variant", "nothing"),
-        ({"n": -1}, "derivation length", "-1"),
+        ({"n": -1}, "n", "-1"),
+        ({"a=b": 1}, "a=b", "1"),
+        ({"variant": "a=b"}, "variant", "a=b"),
         ({"title": "a\nb"}, "title", "a\nb"),
     ],
 )
@@ -61,9 +63,13 @@ def test_options_and_settings_raise_the_same(option: str, value: str) -> None:
     assert (caught.value.option, caught.value.value) == (option, value)
 
 
-def test_an_error_of_the_pattern_and_a_setting_is_one_of_the_pattern() -> None:
+@pytest.mark.parametrize("name", ["aaa.lsys", "zebra.lsys"])
+def test_errors_of_a_pattern_and_a_setting_are_those_of_the_pattern(name: str) -> None:
+    with pytest.raises(sikku.PatternError) as caught:
+        sikku.load(name, text="axiom: F\nF --> F(\n", angle_factor="x")
+    assert sorted({one.line > 0 for one in caught.value.diagnostics}) == [False, True]
     with pytest.raises(sikku.PatternError):
-        sikku.load(text="axiom: F\nF --> F(\nderivation length: 1\n", angle_factor="6")
+        sikku.load(name, text="axiom = F(a)\nF --> FF\n")
 
 
 def test_unknown_gallery_file(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ for (const part of ["page", "npm"]) {
 copyFileSync(join(values.bridge, "sikku-bridge.wasm"), join(folder, "sikku.wasm"));
 copyFileSync(join(here, "README.md"), join(folder, "README.md"));
 copyFileSync(join(root, "LICENSE"), join(folder, "LICENSE"));
-for (const file of ["sikku.wasm", "README.md", "LICENSE"]) chmodSync(join(folder, file), 0o644); // of any checkout
+for (const file of ["sikku.wasm", "README.md", "LICENSE"]) chmodSync(join(folder, file), 0o644); // whatever the umask of the checkout
 writeFileSync(join(folder, "NOTICES.json"), JSON.stringify(notices(join(root, "studio/node_modules"), ["pako"]), null, 1));
 const version = /project\(sikku VERSION ([0-9.]+)/.exec(readFileSync(join(root, "CMakeLists.txt"), "utf8"))[1];
 writeFileSync(

@@ -26,7 +26,7 @@ export class SikkuError extends Error {
         readonly kind: Failure["error"]["kind"],
         message: string,
         readonly option: string | undefined, // of kind "setting": the name of an option, a key or a define
-        readonly diagnostics: Diagnostic[], // of kind "pattern": every error with its place
+        readonly diagnostics: Diagnostic[], // every error of the pattern and its settings, with its place
     ) {
         super(message);
     }

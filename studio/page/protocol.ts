@@ -70,7 +70,7 @@ export interface Failure {
     error: {
         kind: "pattern" | "setting" | "budget" | "word" | "score" | "stopped" | "request" | "other";
         message: string; // plain text, perhaps several lines
-        option?: string; // of kind "setting", and of "pattern" if a setting is invalid
+        option?: string; // of kind "setting", and of "pattern" if all errors are in settings
         diagnostics?: Diagnostic[]; // of kind "pattern"
     };
 }

@@ -9,7 +9,8 @@ namespace sikku {
 namespace {
 
 [[noreturn]] void refuse() {
-    throw std::runtime_error("only PNG pictures can be made here; `sikku draw` makes the others, and prints in CMYK");
+    throw std::runtime_error(
+        "only PNG pictures can be made here; use `sikku draw` for other formats and for prints in CMYK");
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ bool is_picture(std::string_view /*first_bytes*/) {
 
 DecodedPicture read_picture(const std::filesystem::path& /*path*/, int /*longest_side*/,
                             std::uint64_t /*most_pixels*/, const Monitor& /*monitor*/) {
-    throw std::runtime_error("photographs cannot be read here; `sikku kolam --read` reads them");
+    throw std::runtime_error("photographs cannot be read here; use `sikku kolam --read`");
 }
 
 }  // namespace sikku

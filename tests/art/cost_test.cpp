@@ -67,20 +67,46 @@ TEST(PrintCost, WordsOfUnknownLengthAreDerived) {
     }
 }
 
+/// The forecast of a print's bytes, divided by the bytes made.
+double forecast_share(const Document& given, const char* format, const OptionValues& given_values) {
+    const auto [document, values] = assign(prints(), given, given_values);
+    const auto work = prints().plan(document, format, values);
+    MemoryDestination memory;
+    work->make(memory, std::string("wall.") + format, {});
+    double bytes = 0;
+    for (const auto& [name, content] : memory.outputs()) bytes += static_cast<double>(content.size());
+    return work->forecast().bytes / bytes;
+}
+
 TEST(PrintCost, SheetsHaveMarksAndThePatternInEachFile) {
     const Document snake = bundled_pattern("snake-kolam");
     for (const char* format : {"svg", "pdf", "eps", "png"}) {
-        for (const OptionValues& values : {OptionValues{{"dot-spacing", "30mm"}, {"tile", "A4"}, {"dpi", "150"}},
-                                           OptionValues{{"size", "A1"}, {"tile", "A4"}, {"dpi", "150"}}}) {
-            const auto work = prints().plan(snake, format, values);
-            MemoryDestination memory;
-            work->make(memory, std::string("wall.") + format, {});
-            double bytes = 0;
-            for (const auto& [name, content] : memory.outputs()) bytes += static_cast<double>(content.size());
-            const double ratio = work->forecast().bytes / bytes;
-            const double factor = std::string_view(format) == "png" ? 3.2 : 2.2;  // pictures compress more or less
-            EXPECT_GT(ratio, 1 / factor) << format << ' ' << values[0].text;
-            EXPECT_LT(ratio, factor) << format << ' ' << values[0].text;
+        const double factor = std::string_view(format) == "png" ? 3.2 : 2;  // pictures compress more or less
+        for (const OptionValues& values :
+             {OptionValues{{"dot-spacing", "30mm"}, {"tile", "A4"}, {"dpi", "60"}},
+              OptionValues{{"dot-spacing", "15mm"}, {"tile", "A4"}, {"dpi", "60"}, {"n", "6"}},
+              OptionValues{{"size", "A1"}, {"tile", "A4"}, {"dpi", "60"}}}) {
+            const double share = forecast_share(snake, format, values);
+            EXPECT_GT(share, 1 / factor) << format << ' ' << values[0].text;
+            EXPECT_LT(share, factor) << format << ' ' << values[0].text;
+        }
+    }
+    const Document curve = bundled_pattern("hilbert");
+    const double share = forecast_share(curve, "pdf", {{"step", "8mm"}, {"tile", "A4"}, {"repeat", "p1:3x2"}});
+    EXPECT_NEAR(share, 1, 0.5);
+    EXPECT_THROW(cost(curve, "pdf", {{"step", "300mm"}, {"tile", "A4"}}), std::runtime_error);  // over 400 sheets
+}
+
+/// Splines pass through moves, so that words without drawing symbols are drawn, too.
+TEST(PrintCost, KolamsOfMovesGrowWithTheirWords) {
+    for (const char* name : {"snake-kolam", "anklets-of-krishna"}) {
+        const Document kolam = bundled_pattern(name);
+        for (const int n : {5, 6, 7}) {
+            const OptionValues values = {{"n", std::to_string(n)}};
+            EXPECT_NEAR(forecast_share(kolam, "svg", values), 1, 0.5) << name << ' ' << n;
+            const OptionValues dotted = {{"n", std::to_string(n)}, {"dots", ""}};
+            EXPECT_NEAR(forecast_share(kolam, "svg", dotted), 1, 0.5) << name << ' ' << n;
+            EXPECT_NEAR(forecast_share(kolam, "eps", dotted), 1, 0.5) << name << ' ' << n;
         }
     }
 }

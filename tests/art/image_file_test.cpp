@@ -227,7 +227,7 @@ TEST(ImageFile, AModuleOfAnotherVersionIsRefused) {
     const auto png = run_tool(draw.substr(0, draw.size() - 4) + "png'");
     EXPECT_TRUE(png.ok) << png.text;
 
-    // A decoder whose libraries are missing: the dynamic loader ends it so.
+    // If a library of the decoder is missing, the dynamic loader exits with 127.
     const auto decoder = copied_module.parent_path() / "sikku_decoder";
     std::ofstream(decoder) << "#!/bin/sh\nexit 127\n";
     std::filesystem::permissions(decoder, std::filesystem::perms::owner_all);

@@ -45,7 +45,7 @@ echo "$(ls program-*.cpp | wc -l) programs of docs/library.md work"
 if command -v pkg-config > /dev/null; then
     PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name sikku.pc)")
     export PKG_CONFIG_PATH
-    # Words of the answer are options. gnu++20: the name `linux` is a macro.
+    # The output of pkg-config is split into options. With gnu++20, `linux` is a macro.
     # shellcheck disable=SC2046
     quietly "$cxx" -std=gnu++20 ${sanitize:+-fsanitize=$sanitize} program-1.cpp -o "$work/consumers/by-hand" $(pkg-config --cflags --libs sikku)
     "$work/consumers/by-hand" > /dev/null

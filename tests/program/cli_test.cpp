@@ -215,18 +215,26 @@ TEST(Program, OnlyPatternsOfItsVersionAreUsed) {
         return outcome.errors;
     };
     const std::string none = "there are no patterns in /nowhere/patterns (SIKKU_DATA)\n";
-    EXPECT_EQ(refused("/nowhere", {"measure", "hilbert"}), "sikku: no file named 'hilbert', and " + none);
-    EXPECT_EQ(refused("/nowhere", {"gallery", "hilbert"}), "sikku: no file named 'hilbert', and " + none);
+    EXPECT_EQ(refused("/nowhere", {"measure", "hilbert"}), "sikku: no file is named 'hilbert', and " + none);
+    EXPECT_EQ(refused("/nowhere", {"gallery", "hilbert"}), "sikku: no file is named 'hilbert', and " + none);
     EXPECT_EQ(refused("/nowhere", {"patterns"}), "sikku: " + none);
     EXPECT_EQ(refused("/nowhere", {"gallery"}), "sikku: " + none);
+    EXPECT_EQ(refused("/nowhere", {"patterns", "arrangements"}), "sikku: " + none);
+    EXPECT_TRUE(has(refused("/nowhere", {"gallery", "--file", "tilings"}), none));
+    EXPECT_TRUE(has(refused("/nowhere", {"gallery", "h*"}), none));
     std::filesystem::create_directory(folder.path() / "patterns");
     folder.write("patterns/mine.lsys", "axiom: F\n");
     const std::vector<std::string> measure = {"measure", "mine"};
     const Surroundings here{.folder = "/", .environment = {{"SIKKU_DATA", data}}};
     EXPECT_EQ(run(measure, here).status, 0);
-    folder.write("version", "0.0.1\n");
+    folder.write("version", "0.0.1\r\n");
+    // The working folder is no data folder.
+    std::filesystem::create_directory(folder.path() / "arrangements");
+    folder.write("arrangements/duet.toml", "title = \"not bundled\"\n");
+    EXPECT_TRUE(has(refused(data, {"patterns", "arrangements"}), "belong to sikku 0.0.1"));
+    EXPECT_TRUE(has(run({"studio", "-o", "x.html"}, here).errors, "belong to sikku 0.0.1"));
     EXPECT_TRUE(has(refused(data, measure),
-                    "the patterns in " + data + " (SIKKU_DATA) are those of version 0.0.1; this is "));
+                    "the patterns in " + data + " (SIKKU_DATA) belong to sikku 0.0.1, but this is sikku "));
     const Outcome version = run({"--version"});
     folder.write("version", version.output.substr(6, version.output.find(' ', 6) - 6) + "\n");
     EXPECT_EQ(run(measure, here).status, 0) << version.output;
@@ -239,7 +247,7 @@ TEST(Program, AFolderForTemporaryFilesThatIsMissing) {
     const Outcome outcome = run({"play", "hilbert", "-o", folder.file("x.pdf")},
                                 {.environment = {{"PATH", folder.path().string()}, {"TMPDIR", "/nowhere"}}});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.errors, "sikku: there is no folder for temporary files: TMPDIR is '/nowhere'"))
+    EXPECT_TRUE(has(outcome.errors, "sikku: the folder for temporary files cannot be used (TMPDIR is '/nowhere')"))
         << outcome.errors;
 }
 

@@ -97,16 +97,20 @@ TEST_F(Mistakes, ValuesOfOptions) {
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
 }
 
-TEST_F(Mistakes, AWrongNameIsWorseThanAMissingOutput) {
+TEST_F(Mistakes, WrongNamesAreReportedBeforeAMissingOutput) {
     const std::vector<Mistake> mistakes = {
         {{"draw", "mine.lsys"}, "--output FILE is missing"},
         {{"draw", "hilbrt"}, "no file or pattern named 'hilbrt'; did you mean 'hilbert'?"},
         {{"draw", "mine.lsys", "--colur", "red"}, "unknown option '--colur'"},
         {{"sheet", "mine.lsys", "--colur", "red"}, "unknown option '--colur'"},
         {{"draw", "--colur", "red"}, "unknown option '--colur'"},
+        {{"sheet", "mine.lsys", "hilbrt"}, "no file or pattern named 'hilbrt'"},
+        {{"sheet", "hilbrt@n=3"}, "no file or pattern named 'hilbrt'"},
+        {{"sheet", "mine.lsys@n=3"}, "--output FILE is missing"},
+        {{"--colur"}, "unknown option '--colur'; `sikku --help` lists the options"},
         {{"draw"}, "PATTERN is missing"},
         {{"draw", "mine.lsys", "--animate", "-o", "m.gif"},
-         "--animate: only SVG can draw itself; a GIF shows the derivation lengths of --generations"}};
+         "--animate: only an SVG can draw itself; use --generations for a GIF"}};
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
 }
 

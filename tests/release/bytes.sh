@@ -68,11 +68,7 @@ libraries=(libc6-dev libstdc++-12-dev libtbb-dev libfmt-dev zlib1g-dev libpugixm
 cross() {
     local machine=$1 architecture=$2
     local root=$build/root-$architecture
-    if [ ! -d "$root" ]; then
-        rm -rf "$root.new"
-        architecture=$architecture make_root bookworm "$root.new" extract "${libraries[@]}"
-        mv "$root.new" "$root"
-    fi
+    architecture=$architecture kept_root bookworm "$root" extract "${libraries[@]}"
     compiled "$architecture" -DCMAKE_TOOLCHAIN_FILE="$here/cross.cmake" -DMACHINE="$machine" -DROOT="$root" \
         -DCMAKE_BUILD_TYPE=Release
 }

@@ -33,7 +33,7 @@ values = picture.get_pixels()
 assert len(set(values)) > 1, "an empty thumbnail"
 print(f"{picture.get_width()}x{picture.get_height()}")
 END
-# The factory runs thumbnailers in a sandbox, which needs a root of its own rather than one by chroot.
+# The factory runs thumbnailers in a sandbox, which does not work in a chroot: use pivot_root.
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 unshare --mount --pid --fork --propagation private \
     sh -c 'mount --bind "$0" "$0" && mount -t proc proc "$0/proc" && cd "$0" && pivot_root . mnt && umount -l /mnt &&
         exec "$@"' "$root" python3 /tmp/thumbnail.py > "$work/log" 2>&1 || { cat "$work/log"; fail "no thumbnail"; }

@@ -13,7 +13,7 @@ version=$(packaging/version.sh)
 echo '<!DOCTYPE html><title>Sikku</title>' > "$work/sikku-studio.html"
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2> /dev/null || echo 315532800)
 export SOURCE_DATE_EPOCH
-# Neither small nor the same bytes, but quick.
+# Uncompressed, to save time; only the lists of files matter here.
 DPKG_DEB_COMPRESSOR_TYPE=none packaging/deb.sh "$build" "$work/sikku-studio.html" "$work"
 packaging/wheel.sh "$build" "$work"
 packaging/sdist.sh "$work"
@@ -25,7 +25,8 @@ contents() {
         *) tar -tvzf "$1" ;;
     esac
 }
-# Patterns are a line a kind, and so are sources and headers; libraries are without versions, which depend on the system.
+# Patterns take one line per kind, sources and headers one per folder; libraries are listed without their versions, which
+# depend on the system.
 lists() {
     local artefact
     for artefact in "$work"/*.deb "$work"/*.whl "$work"/*.tar.gz; do
@@ -39,6 +40,6 @@ lists > "$work/lists"
 if [ -n "${SIKKU_WRITE_LISTS:-}" ]; then
     cp "$work/lists" tests/release/lists.txt
 else
-    diff tests/release/lists.txt "$work/lists" || { echo "the packages contain other files than tests/release/lists.txt" >&2; exit 1; }
+    diff tests/release/lists.txt "$work/lists" || { echo "the contents of the packages differ from tests/release/lists.txt; SIKKU_WRITE_LISTS=1 updates it" >&2; exit 1; }
     echo "Debian packages, wheel and source distribution contain the files that they should"
 fi

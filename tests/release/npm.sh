@@ -21,6 +21,21 @@ grep -q '<svg' hilbert.svg
 grep -q '^[0-9]\{30,\}$' readme.out  # a count of n = 60, exact
 grep -q 'angle' readme.out           # the error of `angel`
 midicsv hilbert.mid > /dev/null
+cat > errors.mjs <<'END'
+import assert from "node:assert/strict";
+import { start } from "sikku";
+const sikku = await start();
+const wrong = (work) => { try { work(); } catch (error) { return [error.name, error.kind, error.option]; } };
+assert.deepEqual(wrong(() => sikku.draw("hilbert", "svg", { n: -1 })), ["SikkuError", "setting", "derivation length"]);
+assert.deepEqual(wrong(() => sikku.draw("hilbert", "svg", { size: "zz" })), ["SikkuError", "setting", "size"]);
+assert.deepEqual(wrong(() => sikku.draw("hilbert", "svg", { "angle factor": "x" })), ["SikkuError", "setting", "angle factor"]);
+assert.deepEqual(wrong(() => sikku.draw({ text: "axiom = F(a)" })), ["SikkuError", "pattern", undefined]);
+assert.deepEqual(wrong(() => sikku.draw("nothing")), ["SikkuError", "other", undefined]);
+assert.deepEqual(wrong(() => sikku.draw()), ["TypeError", undefined, undefined]);
+assert.throws(() => sikku.draw("hilbert", "tif"), /use `sikku draw`/);
+assert.throws(() => sikku.play("hilbert", "wav"), /use `sikku play`/);
+END
+node errors.mjs
 cat > types.ts <<'END'
 import { start } from "sikku";
 const sikku = await start();
@@ -52,7 +67,8 @@ if command -v chromium > /dev/null; then
     browser=$!
     timeout 60 sh -c "until grep -q 'drawn-\|failed-' server.out; do sleep 0.1; done" || true
     grep -q 'GET /drawn-1 ' server.out || { cat server.out; echo "the page draws nothing" >&2; exit 1; }
+    echo "npm package: $size bytes; README's examples run in node, and a page made with esbuild draws"
 else
+    echo "npm package: $size bytes; README's examples run in node"
     echo "skipped: the page made with esbuild (chromium is not installed)"
 fi
-echo "npm package: $size bytes; README's examples run in node, and a page made with esbuild draws"

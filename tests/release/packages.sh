@@ -44,13 +44,14 @@ mkdir -p "$root/opt/other/bin" "$root/opt/other/share/sikku"
 cp "$root/usr/bin/sikku" "$root/opt/other/bin"
 refused() {
     if in_root "$root" "$@" draw hilbert -o /tmp/none.svg 2> "$work/message"; then fail "patterns of another installation were used"; fi
-    grep -q "$expected" "$work/message" || { cat "$work/message"; fail "the message does not say: $expected"; }
+    [ ! -e "$root/tmp/none.svg" ] || fail "a refused print is there"
+    grep -q -F "$expected" "$work/message" || { cat "$work/message"; fail "the message does not say: $expected"; }
 }
 expected='no patterns in /opt/other/share/sikku/patterns' refused /opt/other/bin/sikku
 cp -r "$root/usr/share/sikku/patterns" "$root/opt/other/share/sikku"
 echo 0.1.0 > "$root/opt/other/share/sikku/version"
-expected='/opt/other/share/sikku are those of version 0.1.0' refused /opt/other/bin/sikku
-expected='/opt/other/share/sikku (SIKKU_DATA) are those of version 0.1.0' refused env SIKKU_DATA=/opt/other/share/sikku sikku
+expected='/opt/other/share/sikku belong to sikku 0.1.0' refused /opt/other/bin/sikku
+expected='/opt/other/share/sikku (SIKKU_DATA) belong to sikku 0.1.0' refused env SIKKU_DATA=/opt/other/share/sikku sikku
 rm -r "$root/opt/other"
 echo "two versions side by side: only the patterns of its own version are used"
 

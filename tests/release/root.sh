@@ -15,6 +15,17 @@ make_root() {
     mkdir -p "$folder/proc" "$folder/dev" "$folder/tmp"
 }
 
+# kept_root SUITE FOLDER VARIANT [PACKAGE…]: makes a root that other runs use, until its packages change.
+kept_root() {
+    local suite=$1 folder=$2 variant=$3
+    shift 3
+    if [ "$(cat "$folder.made" 2> /dev/null)" = "$suite $*" ]; then return; fi
+    rm -rf "$folder" "$folder.new"
+    make_root "$suite" "$folder.new" "$variant" "$@"
+    mv "$folder.new" "$folder"
+    echo "$suite $*" > "$folder.made"
+}
+
 # in_root FOLDER COMMAND…: runs a command in a root, as a fresh login would, with /proc and /dev for the command only.
 in_root() {
     local folder=$1

@@ -23,9 +23,9 @@ class Diagnostic(NamedTuple):
     file: str
     """Name of the text: a path, a bundled pattern, or the name of a setting."""
     line: int
-    """Line, counted from 1."""
+    """Line, counted from 1; 0 for a setting."""
     column: int
-    """Column in code points, counted from 1."""
+    """Column in code points, counted from 1; 0 for a setting."""
     message: str
     """What is wrong, and what is expected."""
     excerpt: str
@@ -61,12 +61,12 @@ class PatternError(Error, ValueError):
 
 
 class SettingError(Error, ValueError):
-    """An option or a setting is unknown, has an invalid value, or cannot be combined with another."""
+    """An option, key, define or variant is unknown, has an invalid value, or cannot be combined with another."""
 
     def __init__(self, option: str, value: str, message: str) -> None:
         super().__init__(option, value, message)
         self.option: str = option
-        """Name of the option as in the manual, `dot-spacing`, or of the setting, `angle factor`."""
+        """Name of the option (`dot-spacing`), key (`angle factor`) or define, as in the manual."""
         self.value: str = value
         """Text of the value; empty if a combination is invalid."""
         self.message: str = message

@@ -136,7 +136,7 @@ class Pattern(Outputs):
     ) -> Pattern:
         """Returns a copy of the pattern with another derivation length, seed, keys or defines.
 
-        Raises SettingError, and PatternError if a production no longer fits.
+        Raises SettingError, and PatternError if the settings make a production invalid.
         """
         texts = _shared_settings(n, seed) + to_settings(settings)
         return Pattern(self._document.with_settings(texts))
