@@ -152,6 +152,12 @@ private:
     const Monitor& monitor_;
 };
 
+/// @param place  of the name in a file; empty: it was an argument. @throws NotFound, GalleryError
+[[noreturn]] void not_found(const std::string& place, const std::string& message) {
+    if (place.empty()) throw NotFound(message, true);
+    fail(place, message);
+}
+
 }  // namespace
 
 bool fits_wildcards(std::string_view form, std::string_view name) {
@@ -226,13 +232,13 @@ PatternShelf::List PatternShelf::find(const std::string& word, const std::filesy
     }
     if (is_folder) fail(place, fmt::format("{}: this folder contains no patterns", (folder / word).string()));
     if (known().empty()) {
-        fail(place, fmt::format("no file is named '{}', and {}", printable(word, 80), missing_patterns()));
+        not_found(place, fmt::format("no file is named '{}', and {}", printable(word, 80), missing_patterns()));
     }
     if (has_wildcards(word)) fail(place, fmt::format("no pattern matches '{}'", printable(word, 80)));
     // The word may also resemble a kind of patterns: `kolams`.
     const std::string_view kind = PatternLibrary::bundled().nearest_kind(word);
     const auto similar = kind.empty() ? PatternLibrary::bundled().similar(word) : std::vector{kind};
-    fail(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80), did_you_mean(similar)));
+    not_found(place, fmt::format("no file or pattern named '{}'{}", printable(word, 80), did_you_mean(similar)));
 }
 
 void PatternShelf::find_bundled_pieces(const std::string& word, std::vector<Pointer>& found) {

@@ -66,7 +66,8 @@ public:
     explicit PatternShelf(bool bundled_only, PieceReader pieces = {}, Monitor monitor = {})
         : bundled_only_(bundled_only), pieces_(std::move(pieces)), monitor_(monitor) {}
 
-    /// @throws GalleryError if none is found, or there are too many entries to search; Stopped
+    /// @throws GalleryError, or NotFound without a place, if none is found; GalleryError if there are too many
+    /// entries to search; Stopped
     List find(const std::string& word, const std::filesystem::path& folder, const std::string& place);
     /// All bundled patterns that draw something.
     List all();

@@ -75,6 +75,8 @@ def test_errors_of_a_pattern_and_a_setting_are_those_of_the_pattern(name: str) -
 def test_unknown_gallery_file(tmp_path: Path) -> None:
     with pytest.raises(sikku.NotFoundError, match="kolam-library"):
         sikku.gallery(tmp_path / "out", file="nothing")
+    with pytest.raises(sikku.NotFoundError, match="did you mean 'hilbert'"):
+        sikku.gallery(tmp_path / "out", ["hilbrt"])
 
 
 def test_option_errors() -> None:

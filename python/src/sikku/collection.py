@@ -146,8 +146,8 @@ def gallery(
     progress: called with the number of finished files and that of all.
     keys: options of prints and scores, and keys of patterns: `size="A4"`, `n="3:6"`.
 
-    Warnings about the gallery are issued as SikkuWarning. Raises SettingError; NotFoundError for an unknown gallery
-    file; Error for other errors that can be detected before anything is made.
+    Warnings about the gallery are issued as SikkuWarning. Raises SettingError; NotFoundError for an unknown pattern
+    or gallery file; Error for other errors that can be detected before anything is made.
     """
     names = [patterns] if isinstance(patterns, str) else list(patterns)
     texts = to_gallery_keys(keys)
