@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <system_error>
 
 namespace sikku {
@@ -73,9 +74,9 @@ std::string mistake_in_pattern(const CLI::App& command) {
         if (name != "PATTERN" && name != "DRAWING") continue;
         for (const std::string& given : option->results()) {
             try {
-                const std::size_t at = given.rfind('@');  // of a sheet: PATTERN@SETTINGS
-                const bool has_settings = at != std::string::npos && !is_link(given);
-                if (given != "-" && !is_link(given)) find_named_pattern(has_settings ? given.substr(0, at) : given);
+                if (given == "-" || is_link(given)) continue;
+                const bool has_settings = name == "DRAWING" && !std::filesystem::exists(given);  // PATTERN@SETTINGS
+                find_named_pattern(has_settings ? given.substr(0, given.rfind('@')) : given);
             } catch (const UsageError& error) {
                 return error.what();
             } catch (const std::exception&) {

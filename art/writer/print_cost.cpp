@@ -26,8 +26,8 @@ namespace sikku {
 namespace {
 
 constexpr double nodes_read = 50'000;  // maximum for a word whose drawing is forecast: a millisecond
-constexpr double nodes_placed =
-    5'000;  // maximum for a word whose drawing is made to find its size: some milliseconds
+// Maximum for a word whose drawing is made to find its size: some milliseconds.
+constexpr double nodes_placed = 5'000;
 constexpr double edges_made = 300'000;  // maximum for maps, likewise
 
 // Memory that is kept, in bytes.

@@ -107,6 +107,8 @@ TEST_F(Mistakes, WrongNamesAreReportedBeforeAMissingOutput) {
         {{"sheet", "mine.lsys", "hilbrt"}, "no file or pattern named 'hilbrt'"},
         {{"sheet", "hilbrt@n=3"}, "no file or pattern named 'hilbrt'"},
         {{"sheet", "mine.lsys@n=3"}, "--output FILE is missing"},
+        {{"sheet", "hilbert@2"}, "--output FILE is missing"},
+        {{"draw", "my@file.lsys"}, "--output FILE is missing"},
         {{"--colur"}, "unknown option '--colur'; `sikku --help` lists the options"},
         {{"draw"}, "PATTERN is missing"},
         {{"draw", "mine.lsys", "--animate", "-o", "m.gif"},
