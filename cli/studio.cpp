@@ -195,9 +195,8 @@ void add_studio(CLI::App& app, bool& quiet) {
     command->footer(
         "The studio is a single page that needs neither a server nor the internet; the package sikku-studio "
         "installs it, and `./demo --studio` builds it in a checkout. It is opened with xdg-open; without a display "
-        "or xdg-open, "
-        "its address is printed. The browser saves work in "
-        "the studio; the pattern files do not change.\n\n"
+        "or xdg-open, its address is printed. The browser saves work in the studio; the pattern files do not "
+        "change.\n\n"
         "Examples:\n"
         "  sikku studio\n"
         "  sikku studio snake-kolam my.lsys\n"

@@ -43,7 +43,7 @@ class Gallery {
 public:
     /// @param keys  must outlive the gallery
     /// @throws GalleryError for every error that can be detected before anything is made; NotFound for an unknown
-    /// gallery file; Stopped
+    /// pattern or gallery file; Stopped
     Gallery(GalleryRequest request, GalleryOptions options, const GalleryKeys& keys, const Monitor& monitor);
 
     const std::vector<GalleryJob>& jobs() const { return jobs_; }

@@ -73,7 +73,7 @@ struct GalleryRequest {
 /// Lists all jobs in the order of the request; an empty request lists all bundled patterns that draw.
 /// Jobs are counted before any is expanded. Time and memory: linear in the files and the jobs.
 /// @throws GalleryError with file, line and column for every error that can be detected before a pattern is compiled;
-/// NotFound for an unknown gallery file; Stopped
+/// NotFound for an unknown pattern or gallery file; Stopped
 std::vector<GalleryJob> gallery_jobs(GalleryRequest& request, const GalleryKeys& keys);
 
 }  // namespace sikku

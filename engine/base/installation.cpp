@@ -108,7 +108,7 @@ std::string missing_patterns() {
     if (std::string refused = refused_data(); !refused.empty()) return refused;
     const std::filesystem::path patterns = installed_file("patterns");
     if (patterns.empty()) return "no patterns are installed";
-    return "there are no patterns in " + patterns.string() + reason();
+    return patterns.string() + reason() + " contains no patterns";
 }
 
 std::filesystem::path installed_file(const std::filesystem::path& relative) {

@@ -20,8 +20,7 @@ std::vector<std::filesystem::path> data_folders();
 /// Which data folder was left out because it states another version; empty if none was.
 std::string refused_data();
 
-/// Explains why no bundled patterns were found: `there are no patterns in /usr/share/sikku/patterns`. Call it after a
-/// failed search.
+/// Explains why no bundled patterns were found: `/usr/share/sikku/patterns contains no patterns`. For errors.
 std::string missing_patterns();
 
 /// The first file or folder that exists at a path relative to a data folder; otherwise the last path searched, which

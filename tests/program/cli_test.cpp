@@ -214,7 +214,7 @@ TEST(Program, OnlyPatternsOfItsVersionAreUsed) {
         EXPECT_EQ(outcome.status, 2);
         return outcome.errors;
     };
-    const std::string none = "there are no patterns in /nowhere/patterns (SIKKU_DATA)\n";
+    const std::string none = "/nowhere/patterns (SIKKU_DATA) contains no patterns\n";
     EXPECT_EQ(refused("/nowhere", {"measure", "hilbert"}), "sikku: no file is named 'hilbert', and " + none);
     EXPECT_EQ(refused("/nowhere", {"gallery", "hilbert"}), "sikku: no file is named 'hilbert', and " + none);
     EXPECT_EQ(refused("/nowhere", {"patterns"}), "sikku: " + none);
@@ -228,7 +228,7 @@ TEST(Program, OnlyPatternsOfItsVersionAreUsed) {
     const Surroundings here{.folder = "/", .environment = {{"SIKKU_DATA", data}}};
     EXPECT_EQ(run(measure, here).status, 0);
     folder.write("version", "0.0.1\r\n");
-    // The working folder is no data folder.
+    // Arrangements in the current folder are not listed.
     std::filesystem::create_directory(folder.path() / "arrangements");
     folder.write("arrangements/duet.toml", "title = \"not bundled\"\n");
     EXPECT_TRUE(has(refused(data, {"patterns", "arrangements"}), "belong to sikku 0.0.1"));

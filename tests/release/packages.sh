@@ -47,7 +47,7 @@ refused() {
     [ ! -e "$root/tmp/none.svg" ] || fail "a refused print is there"
     grep -q -F "$expected" "$work/message" || { cat "$work/message"; fail "the message does not say: $expected"; }
 }
-expected='no patterns in /opt/other/share/sikku/patterns' refused /opt/other/bin/sikku
+expected='/opt/other/share/sikku/patterns contains no patterns' refused /opt/other/bin/sikku
 cp -r "$root/usr/share/sikku/patterns" "$root/opt/other/share/sikku"
 echo 0.1.0 > "$root/opt/other/share/sikku/version"
 expected='/opt/other/share/sikku belong to sikku 0.1.0' refused /opt/other/bin/sikku

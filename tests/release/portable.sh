@@ -64,7 +64,7 @@ broken() {
     [ "$(wc -l < "$work/message")" -le 2 ] || { cat "$work/message"; fail "a long message without $what"; }
     mv "$root/aside" "$root/opt/a folder/$what"
 }
-broken share/sikku/patterns 'no patterns in /opt/a folder/share/sikku/patterns' draw hilbert -o /tmp/x.svg
+broken share/sikku/patterns '/opt/a folder/share/sikku/patterns contains no patterns' draw hilbert -o /tmp/x.svg
 broken lib/sikku/sikku_image.so sikku_image draw hilbert -o /tmp/x.tif
 broken lib/sikku/sikku_decoder sikku_decoder kolam --read /tmp/kolam.png -o /tmp/x.lsys
 broken share/sikku/sikku-studio.html studio studio -o /tmp/x.html
