@@ -4,6 +4,7 @@
 #include "cli/link_argument.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
+#include "engine/base/diagnostic.h"
 #include "engine/base/output_file.h"
 #include "engine/base/text.h"
 #include "engine/language/arrangement_library.h"
@@ -84,8 +85,11 @@ PatternFile find_named_pattern(const std::string& pattern) {
     } catch (const NotFound& error) {
         if (bundled_arrangement(pattern))
             throw UsageError(pattern + ": this is an arrangement; `sikku play` plays it");
-        throw UsageError(std::string(error.what()) +
-                         (error.has_suggestion() ? "" : "; `sikku patterns` lists the bundled ones"));
+        const std::vector<std::string> arrangements = bundled_arrangements();
+        const std::string_view near = nearest(pattern, {arrangements.begin(), arrangements.end()});
+        throw UsageError(std::string(error.what()) + (error.has_suggestion() ? ""
+                                                      : near.empty() ? "; `sikku patterns` lists the bundled ones"
+                                                                     : did_you_mean(near)));
     }
 }
 
@@ -101,7 +105,7 @@ NamedText read_pattern_text(const std::string& pattern) {
     if (format) {
         throw UsageError(
             fmt::format("{}: this is {}, not a pattern{}", pattern, format->name,
-                        format->has_pattern ? "; `sikku show` prints the pattern it was made from" : ""));
+                        format->has_pattern ? "; `sikku show` prints the pattern if Sikku made the file" : ""));
     }
     if (lower_case(pattern).ends_with(".json")) {
         throw UsageError(

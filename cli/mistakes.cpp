@@ -34,15 +34,18 @@ std::string unknown_option(const CLI::App& command, const std::string& argument)
     const std::string given = argument.substr(0, argument.find('='));
     std::string_view near = nearest(given, {names.begin(), names.end()});
     // Synonyms of options.
-    constexpr std::array<std::array<std::string_view, 2>, 9> words = {{{"--tile-overlap", "--overlap"},
-                                                                       {"--paper", "--size"},
-                                                                       {"--paper-size", "--size"},
-                                                                       {"--page", "--size"},
-                                                                       {"--page-size", "--size"},
-                                                                       {"--background", "--ground"},
-                                                                       {"--resolution", "--dpi"},
-                                                                       {"--output", "-o"},
-                                                                       {"--iterations", "-n"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 12> words = {{{"--tile-overlap", "--overlap"},
+                                                                        {"--colour", "--stroke"},
+                                                                        {"--color", "--stroke"},
+                                                                        {"--bpm", "--tempo"},
+                                                                        {"--paper", "--size"},
+                                                                        {"--paper-size", "--size"},
+                                                                        {"--page", "--size"},
+                                                                        {"--page-size", "--size"},
+                                                                        {"--background", "--ground"},
+                                                                        {"--resolution", "--dpi"},
+                                                                        {"--output", "-o"},
+                                                                        {"--iterations", "-n"}}};
     for (const auto& [word, name] : words) {
         if (word == given && command.get_option_no_throw(std::string(name))) near = name;
     }

@@ -86,16 +86,13 @@ std::string with_force(std::string message) {
 }
 
 std::string diagnostic_message(const Diagnostic& diagnostic) {
-    if (diagnostic.where.line > 0) return diagnostic.text();
+    if (diagnostic.where.line > 0) return (diagnostic.file.starts_with("--") ? "sikku: " : "") + diagnostic.text();
     // A value from the command line.
     return (diagnostic.file.starts_with('-') ? "sikku: " : "sikku: --") + diagnostic.text();
 }
 
 std::string pattern_message(const PatternError& error) {
     const auto& list = error.diagnostics();
-    if (std::all_of(list.begin(), list.end(), [](const Diagnostic& one) { return one.where.line > 0; })) {
-        return error.what();
-    }
     std::string text;
     for (const Diagnostic& one : list) text += (text.empty() ? "" : "\n") + diagnostic_message(one);
     return text;

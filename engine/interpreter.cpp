@@ -31,20 +31,38 @@ bool sets_keys_of(const Interpreter& interpreter, const Document& document) {
     });
 }
 
-std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
-                   const std::string& after) {
-    std::string text = "sikku " SIKKU_VERSION ", -n " + std::to_string(grammar.steps()) + before;
+std::string recipe(const Document& document, const Grammar& grammar, const std::string& options,
+                   const std::vector<Setting>& keys) {
+    std::string text = "sikku " SIKKU_VERSION ",";
+    // Several derivation lengths are among the options.
+    if (options.find(" --generations ") == std::string::npos) text += " -n " + std::to_string(grammar.steps());
     const Overrides& overrides = document.overrides();
-    if (!overrides.variant.empty()) text += " --variant " + overrides.variant;
+    if (!overrides.variant.empty()) text += " --variant " + shell_word(overrides.variant);
     const auto is_seed = [](const Setting& setting) { return setting.key == "seed" && !setting.is_assignment; };
+    const bool has_seed = options.find(" --seed ") != std::string::npos;
     for (const Setting& setting : overrides.settings) {
-        if (is_seed(setting)) text += " --seed " + setting.value;
+        if (is_seed(setting) && !has_seed) text += " --seed " + setting.value;
     }
+    text += options;
     for (const Setting& setting : overrides.settings) {
-        if (is_seed(setting) || setting.key == "derivation length") continue;
-        text += " --set '" + setting.key + "=" + setting.value + "'";
+        const bool is_given = std::any_of(keys.begin(), keys.end(), [&](const Setting& key) {
+            return key.key == setting.key && key.value == setting.value;
+        });
+        if (is_given || is_seed(setting) || setting.key == "derivation length") continue;
+        text += " --set " + shell_word(setting.key + "=" + setting.value);
     }
-    return text + after;
+    return text;
+}
+
+void warn_of_no_steps(const Document& document, Made& made) {
+    if (document.map() || document.grammar().steps() > 0 || document.pattern().find("derivation length") ||
+        document.has_override("derivation length")) {
+        return;
+    }
+    const auto& tables = document.grammar().tables();
+    if (std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); }))
+        return;
+    made.warn("only the axiom is used, because `derivation length:` is missing");
 }
 
 namespace {

@@ -96,11 +96,15 @@ Document compile(std::string name, std::string text, const Overrides& overrides,
 /// True if the pattern sets a key that the interpreter owns, as melodies do with `scale`.
 bool sets_keys_of(const Interpreter& interpreter, const Document& document);
 
-/// The command line that makes the same output: `sikku 0.1.0, -n 4 --window … --set '…'`. Outputs store it beside the
-/// text of the pattern.
-/// @param before, after  options of the interpreter, each with a leading blank
-std::string recipe(const Document& document, const Grammar& grammar, const std::string& before,
-                   const std::string& after = {});
+/// The version and the arguments that make the same output: `sikku 0.2.0, -n 4 --size A3 --set angle=60`. Outputs
+/// store them beside the text of the pattern.
+/// @param options  of the interpreter: recipe_options()
+/// @param keys     set by these options
+std::string recipe(const Document& document, const Grammar& grammar, const std::string& options,
+                   const std::vector<Setting>& keys);
+
+/// Warns if the productions are not applied because neither the pattern nor an option states a derivation length.
+void warn_of_no_steps(const Document& document, Made& made);
 
 /// Values, separated into keys and defines of the pattern and options of the interpreter.
 struct Assignment {

@@ -87,6 +87,7 @@ std::span<const Option<PlaySettings>> play_options() {
 PlaySettings read_play_settings(const OptionValues& values) {
     PlaySettings settings;
     apply_options(play_options(), values, settings);
+    settings.recipe = recipe_options(play_options(), values);
     return settings;
 }
 

@@ -18,27 +18,11 @@ namespace {
 constexpr int strings = 48;
 constexpr int sitar = 104;
 
-std::string made_with(const PlaySettings& settings, const std::vector<Player>& players, bool is_arrangement) {
-    std::string text;
-    // The document of a single pattern contains the keys itself.
-    for (const Setting& setting : settings.keys) {
-        if (is_arrangement) text += fmt::format(" --{} '{}'", setting.key, setting.value);
-    }
-    if (settings.from_bar != 1) text += fmt::format(" --from-bar {}", settings.from_bar);
-    if (settings.bars != 0) text += fmt::format(" --bars {}", settings.bars);
-    if (settings.seconds != 0) text += fmt::format(" --seconds {}", settings.seconds);
-    if (settings.transpose != 0) text += fmt::format(" --transpose {}", settings.transpose);
-    if (settings.tuning != Tuning::bend) {
-        text += settings.tuning == Tuning::mts ? " --tuning mts" : " --tuning mpe";
-    }
-    if (settings.humanise != 0) {
-        text += fmt::format(" --humanise {}", settings.humanise);
-        if (!players.front().document.has_override("seed")) text += fmt::format(" --seed {}", settings.seed);
-    }
-    const Document& first = players.front().document;
-    const std::string made = recipe(first, first.grammar(), "", text);
+std::string made_with(const PlaySettings& settings, const Document& first, bool is_arrangement) {
+    const std::string made = recipe(first, first.grammar(), settings.recipe, settings.keys);
+    if (!is_arrangement) return made;
     // An arrangement contains the settings of its patterns.
-    return is_arrangement ? made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text : made;
+    return made.substr(0, made.find(',')) + (settings.recipe.empty() ? "" : ",") + settings.recipe;
 }
 
 /// Adds the texts of a pattern.
@@ -122,7 +106,7 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
     head.tempo = ensemble.tempo;
     head.ritardando = ensemble.close != Close::none ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
-    head.made = made_with(settings, ensemble.players, arrangement != nullptr);
+    head.made = made_with(settings, ensemble.players.front().document, arrangement != nullptr);
     if (arrangement) {
         head.title = arrangement->title;
         head.composer = arrangement->composer;

@@ -242,6 +242,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     for (const Player& player : ensemble_.players) {
         for (const std::string& warning : player.warnings) made.warn(warning);
     }
+    for (const Player& player : ensemble_.players) warn_of_no_steps(player.document, made);
     warn_of_unused(made);
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
     monitor.expect(0);

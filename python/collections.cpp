@@ -2,8 +2,10 @@
 
 #include "art/gallery/gallery.h"
 #include "art/prints.h"
+#include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"
 #include "engine/base/memory.h"
+#include "engine/base/text.h"
 #include "engine/base/toml_file.h"
 #include "engine/language/arrangement_library.h"
 #include "music/scores.h"
@@ -57,7 +59,11 @@ LoadedArrangement load_arrangement(const std::string& name, const std::optional<
         std::error_code error;
         if (!text && !std::filesystem::exists(path, error)) {
             const auto bundled = bundled_arrangement(name);
-            if (!bundled) throw NotFound("no file or arrangement named '" + name + "'", false);
+            const std::vector<std::string> names = bundled_arrangements();
+            if (!bundled) {
+                const std::string_view near = nearest(name, {names.begin(), names.end()});
+                throw NotFound("no file or arrangement named '" + name + "'" + did_you_mean(near), !near.empty());
+            }
             path = *bundled;
         }
         const std::filesystem::path folder = given_folder ? std::filesystem::path(*given_folder) : path.parent_path();

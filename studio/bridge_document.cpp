@@ -510,13 +510,8 @@ Json answer_command(const Json& request) {
         const OptionInfo* option = find_option(interpreter.options(), value.name);
         if (!option) {  // a key or a define of the pattern
             command += fmt::format(" --set {}", shell_word(fmt::format("{}={}", value.name, value.text)));
-        } else if (option->kind == OptionKind::flag) {
-            command += (value.text == "false" ? " --no-" : " --") + value.name;
-        } else if (option->value.starts_with('[')) {  // may be left out: `--dots[=SIZE COLOUR]`
-            command += " --" + value.name;
-            if (!value.text.empty()) command += "=" + shell_word(value.text);
         } else {
-            command += fmt::format(" --{} {}", value.name, shell_word(value.text));
+            command += on_command_line(*option, value.text);
         }
     }
     const std::string stem = std::filesystem::path(name).stem().string();

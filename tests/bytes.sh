@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes ten thousand outputs, described in tests/bytes/bytes.toml, and prints the SHA-256 and the name of each, sorted by
-# name: the list is the same on every machine. COMMAND may be preceded by others, such as `env LC_ALL=C` or `qemu-aarch64`.
+# Makes ten thousand outputs, described in tests/bytes/bytes.toml, and some reports, and prints the SHA-256 and the name of
+# each, sorted by name: the list is the same on every machine. COMMAND may be preceded by others, such as `env LC_ALL=C`
+# or `qemu-aarch64`.
 # usage: tests/bytes.sh JOBS COMMAND… > LIST
 set -euo pipefail
 [ $# -ge 2 ] || { echo "usage: tests/bytes.sh JOBS COMMAND… > LIST" >&2; exit 2; }
@@ -15,5 +16,12 @@ trap 'rm -rf "$folder" "$folder.errors"' EXIT
 made=$(find "$folder" -type f | wc -l)
 [ "$made" -ge 10000 ] || { head -n 20 "$folder.errors" >&2; echo "only $made files were made" >&2; exit 1; }
 rm -f "$folder/gallery.jsonl" "$folder/index.html"
+mkdir "$folder/reports"
+for pattern in hilbert dragon dekking-spline snake-kolam bag-of-candies kolam-11-to-1-fygcag2y penrose-rhombs hat pinwheel rauzy; do
+    for report in kolam measure tiling; do
+        # A report that ends with status 1 says why in what it prints.
+        "$@" "$report" "$pattern" --json > "$folder/reports/$pattern.$report.json" 2>> "$folder.errors" || true
+    done
+done
 cd "$folder"
 find . -type f | LC_ALL=C sort | xargs sha256sum

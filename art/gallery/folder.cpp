@@ -17,10 +17,6 @@
 
 namespace sikku {
 
-void cannot_write(const std::string& file, int error) {
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", file, std::generic_category().message(error)));
-}
-
 namespace {
 
 /// True if the error means that the file is missing or not accessible to this user.

@@ -14,9 +14,6 @@
 
 namespace sikku {
 
-/// @throws std::runtime_error with the file and the meaning of an `errno`
-[[noreturn]] void cannot_write(const std::string& file, int error);
-
 /// Output location of a gallery file: its folder, held open, and its name in that folder.
 class GalleryPlace {
 public:

@@ -75,6 +75,10 @@ struct PlotPlan::Gathered {
         has_lines |= other.has_lines;
         has_discs |= other.has_discs;
         has_hatch |= other.has_hatch;
+        if (other.widths.most > 0) {
+            add_width(other.widths.least, other.pen);
+            widths.most = std::max(widths.most, other.widths.most);
+        }
     }
     std::size_t segments() const {
         std::size_t count = 0;
@@ -84,7 +88,18 @@ struct PlotPlan::Gathered {
         return count;
     }
 
+    /// A pen that draws strokes of several widths is as wide as the thinnest.
+    void add_width(double width, const Pen& of) {
+        if (widths.most == 0 || width < widths.least) {
+            widths.least = width;
+            pen.width = of.width;
+            pen.width_set = of.width_set;
+        }
+        widths.most = std::max(widths.most, width);
+    }
+
     Pen pen;
+    StrokeWidths widths;
     Box box;
     std::vector<glm::dvec2> points;
     std::vector<Run> runs;
@@ -321,7 +336,10 @@ void PlotPlan::change_pen(const Pen& pen) {
     draw_wide(false);
     is_whole_ = false;
     Gathered* const into = print_.style.draws(pen) ? &gathered(pen) : nullptr;
-    if (into) (is_hatching(pen) ? into->has_hatch : into->has_lines) = true;
+    if (into) {
+        (is_hatching(pen) ? into->has_hatch : into->has_lines) = true;
+        if (!(options_.pen_width > 0)) into->add_width(print_.style.line_width(pen, print_.placement.step), pen);
+    }
     down_ = down_ && into == into_;
     into_ = into;
     pen_ = pen;
@@ -582,6 +600,7 @@ void PlotPlan::arrange() {
         }
         PlotLayer& layer = *layers_.emplace_back(std::make_unique<PlotLayer>());
         layer.pen = pen->pen;
+        if (!options_.draws_circles) layer.widths = pen->widths;  // a laser's line has no width to choose
         layer.number = static_cast<int>(layers_.size());
         layer.settings = pen_settings(options_.rules, layer.number, print_.style.line_colour(layer.pen));
         const PlotTally before = report_.before;
@@ -658,7 +677,7 @@ PlotTally PlotPlan::tally(const PlotCourse& course, std::vector<PenTally>& pens)
     pens.clear();
     for (const auto& layer : layers_) {
         pens.push_back({layer->number, print_.style.line_colour(layer->pen), 0.0, 0, layer->settings.speed,
-                        layer->settings.pause});
+                        layer->settings.pause, layer->widths});
     }
     Pulse pulse(options_.monitor);
     follow_course(layers_, course, options_.monitor, [&](const PlotPiece& piece) {

@@ -3,6 +3,7 @@
 
 #include "art/plotter/pen_rules.h"
 #include "art/plotter/plot_join.h"
+#include "art/plotter/plot_options.h"
 #include "engine/base/chance.h"
 #include "engine/geometry/path.h"
 
@@ -19,6 +20,7 @@ namespace sikku {
 /// The lines that one pen draws.
 struct PlotLayer {
     Pen pen;
+    StrokeWidths widths;
     int number = 0;  ///< number of the pen, from 1
     PenSettings settings;
     PlotGraph graph;

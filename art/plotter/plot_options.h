@@ -58,6 +58,12 @@ struct MergedPen {
     double drawn = 0.0;  ///< millimetres
 };
 
+/// Widths of strokes in millimetres. `most` is 0 if there are no strokes, or if the pen has a width of its own.
+struct StrokeWidths {
+    double least = 0.0;
+    double most = 0.0;
+};
+
 /// The lines of the plot that one pen draws.
 struct PenTally {
     int number = 0;  ///< from 1
@@ -66,6 +72,7 @@ struct PenTally {
     std::uint64_t lifts = 0;        ///< number of times it is lowered
     std::optional<double> speed{};  ///< mm/s, if it has its own
     std::optional<double> pause{};  ///< seconds, if it has its own
+    StrokeWidths widths{};
 };
 
 struct PlotReport {

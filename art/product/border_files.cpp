@@ -1,5 +1,6 @@
 #include "art/product/border_files.h"
 
+#include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
@@ -42,9 +43,12 @@ std::shared_ptr<const BorderPattern> load_part(const std::string& name, const Dr
         diagnostics.throw_if_errors();
         return std::make_shared<const BorderPattern>(BorderPattern{document.shared_grammar(), std::move(style)});
     } catch (const NotFound& error) {
-        refuse_option(
-            "border", name,
-            fmt::format("expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern: {}", error.what()));
+        const std::string_view near = nearest(name, {"kaavi", "padi", "lotus", "rope", "diamonds", "waves", "none"});
+        refuse_option("border", name,
+                      near.empty()
+                          ? fmt::format("expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern: {}",
+                                        error.what())
+                          : "unknown border" + did_you_mean(near));
     } catch (const Stopped&) {
         throw;
     } catch (const PatternError& error) {

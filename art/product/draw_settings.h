@@ -39,7 +39,6 @@ struct PaperSettings : WriterOptions {
 /// Settings that determine the place of the drawing on the page.
 struct PlaceSettings {
     bool fit = false;         ///< requested explicitly; excludes `step` and `window`
-    std::string window_text;  ///< the window as given, which may have more digits than a double
     bool fills_page = false;  ///< cover the page with a tiling
     SwatchChoice swatch = SwatchChoice::none;
     std::optional<Swatch> swatch_place{};  ///< the part found, set when the print is planned

@@ -20,7 +20,7 @@ namespace sikku {
 namespace {
 
 void report_sheets(const DrawReport& report, Made& made) {
-    if (report.sheets == 1) return made.warn_of_unused("tile", "the print fits on one sheet");
+    if (report.sheets == 1) return made.fact("the print fits on one sheet");
     made.fact(fmt::format("{} sheets, {} x {}", report.sheets, report.sheet_rows, report.sheets / report.sheet_rows));
     constexpr double least = 0.05;
     const auto left_out = [&](double length, const char* sides) {
@@ -108,9 +108,10 @@ private:
             report_swatch(*settings().place.swatch_place, print(), settings().place.swatch_stretch, made);
         if (settings().place.fills_page) made.fact(fmt::format("derivation length {}", grammar().steps()));
         if (report.overflows && report.sheets == 0 && !settings().place.swatch_place) {
-            made.warn(fmt::format(
-                "the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f}: the rest is cut off",
-                report.size.x, report.size.y, report.room.x, report.room.y));
+            made.warn(
+                fmt::format("the drawing is {:.1f} x {:.1f} mm, but the page has room for {:.1f} x {:.1f} mm: the "
+                            "rest is cut off",
+                            report.size.x, report.size.y, report.room.x, report.room.y));
         }
     }
 

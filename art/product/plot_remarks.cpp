@@ -25,6 +25,19 @@ void warn_of_unused(const PlotReport& plot, std::span<const PenRule> rules, Made
     }
 }
 
+/// Without a width of the pen, strokes that pens of most plotters cannot draw, or not all of them, are drawn once.
+void report_wide_strokes(const std::vector<PenTally>& pens, Made& made) {
+    constexpr double usual = 1.0;  // millimetres
+    double widest = 0;
+    for (const PenTally& pen : pens) {
+        const StrokeWidths& widths = pen.widths;
+        if (widths.most >= usual || widths.most >= 2 * widths.least) widest = std::max(widest, widths.most);
+    }
+    if (widest == 0) return;
+    made.fact(
+        fmt::format("strokes up to {:.1f} mm wide are drawn in one pass; 'pen-width' draws them in several", widest));
+}
+
 }  // namespace
 
 void warn_of_letters(const std::string& missing, Made& made) {
@@ -67,6 +80,7 @@ void report_plot(const PlotReport& plot, const PlotSpeeds& speeds, std::span<con
     };
     made.fact("before: " + line(plot.before, plot_seconds(plot.before, plot.pens_before, speeds)));
     made.fact("plot:   " + line(plot.after, plot_seconds(plot.after, plot.pens, speeds)));
+    report_wide_strokes(plot.pens, made);
     if (plot.duplicates > 0) {
         made.fact(fmt::format("{} drawn twice in the pattern, once here", counted(plot.duplicates, "segment")));
     }

@@ -38,13 +38,7 @@ PrintWork::PrintWork(PrintRequest request)
 }
 
 std::string PrintWork::made_with(const Grammar& grammar) const {
-    std::string own;
-    if (settings_.place.swatch_place)
-        own += settings_.place.swatch == SwatchChoice::turned ? " --swatch=turn" : " --swatch";
-    if (!settings_.place.window_text.empty()) own += " --window " + settings_.place.window_text;
-    if (!settings_.look.view.empty()) own += " --view " + settings_.look.view;
-    if (!settings_.look.light.empty()) own += " --light " + settings_.look.light;
-    return recipe(document_, grammar, own);
+    return recipe(document_, grammar, given_.recipe, settings_.keys);
 }
 
 void PrintWork::plan_drawing() {
@@ -167,6 +161,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     if (!dropped_border_.empty()) made.warn(dropped_border_);
     warn_of_letters(document_.grammar(), made);
     warn_of_length(document_, settings_, made);
+    if (!settings_.time.generations) warn_of_no_steps(document_, made);
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;

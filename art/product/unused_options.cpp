@@ -109,6 +109,7 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
 
 GivenOptions given_options(const OptionValues& values, const std::string& pattern) {
     GivenOptions given;
+    given.recipe = recipe_options(draw_options(), values);
     given.has_pixels = pattern.find("px") != std::string::npos;
     for (const OptionValue& value : values) {
         given.names.insert(value.name);

@@ -16,6 +16,7 @@ namespace sikku {
 struct GivenOptions {
     std::set<std::string, std::less<>> names;
     bool has_pixels = false;  ///< a length in the options or in the pattern is in px
+    std::string recipe;       ///< recipe_options()
     bool has(std::string_view name) const { return names.contains(name); }
 };
 

@@ -35,7 +35,7 @@ Light read_light(const Pattern& pattern, Diagnostics& diagnostics) {
         } else {
             diagnostics.error(
                 key->value.empty() ? key->name_at : key->value,
-                "expected flat, sun or sky, or AZIMUTH ELEVATION in degrees (azimuth -360 to 360, to the "
+                "expected flat, sun or sky, or AZIMUTH,ELEVATION in degrees (azimuth -360 to 360, to the "
                 "right of the eye; elevation 5 to 90) and optionally the share of the sun, 0 to 1");
         }
     }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 
 namespace sikku {
@@ -85,6 +86,20 @@ const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::str
     const auto row =
         std::find_if(table.begin(), table.end(), [&](const OptionInfo* one) { return one->name == name; });
     return row == table.end() ? nullptr : *row;
+}
+
+std::string on_command_line(const OptionInfo& option, const std::string& value) {
+    if (option.kind == OptionKind::flag) return (value == "false" ? " --no-" : " --") + std::string(option.name);
+    const std::string text = fmt::format(" --{}", option.name);
+    // A value that may be left out: `--dots[=SIZE COLOUR]`.
+    if (option.value.starts_with('[')) return value.empty() ? text : text + "=" + shell_word(value);
+    return text + " " + shell_word(value);
+}
+
+std::string recipe_option(const OptionInfo& option, const std::string& value) {
+    if (option.scope == Scope::threads || option.scope == Scope::cost || option.is_neutral(value)) return "";
+    const bool is_file = option.names_file && option.names_file(value);
+    return on_command_line(option, is_file ? std::filesystem::path(value).filename().string() : value);
 }
 
 std::string without_unit(const OptionInfo& option, const std::string& text) {

@@ -148,6 +148,14 @@ double read_budget(const std::string& text);
 /// The row of that name, or null.
 const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name);
 
+/// An option with its value as on a command line, with a leading blank: ` --dots='2mm white'`, ` --no-icc`.
+std::string on_command_line(const OptionInfo& option, const std::string& value);
+
+/// The options that change an output, in the order of the table, as on a command line: not neutral values, threads
+/// and limits of the work. Files have their names without folders.
+template <typename Settings>
+std::string recipe_options(std::span<const Option<Settings>> table, const OptionValues& values);
+
 /// Throws SettingError for unknown and repeated names.
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values);
 
@@ -170,6 +178,20 @@ void apply_options(std::span<const Option<Settings>> table, const OptionValues& 
             }
         }
     }
+}
+
+/// The part of one option; empty if it changes no output.
+std::string recipe_option(const OptionInfo& option, const std::string& value);
+
+template <typename Settings>
+std::string recipe_options(std::span<const Option<Settings>> table, const OptionValues& values) {
+    std::string text;
+    for (const Option<Settings>& row : table) {
+        for (const OptionValue& value : values) {
+            if (value.name == row.info.name) text += recipe_option(row.info, value.text);
+        }
+    }
+    return text;
 }
 
 }  // namespace sikku

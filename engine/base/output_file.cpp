@@ -362,8 +362,17 @@ void OutputFiles::commit() {
 }
 
 void OutputFile::fail(int error) const {
-    throw std::runtime_error(
-        fmt::format("cannot write '{}': {}", shown_.string(), std::generic_category().message(error)));
+    cannot_write(shown_, error);
+}
+
+void cannot_write(const std::filesystem::path& file, int error) {
+    std::string cause = std::generic_category().message(error);
+    std::error_code unknown;
+    const std::filesystem::path folder = file.parent_path();
+    if (error == ENOENT && !folder.empty() && !std::filesystem::exists(folder, unknown)) {
+        cause = fmt::format("the folder '{}' does not exist", folder.string());
+    }
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", file.string(), cause));
 }
 
 void remove_unfinished_files() noexcept {

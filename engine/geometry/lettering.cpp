@@ -498,7 +498,11 @@ std::vector<std::string> wrapped(std::string_view utf8, double height, double wi
         if (end == rest.size()) break;
         if (rest[end] != ' ') {
             const std::size_t space = rest.rfind(' ', end);
-            if (space != std::string_view::npos && space > 0) end = space;
+            const std::size_t hyphen = end == 0 ? std::string_view::npos : rest.rfind('-', end - 1);
+            if (space != std::string_view::npos && space > 0)
+                end = space;
+            else if (hyphen != std::string_view::npos && hyphen > 0)
+                end = hyphen + 1;
         }
         // Not even one character fits.
         if (end == 0) break;

@@ -83,6 +83,15 @@ std::string read_pattern(std::FILE* stream, const std::string& name, const Monit
 }
 
 std::string read_pattern(const PatternFile& file, const Monitor& monitor) {
+    std::error_code error;
+    if (!std::filesystem::exists(file.path, error) && !error) {
+        // The bundled patterns have no ending in their names.
+        const std::string stem = file.path.stem().string();
+        const bool is_bundled = file.path == stem + ".lsys" && PatternLibrary::bundled().find(stem);
+        throw NotFound(
+            fmt::format("{}: No such file or directory{}", file.name, is_bundled ? did_you_mean(stem) : ""),
+            is_bundled);
+    }
     return read_file(file.path, file.name, most_pattern_bytes, monitor);
 }
 

@@ -510,6 +510,11 @@ std::string unknown_scale(std::string_view name) {
         return problem + (equal_steps(key) == 0 ? fmt::format(": an octave has 1 to {} equal steps", most_steps)
                                                 : did_you_mean(fmt::format("{}-edo", equal_steps(key))));
     }
+    const std::size_t blank = name.find(' ');
+    if (blank <= 2 && name.front() >= 'A' && name.front() <= 'G' && find_scale(name.substr(blank + 1))) {
+        return problem + fmt::format("; the tonic is a key of its own: scale: {}, tonic: {}", name.substr(blank + 1),
+                                     name.substr(0, blank));
+    }
     const std::vector<std::string> similar = similar_scales(name);
     const std::vector<std::string_view> near(similar.begin(), similar.end());
     return problem + (near.empty() ? "; `sikku scales` lists the bundled scales" : did_you_mean(near));

@@ -8,7 +8,7 @@ export type { Diagnostic, FormatHelp, KeyHelp, OptionHelp } from "../page/protoc
 export type Pattern = string | { text: string; name?: string };
 
 /**
- * Options of `sikku draw` and `sikku play` (`size`, `dot-spacing` or `dotSpacing`), keys and defines of the pattern
+ * Options of `sikku draw` and `sikku play` (`size`; `dot-spacing`, `dot_spacing` or `dotSpacing`), keys and defines of the pattern
  * (`"angle factor"`), and `n`, `seed`, `variant`. Flags are true or false; undefined and null leave a value out.
  */
 export type Values = Record<string, string | number | boolean | readonly (string | number)[] | null | undefined>;
@@ -36,6 +36,7 @@ export class Sikku {
     private bundled: Map<string, PatternInfo> | null = null; // read on first use, because that takes a second
     private readonly known: Record<"draw" | "play", Map<string, OptionHelp>>;
     private readonly texts: Set<string>; // formats
+    private readonly keys: Set<string>; // of the language
     /** Keys of the language, symbols of the turtle, options and formats with their help. */
     readonly help: Help;
     /** The version of the libraries. */
@@ -47,6 +48,7 @@ export class Sikku {
         this.version = this.help.version;
         const options = (rows: Help["draw"]["options"]) => new Map(rows.map((row) => [row.name, row]));
         this.known = { draw: options(this.help.draw.options), play: options(this.help.play.options) };
+        this.keys = new Set(this.help.keys.map((row) => row.name));
         const formats = [...this.help.draw.formats, ...this.help.play.formats];
         this.texts = new Set(formats.filter((row) => row.is_text).flatMap((row) => [row.extension, row.alias]));
     }
@@ -117,7 +119,7 @@ export class Sikku {
         }
         if (typeof pattern !== "string") return { name: pattern.name ?? "pattern.lsys", text: pattern.text };
         const found = this.library().get(pattern);
-        if (!found) throw new SikkuError("other", `no pattern named '${pattern}'; pass { text } for a text`, undefined, []);
+        if (!found) throw new SikkuError("other", `no pattern named '${pattern}'; patterns() lists them; pass { text } for a text`, undefined, []);
         return { name: `${pattern}.lsys`, text: found.text };
     }
 
@@ -128,7 +130,7 @@ export class Sikku {
         const settings: [string, string][] = [];
         for (const [name, value] of Object.entries(values)) {
             if (value === undefined || value === null) continue;
-            const option = name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+            const option = name.replaceAll("_", "-").replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
             const row = use ? this.known[use].get(option) : undefined;
             // Options such as `dots` have a default value, for which `true` stands.
             const has_default = row?.value.startsWith("[") ?? false;
@@ -138,6 +140,8 @@ export class Sikku {
             if (name === "variant") request.variant = String(value);
             else if (name === "n") settings.push(["derivation length", String(value)]);
             else if (row) options.push(...texts.map((text): [string, string] => [option, text]));
+            // Options and defines, with a message that suggests the nearest one.
+            else if (use && !this.keys.has(name)) options.push(...texts.map((text): [string, string] => [name, text]));
             else settings.push(...texts.map((text): [string, string] => [name, text]));
         }
         return { request: { ...request, settings }, options };

@@ -2,6 +2,7 @@
 // accepted option is silently ignored.
 #include "art/prints.h"
 #include "engine/base/output.h"
+#include "tests/print_tools.h"
 #include "tests/reference.h"
 
 #include <gtest/gtest.h>
@@ -158,23 +159,6 @@ struct Result {
     std::string facts;
     std::vector<std::string> warnings;
 };
-
-/// The drawing without the recipe, which names every key that was set.
-std::string without_recipe(const std::string& format, std::string text) {
-    const auto cut = [&](const std::string& begin, const std::string& end) {
-        for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
-            const std::size_t to = text.find(end, at);
-            text.erase(at, to == std::string::npos ? to : to + end.size() - at);
-        }
-    };
-    if (format == "svg") cut("<metadata>", "</metadata>");
-    if (format == "pdf") text = text.substr(0, text.rfind("/Subject "));
-    if (format == "gcode") cut("(", "\n");
-    if (format == "hpgl") text = text.substr(0, text.find("CO\""));
-    if (format == "dxf") cut("999\n", "\n");
-    if (format == "obj" || format == "mtl") cut("#", "\n");
-    return text;
-}
 
 /// The chunks of a PNG that are pixels, size or colours.
 std::string without_texts(const std::string& png) {

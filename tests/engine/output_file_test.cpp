@@ -199,7 +199,8 @@ TEST(OutputFile, FailuresNameTheTargetAndTheCause) {
     const ScratchFolder folder;
     std::ofstream(folder / "file") << "old";
     const std::string missing = (folder / "no/such/a.svg").string();
-    EXPECT_EQ(complaint_of_writing(missing), "cannot write '" + missing + "': No such file or directory");
+    EXPECT_EQ(complaint_of_writing(missing),
+              "cannot write '" + missing + "': the folder '" + (folder / "no/such").string() + "' does not exist");
     EXPECT_TRUE(has(complaint_of_writing(folder.path()), "Is a directory"));
     EXPECT_TRUE(has(complaint_of_writing(folder / "new/"), "Is a directory"));
     EXPECT_TRUE(has(complaint_of_writing(folder / "file/a"), "Not a directory"));

@@ -693,7 +693,8 @@ TEST(BadInput, PicturesAreNotPatterns) {
     for (const char* name : {"a.svg", "a.png", "a.pdf"}) {
         const std::string file = folder.file(name);
         ASSERT_EQ(run({"draw", "hilbert", "--size", "20x20mm", "--margin", "1mm", "-o", file}).status, 0);
-        expect_refused(run({"check", file}), 2, "not a pattern; `sikku show` prints the pattern it was made from");
+        expect_refused(run({"check", file}), 2,
+                       "not a pattern; `sikku show` prints the pattern if Sikku made the file");
     }
 }
 

@@ -82,6 +82,11 @@ TEST_F(Mistakes, ValuesOfOptions) {
         {{"draw", "bush-3d", "--view", "90", "-o", "m.svg"}, "--view 90: expected AZIMUTH,ELEVATION"},
         {{"draw", "bush-3d", "--set", "line=spline", "-o", "m.svg"},
          "--set:1:6: drawings in space have straight lines"},
+        {{"draw", "hilbert", "--set", "foo=3", "-o", "m.svg"}, "sikku: --set:1:1: unknown key 'foo'"},
+        {{"draw", "hilbert", "--border", "kavi", "-o", "m.svg"}, "unknown border; did you mean 'kaavi'?"},
+        {{"draw", "hilbert", "--palette", "rainbow", "-o", "m.svg"}, "or a set of powders"},
+        {{"play", "hilbert", "--scale", "C major"},
+         "unknown scale 'C major'; the tonic is a key of its own: scale: major, tonic: C"},
         {{"draw", "hilbert", "-o", "m.gif"}, "--generations: required for a .gif"},
         {{"draw", "mine.lsys", "--stroke", "0.3mm rd", "-o", "m.svg"}, "--stroke 0.3mm rd: 'rd' is not a colour"},
         {{"play", "hilbert", "--instrument", "flutee"}, "unknown instrument 'flutee'; did you mean 'flute'?"},
@@ -95,6 +100,26 @@ TEST_F(Mistakes, ValuesOfOptions) {
         {{"draw", "mine.lsys", "--overlap", "5mm", "-o", "m.pdf"}, "--overlap: needs --tile"},
         {{"kolam", "--grid", "3x"}, "--grid: '3x': expected ROWSxCOLUMNS"}};
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
+}
+
+TEST_F(Mistakes, LikelyMistakesAreWarnings) {
+    folder_.write("bare.lsys", "axiom: F\nF --> F+F\n");
+    const std::string axiom = "warning: only the axiom is used, because `derivation length:` is missing";
+    const std::string widths = "mm wide are drawn in one pass; --pen-width draws them in several";
+    const auto said = [&](std::vector<std::string> words) {
+        const Outcome outcome = run_here(std::move(words));
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return outcome.errors;
+    };
+    EXPECT_TRUE(has(said({"draw", "bare.lsys", "-o", "m.svg"}), axiom));
+    EXPECT_TRUE(has(said({"play", "bare.lsys", "--vertical", "voice", "-o", "m.mid"}), axiom));
+    EXPECT_FALSE(has(said({"draw", "bare.lsys", "-n", "0", "-o", "m.svg"}), axiom));
+    EXPECT_FALSE(has(said({"draw", "mine.lsys", "-o", "m.svg"}), axiom));
+    const std::vector<std::string> plot = {"draw", "snake-kolam", "--border", "lotus", "--plotter", "-o", "m.svg"};
+    EXPECT_TRUE(has(said(plot), widths));
+    EXPECT_FALSE(has(said({"draw", "mine.lsys", "--plotter", "-o", "m.svg"}), widths));
+    EXPECT_FALSE(
+        has(said({"draw", "snake-kolam", "--border", "lotus", "--pen-width", "0.4mm", "-o", "m.gcode"}), widths));
 }
 
 TEST_F(Mistakes, WrongNamesAreReportedBeforeAMissingOutput) {
@@ -129,7 +154,7 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
     ASSERT_EQ(run_here({"draw", "mine.lsys", "-o", "mine.pdf"}).status, 0);
     ASSERT_EQ(run_here({"play", "hilbert", "-o", "mine.mid"}).status, 0);
     ASSERT_EQ(run_here({"play", "hilbert", "-o", "page.html"}).status, 0);
-    const std::string pattern = "not a pattern; `sikku show` prints the pattern it was made from";
+    const std::string pattern = "not a pattern; `sikku show` prints the pattern if Sikku made the file";
     const std::vector<Mistake> mistakes = {
         {{"draw", "mine.pdf", "-o", "m.svg"}, "mine.pdf: this is a PDF file, " + pattern},
         {{"kolam", "mine.pdf"}, "mine.pdf: this is a PDF file, " + pattern},
@@ -143,6 +168,8 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
         {{"play", "hilbert", "-o", "x.mp3"}, "-o x.mp3: unknown extension; a score is .mid"},
         {{"play", "hilbert", "-o", "x"}, "-o x: no extension"},
         {{"kolam", "--grid", "3x3", "-o", "x.svg"}, "expected a pattern file, NAME.lsys; `sikku draw` makes"},
+        {{"draw", "hilbert.lsys", "-o", "m.svg"}, "hilbert.lsys: No such file or directory; did you mean 'hilbert'?"},
+        {{"play", "canonn"}, "no file or pattern named 'canonn'; did you mean 'canon'?"},
         {{"draw", "koch", "-o", "m.svg"}, "no file or pattern named 'koch'; did you mean 'koch-curve'"},
         {{"gallery", "kolam"}, "no file or pattern named 'kolam'; did you mean 'kolams'?"},
         {{"gallery", "--file", "foo"}, "no file or bundled gallery file named 'foo'; there are csiro-figure-"},
@@ -177,7 +204,7 @@ TEST_F(Mistakes, FilesThatAreReadStay) {
 TEST_F(Mistakes, WithoutEffectIsReported) {
     const std::vector<Mistake> mistakes = {
         {{"draw", "mine.lsys", "--hatch", "-o", "m.gcode"}, "--hatch has no effect: this drawing has no fills"},
-        {{"draw", "mine.lsys", "--tile", "A3", "-o", "m.pdf"}, "--tile has no effect: the print fits on one sheet"},
+        {{"draw", "mine.lsys", "--tile", "A3", "-o", "m.pdf"}, "the print fits on one sheet"},
         {{"draw", "mine.lsys", "--compression", "9", "-o", "m.svg"}, "--compression has no effect"},
         {{"draw", "pillaiyar", "--generations", "0:2", "-o", "m.svg"}, "--generations has no effect"},
         {{"play", "hilbert", "--unit", "16", "--bars", "4", "-o", "m.mid"},

@@ -138,6 +138,41 @@ TEST(Show, OtherProgramsAgree) {
     }
 }
 
+TEST(Show, RecipesMakeTheSameBytesAgain) {
+    const ScratchFolder folder;
+    const std::string program = "'" SIKKU_PROGRAM "' -q ";
+    const auto made = [&](const std::string& command, const std::string& arguments, const std::string& name) {
+        const ToolOutcome outcome = run_tool(program + command + " " + arguments + " -o '" + folder.file(name) + "'");
+        EXPECT_TRUE(outcome.ok) << arguments << '\n' << outcome.text;
+        return contents(folder.file(name));
+    };
+    // The bytes, and the recipe in them.
+    const auto check = [&](const std::string& command, const std::string& arguments, const std::string& format) {
+        const std::string first = made(command, arguments, "first." + format);
+        std::string recipe = run({"show", folder.file("first." + format)}).errors;
+        const std::size_t comma = recipe.find(',');
+        ASSERT_TRUE(recipe.starts_with("made with sikku ") && comma != std::string::npos) << recipe;
+        recipe.pop_back();  // the line feed
+        const std::string pattern = arguments.substr(0, arguments.find(' '));
+        EXPECT_TRUE(made(command, pattern + recipe.substr(comma + 1), "again." + format) == first) << recipe;
+    };
+    for (const char* format : {"svg", "pdf", "eps", "png", "gcode"}) {
+        check("draw",
+              "snake-kolam -n 2 --set 'ground=#123' --dots='2mm gold' --border lotus --size 100x140mm --margin 6mm "
+              "--rotate 10 --title-line \"it's one\" --jobs 1 --budget 1e6 --dpi 60",
+              format);
+        check("draw", "hat --variant turtle --stroke '0.3mm navy' --size A6 --dpi 50", format);
+    }
+    check("draw", "stochastic-branches --seed 7 --no-icc --size 40x40mm --dpi 60", "png");
+    check("draw", "hilbert --generations 1:3 --size 40x40mm --dpi 60", "gif");
+    for (const char* format : {"mid", "musicxml", "ly"}) {
+        check("play",
+              "hilbert -n 4 --set tonic=D4 --tempo 90 --scale kalyani --from-bar 2 --bars 4 --humanise 0.4 --seed 3",
+              format);
+        check("play", "canon --bars 2 --transpose 3", format);
+    }
+}
+
 // --- what others write --------------------------------------------------------------------------------------------
 
 TEST(Show, PngTextsOfEveryKind) {

@@ -46,7 +46,7 @@ TEST_F(SheetProgram, ReportsMistakes) {
     expect_mistake({"a.lsys@sise=3", "-o", "x.svg"}, "sise");
     expect_mistake({"a.lsys@size=A3", "-o", "x.svg"}, "--size A3: applies to the whole sheet");
     expect_mistake({"a.lsys@x=-3mm", "-o", "x.svg"}, "--x -3mm: expected a length");
-    expect_mistake({"a.lsys@border=kavi", "-o", "x.svg"}, "expected kaavi, padi, lotus, rope, diamonds, waves");
+    expect_mistake({"a.lsys@border=kavi", "-o", "x.svg"}, "--border kavi: unknown border; did you mean 'kaavi'?");
     expect_mistake({"a.lsys", "--repeat", "p5", "-o", "x.svg"}, "p31m");
     expect_mistake({"a.lsys", "--columns", "0", "-o", "x.svg"}, "--columns");
     expect_mistake({"a.lsys", "-o", "x.gif"}, "a sheet is SVG");
