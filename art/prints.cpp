@@ -106,7 +106,7 @@ std::unique_ptr<PrintWork> plan_print(const Document& document, PrintFormat form
                                                                         : document;
     const auto product = std::find_if(std::begin(products), std::end(products),
                                       [&](const Product& one) { return one.is_made(settings, format); });
-    GivenOptions given = given_options(values, document.source().text());
+    GivenOptions given = given_options(values, settings.keys, document.source().text());
     return product->plan({longer, format, std::move(settings), std::move(given), folder});
 }
 

@@ -87,9 +87,10 @@ PatternFile find_named_pattern(const std::string& pattern) {
             throw UsageError(pattern + ": this is an arrangement; `sikku play` plays it");
         const std::vector<std::string> arrangements = bundled_arrangements();
         const std::string_view near = nearest(pattern, {arrangements.begin(), arrangements.end()});
-        throw UsageError(std::string(error.what()) + (error.has_suggestion() ? ""
-                                                      : near.empty() ? "; `sikku patterns` lists the bundled ones"
-                                                                     : did_you_mean(near)));
+        throw UsageError(std::string(error.what()) +
+                         (error.has_suggestion() ? ""
+                          : near.empty()         ? "; `sikku patterns` lists the bundled ones"
+                                                 : fmt::format("; `sikku play` plays the arrangement '{}'", near)));
     }
 }
 

@@ -161,7 +161,7 @@ void add_live_options(CLI::App& command, LiveOptions& options) {
         ->check(
             [](const std::string& text) { return text.empty() ? "expected a name, an address or a device" : ""; });
     options.repeat_option =
-        group.add("--repeat", options.repeat, "[TIMES]", "number of times that --port plays (until ctrl-C)")
+        group.add("--repeat", options.repeat, "[TIMES]", "with --port: number of repetitions (until ctrl-C)")
             ->expected(0, 1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::Throw)

@@ -31,38 +31,41 @@ bool sets_keys_of(const Interpreter& interpreter, const Document& document) {
     });
 }
 
-std::string recipe(const Document& document, const Grammar& grammar, const std::string& options,
-                   const std::vector<Setting>& keys) {
+OptionValues without_keys(OptionValues values, const std::vector<Setting>& keys) {
+    std::erase_if(values, [&](const OptionValue& value) {
+        return std::any_of(keys.begin(), keys.end(), [&](const Setting& key) { return key.origin == value.name; });
+    });
+    return values;
+}
+
+std::string recipe(const Document& document, const RecipeOptions& options) {
     std::string text = "sikku " SIKKU_VERSION ",";
-    // Several derivation lengths are among the options.
-    if (options.find(" --generations ") == std::string::npos) text += " -n " + std::to_string(grammar.steps());
+    if (!options.sets_lengths) text += " -n " + std::to_string(document.grammar().steps());
     const Overrides& overrides = document.overrides();
     if (!overrides.variant.empty()) text += " --variant " + shell_word(overrides.variant);
     const auto is_seed = [](const Setting& setting) { return setting.key == "seed" && !setting.is_assignment; };
-    const bool has_seed = options.find(" --seed ") != std::string::npos;
     for (const Setting& setting : overrides.settings) {
-        if (is_seed(setting) && !has_seed) text += " --seed " + setting.value;
+        if (is_seed(setting) && !options.sets_seed) text += " --seed " + setting.value;
     }
-    text += options;
     for (const Setting& setting : overrides.settings) {
-        const bool is_given = std::any_of(keys.begin(), keys.end(), [&](const Setting& key) {
-            return key.key == setting.key && key.value == setting.value;
-        });
-        if (is_given || is_seed(setting) || setting.key == "derivation length") continue;
-        text += " --set " + shell_word(setting.key + "=" + setting.value);
+        if (is_seed(setting) || setting.key == "derivation length") continue;
+        const KeyInfo* key = find_language_key(setting.key);
+        const bool is_file = key && key->names_file && key->names_file(setting.value);
+        text +=
+            " --set " + shell_word(setting.key + "=" + (is_file ? without_folders(setting.value) : setting.value));
     }
-    return text;
+    return text + options.text;
 }
 
-void warn_of_no_steps(const Document& document, Made& made) {
+std::string reason_of_no_steps(const Document& document) {
     if (document.map() || document.grammar().steps() > 0 || document.pattern().find("derivation length") ||
         document.has_override("derivation length")) {
-        return;
+        return {};
     }
     const auto& tables = document.grammar().tables();
-    if (std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); }))
-        return;
-    made.warn("only the axiom is used, because `derivation length:` is missing");
+    const bool is_plain =
+        std::all_of(tables.begin(), tables.end(), [](const Table& table) { return table.productions().empty(); });
+    return is_plain ? "" : "the productions are not applied, because `derivation length:` is missing";
 }
 
 namespace {
@@ -74,6 +77,7 @@ std::string key_of(const std::string& name) {
 
 /// @throws SettingError for a name that is neither an option nor a key nor a define
 void require_known(const Interpreter& interpreter, const Document& document, const std::string& name) {
+    if (find_language_key(name)) return;
     std::vector<std::string_view> known;
     for (const OptionInfo* option : interpreter.options()) known.push_back(option->name);
     for (const KeyInfo& key : language_keys()) known.push_back(key.name);

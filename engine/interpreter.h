@@ -96,15 +96,16 @@ Document compile(std::string name, std::string text, const Overrides& overrides,
 /// True if the pattern sets a key that the interpreter owns, as melodies do with `scale`.
 bool sets_keys_of(const Interpreter& interpreter, const Document& document);
 
-/// The version and the arguments that make the same output: `sikku 0.2.0, -n 4 --size A3 --set angle=60`. Outputs
-/// store them beside the text of the pattern.
-/// @param options  of the interpreter: recipe_options()
-/// @param keys     set by these options
-std::string recipe(const Document& document, const Grammar& grammar, const std::string& options,
-                   const std::vector<Setting>& keys);
+/// The values without those that set `keys`, which a document contains.
+OptionValues without_keys(OptionValues values, const std::vector<Setting>& keys);
 
-/// Warns if the productions are not applied because neither the pattern nor an option states a derivation length.
-void warn_of_no_steps(const Document& document, Made& made);
+/// The version and the arguments that reproduce the output: `sikku 0.2.0, -n 4 --set 'angle increment=60' --size A3`.
+/// Outputs store them beside the text of the pattern.
+/// @param options  of the interpreter, from recipe_options() of without_keys()
+std::string recipe(const Document& document, const RecipeOptions& options);
+
+/// The reason if the productions are not applied because neither the pattern nor an option sets a derivation length.
+std::string reason_of_no_steps(const Document& document);
 
 /// Values, separated into keys and defines of the pattern and options of the interpreter.
 struct Assignment {

@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/keys.h"
+#include "engine/interpreter.h"
 
 #include <algorithm>
 #include <string>
@@ -27,7 +28,12 @@ std::vector<Option<S>> make_table() {
         table.push_back({key_option(name, "Melody", false), nullptr, set_key});
     }
     const std::vector<Option<S>> own = {
-        {{.name = "from-bar", .help = "first bar, counted from 1 (1)", .value = "BAR", .kind = whole, .least = 1},
+        {{.name = "from-bar",
+          .help = "first bar, counted from 1 (1)",
+          .value = "BAR",
+          .kind = whole,
+          .least = 1,
+          .neutral = "1"},
          [](S& s, Text t) { read_whole("from-bar", t, s.from_bar); }},
         {{.name = "bars", .help = "number of bars (all)", .value = "BARS", .kind = whole, .least = 1},
          [](S& s, Text t) { read_whole("bars", t, s.bars); }},
@@ -46,14 +52,16 @@ std::vector<Option<S>> make_table() {
           .value = "SEMITONES",
           .kind = number,
           .least = -127,
-          .most = 127},
+          .most = 127,
+          .neutral = "0"},
          [](S& s, Text t) { s.transpose = to_number(t); }},
         {{.name = "humanise",
           .help = "deviation from exact onsets and velocities, 0 to 1 (0); the random seed selects another player",
           .value = "AMOUNT",
           .kind = number,
           .least = 0,
-          .most = 1},
+          .most = 1,
+          .neutral = "0"},
          [](S& s, Text t) { s.humanise = to_number(t); }},
         {{.name = "seed", .help = "random seed of the pattern and of humanise (0)", .value = "N", .kind = whole},
          [](S& s, Text t) { read_whole("seed", t, s.seed); }},
@@ -61,12 +69,14 @@ std::vector<Option<S>> make_table() {
           .help = "0: a single track; 1: a track for each voice (1)",
           .value = "0|1",
           .kind = whole,
-          .most = 1},
+          .most = 1,
+          .neutral = "1"},
          [](S& s, Text t) { read_whole("midi-format", t, s.format); }},
         {{.name = "tuning",
           .help = "MIDI of microtones: bend (pitch bend), mts (MIDI Tuning Standard) or mpe (a channel for each "
                   "note) (bend)",
-          .value = "bend|mts|mpe"},
+          .value = "bend|mts|mpe",
+          .neutral = "bend"},
          [](S& s, Text t) {
              if (t != "bend" && t != "mts" && t != "mpe") refuse_option("tuning", t, "expected bend, mts or mpe");
              s.tuning = t == "mts" ? Tuning::mts : t == "mpe" ? Tuning::mpe : Tuning::bend;
@@ -87,7 +97,7 @@ std::span<const Option<PlaySettings>> play_options() {
 PlaySettings read_play_settings(const OptionValues& values) {
     PlaySettings settings;
     apply_options(play_options(), values, settings);
-    settings.recipe = recipe_options(play_options(), values);
+    settings.recipe = recipe_options(play_options(), without_keys(values, settings.keys));
     return settings;
 }
 

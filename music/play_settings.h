@@ -13,7 +13,7 @@
 namespace sikku {
 
 struct PlaySettings {
-    std::string recipe;         ///< recipe_options()
+    RecipeOptions recipe;       ///< the options that set no key
     std::vector<Setting> keys;  ///< keys of the language in the order of their table: `scale`, `tempo`, …
     std::int64_t from_bar = 1;  ///< first bar, counted from 1
     std::int64_t bars = 0;      ///< 0: all

@@ -200,6 +200,7 @@ std::string scale_of(const Melody& melody) {
 std::string reason_of_silence(const Player& player, std::uint64_t lost) {
     const Melody& melody = player.melody;
     if (lost > 0) return ": every note is shorter than a tick, or has no key in the key map";
+    if (const std::string no_steps = reason_of_no_steps(player.document); !no_steps.empty()) return ": " + no_steps;
     const Grammar& grammar = player.document.grammar();
     const std::vector<char> reached = grammar.reachable();
     const auto moves = [&](Symbol symbol) {

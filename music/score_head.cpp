@@ -1,5 +1,6 @@
 #include "music/score_head.h"
 
+#include "engine/base/text.h"
 #include "engine/interpreter.h"
 #include "music/melody/symbol_table.h"
 #include "music/score/instruments.h"
@@ -19,10 +20,13 @@ constexpr int strings = 48;
 constexpr int sitar = 104;
 
 std::string made_with(const PlaySettings& settings, const Document& first, bool is_arrangement) {
-    const std::string made = recipe(first, first.grammar(), settings.recipe, settings.keys);
+    const std::string made = recipe(first, settings.recipe);
     if (!is_arrangement) return made;
     // An arrangement contains the settings of its patterns.
-    return made.substr(0, made.find(',')) + (settings.recipe.empty() ? "" : ",") + settings.recipe;
+    std::string text;
+    for (const Setting& key : settings.keys) text += fmt::format(" --{} {}", key.origin, shell_word(key.value));
+    text += settings.recipe.text;
+    return made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text;
 }
 
 /// Adds the texts of a pattern.

@@ -242,7 +242,11 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     for (const Player& player : ensemble_.players) {
         for (const std::string& warning : player.warnings) made.warn(warning);
     }
-    for (const Player& player : ensemble_.players) warn_of_no_steps(player.document, made);
+    for (const Player& player : ensemble_.players) {
+        const std::string no_steps = reason_of_no_steps(player.document);
+        const std::string& pattern = player.document.source().name();
+        if (!no_steps.empty()) made.warn(ensemble_.players.size() > 1 ? pattern + ": " + no_steps : no_steps);
+    }
     warn_of_unused(made);
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
     monitor.expect(0);

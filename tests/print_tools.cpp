@@ -140,4 +140,22 @@ void draw_square(PathSink& sink, const Pen& first, const Pen& others) {
     sink.end_stroke(true);
 }
 
+std::string without_recipe(const std::string& format, std::string text) {
+    const auto cut = [&](const std::string& begin, const std::string& end) {
+        for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+            const std::size_t to = text.find(end, at + begin.size());
+            text.erase(at, to == std::string::npos ? to : to - at);
+        }
+    };
+    if (format == "svg") cut("<metadata>", "</metadata>");
+    if (format == "pdf") text = text.substr(0, text.rfind("/Subject "));
+    if (format == "eps") cut("%sikku", "\n");
+    if (format == "gcode") cut("(", "\n");
+    if (format == "gcode") cut(";", "\n");
+    if (format == "hpgl") text = text.substr(0, text.find("CO\""));
+    if (format == "dxf") cut("999\n", "\n");
+    if (format == "obj" || format == "mtl") cut("#", "\n");
+    return text;
+}
+
 }  // namespace sikku

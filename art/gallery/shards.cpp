@@ -113,7 +113,7 @@ std::string slurm_script(const std::vector<std::string>& arguments, const std::s
     std::string script = shell_word(log);
     std::replace(script.begin(), script.end(), '\n', ' ');
     return fmt::format(
-        "#!/bin/sh\n"
+        "#!/bin/bash\n"
         "# A gallery in {0} parts, and then what the whole of it takes:\n"
         "#   id=$(sbatch --parsable --array=0-{1} {2})\n"
         "#   sbatch --dependency=afterok:$id {2}\n"

@@ -172,7 +172,6 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
     bool leaves_pattern_out = false;
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
-        if (growth.made) print.made = growth.made(generation);
         report = draw(generation, print, framed(grammar, print.style, options, growth, n),
                       frame_file(file, n, growth.last), destination);
         leaves_pattern_out = leaves_pattern_out || report.leaves_pattern_out;

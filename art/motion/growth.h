@@ -19,8 +19,6 @@ struct GrowthOptions {
     double hold = 2.0;                 ///< minimum display time of the last one
     bool fits_each = false;            ///< scale each to the page instead of sharing one scale and position
     bool is_animation = false;         ///< one animated GIF instead of a file for each generation
-    /// Text for Print::made of a generation's own file; null: the print's text unchanged.
-    std::function<std::string(const Grammar& generation)> made{};
 };
 
 /// Names the file of a generation: `growth.png` becomes `growth-07.png`, with as many digits as `last` has.

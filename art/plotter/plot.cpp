@@ -88,7 +88,7 @@ struct PlotPlan::Gathered {
         return count;
     }
 
-    /// A pen that draws strokes of several widths is as wide as the thinnest.
+    /// Adds the width of a stroke; the pen takes the least width.
     void add_width(double width, const Pen& of) {
         if (widths.most == 0 || width < widths.least) {
             widths.least = width;
@@ -600,7 +600,7 @@ void PlotPlan::arrange() {
         }
         PlotLayer& layer = *layers_.emplace_back(std::make_unique<PlotLayer>());
         layer.pen = pen->pen;
-        if (!options_.draws_circles) layer.widths = pen->widths;  // a laser's line has no width to choose
+        if (!options_.draws_circles) layer.widths = pen->widths;  // lasers have a fixed width
         layer.number = static_cast<int>(layers_.size());
         layer.settings = pen_settings(options_.rules, layer.number, print_.style.line_colour(layer.pen));
         const PlotTally before = report_.before;

@@ -35,7 +35,7 @@ std::vector<int> fill_pens(const Style& style);
 ///   edge that lies on a line of any pen, or on another outline, is not drawn again.
 /// - Discs and dots are filled by spirals (see spiral()), from the outside to the centre unless the other direction
 ///   shortens pen-up travel.
-/// - With a `pen_width`, wider strokes are drawn in several passes (see pen_passes()). Without, each stroke
+/// - With a `pen_width`, wider strokes are drawn in several passes (see pen_passes()). Without it, each stroke
 ///   is drawn once, and a pen is as wide as the thinnest of its strokes.
 /// - Pens that only hatch draw first, then those that draw lines, then those that only fill discs; otherwise in the
 ///   order of the palette.

@@ -58,7 +58,7 @@ struct MergedPen {
     double drawn = 0.0;  ///< millimetres
 };
 
-/// Widths of strokes in millimetres. `most` is 0 if there are no strokes, or if the pen has a width of its own.
+/// Widths of strokes in millimetres. `most` is 0 for a pen without strokes, and if `pen_width` is set.
 struct StrokeWidths {
     double least = 0.0;
     double most = 0.0;

@@ -48,7 +48,7 @@ struct Print : WriterOptions {
     Placement placement;
     std::string title;                         ///< title of the pattern, UTF-8
     std::string pattern;                       ///< the text of the pattern file, so that the print can be made again
-    std::string made;                          ///< the recipe: `sikku 0.1.0, -n 4`
+    std::string made;                          ///< the recipe: `sikku 0.2.0, -n 4`
     std::optional<int> travel_colour;          ///< index of the colour that shows pen-up travel
     bool is_plot = false;                      ///< mark layers that no pen draws
     std::map<int, std::string> layer_names{};  ///< names of line layers by colour index, instead of number and colour

@@ -44,6 +44,7 @@ std::shared_ptr<const BorderPattern> load_part(const std::string& name, const Dr
         return std::make_shared<const BorderPattern>(BorderPattern{document.shared_grammar(), std::move(style)});
     } catch (const NotFound& error) {
         const std::string_view near = nearest(name, {"kaavi", "padi", "lotus", "rope", "diamonds", "waves", "none"});
+        if (near == name) refuse_option("border", name, "a border with a corner consists of two patterns");
         refuse_option("border", name,
                       near.empty()
                           ? fmt::format("expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern: {}",

@@ -212,7 +212,7 @@ void check_draw_settings(const DrawSettings& settings, PrintFormat format) {
     apply(product_rules, settings, format);
     if (format == PrintFormat::gif && !settings.time.generations && !settings.time.lesson &&
         !settings.time.division) {
-        refuse_option("generations", "", "required for a .gif; expected A:B, or 'divide' or 'lesson'");
+        refuse_option("generations", "", "required for a .gif: A:B; or give 'divide' or 'lesson'");
     }
     apply(growth_rules, settings, format);
     if (settings.time.generations) check_generations(settings, format);

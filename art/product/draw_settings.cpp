@@ -211,10 +211,10 @@ void set_profile(DrawSettings& settings, const std::string& text) {
         names.reserve(bundled_profiles().size());
         for (const BundledProfile& known : bundled_profiles()) names.push_back(known.name);
         const std::string_view near = nearest(text, names);
-        refuse_option(
-            "profile", text,
-            near.empty() ? fmt::format("expected {}, or a file, whose name has a dot or a slash", alternatives(names))
-                         : "unknown plotter" + did_you_mean(near));
+        refuse_option("profile", text,
+                      near.empty()
+                          ? fmt::format("expected {}, or a file path with a dot or a slash", alternatives(names))
+                          : "unknown plotter" + did_you_mean(near));
     }
     use_profile(settings, std::move(*profile));
 }
@@ -270,7 +270,7 @@ const std::array own_rows = {
     Option<S>{
         {.name = "size",
          .help = "page size: A0 to A10, B0 to B10, SRA0 to SRA4, letter, legal, tabloid, ANSI-A to ANSI-E, Arch-A to "
-                 "Arch-E, or WIDTHxHEIGHT such as 50x70cm, without a unit in mm; also C, JIS-B and RA sizes (A4)",
+                 "Arch-E, or WIDTHxHEIGHT such as 50x70cm (default unit: mm); also C, JIS-B and RA sizes (A4)",
          .value = "SIZE",
          .scope = Scope::page},
         [](S& s, Text t) {
@@ -577,7 +577,7 @@ const std::array own_rows = {
                       length_between("split", t, s.paper.dpi, above_0, any_length, "expected a length above 0");
               }},
     Option<S>{{.name = "pen-width",
-               .help = "width of the plotter's pen; wider strokes take several passes (one pass for each stroke)",
+               .help = "width of the plotter's pen; wider strokes take several passes (one pass per stroke)",
                .value = "WIDTH",
                .group = plotters,
                .scope = Scope::plot},

@@ -35,7 +35,6 @@ private:
     void make_product(Destination& destination, const std::filesystem::path& name, const DrawOptions& options,
                       Made& made) override {
         GrowthOptions growth = growth_options();
-        growth.made = [this](const Grammar& generation) { return made_with(generation); };
         const DrawReport drawn = draw_growth(grammar(), print(), options, growth, name, destination);
         report_text(drawn, name, made);
         if (drawn.overflows) {

@@ -25,17 +25,18 @@ void warn_of_unused(const PlotReport& plot, std::span<const PenRule> rules, Made
     }
 }
 
-/// Without a width of the pen, strokes that pens of most plotters cannot draw, or not all of them, are drawn once.
+/// Reports strokes that one pass of a common pen does not cover.
 void report_wide_strokes(const std::vector<PenTally>& pens, Made& made) {
-    constexpr double usual = 1.0;  // millimetres
+    constexpr double usual = 1.0, thin = 0.2;  // millimetres
     double widest = 0;
     for (const PenTally& pen : pens) {
         const StrokeWidths& widths = pen.widths;
-        if (widths.most >= usual || widths.most >= 2 * widths.least) widest = std::max(widest, widths.most);
+        if (widths.most >= usual || widths.most >= std::max(thin, 2 * widths.least))
+            widest = std::max(widest, widths.most);
     }
     if (widest == 0) return;
-    made.fact(
-        fmt::format("strokes up to {:.1f} mm wide are drawn in one pass; 'pen-width' draws them in several", widest));
+    made.fact(fmt::format(
+        "strokes up to {:.1f} mm wide are drawn in one pass; set 'pen-width' to draw them in several", widest));
 }
 
 }  // namespace

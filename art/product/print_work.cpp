@@ -26,7 +26,7 @@ PrintWork::PrintWork(PrintRequest request)
     static_cast<WriterOptions&>(print_) = settings_.paper;
     print_.title = request.document.text("title");
     print_.pattern = request.document.source().text();
-    print_.made = made_with(request.document.grammar());
+    print_.made = recipe(document_, given_.recipe);
     plan_drawing();
     check_drawing();
     drop_border();
@@ -35,10 +35,6 @@ PrintWork::PrintWork(PrintRequest request)
     for (const auto& surface : request.document.grammar().surfaces()) {
         if (surface->source) files_.emplace_back(surface->source->name(), surface->source->text());
     }
-}
-
-std::string PrintWork::made_with(const Grammar& grammar) const {
-    return recipe(document_, grammar, given_.recipe, settings_.keys);
 }
 
 void PrintWork::plan_drawing() {
@@ -161,7 +157,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     if (!dropped_border_.empty()) made.warn(dropped_border_);
     warn_of_letters(document_.grammar(), made);
     warn_of_length(document_, settings_, made);
-    if (!settings_.time.generations) warn_of_no_steps(document_, made);
+    const std::string no_steps = settings_.time.generations ? "" : reason_of_no_steps(document_);
+    if (!no_steps.empty()) made.warn(no_steps);
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;
@@ -179,7 +176,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     warn_of_unused(given_, settings_, print_.style, format_, is_spatial, report, made);
     return made;
 } catch (const NothingDrawn& error) {
-    throw std::runtime_error(error.what() + undrawn_hint(document_.grammar()));
+    const std::string no_steps = reason_of_no_steps(document_);
+    throw std::runtime_error(error.what() + (no_steps.empty() ? undrawn_hint(document_.grammar()) : "; " + no_steps));
 }
 
 void PrintWork::pass_pixels(std::function<void(Rendering& rendering, const PixelSize& size)> receive) {

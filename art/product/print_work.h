@@ -47,9 +47,6 @@ protected:
     const Print& print() const { return print_; }
     const DrawOptions& drawing() const { return drawing_; }
     const std::filesystem::path& folder() const { return folder_; }
-    /// The recipe of a drawing of the document, or of one of its generations.
-    std::string made_with(const Grammar& grammar) const;
-
     /// Throws SettingError at the key `hand` or `line` if lines are drawn by hand, or splines.
     void require_plain(const std::string& message) const;
     void require_straight(const std::string& message) const;

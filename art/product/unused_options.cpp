@@ -107,9 +107,9 @@ std::vector<Unused> by_drawing(const DrawSettings& settings, const Style& style,
 
 }  // namespace
 
-GivenOptions given_options(const OptionValues& values, const std::string& pattern) {
+GivenOptions given_options(const OptionValues& values, const std::vector<Setting>& keys, const std::string& pattern) {
     GivenOptions given;
-    given.recipe = recipe_options(draw_options(), values);
+    given.recipe = recipe_options(draw_options(), without_keys(values, keys));
     given.has_pixels = pattern.find("px") != std::string::npos;
     for (const OptionValue& value : values) {
         given.names.insert(value.name);

@@ -16,12 +16,13 @@ namespace sikku {
 struct GivenOptions {
     std::set<std::string, std::less<>> names;
     bool has_pixels = false;  ///< a length in the options or in the pattern is in px
-    std::string recipe;       ///< recipe_options()
+    RecipeOptions recipe{};   ///< those that set no key
     bool has(std::string_view name) const { return names.contains(name); }
 };
 
 /// @param pattern  the text of the pattern
-GivenOptions given_options(const OptionValues& values, const std::string& pattern);
+/// @param keys  set by some of the values
+GivenOptions given_options(const OptionValues& values, const std::vector<Setting>& keys, const std::string& pattern);
 
 /// True if warn_of_unused() needs the contents of the drawing.
 bool needs_contents(const GivenOptions& given);

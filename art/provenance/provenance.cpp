@@ -78,6 +78,7 @@ constexpr std::array formats = {
     Format{"a GLB file", "glTF", "", read_comment_provenance},
     Format{"an HP-GL file", "IN;", "", read_comment_provenance},
     Format{"a G-code file", "", "(recipe: sikku:", read_comment_provenance},
+    Format{"a G-code file", "", "; recipe: sikku:", read_comment_provenance},
     Format{"a DXF file", "999\n", "", read_comment_provenance},
     Format{"an OBJ file", "# ", "\n# sikku:", read_comment_provenance},
     Format{"an STL file", "Binary STL in millimetres, sikku ", "", read_stl_provenance},

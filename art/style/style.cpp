@@ -278,7 +278,7 @@ std::optional<std::vector<Colour>> named_powders(const Key& key) {
 }
 
 void read_palette(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::string_view expected = "colours, separated by blanks or commas, or a set of powders";
+    constexpr std::string_view expected = "colours, separated by blanks or commas, or the name of a set of powders";
     std::vector<Colour> palette;
     std::size_t at = 0;
     if (auto powders = named_powders(key)) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <filesystem>
 #include <mutex>
 
 namespace sikku {
@@ -89,17 +88,41 @@ const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::str
 }
 
 std::string on_command_line(const OptionInfo& option, const std::string& value) {
-    if (option.kind == OptionKind::flag) return (value == "false" ? " --no-" : " --") + std::string(option.name);
+    if (option.kind == OptionKind::flag) {
+        if (option.is_neutral(value)) return "";
+        return (value == "false" ? " --no-" : " --") + std::string(option.name);
+    }
     const std::string text = fmt::format(" --{}", option.name);
-    // A value that may be left out: `--dots[=SIZE COLOUR]`.
+    // An optional value: `--dots[=SIZE COLOUR]`.
     if (option.value.starts_with('[')) return value.empty() ? text : text + "=" + shell_word(value);
     return text + " " + shell_word(value);
 }
 
-std::string recipe_option(const OptionInfo& option, const std::string& value) {
-    if (option.scope == Scope::threads || option.scope == Scope::cost || option.is_neutral(value)) return "";
-    const bool is_file = option.names_file && option.names_file(value);
-    return on_command_line(option, is_file ? std::filesystem::path(value).filename().string() : value);
+std::string without_folders(std::string_view value) {
+    std::string result;
+    while (true) {
+        const std::size_t comma = std::min(value.find(','), value.size());
+        const std::string_view part = value.substr(0, comma);
+        // A surface: `NAME = FILE`.
+        const std::size_t equals = part.find('=');
+        const std::size_t start = part.find_first_not_of(' ', equals == std::string_view::npos ? 0 : equals + 1);
+        const bool is_absolute = start != std::string_view::npos && part[start] == '/';
+        result += is_absolute ? part.substr(0, start) : part;
+        // Without a slash, the name could be that of something bundled.
+        if (is_absolute) result.append("./").append(part.substr(part.rfind('/') + 1));
+        if (comma == value.size()) return result;
+        result += ',';
+        value.remove_prefix(comma + 1);
+    }
+}
+
+void RecipeOptions::add(const OptionInfo& option, const std::string& value) {
+    if (option.scope == Scope::threads || option.scope == Scope::cost) return;
+    // The neutral value of a key replaces that of the pattern.
+    if (!option.is_key && option.is_neutral(value)) return;
+    text += on_command_line(option, option.names_file && option.names_file(value) ? without_folders(value) : value);
+    sets_lengths = sets_lengths || option.name == "generations";
+    sets_seed = sets_seed || option.name == "seed";
 }
 
 std::string without_unit(const OptionInfo& option, const std::string& text) {

@@ -148,13 +148,22 @@ double read_budget(const std::string& text);
 /// The row of that name, or null.
 const OptionInfo* find_option(std::span<const OptionInfo* const> table, std::string_view name);
 
-/// An option with its value as on a command line, with a leading blank: ` --dots='2mm white'`, ` --no-icc`.
+/// Formats an option and its value as arguments of a command line, with a leading blank: ` --dots='2mm white'`,
+/// ` --no-icc`. Empty for a flag with its default value.
 std::string on_command_line(const OptionInfo& option, const std::string& value);
 
-/// The options that change an output, in the order of the table, as on a command line: not neutral values, threads
-/// and limits of the work. Files have their names without folders.
-template <typename Settings>
-std::string recipe_options(std::span<const Option<Settings>> table, const OptionValues& values);
+/// The options of a recipe: those that affect an output.
+struct RecipeOptions {
+    std::string text;           ///< as arguments, each with a leading blank, in the order of the table
+    bool sets_lengths = false;  ///< several derivation lengths: `generations`
+    bool sets_seed = false;
+
+    /// Omits neutral values, thread counts and limits, and the folders of absolute paths.
+    void add(const OptionInfo& option, const std::string& value);
+};
+
+/// A value that names files, without the folders of absolute paths: they are private, and differ on each machine.
+std::string without_folders(std::string_view value);
 
 /// Throws SettingError for unknown and repeated names.
 void check_names(std::span<const OptionInfo* const> table, const OptionValues& values);
@@ -180,18 +189,15 @@ void apply_options(std::span<const Option<Settings>> table, const OptionValues& 
     }
 }
 
-/// The part of one option; empty if it changes no output.
-std::string recipe_option(const OptionInfo& option, const std::string& value);
-
 template <typename Settings>
-std::string recipe_options(std::span<const Option<Settings>> table, const OptionValues& values) {
-    std::string text;
+RecipeOptions recipe_options(std::span<const Option<Settings>> table, const OptionValues& values) {
+    RecipeOptions options;
     for (const Option<Settings>& row : table) {
         for (const OptionValue& value : values) {
-            if (value.name == row.info.name) text += recipe_option(row.info, value.text);
+            if (value.name == row.info.name) options.add(row.info, value.text);
         }
     }
-    return text;
+    return options;
 }
 
 }  // namespace sikku

@@ -60,7 +60,7 @@ private:
     std::uint64_t written_ = 0;
 };
 
-/// Throws the message of a failed system call, with the missing folder if that is the cause.
+/// Reports a failed system call: throws std::runtime_error with the file and the cause, such as a missing folder.
 [[noreturn]] void cannot_write(const std::filesystem::path& file, int error);
 
 /// Many files of one folder: all of them appear, or none. They are synchronised together, so thousands of small

@@ -204,6 +204,19 @@ std::string shell_word(const std::string& word) {
                std::string_view("/._-+=:,@%").find(letter) != std::string_view::npos;
     });
     if (plain) return word;
+    const auto is_control = [](char letter) { return (letter >= 0 && letter < ' ') || letter == 0x7F; };
+    if (std::any_of(word.begin(), word.end(), is_control)) {
+        std::string text = "$'";
+        for (const char letter : word) {
+            if (is_control(letter)) {
+                text += letter == '\n' ? "\\n" : fmt::format("\\x{:02x}", static_cast<unsigned>(letter));
+            } else {
+                if (letter == '\'' || letter == '\\') text += '\\';
+                text += letter;
+            }
+        }
+        return text + "'";
+    }
     std::string text = "'";
     for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
     return text + "'";

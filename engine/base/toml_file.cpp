@@ -184,7 +184,8 @@ FileValue read_toml(const std::string& file, const std::string& text) {
         return value_of(toml::parse(text, file), file);
     } catch (const toml::parse_error& error) {
         const std::string place = place_of(file, error.source().begin);
-        if (has_bare_text(text, error.source().begin.line)) fail(place, "text needs quotes, such as size = \"A4\"");
+        if (has_bare_text(text, error.source().begin.line))
+            fail(place, "text values need quotes, as in size = \"A4\"");
         fail(place, printable(error.description(), 300));
     }
 }

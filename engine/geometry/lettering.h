@@ -39,8 +39,8 @@ void write_text(std::string_view utf8, glm::dvec2 start, double height, const Pe
 /// The text if it is at most `width` wide, else as much of its beginning as fits with `…` after it.
 std::string shortened(std::string_view utf8, double height, double width);
 
-/// Breaks a text into at most `most` lines (at least one) of at most that width: at spaces, and words longer than a
-/// line after their hyphens or, without hyphens, anywhere. The rest is shortened in the last line.
+/// Breaks a text into at most `most` lines (at least one) of at most that width: at spaces; a word longer than a line
+/// breaks after a hyphen, or else between any characters. The rest is shortened in the last line.
 std::vector<std::string> wrapped(std::string_view utf8, double height, double width, std::size_t most);
 
 }  // namespace sikku

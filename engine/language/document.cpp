@@ -84,8 +84,10 @@ std::string read_pattern(std::FILE* stream, const std::string& name, const Monit
 
 std::string read_pattern(const PatternFile& file, const Monitor& monitor) {
     std::error_code error;
-    if (!std::filesystem::exists(file.path, error) && !error) {
-        // The bundled patterns have no ending in their names.
+    const std::filesystem::path folder = file.path.parent_path();
+    if (!std::filesystem::exists(file.path, error) &&
+        (folder.empty() || std::filesystem::is_directory(folder, error))) {
+        // Names of bundled patterns omit the extension.
         const std::string stem = file.path.stem().string();
         const bool is_bundled = file.path == stem + ".lsys" && PatternLibrary::bundled().find(stem);
         throw NotFound(

@@ -511,9 +511,11 @@ std::string unknown_scale(std::string_view name) {
                                                 : did_you_mean(fmt::format("{}-edo", equal_steps(key))));
     }
     const std::size_t blank = name.find(' ');
-    if (blank <= 2 && name.front() >= 'A' && name.front() <= 'G' && find_scale(name.substr(blank + 1))) {
-        return problem + fmt::format("; the tonic is a key of its own: scale: {}, tonic: {}", name.substr(blank + 1),
-                                     name.substr(0, blank));
+    const bool begins_with_tonic = (blank == 1 || (blank == 2 && (name[1] == '#' || name[1] == 'b'))) &&
+                                   std::string_view("ABCDEFGabcdefg").find(name[0]) != std::string_view::npos;
+    if (begins_with_tonic && find_scale(name.substr(blank + 1))) {
+        return problem + fmt::format("; set the tonic separately: `scale: {}`, `tonic: {}{}`", name.substr(blank + 1),
+                                     static_cast<char>(std::toupper(name[0])), name.substr(1, blank - 1));
     }
     const std::vector<std::string> similar = similar_scales(name);
     const std::vector<std::string_view> near(similar.begin(), similar.end());

@@ -133,7 +133,7 @@ struct ScoreHead {
     std::string composer;         ///< may be empty
     std::string source;           ///< the publication that the pattern comes from; may be empty
     std::string pattern;          ///< the text of the pattern file, so that the score can be made again
-    std::string made;             ///< the recipe of the score: `sikku 0.1.0, -n 4`
+    std::string made;             ///< the recipe of the score: `sikku 0.2.0, -n 4`
     double tempo = 120.0;         ///< quarters a minute
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;

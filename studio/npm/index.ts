@@ -8,7 +8,7 @@ export type { Diagnostic, FormatHelp, KeyHelp, OptionHelp } from "../page/protoc
 export type Pattern = string | { text: string; name?: string };
 
 /**
- * Options of `sikku draw` and `sikku play` (`size`; `dot-spacing`, `dot_spacing` or `dotSpacing`), keys and defines of the pattern
+ * Options of `sikku draw` and `sikku play` (`size`, `dot-spacing` or `dotSpacing`), keys and defines of the pattern
  * (`"angle factor"`), and `n`, `seed`, `variant`. Flags are true or false; undefined and null leave a value out.
  */
 export type Values = Record<string, string | number | boolean | readonly (string | number)[] | null | undefined>;
@@ -119,7 +119,7 @@ export class Sikku {
         }
         if (typeof pattern !== "string") return { name: pattern.name ?? "pattern.lsys", text: pattern.text };
         const found = this.library().get(pattern);
-        if (!found) throw new SikkuError("other", `no pattern named '${pattern}'; patterns() lists them; pass { text } for a text`, undefined, []);
+        if (!found) throw new SikkuError("other", `unknown pattern '${pattern}'; patterns() lists the bundled ones; pass { text } to use your own`, undefined, []);
         return { name: `${pattern}.lsys`, text: found.text };
     }
 
@@ -130,7 +130,7 @@ export class Sikku {
         const settings: [string, string][] = [];
         for (const [name, value] of Object.entries(values)) {
             if (value === undefined || value === null) continue;
-            const option = name.replaceAll("_", "-").replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+            const option = name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
             const row = use ? this.known[use].get(option) : undefined;
             // Options such as `dots` have a default value, for which `true` stands.
             const has_default = row?.value.startsWith("[") ?? false;
@@ -140,7 +140,7 @@ export class Sikku {
             if (name === "variant") request.variant = String(value);
             else if (name === "n") settings.push(["derivation length", String(value)]);
             else if (row) options.push(...texts.map((text): [string, string] => [option, text]));
-            // Options and defines, with a message that suggests the nearest one.
+            // The libraries refuse an unknown name and suggest the nearest one.
             else if (use && !this.keys.has(name)) options.push(...texts.map((text): [string, string] => [name, text]));
             else settings.push(...texts.map((text): [string, string] => [name, text]));
         }

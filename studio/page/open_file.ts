@@ -7,6 +7,7 @@ import { bytes as sizeOf } from "./numbers_shown";
 import { openPattern } from "./opening";
 import type { Imported, PatternRequest, Shown } from "./protocol";
 import { keepScale } from "./scales";
+import { shellWords } from "./shell_words";
 
 const largest_file = 64 * 1024 * 1024;
 
@@ -62,11 +63,9 @@ async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promi
     openPattern(studio, { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, ...valuesOf(json.made) });
 }
 
-// The values that a print was made with, as options of the program: "sikku 0.1.0, -n 3 --set 'stroke=0.5mm red'".
+// The values that a print was made with, as options of the program: "sikku 0.2.0, -n 3 --set 'stroke=0.5mm red'".
 function valuesOf(made: string): Pick<PatternRequest, "variant" | "settings"> {
-    const words = [...made.matchAll(/'((?:[^']|'\\'')*)'|(\S+)/g)].map(
-        (word) => word[1]?.replaceAll("'\\''", "'") ?? word[2]!,
-    );
+    const words = shellWords(made);
     const settings: [string, string][] = [];
     let variant = "";
     for (let at = 0; at + 1 < words.length; ++at) {

@@ -150,7 +150,7 @@ export type Origin = Place & { production: Place | null };
 export interface Origins { origins: (Origin | null)[] } // null: unknown
 
 export interface Imported { systems: { name: string; line: number; text: string; draws: boolean; losses: string[] }[]; diagnostics: Diagnostic[] }
-export interface Shown { text: string; made: string } // made: the recipe, as in `sikku 0.1.0, -n 4 --size A3`
+export interface Shown { text: string; made: string } // made: the recipe, as in `sikku 0.2.0, -n 4 --size A3`
 export type SymmetryName =
     | "none" | "C2" | "C3" | "C4" | "C6" | "mirror-x" | "mirror-y" | "diagonal" | "mirrors" | "diagonals"
     | "D3" | "D3-y" | "D4" | "D6";

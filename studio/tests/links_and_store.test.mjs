@@ -27,6 +27,7 @@ const { History, putAside } = await load("store");
 const { windowOnScreen } = await load("on_screen");
 const { lettersOf, bytesOf, keepScale } = await load("scales");
 const { namedValues } = await load("option_fields");
+const { shellWords } = await load("shell_words");
 
 beforeEach(() => {
     stored.clear();
@@ -220,4 +221,11 @@ test("page sizes come from the help of the option", () => {
     const more = "page size: A9 to A10, SRA3 to SRA4, Arch-D to Arch-E, or WIDTHxHEIGHT (A4)";
     assert.deepEqual(namedValues(more), ["A9", "A10", "SRA3", "SRA4", "Arch-D", "Arch-E"]);
     assert.deepEqual(namedValues("no list"), []);
+});
+
+test("recipes are split into words as a shell does", () => {
+    assert.deepEqual(shellWords("sikku 0.2.0, -n 3 --set 'stroke=0.5mm red'"), ["sikku", "0.2.0,", "-n", "3", "--set", "stroke=0.5mm red"]);
+    assert.deepEqual(shellWords("--title-line='x -n 5 y' --set a=b"), ["--title-line=x -n 5 y", "--set", "a=b"]);
+    assert.deepEqual(shellWords("--heading 'it'\\''s' --dots=''"), ["--heading", "it's", "--dots="]);
+    assert.deepEqual(shellWords("--gcode-start $'G0\\nM3 \\'a\\' \\x09\\\\'"), ["--gcode-start", "G0\nM3 'a' \t\\"]);
 });

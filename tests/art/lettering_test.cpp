@@ -145,7 +145,7 @@ TEST(Lettering, LinesBreakAtSpacesAndElseWithinWords) {
         all += line;
     }
     EXPECT_EQ(all, "a few words  that are longer than one line");
-    // A long word with hyphens, and one without.
+    // A long word with hyphens, and a word without hyphens.
     EXPECT_EQ(wrapped("kolam-11-to-1-naq0sdh3", 1.0, text_width("kolam-11-to-1-naq", 1.0), 3),
               (std::vector<std::string>{"kolam-11-to-1-", "naq0sdh3"}));
     const std::string word(100, 'F');

@@ -221,7 +221,7 @@ TEST(Prints, ValuesAreRefused) {
         {{{"split", "1m"}}, "split"},
         {{{"travel", "true"}}, "needs 'plotter'"},
         {{{"profile", "grlb"}, {"plotter", "true"}}, "unknown plotter; did you mean 'grbl'?"},
-        {{{"profile", "roland"}, {"plotter", "true"}}, "or a file, whose name has a dot or a slash"},
+        {{{"profile", "roland"}, {"plotter", "true"}}, "or a file path with a dot or a slash"},
         {{{"gcode-end", "G0 X1e300 Y1"}}, "gcode-end X1e300: expected a place within 10 m"},
         {{{"gcode-start", "G0 X1 Ynan"}}, "gcode-start Ynan: expected a place within 10 m"},
         {{{"pen", "2 speed=20"}, {"plotter", "true"}}, "writes them"},

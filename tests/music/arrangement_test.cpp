@@ -406,7 +406,7 @@ TEST(Arrangement, TracksOfMidiHaveTheNamesOfPrint) {
 TEST(Arrangement, RecipesHaveEachKeyOnce) {
     const auto made = [](const std::string& midi) { return read_midi(midi).made; };
     const std::string values = play(parse("steps.lsys", steps), "mid", {{"unit", "1/4"}, {"transpose", "2"}});
-    EXPECT_TRUE(made(values).ends_with(", -n 0 --unit 1/4 --transpose 2")) << made(values);
+    EXPECT_TRUE(made(values).ends_with(", -n 0 --set unit=1/4 --transpose 2")) << made(values);
     MemoryDestination memory;
     plan_score(read(track("")), "mid", {{"unit", "1/4"}})->make(memory, "score.mid", {});
     const std::string arranged = made(memory.take("score.mid"));

@@ -74,7 +74,7 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     };
     refused("[[track]]\npattern = \"hilbet\"\n", "bad.toml:2:1: no file or pattern named 'hilbet'");
     refused("[[track]]\npattern = \"bad.toml\"\n", "not another arrangement");
-    refused("[[track]]\npattern = hilbert\n", "text needs quotes");
+    refused("[[track]]\npattern = hilbert\n", "text values need quotes");
     const Outcome two = run(Arguments{"play", "invention", "hilbert"});
     EXPECT_EQ(two.status, 2);
     EXPECT_TRUE(has(two.errors, "played alone"));

@@ -84,9 +84,9 @@ TEST_F(Mistakes, ValuesOfOptions) {
          "--set:1:6: drawings in space have straight lines"},
         {{"draw", "hilbert", "--set", "foo=3", "-o", "m.svg"}, "sikku: --set:1:1: unknown key 'foo'"},
         {{"draw", "hilbert", "--border", "kavi", "-o", "m.svg"}, "unknown border; did you mean 'kaavi'?"},
-        {{"draw", "hilbert", "--palette", "rainbow", "-o", "m.svg"}, "or a set of powders"},
+        {{"draw", "hilbert", "--palette", "rainbow", "-o", "m.svg"}, "or the name of a set of powders"},
         {{"play", "hilbert", "--scale", "C major"},
-         "unknown scale 'C major'; the tonic is a key of its own: scale: major, tonic: C"},
+         "unknown scale 'C major'; set the tonic separately: `scale: major`, `tonic: C`"},
         {{"draw", "hilbert", "-o", "m.gif"}, "--generations: required for a .gif"},
         {{"draw", "mine.lsys", "--stroke", "0.3mm rd", "-o", "m.svg"}, "--stroke 0.3mm rd: 'rd' is not a colour"},
         {{"play", "hilbert", "--instrument", "flutee"}, "unknown instrument 'flutee'; did you mean 'flute'?"},
@@ -104,8 +104,8 @@ TEST_F(Mistakes, ValuesOfOptions) {
 
 TEST_F(Mistakes, LikelyMistakesAreWarnings) {
     folder_.write("bare.lsys", "axiom: F\nF --> F+F\n");
-    const std::string axiom = "warning: only the axiom is used, because `derivation length:` is missing";
-    const std::string widths = "mm wide are drawn in one pass; --pen-width draws them in several";
+    const std::string axiom = "the productions are not applied, because `derivation length:` is missing";
+    const std::string widths = "mm wide are drawn in one pass; set --pen-width to draw them in several";
     const auto said = [&](std::vector<std::string> words) {
         const Outcome outcome = run_here(std::move(words));
         EXPECT_EQ(outcome.status, 0) << outcome.errors;
@@ -115,6 +115,11 @@ TEST_F(Mistakes, LikelyMistakesAreWarnings) {
     EXPECT_TRUE(has(said({"play", "bare.lsys", "--vertical", "voice", "-o", "m.mid"}), axiom));
     EXPECT_FALSE(has(said({"draw", "bare.lsys", "-n", "0", "-o", "m.svg"}), axiom));
     EXPECT_FALSE(has(said({"draw", "mine.lsys", "-o", "m.svg"}), axiom));
+    // A warning does not help where nothing is made.
+    folder_.write("empty.lsys", "axiom: X\nX --> F+X\n");
+    expect_refused({{"draw", "empty.lsys", "-o", "m.svg"}, axiom}, 1);
+    expect_refused({{"play", "empty.lsys", "-o", "m.mid"}, axiom});
+    EXPECT_TRUE(has(said({"draw", "mine.lsys", "--tile", "A3", "-o", "m.pdf"}), "the print fits on one sheet"));
     const std::vector<std::string> plot = {"draw", "snake-kolam", "--border", "lotus", "--plotter", "-o", "m.svg"};
     EXPECT_TRUE(has(said(plot), widths));
     EXPECT_FALSE(has(said({"draw", "mine.lsys", "--plotter", "-o", "m.svg"}), widths));
@@ -169,12 +174,12 @@ TEST_F(Mistakes, FilesOfTheWrongKind) {
         {{"play", "hilbert", "-o", "x"}, "-o x: no extension"},
         {{"kolam", "--grid", "3x3", "-o", "x.svg"}, "expected a pattern file, NAME.lsys; `sikku draw` makes"},
         {{"draw", "hilbert.lsys", "-o", "m.svg"}, "hilbert.lsys: No such file or directory; did you mean 'hilbert'?"},
-        {{"play", "canonn"}, "no file or pattern named 'canonn'; did you mean 'canon'?"},
+        {{"play", "canonn"}, "no file or pattern named 'canonn'; `sikku play` plays the arrangement 'canon'"},
         {{"draw", "koch", "-o", "m.svg"}, "no file or pattern named 'koch'; did you mean 'koch-curve'"},
         {{"gallery", "kolam"}, "no file or pattern named 'kolam'; did you mean 'kolams'?"},
         {{"gallery", "--file", "foo"}, "no file or bundled gallery file named 'foo'; there are csiro-figure-"},
         {{"gallery", "--file", "bare.toml"}, "bare.toml:1:"},
-        {{"gallery", "--file", "bare.toml"}, "text needs quotes"},
+        {{"gallery", "--file", "bare.toml"}, "text values need quotes"},
         {{"gallery", "mine.lsys", "-f", "gif"}, "`sikku draw` makes them"}};
     for (const Mistake& mistake : mistakes) expect_refused(mistake);
     expect_refused({{"show", "sound.wav"}, "sound.wav: this WAV file contains sound and no pattern"}, 1);
@@ -204,7 +209,6 @@ TEST_F(Mistakes, FilesThatAreReadStay) {
 TEST_F(Mistakes, WithoutEffectIsReported) {
     const std::vector<Mistake> mistakes = {
         {{"draw", "mine.lsys", "--hatch", "-o", "m.gcode"}, "--hatch has no effect: this drawing has no fills"},
-        {{"draw", "mine.lsys", "--tile", "A3", "-o", "m.pdf"}, "the print fits on one sheet"},
         {{"draw", "mine.lsys", "--compression", "9", "-o", "m.svg"}, "--compression has no effect"},
         {{"draw", "pillaiyar", "--generations", "0:2", "-o", "m.svg"}, "--generations has no effect"},
         {{"play", "hilbert", "--unit", "16", "--bars", "4", "-o", "m.mid"},

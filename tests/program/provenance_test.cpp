@@ -5,6 +5,7 @@
 #include "art/image/image_file.h"
 #include "art/print/format.h"
 #include "art/prints.h"
+#include "engine/base/text.h"
 #include "music/scores.h"
 #include "tests/damaged_pictures.h"
 #include "tests/fuzz/file_targets.h"
@@ -142,11 +143,12 @@ TEST(Show, RecipesMakeTheSameBytesAgain) {
     const ScratchFolder folder;
     const std::string program = "'" SIKKU_PROGRAM "' -q ";
     const auto made = [&](const std::string& command, const std::string& arguments, const std::string& name) {
-        const ToolOutcome outcome = run_tool(program + command + " " + arguments + " -o '" + folder.file(name) + "'");
+        const std::string whole = program + command + " " + arguments + " -o '" + folder.file(name) + "'";
+        const ToolOutcome outcome = run_tool("bash -c " + shell_word(whole));
         EXPECT_TRUE(outcome.ok) << arguments << '\n' << outcome.text;
         return contents(folder.file(name));
     };
-    // The bytes, and the recipe in them.
+    // Runs the stored recipe and compares the bytes.
     const auto check = [&](const std::string& command, const std::string& arguments, const std::string& format) {
         const std::string first = made(command, arguments, "first." + format);
         std::string recipe = run({"show", folder.file("first." + format)}).errors;
@@ -163,6 +165,14 @@ TEST(Show, RecipesMakeTheSameBytesAgain) {
               format);
         check("draw", "hat --variant turtle --stroke '0.3mm navy' --size A6 --dpi 50", format);
     }
+    const std::string framed =
+        folder.write("framed.lsys", "axiom: F-F-F-F\nangle factor: 4\nborder: kaavi\nderivation length: 1\n");
+    check("draw", framed + " --size A6 --border none", "svg");
+    check("draw", framed + " --set border=rope --border lotus --size A6 --title-line 'x --seed 5 --generations 3'",
+          "svg");
+    check("draw", framed + " --profile marlin --gcode-start $'G0 X1\\nM3 \\'a\\''", "gcode");
+    for (const char* format : {"hpgl", "dxf"}) check("draw", "bag-of-candies --rotate 30", format);
+    check("draw", "hat", "obj");
     check("draw", "stochastic-branches --seed 7 --no-icc --size 40x40mm --dpi 60", "png");
     check("draw", "hilbert --generations 1:3 --size 40x40mm --dpi 60", "gif");
     for (const char* format : {"mid", "musicxml", "ly"}) {

@@ -42,7 +42,7 @@ same "2 threads, ar_SA" tests/bytes.sh 2 env LOCPATH="$build" LC_ALL=ar_SA.UTF-8
 
 list_of_bridge() { "$program" gallery --file tests/bytes/bytes.toml --list --json | node tests/bytes/bytes.mjs "$bridge"; }
 if [ -n "$bridge" ]; then
-    # The web build has no arrangements; studio/tests/parity.mjs compares its reports.
+    # The web build excludes arrangements; studio/tests/parity.mjs compares its reports.
     grep -v ' \./\(pieces\|reports\)/' "$build/expected" > "$build/expected-web"
     expected=$build/expected-web same "WebAssembly (compiled by clang, with libc++)" list_of_bridge
 else
@@ -59,7 +59,7 @@ compiled() {
         { tail -n 30 "$folder.log"; fail "$folder: not built"; }
 }
 for compiler in g++-O0 g++-O3 clang++-O2; do
-    # Linking the whole program at once also finds types of one name with two definitions.
+    # Link-time optimisation also detects violations of the one-definition rule.
     whole=()
     [ "$compiler" != g++-O0 ] || whole=(-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON
         -DCMAKE_EXE_LINKER_FLAGS="-flto=auto -Wodr -Werror=odr -Werror=lto-type-mismatch")

@@ -56,7 +56,7 @@ def make_kolam(
     Raises SettingError, and Error if no single line was found.
     """
     if not isinstance(grid, str):
-        raise errors.SettingError("grid", str(grid), "expected a text such as '5x5' or '1-3-5-3-1'")
+        raise errors.SettingError("grid", str(grid), "expected a string such as '5x5' or '1-3-5-3-1'")
     text, facts = _core.make_kolam(
         grid,
         _count("seed", seed, 0, 2**64 - 1),
