@@ -170,8 +170,10 @@ DrawReport draw_growth(const Grammar& grammar, const Print& given, const DrawOpt
         return report;
     }
     bool leaves_pattern_out = false;
+    const std::string made = print.made;
     for (std::int64_t n = growth.first; n <= growth.last; ++n) {
         const Grammar generation = generation_of(grammar, n);
+        print.made = fmt::format("{} # n = {}", made, n);  // a comment in shells
         report = draw(generation, print, framed(grammar, print.style, options, growth, n),
                       frame_file(file, n, growth.last), destination);
         leaves_pattern_out = leaves_pattern_out || report.leaves_pattern_out;

@@ -49,7 +49,7 @@ TEST_F(Growth, FramesAreFilesInTheSamePlace) {
     std::set<std::string> paths;
     for (int n = 1; n <= 10; ++n) paths.insert(path(frame_file("h.svg", n, 10).string()));
     EXPECT_EQ(paths.size(), 10u);
-    EXPECT_TRUE(has(files_.at("h-03.svg"), "-n 3")) << "each tells its own";
+    EXPECT_TRUE(has(files_.at("h-03.svg"), "--generations 0:10 --frames # n = 3"));
     EXPECT_TRUE(files_.contains("h-00.svg")) << "n = 0 draws nothing, and is a page";
     EXPECT_FALSE(files_.contains("h.svg"));
     // A step is as long in all of them: the last fills the page, and the first is as small as it is beside it.

@@ -204,7 +204,7 @@ TEST_F(HostileTitle, InASlurmScriptIsAWord) {
         EXPECT_FALSE(line.starts_with("#SBATCH --exclusive"));
     }
     Surroundings task = there;
-    task.program = "/bin/sh";
+    task.program = "/bin/bash";
     task.environment.push_back({"SLURM_ARRAY_TASK_ID", "0"});
     task.environment.push_back({"SLURM_ARRAY_TASK_COUNT", "1"});
     task.environment.push_back({"SLURM_ARRAY_TASK_MIN", "0"});

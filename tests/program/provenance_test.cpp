@@ -142,6 +142,8 @@ TEST(Show, OtherProgramsAgree) {
 TEST(Show, RecipesMakeTheSameBytesAgain) {
     const ScratchFolder folder;
     const std::string program = "'" SIKKU_PROGRAM "' -q ";
+    // A model contains the name of its other file.
+    for (const char* name : {"first", "again"}) std::filesystem::create_directory(folder.file(name));
     const auto made = [&](const std::string& command, const std::string& arguments, const std::string& name) {
         const std::string whole = program + command + " " + arguments + " -o '" + folder.file(name) + "'";
         const ToolOutcome outcome = run_tool("bash -c " + shell_word(whole));
@@ -150,13 +152,13 @@ TEST(Show, RecipesMakeTheSameBytesAgain) {
     };
     // Runs the stored recipe and compares the bytes.
     const auto check = [&](const std::string& command, const std::string& arguments, const std::string& format) {
-        const std::string first = made(command, arguments, "first." + format);
-        std::string recipe = run({"show", folder.file("first." + format)}).errors;
+        const std::string first = made(command, arguments, "first/x." + format);
+        std::string recipe = run({"show", folder.file("first/x." + format)}).errors;
         const std::size_t comma = recipe.find(',');
         ASSERT_TRUE(recipe.starts_with("made with sikku ") && comma != std::string::npos) << recipe;
         recipe.pop_back();  // the line feed
         const std::string pattern = arguments.substr(0, arguments.find(' '));
-        EXPECT_TRUE(made(command, pattern + recipe.substr(comma + 1), "again." + format) == first) << recipe;
+        EXPECT_TRUE(made(command, pattern + recipe.substr(comma + 1), "again/x." + format) == first) << recipe;
     };
     for (const char* format : {"svg", "pdf", "eps", "png", "gcode"}) {
         check("draw",
