@@ -4,6 +4,7 @@
 #include "engine/base/input_file.h"
 #include "engine/base/keys.h"
 #include "engine/base/text.h"
+#include "engine/interpreter.h"
 #include "music/score/curves.h"
 #include "music/score/spelling.h"
 

@@ -20,7 +20,7 @@ constexpr int strings = 48;
 constexpr int sitar = 104;
 
 std::string made_with(const PlaySettings& settings, const Document& first, bool is_arrangement) {
-    const std::string made = recipe(first, settings.recipe);
+    std::string made = recipe(first, settings.recipe);
     if (!is_arrangement) return made;
     // An arrangement contains the settings of its patterns.
     std::string text;

@@ -245,7 +245,8 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     for (const Player& player : ensemble_.players) {
         const std::string no_steps = reason_of_no_steps(player.document);
         const std::string& pattern = player.document.source().name();
-        if (!no_steps.empty()) made.warn(ensemble_.players.size() > 1 ? pattern + ": " + no_steps : no_steps);
+        if (!no_steps.empty())
+            made.warn(ensemble_.players.size() > 1 ? fmt::format("{}: {}", pattern, no_steps) : no_steps);
     }
     warn_of_unused(made);
     const PlayOptions playing = piece_of(settings_, ensemble_, monitor);

@@ -65,8 +65,8 @@ async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promi
 
 // The values that a print was made with, as options of the program: "sikku 0.2.0, -n 3 --set 'stroke=0.5mm red'".
 function valuesOf(made: string): Pick<PatternRequest, "variant" | "settings"> {
-    const [arguments_, frame] = made.split(/ # n = (?=\d+$)/); // one of several generations
-    const words = shellWords(arguments_!);
+    const [line, frame] = made.split(/ # n = (?=\d+$)/); // one of several generations
+    const words = shellWords(line!);
     const settings: [string, string][] = [];
     let variant = "";
     for (let at = 0; at + 1 < words.length; ++at) {
