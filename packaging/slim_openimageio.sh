@@ -31,8 +31,10 @@ for package in Python OpenCV FFmpeg GIF Libheif LibRaw OpenJPEG OpenVDB Ptex Ope
     R3DSDK; do
     packages+=("-DUSE_${package^^}=OFF" "-DUSE_$package=OFF")
 done
+# Without a build ID, a hash that also covers symbols, some of which are named after the folder.
 cmake -S source -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$folder" \
-    -DCMAKE_CXX_FLAGS="${CXXFLAGS:-} -ffile-prefix-map=$work=." -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG" -DEMBEDPLUGINS=ON \
+    -DCMAKE_CXX_FLAGS="${CXXFLAGS:-} -ffile-prefix-map=$work=." \
+    -DCMAKE_SHARED_LINKER_FLAGS="${LDFLAGS:-} -Wl,--build-id=none" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_CXX_FLAGS_RELEASE="-O2 -DNDEBUG" -DEMBEDPLUGINS=ON \
     -DOIIO_BUILD_TOOLS=OFF -DOIIO_BUILD_TESTS=OFF -DBUILD_DOCS=OFF -DINSTALL_DOCS=OFF -DINSTALL_FONTS=OFF \
     -DCMAKE_SKIP_RPATH=ON -DSTOP_ON_WARNING=OFF -DCMAKE_CXX_STANDARD=17 -DBUILD_MISSING_ROBINMAP=OFF -DBUILD_MISSING_FMT=OFF \
     "${formats[@]}" "${packages[@]}" > log 2>&1 || { tail -n 40 log >&2; exit 1; }
