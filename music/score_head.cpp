@@ -1,6 +1,5 @@
 #include "music/score_head.h"
 
-#include "engine/base/text.h"
 #include "engine/interpreter.h"
 #include "music/melody/symbol_table.h"
 #include "music/score/instruments.h"
@@ -23,9 +22,9 @@ std::string made_with(const PlaySettings& settings, const Document& first, bool 
     std::string made = recipe(first, settings.recipe);
     if (!is_arrangement) return made;
     // An arrangement contains the settings of its patterns.
-    std::string text;
-    for (const Setting& key : settings.keys) text += fmt::format(" --{} {}", key.origin, shell_word(key.value));
-    text += settings.recipe.text;
+    OptionValues keys;
+    for (const Setting& key : settings.keys) keys.push_back({key.origin, key.value});
+    const std::string text = recipe_options(play_options(), keys).text + settings.recipe.text;
     return made.substr(0, made.find(',')) + (text.empty() ? "" : ",") + text;
 }
 

@@ -59,8 +59,8 @@ LoadedArrangement load_arrangement(const std::string& name, const std::optional<
         std::error_code error;
         if (!text && !std::filesystem::exists(path, error)) {
             const auto bundled = bundled_arrangement(name);
-            const std::vector<std::string> names = bundled_arrangements();
             if (!bundled) {
+                const std::vector<std::string> names = bundled_arrangements();
                 const std::string_view near = nearest(name, {names.begin(), names.end()});
                 throw NotFound("no file or arrangement named '" + name + "'" + did_you_mean(near), !near.empty());
             }

@@ -157,8 +157,7 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     if (!dropped_border_.empty()) made.warn(dropped_border_);
     warn_of_letters(document_.grammar(), made);
     warn_of_length(document_, settings_, made);
-    const std::string no_steps = settings_.time.generations ? "" : reason_of_no_steps(document_);
-    if (!no_steps.empty()) made.warn(no_steps);
+    if (!no_steps().empty()) made.warn(no_steps());
     DrawOptions options = drawing_;
     if (threads > 0) options.threads = threads;
     options.monitor = monitor;
@@ -176,8 +175,8 @@ Made PrintWork::make(Destination& destination, const std::filesystem::path& name
     warn_of_unused(given_, settings_, print_.style, format_, is_spatial, report, made);
     return made;
 } catch (const NothingDrawn& error) {
-    const std::string no_steps = reason_of_no_steps(document_);
-    throw std::runtime_error(error.what() + (no_steps.empty() ? undrawn_hint(document_.grammar()) : "; " + no_steps));
+    throw std::runtime_error(error.what() +
+                             (no_steps().empty() ? undrawn_hint(document_.grammar()) : "; " + no_steps()));
 }
 
 void PrintWork::pass_pixels(std::function<void(Rendering& rendering, const PixelSize& size)> receive) {

@@ -60,6 +60,8 @@ protected:
     DrawReport report{};
 
 private:
+    /// The reason if the drawing is that of the axiom; see reason_of_no_steps().
+    std::string no_steps() const { return settings_.time.generations ? "" : reason_of_no_steps(document_); }
     void plan_drawing();
     void place_swatch(const Swatch& swatch);
     void drop_border();
