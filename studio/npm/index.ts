@@ -36,7 +36,6 @@ export class Sikku {
     private bundled: Map<string, PatternInfo> | null = null; // read on first use, because that takes a second
     private readonly known: Record<"draw" | "play", Map<string, OptionHelp>>;
     private readonly texts: Set<string>; // formats
-    private readonly keys: Set<string>; // of the language
     /** Keys of the language, symbols of the turtle, options and formats with their help. */
     readonly help: Help;
     /** The version of the libraries. */
@@ -48,7 +47,6 @@ export class Sikku {
         this.version = this.help.version;
         const options = (rows: Help["draw"]["options"]) => new Map(rows.map((row) => [row.name, row]));
         this.known = { draw: options(this.help.draw.options), play: options(this.help.play.options) };
-        this.keys = new Set(this.help.keys.map((row) => row.name));
         const formats = [...this.help.draw.formats, ...this.help.play.formats];
         this.texts = new Set(formats.filter((row) => row.is_text).flatMap((row) => [row.extension, row.alias]));
     }
@@ -123,7 +121,7 @@ export class Sikku {
         return { name: `${pattern}.lsys`, text: found.text };
     }
 
-    /** Separates options of outputs from settings of the pattern. */
+    /** The libraries separate the options of an output from keys and defines, and refuse unknown names. */
     private split(use: "draw" | "play" | null, pattern: Pattern, values: Values) {
         const request = this.request(pattern);
         const options: [string, string][] = [];
@@ -139,10 +137,7 @@ export class Sikku {
             const texts = row?.is_list ? list.map(String) : [list.join(",")];
             if (name === "variant") request.variant = String(value);
             else if (name === "n") settings.push(["derivation length", String(value)]);
-            else if (row) options.push(...texts.map((text): [string, string] => [option, text]));
-            // The libraries refuse an unknown name and suggest the nearest one.
-            else if (use && !this.keys.has(name)) options.push(...texts.map((text): [string, string] => [name, text]));
-            else settings.push(...texts.map((text): [string, string] => [name, text]));
+            else (use ? options : settings).push(...texts.map((text): [string, string] => [row ? option : name, text]));
         }
         return { request: { ...request, settings }, options };
     }
