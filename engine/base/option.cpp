@@ -121,7 +121,9 @@ void RecipeOptions::add(const OptionInfo& option, const std::string& value) {
     // The neutral value of a key replaces that of the pattern.
     if (!option.is_key && option.is_neutral(value)) return;
     text += on_command_line(option, option.names_file && option.names_file(value) ? without_folders(value) : value);
-    sets_lengths = sets_lengths || option.name == "generations";
+    for (const std::string_view name : {"generations", "fill-page", "swatch"}) {
+        sets_lengths = sets_lengths || option.name == name;
+    }
     sets_seed = sets_seed || option.name == "seed";
 }
 

@@ -155,7 +155,7 @@ std::string on_command_line(const OptionInfo& option, const std::string& value);
 /// The options of a recipe: those that affect an output.
 struct RecipeOptions {
     std::string text;           ///< as arguments, each with a leading blank, in the order of the table
-    bool sets_lengths = false;  ///< several derivation lengths: `generations`
+    bool sets_lengths = false;  ///< an option determines the derivation length, such as `generations`
     bool sets_seed = false;
 
     /// Omits neutral values, thread counts and limits, and the folders of absolute paths.
