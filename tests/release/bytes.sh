@@ -78,9 +78,11 @@ cross() {
         -DCMAKE_BUILD_TYPE=Release
 }
 cross i686-linux-gnu i386
-same "i386" tests/bytes.sh "$(nproc)" env SIKKU_DATA="$build/i386/share/sikku" \
-    "$build/root-i386/lib/ld-linux.so.2" --library-path "$build/root-i386/usr/lib/i386-linux-gnu:$build/root-i386/lib/i386-linux-gnu" \
-    "$build/i386/bin/sikku"
+loader=("$build/root-i386/lib/ld-linux.so.2")
+# Some kernels run no 32-bit programs.
+"${loader[@]}" --version > /dev/null 2>&1 || loader=(qemu-i386-static "${loader[@]}")
+same "i386" tests/bytes.sh "$(nproc)" env SIKKU_DATA="$build/i386/share/sikku" "${loader[@]}" \
+    --library-path "$build/root-i386/usr/lib/i386-linux-gnu:$build/root-i386/lib/i386-linux-gnu" "$build/i386/bin/sikku"
 cross aarch64-linux-gnu arm64
 same "arm64 (qemu-user)" tests/bytes.sh "$(nproc)" qemu-aarch64-static -L "$build/root-arm64" "$build/arm64/bin/sikku"
 
