@@ -51,9 +51,10 @@ void check_output(const KolamGridOptions& options) {
                         "expected NAME.lsys",
                         options.output));
     }
-    if (options.colours || options.dots) {
-        throw UsageError(fmt::format("{}: -o {} holds dots and gaps, not a drawing; expected NAME.lsys",
-                                     options.colours ? "--colours" : "--dots", options.output));
+    const char* look = options.colours ? "--colours" : options.dots ? "--dots" : "--rim";
+    if (options.colours || options.dots || options.rim != KolamGridOptions().rim) {
+        throw UsageError(
+            fmt::format("{}: -o {} holds dots and gaps, not a drawing; expected NAME.lsys", look, options.output));
     }
 }
 
@@ -73,9 +74,11 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
     KolamPatternOptions pattern = describe_grid_kolam(grid, request, made);
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
+    pattern.rim = of_option("--rim", [&] { return parse_rim_style(options.rim); });
     pattern.monitor = stop_monitor();
     const auto other = text_for(options.output, grid, made.states);
-    write_file(options.output, other ? *other : kolam_pattern(grid, made.states, pattern).text);
+    const KolamPattern drawn = kolam_pattern(grid, made.states, pattern);
+    write_file(options.output, other ? *other : drawn.text);
     if (options.as_json) {
         fmt::print("{}", grid_kolam_json(grid, made));
     } else {
@@ -85,11 +88,15 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
         tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
                     pattern.description, note);
     }
-    if (const auto same = same_seed(grid, request, made, stop_monitor())) {
+    if (pattern.rim != RimStyle::round && drawn.shaped == 0) {
         tell_unless(quiet,
-                    "sikku: note: seed {} gives the same kolam as seed {}; another --density or --symmetry gives "
-                    "others\n",
-                    options.seed, *same);
+                    "sikku: warning: --rim has no effect: this kolam has no loops at its rim with room for it\n");
+    }
+    if (made.same_seed) {
+        tell_unless(quiet,
+                    "sikku: note: seed {} gives the same kolam as seed {}: no more than {} were found; another "
+                    "--density or --symmetry gives others\n",
+                    options.seed, *made.same_seed, made.different);
     }
 }
 
@@ -118,13 +125,16 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
                   "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row "
                   "and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), or a shape of "
                   "'o' and '.' (oo./ooo/.oo); @FILE reads it from a file");
-    auto* symmetry = group.add("--symmetry", options.symmetry, "GROUP",
-                               "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and "
-                               "bottom), diagonal, mirrors (mirror-x and mirror-y), diagonals, D3, D3-y, D4 or D6 "
-                               "(rotations and mirrors); excludes --crossings (the largest that the grid and "
-                               "--single-line permit; with --enumerate none)");
+    auto* symmetry =
+        group.add("--symmetry", options.symmetry, "GROUP",
+                  "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and "
+                  "bottom), diagonal, mirrors (mirror-x and mirror-y), diagonals, D3, D3-y, D4 or D6 "
+                  "(rotations and mirrors); excludes --crossings (the seed chooses one that the grid and "
+                  "--single-line permit; with --enumerate none)");
     auto* density = group.add("--density", options.density, "SHARE",
-                              "share of the gaps in which lines cross, 0 to 1 (0.7, and all dots connected)");
+                              "share of the gaps in which lines cross, 0 to 1 (the seed chooses it and connects all "
+                              "dots; on interlaced dots, "
+                              "it composes petals and stars)");
     auto* joined = group.add("--joined", options.joined, "SHARE",
                              "share of the other gaps in which lines run past both dots, 0 to 1; with --enumerate, "
                              "any share above 0 includes such kolams (0)");
@@ -155,10 +165,13 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* colours = group.flag("--colours", options.colours,
                                "colour the lines; lines that are images of each other share a colour");
     auto* dots = group.flag("--dots", options.dots, "draw the dots in the pattern");
+    auto* rim = group.add("--rim", options.rim, "STYLE",
+                          "shape of the loops at the rim: round, pointed, petal, horn or crescent (round)");
+    rim->needs(grid);
     auto* enumerate = group.flag("--enumerate", options.enumerate,
                                  "count and list all single-line kolams; with --symmetry, only symmetric ones");
     enumerate->needs(grid);
-    for (CLI::Option* option : {crossings, density, single, colours, dots}) enumerate->excludes(option);
+    for (CLI::Option* option : {crossings, density, single, colours, dots, rim}) enumerate->excludes(option);
     group.add("--limit", options.limit, "N", "maximum number of kolams that --enumerate lists, up to 10000000 (100)")
         ->needs(enumerate)
         ->check(whole_number(0, 10'000'000));

@@ -18,14 +18,15 @@ struct KolamGridOptions {
     std::string radial;  ///< arms and dots of a radial kolam, instead of a grid
     std::string order;   ///< order in which its lines visit the dots of an arm
     std::uint64_t seed = 0;
-    std::optional<std::string> symmetry;   ///< absent: the usual one
-    std::optional<double> density;         ///< share of crossed gaps; absent: 0.7
+    std::optional<std::string> symmetry;   ///< absent: the seed chooses
+    std::optional<double> density;         ///< share of crossed gaps; absent: the seed chooses
     double joined = 0.0;                   ///< share of joined gaps among the others
     std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
     bool single_line = false;
     int attempts = 1000;  ///< for a single line with a symmetry
     bool colours = false;
     bool dots = false;
+    std::string rim = "round";
     bool enumerate = false;
     std::size_t limit = 100;  ///< maximum number of kolams that an enumeration lists
     int threads = 0;          ///< threads of an enumeration

@@ -39,7 +39,7 @@ void check_share(const char* option, double share) {
 
 py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::optional<std::string>& symmetry,
                      std::optional<double> density, double joined, const std::optional<std::string>& crossings,
-                     bool is_single_line, int attempts, bool is_coloured, bool draws_dots) {
+                     bool is_single_line, int attempts, bool is_coloured, bool draws_dots, const std::string& rim) {
     if (density) check_share("density", *density);
     check_share("joined", joined);
     if (attempts < 1) refuse_option("attempts", std::to_string(attempts), "expected a whole number from 1");
@@ -64,6 +64,7 @@ py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::opt
         KolamPatternOptions pattern = describe_grid_kolam(grid, options, made);
         pattern.coloured = is_coloured;
         pattern.dot_symbols = draws_dots;
+        pattern.rim = of_option("rim", rim, [&] { return parse_rim_style(rim); });
         pattern.monitor = monitor;
         return std::pair(kolam_pattern(grid, made.states, pattern).text, grid_kolam_json(grid, made));
     });

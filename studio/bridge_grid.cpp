@@ -1,6 +1,7 @@
 // studio/bridge_grid.cpp: grids of dots and the kolams on them, for the kolam bench.
 #include "art/kolam/dot_grid_making.h"
 #include "art/kolam/dot_grid_pattern.h"
+#include "art/kolam/rounded_lines.h"
 #include "engine/base/text.h"
 #include "studio/bridge_answers.h"
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace sikku {
@@ -88,11 +90,21 @@ Json symmetries_of(const DotGrid& grid) {
     return all;
 }
 
-/// The lines as points: the midpoints of the sides of dots that they pass, in the units of GridDot.
+/// The lines as the control points of their splines, in the units of GridDot: on straight dots the midpoints of the
+/// sides of dots that they pass.
 Json strands(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
     Json all = Json::array();
+    Pulse pulse(monitor);
+    const KolamRim rim(grid, states, RimStyle::round);
     for (const ArcStep& start : line_starts(grid, states, monitor)) {
         Json points = Json::array();
+        if (grid.lattice() == DotLattice::triangular) {
+            for (const glm::dvec2 place : rounded_line(grid, states, start, rim, pulse)) {
+                points.push_back({2 * place.x, 4 / std::numbers::sqrt3 * place.y});
+            }
+            all.push_back(std::move(points));
+            continue;
+        }
         ArcStep step = start;
         do {
             const GridDot dot = grid.dots()[step.dot];
@@ -138,7 +150,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     require_symmetry(grid, random.symmetry);
     random.density = number_of(request, "density", random.density);
     random.joined = number_of(request, "joined", random.joined);
-    random.connects = flag_of(request, "connects");
+    random.composed = flag_of(request, "composed");
     if (request.contains("seed")) random.seed = whole_of(request["seed"], "seed");
 
     const std::string given = text_of(request, "gaps", "");

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 #include <stdexcept>
 
 namespace sikku {
@@ -205,6 +207,19 @@ std::string DotGrid::text() const {
         text += row;
     }
     return text;
+}
+
+glm::dvec2 lattice_ray(DotLattice lattice, std::uint32_t side) {
+    constexpr double half = 0.5, high = std::numbers::sqrt3 / 2;
+    static constexpr glm::dvec2 six[] = {{1, 0}, {half, high}, {-half, high}, {-1, 0}, {-half, -high}, {half, -high}};
+    static constexpr glm::dvec2 four[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    return lattice == DotLattice::square ? four[side % 4] : six[side % 6];
+}
+
+glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot) {
+    const GridDot at = grid.dots()[dot];
+    const double row = grid.lattice() == DotLattice::square ? 0.5 : std::numbers::sqrt3 / 4;
+    return {0.5 * at.x, row * at.y};
 }
 
 }  // namespace sikku

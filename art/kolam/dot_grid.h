@@ -1,8 +1,8 @@
 // art/kolam/dot_grid.h: grids of dots, the gaps between them, and their notations.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -86,6 +86,12 @@ private:
     std::vector<GridGap> gaps_;
     std::vector<std::int32_t> gap_at_;  // by dot and side
 };
+
+/// The unit vector towards a side of a dot.
+glm::dvec2 lattice_ray(DotLattice lattice, std::uint32_t side);
+
+/// The place of a dot, in spacings from the middle of the grid's box.
+glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot);
 
 /// Reads the notations of practitioners, in any case, with `×` for `x`, any dash, and words such as `pulli` and
 /// `dots`:

@@ -1,5 +1,6 @@
 #include "art/kolam/dot_grid_making.h"
 
+#include "art/kolam/interlaced_states.h"
 #include "engine/base/chance.h"
 #include "engine/base/union_find.h"
 
@@ -11,23 +12,6 @@
 
 namespace sikku {
 namespace {
-
-/// Pseudorandom numbers. Source: Steele, Lea & Flood 2014 (SplitMix64).
-class SplitMix {
-public:
-    explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        state_ += 0x9E3779B97F4A7C15U;
-        return scrambled(state_);
-    }
-    /// A number in [0, 1).
-    double fraction() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
-    /// A number from 0 to bound - 1; the bias is below bound / 2^64.
-    std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
-
-private:
-    std::uint64_t state_;
-};
 
 std::vector<std::uint32_t> shuffled(std::size_t count, SplitMix& chance) {
     std::vector<std::uint32_t> order(count);
@@ -168,18 +152,20 @@ GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
         }
     }
     const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
+    const bool is_interlaced = kolam.composed && grid.lattice() == DotLattice::triangular;
+    GapStates states = is_interlaced ? interlaced_states(grid, kolam.symmetry, kolam.seed) : GapStates(orbits.size());
     SplitMix chance(kolam.seed);
     std::vector<GapState> drawn;
-    GapStates states(orbits.size());
     for (std::size_t i = 0; i < orbits.size(); ++i) {
         if (orbits[i] == drawn.size()) {
-            const bool is_crossed = chance.fraction() < kolam.density;
+            const bool is_crossed =
+                is_interlaced ? states[i] == GapState::crossed : chance.fraction() < kolam.density;
             const bool is_joined = !is_crossed && kolam.joined > 0 && chance.fraction() < kolam.joined;
             drawn.push_back(is_crossed ? GapState::crossed : is_joined ? GapState::joined : GapState::turned);
         }
         states[i] = drawn[orbits[i]];
     }
-    if (kolam.connects) connect(grid, orbits, chance, states);
+    if (kolam.composed && !is_interlaced) connect(grid, orbits, chance, states);
     return states;
 }
 

@@ -15,12 +15,13 @@ struct RandomKolam {
     double density = 0.7;  ///< share of crossed gaps, 0 to 1
     double joined = 0.0;   ///< share of joined gaps among the others, 0 to 1
     GridSymmetry symmetry = GridSymmetry::none;
-    /// Crosses further gaps, with their images, until lines around neighbouring dots connect all dots of a group,
-    /// without rings around single dots or separate pieces.
-    bool connects = false;
+    /// In the square lattice, crosses further gaps, with their images, until lines around neighbouring dots connect
+    /// all dots of a group, without rings around single dots or separate pieces. In the triangular lattice, crosses
+    /// those of interlaced_states() instead, whatever the density.
+    bool composed = false;
 };
 
-/// Chooses the state of each gap, or each orbit of gaps, independently; the same on every machine.
+/// Chooses the state of each gap, or each orbit of gaps, independently unless `composed`; the same on every machine.
 /// @throws std::runtime_error if the grid does not have the symmetry, or a share is not between 0 and 1
 GapStates random_states(const DotGrid& grid, const RandomKolam& kolam);
 

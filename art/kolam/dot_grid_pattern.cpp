@@ -1,5 +1,8 @@
 #include "art/kolam/dot_grid_pattern.h"
 
+#include "art/kolam/kolam_rim.h"
+#include "art/kolam/rounded_lines.h"
+#include "art/kolam/turtle_walk.h"
 #include "art/print/ornaments.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -10,61 +13,39 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
 namespace sikku {
 namespace {
 
-/// Half steps of the turtle along two axes: up right and up left in the square lattice, right and up right (60
-/// degrees) in the triangular one.
+/// Half steps of the turtle along two axes, up right and up left, at right angles.
 struct HalfSteps {
     std::int64_t first = 0;
     std::int64_t second = 0;
-    bool operator==(const HalfSteps&) const = default;
 };
 HalfSteps operator-(const HalfSteps& a, const HalfSteps& b) {
     return {a.first - b.first, a.second - b.second};
 }
 
-/// Directions in which the turtle walks a lattice, before the drawing is turned.
-struct Walk {
-    std::uint32_t headings;  ///< per full turn
-    glm::dvec2 first;        ///< half a step along the axes
-    glm::dvec2 second;
-    int heading;  ///< degrees of the first axis in the drawing
-};
-Walk walk_of(DotLattice lattice) {
-    if (lattice == DotLattice::triangular) return {6, {0.5, 0.0}, {0.25, std::numbers::sqrt3 / 4}, 0};
-    constexpr double half = std::numbers::sqrt2 / 4;
-    return {4, {half, half}, {-half, half}, 45};
-}
-
-/// Twice the place, so that the middles of gaps are whole, in halves of the units of GridDot.
-HalfSteps place_of(const DotGrid& grid, GridDot doubled) {
-    const std::int64_t x = doubled.x;
-    const std::int64_t y = doubled.y;
-    // A spacing is 4 units of x; it is one step along each axis of the square lattice, forwards and backwards, and
-    // two along the first axis of the triangular one.
-    if (grid.lattice() == DotLattice::square) return {(y + x) / 2, (y - x) / 2};
-    return {x - y / 2, y};
+/// From the first dot to a place that is given as the sum of two, in halves of the units of GridDot.
+HalfSteps half_steps(const DotGrid& grid, GridDot a, GridDot b) {
+    const GridDot from = grid.dots().front();
+    const std::int64_t x = a.x + b.x - 2 * from.x, y = a.y + b.y - 2 * from.y;
+    return {(y + x) / 2, (y - x) / 2};
 }
 HalfSteps place_of_dot(const DotGrid& grid, std::uint32_t dot) {
-    const GridDot from = grid.dots().front();
-    const GridDot at = grid.dots()[dot];
-    return place_of(grid, {2 * (at.x - from.x), 2 * (at.y - from.y)});
+    return half_steps(grid, grid.dots()[dot], grid.dots()[dot]);
 }
 HalfSteps side_middle(const DotGrid& grid, std::uint32_t dot, std::uint32_t side) {
-    const GridDot from = grid.dots().front();
-    const GridDot at = grid.dots()[dot];
-    const GridDot way = grid.step(side);
-    return place_of(grid, {2 * (at.x - from.x) + way.x, 2 * (at.y - from.y) + way.y});
+    return half_steps(grid, grid.dots()[dot], grid.dots()[dot] + grid.step(side));
 }
 
 /// Writes symbols, with line breaks where they are allowed.
 class WordWriter {
 public:
-    WordWriter(std::string& text, std::uint32_t headings) : text_(text), headings_(headings) {}
+    explicit WordWriter(std::string& text) : text_(text) {}
     void put(std::string_view symbol) {
         if (column_ + symbol.size() > 108) {
             text_ += " \\\n    ";
@@ -73,15 +54,10 @@ public:
         text_ += symbol;
         column_ += symbol.size();
     }
-    /// Turns anticlockwise, in units of a full turn / headings.
+    /// Turns anticlockwise, in quarters.
     void turn(std::uint32_t count) {
-        count %= headings_;
-        if (2 * count == headings_) return put("|");
-        if (2 * count < headings_) {
-            for (; count > 0; --count) put("-");
-        } else {
-            for (; count < headings_; ++count) put("+");
-        }
+        static constexpr std::string_view turns[] = {"", "-", "|", "+"};
+        put(turns[count % 4]);
     }
     /// Moves; the heading is along the first axis before and after.
     void move(const HalfSteps& way) {
@@ -102,7 +78,6 @@ private:
     }
 
     std::string& text_;
-    std::uint32_t headings_;
     std::size_t column_ = 7;  // after `axiom: `
 };
 
@@ -136,63 +111,88 @@ std::size_t period_of(const std::vector<std::uint8_t>& turns) {
     return turns.size() % period == 0 ? period : turns.size();
 }
 
+/// The sum of the turns of a part of a line.
+std::uint32_t turned_by(const std::vector<std::uint8_t>& turns, std::size_t count) {
+    return std::accumulate(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(count), 0U);
+}
+
+constexpr double steps_per_spacing = 2;  // of rounded lines
+
 class PatternWriter {
 public:
     PatternWriter(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options)
         : grid_(grid),
+          states_(states),
           options_(options),
-          walk_(walk_of(grid.lattice())),
+          rim_(grid, states, options.rim),
+          is_rounded_(grid.lattice() == DotLattice::triangular || rim_.shaped() > 0),
           pulse_(options.monitor),
-          line_colours_(options.coloured ? colour_count : 1),
+          starts_(line_starts(grid, states, options.monitor)),
+          line_colours_(options.coloured && !is_single() ? colour_count : 1),
           pen_up_(fmt::format(";({})", line_colours_)) {
-        const std::vector<ArcStep> starts = line_starts(grid, states, options.monitor);
-        pattern_.lines = starts.size();
-        is_single_ = starts.size() == 1;
-        origin_ = at_ = side_middle(grid, starts[0].dot, entry(grid, starts[0]));
-        write_head(states);
-        if (is_single_) {
-            write_single(starts[0], turns_of(grid, states, starts[0], pulse_));
-        } else {
-            write_keys(0);
-            const std::vector<std::uint32_t> orbits = options.coloured ? line_orbits(grid, states, options.monitor)
-                                                                       : std::vector<std::uint32_t>(starts.size());
-            WordWriter word(text_, walk_.headings);
-            word.put(pen_up_);
-            for (std::size_t i = 0; i < starts.size(); ++i) {
-                write_branch(word, orbits[i], starts[i], turns_of(grid, states, starts[i], pulse_));
-            }
-            if (options.dot_symbols) write_dots(word);
-            text_ += '\n';
-        }
+        pattern_.lines = starts_.size();
+        pattern_.shaped = rim_.shaped();
+        write_head();
+        is_rounded_ ? write_rounded() : write_on_lattice();
         write_style();
     }
 
-    KolamPattern pattern() {
+    KolamPattern pattern() { return std::move(pattern_); }
+
+private:
+    void write_head() {
+        text_ += kolam_head(options_);
+        if (states_.size() > most_listed_gaps) return;
+        text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states_));
+    }
+    bool is_single() const { return starts_.size() == 1; }
+    /// The class of each line, which determines its colour.
+    std::vector<std::uint32_t> classes() const {
+        if (options_.coloured) return line_orbits(grid_, states_, options_.monitor);
+        return std::vector<std::uint32_t>(starts_.size());
+    }
+    void check_length() {
+        pulse_();
+        if (text_.size() <= most_pattern_bytes) return;
+        throw std::runtime_error(fmt::format("the pattern of a kolam on {} would be over {} MB long", grid_.text(),
+                                             most_pattern_bytes >> 20U));
+    }
+
+    // --- on the lattice ---
+
+    void write_on_lattice() {
+        const ArcStep& start = starts_[0];
+        origin_ = at_ = side_middle(grid_, start.dot, entry(grid_, start));
+        if (is_single()) {
+            write_single(start, turns_of(grid_, states_, start, pulse_));
+        } else {
+            write_keys(0);
+            const std::vector<std::uint32_t> orbits = classes();
+            WordWriter word(text_);
+            word.put(pen_up_);
+            for (std::size_t i = 0; i < starts_.size(); ++i) {
+                write_branch(word, orbits[i], starts_[i], turns_of(grid_, states_, starts_[i], pulse_));
+            }
+            if (options_.dot_symbols) write_dots(word);
+            text_ += '\n';
+        }
+        constexpr double half = std::numbers::sqrt2 / 4;
         for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
             pulse_();
             const HalfSteps way = place_of_dot(grid_, dot) - origin_;
-            pattern_.dots.push_back(static_cast<double>(way.first) * walk_.first +
-                                    static_cast<double>(way.second) * walk_.second);
+            pattern_.dots.emplace_back(half * static_cast<double>(way.first - way.second),
+                                       half * static_cast<double>(way.first + way.second));
         }
-        return std::move(pattern_);
-    }
-
-private:
-    void write_head(const GapStates& states) {
-        text_ += kolam_head(options_);
-        if (states.size() > most_listed_gaps) return;
-        text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states));
     }
     void write_keys(int steps) {
-        text_ += fmt::format("\nderivation length: {}\nangle factor: {}\nheading: {}\naxiom: ", steps, walk_.headings,
-                             walk_.heading);
+        text_ += fmt::format("\nderivation length: {}\nangle factor: 4\nheading: 45\naxiom: ", steps);
     }
     /// A line with rotational symmetry repeats its first part, which becomes a production.
     void write_single(const ArcStep& start, const std::vector<std::uint8_t>& turns) {
         const std::size_t period = period_of(turns);
         const bool repeats = period < turns.size();
         write_keys(repeats ? 1 : 0);
-        WordWriter word(text_, walk_.headings);
+        WordWriter word(text_);
         word.turn(heading(grid_, start));
         if (repeats) {
             for (std::size_t i = 0; i < turns.size(); i += period) word.put("A");
@@ -201,7 +201,7 @@ private:
         }
         if (options_.dot_symbols) {
             if (!repeats) word.turn(turns.back());
-            word.turn(walk_.headings - heading(grid_, start));
+            word.turn(4 - heading(grid_, start));
             // The stroke has to end before the turtle leaves it.
             word.put("[]");
             word.put(pen_up_);
@@ -210,7 +210,7 @@ private:
         text_ += '\n';
         if (!repeats) return;
         text_ += "A --> ";
-        WordWriter part(text_, walk_.headings);
+        WordWriter part(text_);
         write_steps(part, turns, period);
         part.turn(turns[period - 1]);
         text_ += '\n';
@@ -229,13 +229,9 @@ private:
     /// Steps with the turns between them.
     void write_steps(WordWriter& word, const std::vector<std::uint8_t>& turns, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
-            pulse_();
             word.put("F");
             if (i + 1 < count) word.turn(turns[i]);
-            if (text_.size() > most_pattern_bytes) {
-                throw std::runtime_error(fmt::format("the pattern of a kolam on {} would be over {} MB long",
-                                                     grid_.text(), most_pattern_bytes >> 20U));
-            }
+            check_length();
         }
     }
     void write_dots(WordWriter& word) {
@@ -247,23 +243,109 @@ private:
             word.put("[;(0)@.]");
         }
     }
+
+    // --- rounded ---
+
+    std::vector<glm::dvec2> controls_of(const ArcStep& start) {
+        std::vector<glm::dvec2> controls = rounded_line(grid_, states_, start, rim_, pulse_);
+        for (glm::dvec2& control : controls) control *= steps_per_spacing;
+        return controls;
+    }
+    void write_rounded() {
+        const std::vector<glm::dvec2> first = controls_of(starts_[0]);
+        TurtleWalk walk(text_, first[0], 0);
+        if (is_single()) {
+            write_rounded_single(walk, first, turns_of(grid_, states_, starts_[0], pulse_));
+        } else {
+            write_rounded_keys(0);
+            walk.put(pen_up_);
+            const std::vector<std::uint32_t> orbits = classes();
+            for (std::size_t i = 0; i < starts_.size(); ++i) {
+                const std::vector<glm::dvec2> controls = controls_of(starts_[i]);
+                walk.move(controls[0], 'f');
+                walk.put(fmt::format("[;({})", orbits[i] % line_colours_));
+                TurtleWalk line = walk;
+                write_along(line, controls, controls.size());
+                walk.put("]");
+            }
+            mark_dots(walk);
+        }
+        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+            pulse_();
+            pattern_.dots.push_back(steps_per_spacing * dot_place(grid_, dot) - first[0]);
+        }
+    }
+    void write_rounded_keys(int steps) {
+        text_ += fmt::format("\nderivation length: {}\nheading: 0\naxiom: ", steps);
+    }
+    void write_along(TurtleWalk& line, const std::vector<glm::dvec2>& controls, std::size_t count) {
+        for (std::size_t i = 1; i <= count; ++i) {
+            line.move(controls[i % controls.size()], 'F');
+            check_length();
+        }
+    }
+    void write_rounded_single(TurtleWalk& walk, std::vector<glm::dvec2> controls,
+                              const std::vector<std::uint8_t>& turns) {
+        const std::size_t steps = period_of(turns), parts = turns.size() / steps, period = controls.size() / parts;
+        write_rounded_keys(parts > 1 ? 1 : 0);
+        if (parts == 1) {
+            write_along(walk, controls, controls.size());
+            walk.put("[]");
+            mark_dots(walk);
+            return;
+        }
+        // Repeated parts are exact images, or the line would not close.
+        const glm::dvec2 centre =
+            std::accumulate(controls.begin(), controls.end(), glm::dvec2(0.0)) / static_cast<double>(controls.size());
+        const glm::dvec2 turn = lattice_ray(grid_.lattice(), turned_by(turns, steps));
+        const auto image = [&](glm::dvec2 place, double sign) {
+            const glm::dvec2 from = place - centre;
+            return centre +
+                   glm::dvec2(turn.x * from.x - sign * turn.y * from.y, sign * turn.y * from.x + turn.x * from.y);
+        };
+        const double begun = direction_of(image(controls[period - 1], -1), controls[0]);
+        walk.turn(begun);
+        for (std::size_t i = 0; i < parts; ++i) walk.put("A");
+        walk.put("[]");
+        mark_dots(walk);
+        text_ += "A --> ";
+        TurtleWalk part(text_, controls[0], begun);
+        controls[period] = image(controls[0], 1);
+        write_along(part, controls, period);
+        text_ += '\n';
+    }
+    /// Marks dots with a transparent pen if they are not drawn, since faces between rounded lines do not show where
+    /// they are.
+    void mark_dots(TurtleWalk& walk) {
+        const std::string symbol = fmt::format("[;({})@.]", options_.dot_symbols ? 0 : line_colours_);
+        walk.put(pen_up_);
+        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+            walk.move(steps_per_spacing * dot_place(grid_, dot), 'f');
+            walk.put(symbol);
+            check_length();
+        }
+        text_ += '\n';
+    }
+
     void write_style() {
         text_ += "\nground: #7d3324\nline: spline\n";
         text_ += fmt::format("stroke: 0.16 step {}\n", rice);
-        if (!is_single_ || options_.dot_symbols) {
-            text_ += fmt::format("palette: {} transparent\n", options_.coloured ? kolam_colours : rice);
+        if (is_rounded_ || !is_single() || options_.dot_symbols) {
+            text_ += fmt::format("palette: {} transparent\n", line_colours_ > 1 ? kolam_colours : rice);
         }
     }
 
     const DotGrid& grid_;
+    const GapStates& states_;
     const KolamPatternOptions& options_;
-    Walk walk_;
+    KolamRim rim_;
+    bool is_rounded_;
     Pulse pulse_;
+    std::vector<ArcStep> starts_;
     std::size_t line_colours_;
     std::string pen_up_;
     KolamPattern pattern_;
     std::string& text_ = pattern_.text;
-    bool is_single_ = false;
     HalfSteps origin_;
     HalfSteps at_;
 };

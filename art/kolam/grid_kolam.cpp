@@ -1,5 +1,6 @@
 #include "art/kolam/grid_kolam.h"
 
+#include "engine/base/chance.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/json_text.h"
 #include "engine/base/text.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -14,51 +16,119 @@
 namespace sikku {
 namespace {
 
-RandomKolam random_of(const GridKolamOptions& options) {
-    RandomKolam random{.seed = options.seed, .joined = options.joined, .connects = !options.density};
-    random.density = options.density.value_or(random.density);
-    return random;
+/// What the seed chooses where it is not given.
+struct Choice {
+    RandomKolam random;
+    std::vector<GridSymmetry> symmetries;  ///< in the order in which they are tried
+};
+
+Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint64_t seed) {
+    Choice choice{{.seed = seed, .joined = options.joined, .composed = !options.density}, {}};
+    SplitMix chance(scrambled(seed));
+    choice.random.density = options.density.value_or(choice.random.density + 0.2 * (chance.fraction() - 0.5));
+    if (options.symmetry) {
+        choice.symmetries = {*options.symmetry};
+        return choice;
+    }
+    choice.symmetries = usual_symmetries(grid, options.single_line);
+    // Half of the kolams have the largest symmetry; none is the last.
+    const std::size_t symmetric = choice.symmetries.size() - 1;
+    if (symmetric > 1 && chance.below(2) == 1) {
+        const auto chosen = choice.symmetries.begin() + static_cast<std::ptrdiff_t>(1 + chance.below(symmetric - 1));
+        std::rotate(choice.symmetries.begin(), chosen, chosen + 1);
+    }
+    return choice;
 }
 
-GridKolam make_single(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor) {
-    RandomKolam random = random_of(options);
-    const std::vector<GridSymmetry> symmetries =
-        options.symmetry ? std::vector{*options.symmetry} : usual_symmetries(grid, true);
-    // Large grids seldom have a symmetric line that can be found; all symmetries together take at most seconds.
-    std::uint64_t steps = 100'000'000;
-    for (const GridSymmetry symmetry : symmetries) {
+/// Steps along lines and attempts for single lines.
+struct Effort {
+    int attempts;
+    std::uint64_t steps;
+};
+
+std::optional<GridKolam> make_single(const DotGrid& grid, const Choice& choice, Effort& effort,
+                                     const Monitor& monitor) {
+    RandomKolam random = choice.random;
+    for (const GridSymmetry symmetry : choice.symmetries) {
         random.symmetry = symmetry;
         if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
             throw std::runtime_error(*obstacle);
         }
         // If no symmetry is requested, the next one is tried sooner.
-        const int attempts = options.symmetry ? options.attempts : std::min(options.attempts, 100);
-        auto found = find_single_line(grid, random, attempts, monitor, options.symmetry ? nullptr : &steps);
+        const int attempts = choice.symmetries.size() == 1 ? effort.attempts : std::min(effort.attempts, 100);
+        auto found = find_single_line(grid, random, attempts, monitor, &effort.steps);
         if (found) {
-            return {.states = std::move(found->states),
-                    .symmetry = symmetry,
-                    .changed = found->changed,
-                    .attempt = found->attempt};
+            return GridKolam{.states = std::move(found->states),
+                             .symmetry = symmetry,
+                             .density = random.density,
+                             .changed = found->changed,
+                             .attempt = found->attempt};
         }
     }
-    throw std::runtime_error(
-        fmt::format("no single line with the symmetry {} was found in {}; try another 'seed' or 'density', or more "
-                    "'attempts'",
-                    grid_symmetry_name(random.symmetry), counted(options.attempts, "attempt")));
+    return std::nullopt;
+}
+
+std::optional<GridKolam> make_by_chance(const DotGrid& grid, const GridKolamOptions& options, std::uint64_t seed,
+                                        Effort& effort, const Monitor& monitor) {
+    Choice choice = choice_of(grid, options, seed);
+    if (options.single_line) return make_single(grid, choice, effort, monitor);
+    choice.random.symmetry = choice.symmetries.front();
+    return GridKolam{.states = random_states(grid, choice.random),
+                     .symmetry = choice.random.symmetry,
+                     .density = choice.random.density};
+}
+
+/// Replaces a kolam that an earlier seed has by another, as long as one is found soon: small grids have few.
+void replace_known(const DotGrid& grid, const GridKolamOptions& options, GridKolam& kolam, const Monitor& monitor) {
+    constexpr std::uint64_t most_seeds = 100, most_attempts = 200;
+    constexpr std::size_t most_gaps = 150;
+    if (options.seed > most_seeds || grid.gaps().size() > most_gaps) return;
+    Effort effort{20, 20'000'000};
+    std::map<GapStates, std::uint64_t> seeds;  // of canonical states
+    const auto find_new = [&](std::uint64_t seed) -> std::optional<GridKolam> {
+        for (std::uint64_t attempt = 0; attempt < most_attempts; ++attempt) {
+            monitor.check();
+            GridKolamOptions other = options;
+            // There may be few symmetric ones.
+            if (!other.symmetry && 2 * attempt >= most_attempts) other.symmetry = GridSymmetry::none;
+            auto made = make_by_chance(grid, other, seed + attempt * 0x9E3779B97F4A7C15U, effort, monitor);
+            if (made && seeds.emplace(canonical_states(grid, made->states), seed).second) return made;
+        }
+        return std::nullopt;
+    };
+    for (std::uint64_t seed = 0; seed < options.seed; ++seed) find_new(seed);
+    const auto known = seeds.find(canonical_states(grid, kolam.states));
+    if (known == seeds.end()) return;
+    const std::uint64_t same = known->second;
+    if (auto other = find_new(options.seed)) {
+        kolam = std::move(*other);
+    } else {
+        kolam.same_seed = same;
+        kolam.different = seeds.size();
+    }
+}
+
+GridKolam make_by_seed(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor) {
+    // Large grids seldom have a symmetric line that can be found; all symmetries together take at most seconds.
+    Effort effort{options.attempts, options.symmetry ? 3'000'000'000U : 100'000'000U};
+    auto made = make_by_chance(grid, options, options.seed, effort, monitor);
+    if (!made) {
+        throw std::runtime_error(fmt::format(
+            "no single line with the symmetry {} was found in {}; try another 'seed' or 'density', or "
+            "more 'attempts'",
+            grid_symmetry_name(options.symmetry.value_or(GridSymmetry::none)), counted(options.attempts, "attempt")));
+    }
+    replace_known(grid, options, *made, monitor);
+    return std::move(*made);
 }
 
 GridKolam choose_gaps(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor) {
-    if (options.gaps) {
-        GridKolam kolam{.states = *options.gaps};
-        if (!options.single_line) return kolam;
-        if (const auto obstacle = single_line_obstacle(grid, GridSymmetry::none)) throw std::runtime_error(*obstacle);
-        kolam.changed = make_single_line(grid, kolam.states, options.seed, monitor);
-        return kolam;
-    }
-    if (options.single_line) return make_single(grid, options, monitor);
-    RandomKolam random = random_of(options);
-    random.symmetry = options.symmetry.value_or(usual_symmetries(grid, false).front());
-    return {.states = random_states(grid, random), .symmetry = random.symmetry};
+    if (!options.gaps) return make_by_seed(grid, options, monitor);
+    GridKolam kolam{.states = *options.gaps};
+    if (!options.single_line) return kolam;
+    if (const auto obstacle = single_line_obstacle(grid, GridSymmetry::none)) throw std::runtime_error(*obstacle);
+    kolam.changed = make_single_line(grid, kolam.states, options.seed, monitor);
+    return kolam;
 }
 
 /// The second count, if it takes seconds at most.
@@ -85,30 +155,6 @@ GridKolam make_grid_kolam(const DotGrid& grid, const GridKolamOptions& options, 
     return kolam;
 }
 
-std::optional<std::uint64_t> same_seed(const DotGrid& grid, const GridKolamOptions& options, const GridKolam& kolam,
-                                       const Monitor& monitor) {
-    constexpr std::uint64_t most_seeds = 100;
-    constexpr std::size_t most_gaps = 1000;
-    constexpr int most_attempts = 20;
-    if (options.gaps || options.seed > most_seeds || grid.gaps().size() > most_gaps) return std::nullopt;
-    const GapStates canonical = canonical_states(grid, kolam.states);
-    RandomKolam random = random_of(options);
-    random.symmetry = kolam.symmetry;
-    std::uint64_t steps = 5'000'000;
-    for (random.seed = 0; random.seed < options.seed; ++random.seed) {
-        GapStates states;
-        if (options.single_line) {
-            auto found = find_single_line(grid, random, most_attempts, monitor, &steps);
-            if (!found) continue;
-            states = std::move(found->states);
-        } else {
-            states = random_states(grid, random);
-        }
-        if (canonical_states(grid, states) == canonical) return random.seed;
-    }
-    return std::nullopt;
-}
-
 KolamPatternOptions describe_grid_kolam(const DotGrid& grid, const GridKolamOptions& options,
                                         const GridKolam& kolam) {
     // A shape is too long to name.
@@ -117,8 +163,10 @@ KolamPatternOptions describe_grid_kolam(const DotGrid& grid, const GridKolamOpti
     pattern.title = fmt::format("Kolam on {}", grid.is_solid() ? printable(grid.text(), 80) + " dots" : dots);
     pattern.description = fmt::format("{}, {}, {}", dots, summary_of(kolam.states), counted(kolam.lines, "line"));
     if (options.gaps) return pattern;
-    pattern.description +=
-        fmt::format("; seed {}, density {}", options.seed, options.density.value_or(RandomKolam().density));
+    pattern.description += fmt::format("; seed {}", options.seed);
+    if (options.density || grid.lattice() == DotLattice::square) {
+        pattern.description += fmt::format(", density {:.3g}", kolam.density);
+    }
     if (options.joined > 0) pattern.description += fmt::format(", joined {}", options.joined);
     if (kolam.symmetry != GridSymmetry::none) {
         pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(kolam.symmetry));

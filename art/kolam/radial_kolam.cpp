@@ -1,5 +1,6 @@
 #include "art/kolam/radial_kolam.h"
 
+#include "art/kolam/turtle_walk.h"
 #include "art/print/ornaments.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
@@ -98,36 +99,6 @@ std::vector<glm::dvec2> control_points(const RadialKolam& kolam, std::uint32_t l
     return controls;
 }
 
-/// Walks a turtle to places and records its heading, in steps with ten decimals.
-class Walker {
-public:
-    explicit Walker(std::string& text) : text_(text) {}
-
-    void put(std::string_view symbols) {
-        if (text_.size() - text_.rfind('\n') + symbols.size() > 109) text_ += " \\\n    ";
-        text_ += symbols;
-    }
-    void move(glm::dvec2 to, char symbol) {
-        const glm::dvec2 way = to - at_;
-        const double length = rounded(std::hypot(way.x, way.y));
-        if (length == 0) return;
-        const double direction = std::atan2(way.y, way.x) * 180 / std::numbers::pi;
-        const double turn = rounded(std::remainder(direction - heading_, 360.0));
-        put(fmt::format("{}({:.10f}){}({:.10f})", turn < 0 ? '+' : '-', std::fabs(turn), symbol, length));
-        // The position of the turtle, which differs from `to` by rounding.
-        heading_ += turn;
-        const double radians = heading_ * std::numbers::pi / 180;
-        at_ += length * glm::dvec2(std::cos(radians), std::sin(radians));
-    }
-
-private:
-    static double rounded(double value) { return std::round(value * 1e10) / 1e10; }
-
-    std::string& text_;
-    glm::dvec2 at_{0.0};
-    double heading_ = 90.0;
-};
-
 constexpr std::uint32_t colour_count = 8;
 
 }  // namespace
@@ -180,7 +151,7 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
     text += "\nderivation length: 0\nheading: 90\naxiom: ";
     const std::uint32_t line_colours = options.coloured ? colour_count : 1;
     const std::string pen_up = fmt::format(";({})", line_colours);
-    Walker walker(text);
+    TurtleWalk walker(text, glm::dvec2(0.0), 90);
     walker.put(pen_up);
     Pulse pulse(options.monitor);
     const std::size_t length = std::size_t{kolam.arms} * kolam.dots() / pattern.lines;
@@ -188,7 +159,7 @@ KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions&
         const std::vector<glm::dvec2> controls = control_points(kolam, line, length);
         walker.move(controls[0], 'f');
         walker.put(fmt::format("[;({})", line % line_colours));
-        Walker along = walker;
+        TurtleWalk along = walker;
         for (std::size_t k = 1; k <= controls.size(); ++k) {
             pulse();
             along.move(controls[k % controls.size()], 'F');

@@ -1,5 +1,8 @@
 #include "art/reading/gap_reader.h"
 
+#include "art/kolam/interlaced_states.h"
+#include "art/kolam/rounded_lines.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,10 +18,10 @@ using Curve = std::vector<glm::dvec2>;
 constexpr std::array<double, 7> half_widths = {0.026, 0.036, 0.046, 0.058, 0.072, 0.09, 0.11};
 
 /// Places around the middle of a gap: x along the gap, y to its side, in spacings.
-struct Window {
+struct GapWindow {
     std::vector<glm::dvec2> places;
     double height;  ///< from the gap to the middle of a face
-    explicit Window(DotLattice lattice, double dot_radius)
+    explicit GapWindow(DotLattice lattice, double dot_radius)
         : height(lattice == DotLattice::square ? 0.5 : 1 / (2 * std::numbers::sqrt3)) {
         constexpr int across = 13;
         for (int j = -across; j <= across; ++j) {
@@ -61,6 +64,64 @@ Curve circle_part(glm::dvec2 centre, double radius, double from, double to) {
     return curve;
 }
 
+/// The strands around a gap of a drawn kolam, with x along the gap.
+Shape drawn_shape(const DotGrid& grid, std::uint32_t number, GapState state, const std::vector<Curve>& lines) {
+    constexpr double reach = 0.75;
+    const GridGap& gap = grid.gaps()[number];
+    const glm::dvec2 from = dot_place(grid, gap.from), along = dot_place(grid, gap.to) - from;
+    Shape shape{state, {}, state == GapState::turned ? 0.14 : 1e300};
+    for (const Curve& line : lines) {
+        bool continues = false;
+        for (const glm::dvec2 point : line) {
+            const glm::dvec2 way = point - from - 0.5 * along;
+            const glm::dvec2 place(glm::dot(way, along), along.x * way.y - along.y * way.x);
+            const bool is_near = glm::length(place) < reach;
+            if (is_near && !continues) shape.strands.emplace_back();
+            if (is_near) shape.strands.back().push_back(place);
+            continues = is_near;
+        }
+    }
+    std::erase_if(shape.strands, [](const Curve& strand) { return strand.size() < 2; });
+    return shape;
+}
+
+/// Rounded lines run through a gap as the gaps around it permit: the strands in the gaps of some kolams.
+void add_rounded_shapes(std::vector<Shape>& shapes) {
+    const DotGrid grid = parse_dot_grid("9-5 idukku");
+    const Monitor monitor;
+    Pulse pulse(monitor);
+    for (const std::uint64_t seed : {2, 4}) {
+        const GapStates states = interlaced_states(grid, GridSymmetry::d6, seed);
+        const KolamRim rim(grid, states, RimStyle::round);
+        std::vector<Curve> lines;
+        for (const ArcStep& start : line_starts(grid, states)) {
+            const Curve controls = rounded_line(grid, states, start, rim, pulse);
+            const std::size_t count = controls.size();
+            Curve& line = lines.emplace_back();
+            for (std::size_t i = 0; i <= count; ++i) {
+                const glm::dvec2 a = controls[i % count], b = controls[(i + 1) % count],
+                                 c = controls[(i + 2) % count];
+                line.push_back((a + 4.0 * b + c) / 6.0);
+                line.push_back((a + 23.0 * b + 23.0 * c + controls[(i + 3) % count]) / 48.0);
+            }
+        }
+        const std::vector<std::uint32_t> orbits = gap_orbits(grid, GridSymmetry::d6);
+        std::uint32_t next = 0;
+        for (std::uint32_t gap = 0; gap < orbits.size(); ++gap) {
+            if (orbits[gap] != next) continue;
+            ++next;
+            const Shape shape = drawn_shape(grid, gap, states[gap], lines);
+            for (const glm::dvec2 mirror :
+                 {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)}) {
+                Shape& image = shapes.emplace_back(shape);
+                for (Curve& strand : image.strands) {
+                    for (glm::dvec2& point : strand) point *= mirror;
+                }
+            }
+        }
+    }
+}
+
 std::vector<Shape> shapes_of(DotLattice lattice, double height) {
     std::vector<Shape> shapes;
     // The points where strands enter the rhombus: the middles of the chords from one side of a dot to the next.
@@ -98,6 +159,7 @@ std::vector<Shape> shapes_of(DotLattice lattice, double height) {
                 {GapState::joined, {{{-0.4, apart}, {0.4, apart}}, {{-0.4, -apart}, {0.4, -apart}}}, apart});
         }
     }
+    if (lattice == DotLattice::triangular) add_rounded_shapes(shapes);
     return shapes;
 }
 
@@ -113,7 +175,7 @@ double distance_to(const Curve& curve, glm::dvec2 point) {
 }
 
 /// A shape as ink at the places of a window, with a mean of 0 and a length of 1.
-struct Template {
+struct GapTemplate {
     GapState state;
     std::vector<float> values;
 };
@@ -126,7 +188,7 @@ struct Placed {
     std::vector<float> distances;
 };
 
-std::vector<Placed> placed_shapes(const std::vector<Shape>& shapes, const Window& window) {
+std::vector<Placed> placed_shapes(const std::vector<Shape>& shapes, const GapWindow& window) {
     std::vector<Placed> all;
     for (const Shape& shape : shapes) {
         const double along = shape.state == GapState::turned ? 0.012 : 0.035;
@@ -214,7 +276,7 @@ constexpr std::size_t displacements = 9;
 /// Shapes of one width, each with its displacements in turn.
 struct TemplateSet {
     std::vector<float> weights;
-    std::vector<Template> templates;
+    std::vector<GapTemplate> templates;
 };
 
 TemplateSet templates_of(const std::vector<Placed>& shapes, double least_apart, double half_width) {
@@ -222,7 +284,7 @@ TemplateSet templates_of(const std::vector<Placed>& shapes, double least_apart, 
     for (const Placed& shape : shapes) {
         // Strands that do not cross leave ground between them.
         if (shape.apart < least_apart * half_width) continue;
-        Template drawn{shape.state, drawn_values(shape, half_width)};
+        GapTemplate drawn{shape.state, drawn_values(shape, half_width)};
         normalise(drawn.values, set.weights);
         set.templates.push_back(std::move(drawn));
     }
@@ -230,7 +292,7 @@ TemplateSet templates_of(const std::vector<Placed>& shapes, double least_apart, 
 }
 
 /// The ink at the places of a window around a gap. Deviations of the lattice are those of its corners.
-std::vector<float> patch(const GreyPicture& ink, const LatticeMap& map, const Window& window, glm::dvec2 from,
+std::vector<float> patch(const GreyPicture& ink, const LatticeMap& map, const GapWindow& window, glm::dvec2 from,
                          glm::dvec2 to) {
     const glm::dvec2 along = to - from;
     const glm::dvec2 aside(-along.y, along.x);
@@ -275,7 +337,7 @@ GapEvidence compare(std::vector<float> patch, const TemplateSet& set) {
     };
     std::array<std::array<Best, 2>, 3> best;
     for (std::size_t shape = 0; shape < set.templates.size(); shape += displacements) {
-        const Template& central = set.templates[shape + displacements / 2];
+        const GapTemplate& central = set.templates[shape + displacements / 2];
         const double sum = product(patch, central.values);
         auto& [first, second] = best[static_cast<std::size_t>(central.state)];
         if (sum > first.sum) {
@@ -310,7 +372,7 @@ double GapEvidence::margin() const {
 }
 
 struct GapTemplates::Set {
-    Window window;
+    GapWindow window;
     std::array<TemplateSet, half_widths.size()> widths;
 
     Set(DotLattice lattice, double radius, const Monitor& monitor) : window(lattice, radius) {

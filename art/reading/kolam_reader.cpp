@@ -409,7 +409,8 @@ private:
             // Ornaments on the lattice agree with no kolam, neither among themselves nor with their neighbours.
             const double worse = std::min(inner[a].mean(), inner[b].mean());
             const double better = std::max(inner[a].mean(), inner[b].mean());
-            bool touches = 8 * contact.count >= std::min(rim[a], rim[b]) && (worse >= 0.8 || better - worse < 0.12);
+            bool touches = 8 * contact.count >= std::min(rim[a], rim[b]) &&
+                           (worse >= 0.8 || better - worse < 0.12 || (worse >= 0.7 && contact.mean() >= 0.85));
             if (small <= most_loose) {
                 touches = contact.count > 2 || contact.mean() >= (contact.count > 1 ? 0.7 : good);
                 touches = touches && has_own_lines(groups[groups[a].size() == small ? a : b]);

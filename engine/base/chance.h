@@ -1,6 +1,7 @@
 // engine/base/chance.h: random numbers that depend only on the seed and the place in a derivation.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace sikku {
@@ -12,6 +13,23 @@ constexpr std::uint64_t scrambled(std::uint64_t bits) {
     bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBU;
     return bits ^ (bits >> 31);
 }
+
+/// A sequence of pseudorandom numbers. Source: Steele, Lea & Flood 2014 (SplitMix64).
+class SplitMix {
+public:
+    explicit SplitMix(std::uint64_t seed) : state_(seed) {}
+    std::uint64_t next() {
+        state_ += 0x9E3779B97F4A7C15U;
+        return scrambled(state_);
+    }
+    /// A number in [0, 1).
+    double fraction() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
+    /// A number from 0 to bound - 1; the bias is below bound / 2^64.
+    std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
+
+private:
+    std::uint64_t state_;
+};
 
 /// Identifies a module's place in a derivation tree by its parent's place and its index among the children. A module
 /// that is not rewritten keeps its place.

@@ -257,8 +257,8 @@ class BenchPanel implements Panel {
         this.update();
         const { kolam } = this;
         const symmetry = kolam.isChosen ? kolam.symmetry.name : kolam.grid.symmetries[0].name;
-        const { density, joined: share, connects, seed } = chances;
-        await this.ask({ symmetry, seed: String(seed), density, joined: share, connects }, "kolam at random");
+        const { density, joined: share, composed, seed } = chances;
+        await this.ask({ symmetry, seed: String(seed), density, joined: share, composed }, "kolam at random");
     }
 
     /// Without a chosen symmetry, those that the drawing can keep are tried from the largest.
@@ -286,13 +286,13 @@ class BenchPanel implements Panel {
     /// Returns why there is none, or null if it was made.
     private async makeSingleWith({ name, orbits }: GridSymmetry): Promise<string | null> {
         const { kolam, chances } = this;
-        const { density, connects, joined: share, seed } = chances;
+        const { density, composed, joined: share, seed } = chances;
         const wanted: Partial<GridRequest> = { symmetry: name, seed: String(seed), single_line: true };
         if (name === "none") {
             return this.ask({ ...wanted, gaps: statesText(kolam.states) }, "kolam as one line");
         }
         const found = singleLineNear(kolam.grid, orbits, kolam.states, makeChance(seed));
-        if (!found) return this.ask({ ...wanted, density, connects, joined: share }, "kolam as one line");
+        if (!found) return this.ask({ ...wanted, density, composed, joined: share }, "kolam as one line");
         kolam.setStates(found);
         kolam.setSymmetry(name, kolam.isChosen);
         this.commit();
@@ -448,12 +448,11 @@ class BenchPanel implements Panel {
     // --- drawing ---------------------------------------------------------------------------------------------
 
     private scene(): Scene {
-        const { grid, states, lines, lineOrbits, orbits } = this.kolam;
+        const { grid, states, drawn: strands, lineOrbits, orbits } = this.kolam;
         const { cursor, isKeyboard, places } = this;
         const isGap = cursor >= 0 && !places;
         const after = isGap && !this.isDone && !isKeyboard ? this.kolam.after(cursor, this.gapChange) : null;
         const orbit = isGap ? orbits[cursor] : [];
-        const { strands } = lines;
         return { grid, states, strands, lineOrbits, ...this.look, cursor, orbit, after, places, isFocused: isKeyboard };
     }
 

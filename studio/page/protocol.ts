@@ -41,7 +41,7 @@ export type Request =
     /// A kolam on a grid, as a pattern: of the gaps given as digits, or by chance. `single_line` joins its lines into
     /// one; with a symmetry by looking for another kolam.
     | { do: "grid"; grid: string; gaps?: string; symmetry?: SymmetryName; density?: number; joined?: number; seed?: string;
-        connects?: boolean; single_line?: boolean; coloured?: boolean; title?: string; strands?: boolean }
+        composed?: boolean; single_line?: boolean; coloured?: boolean; title?: string; strands?: boolean }
     /// Write a work as a link, and read one. `Shared` is the contents of a link.
     | { do: "link"; shared: Shared }
     | { do: "read_link"; link: string }

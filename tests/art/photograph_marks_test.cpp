@@ -18,7 +18,7 @@ namespace sikku::photograph_marks_test {
 
 MadePhotograph made_of(const std::string& grid, std::uint32_t seed, double level = 0.7) {
     DotGrid dots = parse_dot_grid(grid);
-    RandomKolam random{.seed = 40 + seed, .connects = true};
+    RandomKolam random{.seed = 40 + seed, .composed = true};
     random.symmetry = usual_symmetries(dots, false).front();
     GapStates states = random_states(dots, random);
     MadePhotograph made{std::move(dots), std::move(states)};
@@ -154,7 +154,7 @@ TEST(PhotographMarks, FramesWithDotsAreOtherKolams) {
         MadePhotograph made = made_of("1-3-5-7-5-3-1", 1, 0.4);
         OtherKolam around{parse_dot_grid(frame), {}, shift};
         around.states =
-            random_states(around.grid, {.seed = 5, .density = 0.8, .symmetry = GridSymmetry::d4, .connects = true});
+            random_states(around.grid, {.seed = 5, .density = 0.8, .symmetry = GridSymmetry::d4, .composed = true});
         made.others.push_back(around);
         const Photograph read = read_made(made);
         EXPECT_EQ(read.kolam.grid.text(), made.grid.text()) << notes_of(read);
@@ -171,7 +171,7 @@ TEST(PhotographMarks, SeveralKolamsAreCountedAndChosen) {
         {"1-3-5-3-1", {7.3, 0.2}}, {"3x4", {0.4, -6.7}}, {"1-3-5-7-5-3-1", {7.6, -7.1}}};
     for (const auto& [grid, at] : others) {
         OtherKolam other{parse_dot_grid(grid), {}, at};
-        other.states = random_states(other.grid, {.seed = 9, .connects = true});
+        other.states = random_states(other.grid, {.seed = 9, .composed = true});
         made.others.push_back(other);
     }
     made.width = 1400;

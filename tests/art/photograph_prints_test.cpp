@@ -26,7 +26,7 @@ struct PrintedKolam {
 
     static GapStates made(const DotGrid& dots, std::uint64_t seed) {
         return random_states(dots,
-                             {.seed = seed, .symmetry = usual_symmetries(dots, false).front(), .connects = true});
+                             {.seed = seed, .symmetry = usual_symmetries(dots, false).front(), .composed = true});
     }
     Document document() const { return parse("kolam.lsys", kolam_pattern(dots, states, {}).text); }
 };
@@ -83,7 +83,7 @@ TEST(PhotographPrints, BordersAreNotPartsOfKolams) {
 /// The strands of a rope and its dots are a kolam, which is read if the one within it is not found.
 TEST(PhotographPrints, FramesAroundOtherLinesAreReported) {
     const DotGrid dots = parse_dot_grid("7x7");
-    const GapStates states = random_states(dots, {.seed = 2, .symmetry = GridSymmetry::d4, .connects = true});
+    const GapStates states = random_states(dots, {.seed = 2, .symmetry = GridSymmetry::d4, .composed = true});
     const Document document = parse("kolam.lsys", kolam_pattern(dots, states, {}).text);
     const ScratchFolder folder;
     for (const bool is_filled : {false, true}) {

@@ -16,7 +16,7 @@ SCRIPT
 chmod +x "$folder/without-fma"
 programs+=("$folder/without-fma")
 
-flat=(hilbert dragon saupe-koch-island dekking-spline filled-fractal snake-kolam bag-of-candies kolam-11-to-1-fygcag2y
+flat=(hilbert dragon saupe-koch-island dekking-spline filled-fractal snake-kolam bag-of-candies kolam-11-to-1-b731bgbw
     penrose-rhombs hat pinwheel rauzy gourd plant-a stochastic-branches)
 spatial=(bush-3d honda-trees lilac cordate-leaf flower-field)
 melodies=(hilbert-kalyani dragon-drums tree-in-voices snowflake-shruti hilbert-chorale)

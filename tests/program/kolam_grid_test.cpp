@@ -1,11 +1,14 @@
 // tests/program/kolam_grid_test.cpp: runs the program to make kolams on grids and radial ones.
-#include "art/kolam/dot_grid.h"
+#include "art/kolam/dot_grid_symmetry.h"
+#include "art/kolam/grid_kolam.h"
 #include "tests/files.h"
 #include "tests/program.h"
 #include "tests/tools.h"
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,13 +26,16 @@ protected:
 };
 
 TEST_F(KolamGrid, MakesEveryKindOfGrid) {
-    for (const char* grid :
-         {"7 to 1 ner pulli", "7-4 idukku pulli", "9x5-5x2", "oo./ooo/.oo", " o o / o   o/ o o "}) {
+    for (const auto& [grid, is_exact] : {std::pair{"7 to 1 ner pulli", "true"},
+                                         {"7-4 idukku pulli", "false"},
+                                         {"9x5-5x2", "true"},
+                                         {"oo./ooo/.oo", "true"},
+                                         {" o o / o   o/ o o ", "true"}}) {
         const Outcome made = kolam({"--grid", grid, "--dots", "--colours", "-o", "made.lsys"});
         ASSERT_EQ(made.status, 0) << grid << made.errors;
         const Outcome examined = kolam({"made.lsys", "--json"});
         EXPECT_TRUE(has(examined.output, "\"kolam\": true")) << grid << examined.output;
-        EXPECT_TRUE(has(examined.output, "\"exact\": true")) << grid << examined.output;
+        EXPECT_TRUE(has(examined.output, std::string("\"exact\": ") + is_exact)) << grid << examined.output;
     }
     folder_.write("shape.txt", ".ooo.\nooooo\noo.oo\nooooo\n.ooo.\n");
     EXPECT_EQ(kolam({"--grid", "@shape.txt", "--single-line", "-o", "shape.lsys"}).status, 0);
@@ -59,34 +65,62 @@ TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
 }
 
 /// The files of two seeds are the same, except for the seed, where the program reports it.
-TEST_F(KolamGrid, SeedsOfOneKolamAreNoted) {
-    const auto drawing = [&](const std::string& seed, const char* grid) {
-        const Outcome made = kolam({"--grid", grid, "--seed", seed, "-o", "a.lsys"});
-        const std::string text = contents(folder_ / "a.lsys");
-        return std::pair(text.substr(text.find("axiom:")), made.errors);
-    };
-    for (const char* grid : {"1-3-5-3-1", "5x5", "7x3 to 3"}) {
-        std::size_t same = 0;
-        for (int seed = 0; seed < 8; ++seed) {
-            const auto [text, errors] = drawing(std::to_string(seed), grid);
-            const std::size_t at = errors.find("gives the same kolam as seed ");
-            if (at == std::string::npos) continue;
-            ++same;
-            const std::string other = std::to_string(std::stoi(errors.substr(at + 29)));
-            EXPECT_EQ(drawing(other, grid).first.size(), text.size()) << grid << seed;
+TEST_F(KolamGrid, ThirtySeedsGiveThirtyKolams) {
+    for (const char* grid : {"1-3-5-3-1", "5x5", "7x3 to 3", "7-4", "9-1"}) {
+        for (const bool single : {false, true}) {
+            std::set<std::string> codes;
+            for (int seed = 1; seed <= 30; ++seed) {
+                GridKolamOptions options{.seed = static_cast<std::uint64_t>(seed), .single_line = single};
+                const DotGrid dots = parse_dot_grid(grid);
+                const GridKolam made = make_grid_kolam(dots, options, {});
+                EXPECT_FALSE(made.same_seed) << grid << ' ' << seed;
+                codes.insert(kolam_code(dots, made.states));
+            }
+            EXPECT_EQ(codes.size(), 30u) << grid << (single ? " single" : "");
         }
-        EXPECT_GT(same, std::string(grid) == "1-3-5-3-1" ? 6u : 0u) << grid;
     }
-    EXPECT_FALSE(has(drawing("3", "15-1").second, "gives the same kolam"));
 }
 
-TEST_F(KolamGrid, TheUsualSymmetryIsTheLargestThatIsPossible) {
-    EXPECT_TRUE(has(kolam({"--grid", "7x7", "-o", "a.lsys"}).errors, "symmetry D4"));
-    EXPECT_TRUE(has(kolam({"--grid", "7x7", "--single-line", "-o", "a.lsys"}).errors, "symmetry C4"));
-    EXPECT_TRUE(has(kolam({"--grid", "7-4", "--single-line", "-o", "a.lsys"}).errors, "symmetry C6"));
-    EXPECT_TRUE(has(kolam({"--grid", "3-2", "--single-line", "-o", "a.lsys"}).errors, "symmetry D6"));
-    EXPECT_TRUE(has(kolam({"--grid", "6x6", "--single-line", "-o", "a.lsys"}).errors, "symmetry mirror-x"));
-    EXPECT_FALSE(has(kolam({"--grid", "6x6", "--symmetry", "none", "-o", "a.lsys"}).errors, "symmetry"));
+TEST_F(KolamGrid, SeedsOfOneKolamAreNoted) {
+    std::size_t same = 0;
+    for (int seed = 0; seed < 12; ++seed) {
+        const Outcome made = kolam({"--grid", "1-3-5-3-1", "--symmetry", "D4", "--density", "0.7", "--seed",
+                                    std::to_string(seed), "--json", "-o", "a.lsys"});
+        const std::size_t at = made.errors.find("gives the same kolam as seed ");
+        if (at == std::string::npos) continue;
+        ++same;
+        const std::string other = std::to_string(std::stoi(made.errors.substr(at + 29)));
+        kolam({"--grid", "1-3-5-3-1", "--symmetry", "D4", "--density", "0.7", "--seed", other, "-o", "b.lsys"});
+        const auto word = [&](const char* name) {
+            const std::string text = contents(folder_ / name);
+            return text.substr(text.find("axiom"));
+        };
+        EXPECT_EQ(word("b.lsys"), word("a.lsys"));
+    }
+    EXPECT_GT(same, 0u);
+    EXPECT_FALSE(has(kolam({"--grid", "15-1", "--seed", "3", "-o", "a.lsys"}).errors, "gives the same kolam"));
+}
+
+TEST_F(KolamGrid, TheSeedChoosesAUsualSymmetry) {
+    const auto symmetries = [&](std::vector<std::string> arguments) {
+        std::map<std::string, int> counts;
+        for (int seed = 0; seed < 12; ++seed) {
+            std::vector<std::string> all = {"--grid"};
+            all.insert(all.end(), arguments.begin(), arguments.end());
+            all.insert(all.end(), {"--seed", std::to_string(seed), "--json", "-o", "a.lsys"});
+            const std::string found = kolam(all).output;
+            const std::size_t at = found.find("\"symmetry\": \"") + 13;
+            ++counts[found.substr(at, found.find('"', at) - at)];
+        }
+        return counts;
+    };
+    EXPECT_GT(symmetries({"7x7"})["D4"], 3);
+    EXPECT_GT(symmetries({"7x7"}).size(), 2u);
+    EXPECT_GT(symmetries({"7x7", "--single-line"})["C4"], 3);
+    EXPECT_GT(symmetries({"7-4"})["D6"], 3);
+    EXPECT_GT(symmetries({"7-4", "--single-line"})["C6"], 3);
+    EXPECT_EQ(symmetries({"6x6", "--symmetry", "none"})["none"], 12);
+    EXPECT_EQ(symmetries({"6x6"}).count("none"), 0u);
 }
 
 /// Symmetries that were not requested are tried for a short while only.

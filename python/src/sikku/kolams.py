@@ -38,20 +38,23 @@ def make_kolam(
     attempts: int = 1000,
     colours: bool = False,
     dots: bool = False,
+    rim: str = "round",
 ) -> Kolam:
     """Makes a kolam on a grid of dots, as `sikku kolam --grid`; the same on every machine.
 
     grid: `7x7`, the dots of each row (`1-3-5-3-1`), `15-8 idukku pulli`, blocks or a shape (docs/commands.md).
     seed: random seed, 0 or more.
     symmetry: none, C2, C3, C4, C6, mirror-x, mirror-y, diagonal, mirrors, diagonals, D3, D3-y, D4 or D6; by default the
-        largest that the grid permits.
-    density: share of the gaps in which lines cross, 0 to 1; by default 0.7, and all dots connected.
+        seed chooses one that the grid permits.
+    density: share of the gaps in which lines cross, 0 to 1; by default the seed chooses it and connects all dots; on
+        interlaced dots, it composes petals and stars.
     joined: share of the other gaps in which lines run past both dots.
     crossings: the states of the gaps instead of chance: all, none, or a digit for each gap.
     single_line: make a single line.
     attempts: attempts to find a single line with a symmetry.
     colours: colour the lines; lines that are images of each other share a colour.
     dots: draw the dots.
+    rim: shape of the loops at the rim: round, pointed, petal, horn or crescent.
 
     Raises SettingError, and Error if no single line was found.
     """
@@ -68,6 +71,7 @@ def make_kolam(
         _count("attempts", attempts, 1, 2**31 - 1),
         colours,
         dots,
+        rim,
     )
     return Kolam(load(f"kolam on {grid}", text=text), json.loads(facts))
 

@@ -5,6 +5,7 @@ import { Surface } from "../play/surface";
 import { makeChance } from "../sound/chance";
 import type { DotGrid, Place } from "./dot_grid";
 import { followLines } from "./dot_grid";
+import { roundedStrands } from "./rounded_lines";
 import { traceSegments, traceStrand } from "./strand_path";
 
 const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
@@ -17,7 +18,7 @@ const bar_height = 46; // pixels that stay free above and below, for tools and t
 export interface Scene {
     grid: DotGrid;
     states: Uint8Array;
-    strands: number[][];
+    strands: number[][]; // control points of the lines
     lineOrbits: number[]; // lines with the same number have the same colour
     isColoured: boolean;
     isFilled: boolean;
@@ -276,11 +277,13 @@ export class Board {
         context.lineCap = "round";
         context.setLineDash([0.02, line_width * 1.3]);
         context.beginPath();
-        for (const strand of followLines(grid, after).strands) {
+        const lines = followLines(grid, after);
+        roundedStrands(grid, after, lines).forEach((controls, line) => {
+            const strand = lines.strands[line];
             for (let i = 0; i < strand.length / 2; ++i) {
-                if (places.has(`${strand[2 * i]} ${strand[2 * i + 1]}`)) traceSegments(context, strand, i - 1, 2);
+                if (places.has(`${strand[2 * i]} ${strand[2 * i + 1]}`)) traceSegments(context, controls, i - 1, 2);
             }
-        }
+        });
         context.stroke();
         context.setLineDash([]);
     }

@@ -112,37 +112,48 @@ export const statesText = (states: Uint8Array): string => states.join("");
 // --- lines --------------------------------------------------------------------------------------------------------
 
 export interface Lines {
-    /// Each line as the midpoints of the sides that it passes, where they are drawn: x, y, x, y …
+    /// Each line as the midpoints of the sides that it passes: x, y, x, y …
     strands: number[][];
     lineOfArc: Int32Array; // by sides * dot + arc
 }
 
+/// Calls `visit` for each step of a line: along arc `arc` of a dot, from an arc on that it passes anticlockwise.
+export function walkLine(
+    { gaps, gapAt, sides }: DotGrid,
+    states: Uint8Array,
+    start: number,
+    visit: (dot: number, arc: number, isAnticlockwise: boolean) => void,
+): void {
+    let dot = Math.floor(start / sides);
+    let arc = start % sides;
+    let isAnticlockwise = true;
+    do {
+        visit(dot, arc, isAnticlockwise);
+        const exit: number = isAnticlockwise ? (arc + 1) % sides : arc;
+        const gap: number = gapAt[sides * dot + exit];
+        if (gap < 0 || states[gap] === turned) {
+            arc = (arc + (isAnticlockwise ? 1 : sides - 1)) % sides;
+        } else {
+            dot = gaps[gap].from === dot ? gaps[gap].to : gaps[gap].from;
+            isAnticlockwise = (states[gap] === crossed) !== isAnticlockwise;
+            arc = (exit + sides / 2 + (isAnticlockwise ? 0 : sides - 1)) % sides;
+        }
+    } while (!(sides * dot + arc === start && isAnticlockwise));
+}
+
 export function followLines(grid: DotGrid, states: Uint8Array): Lines {
-    const { dots, gaps, gapAt, sides, rise } = grid;
+    const { dots, sides, rise } = grid;
     const ways = waysOf(grid);
     const lineOfArc = new Int32Array(sides * dots.length).fill(-1);
     const strands: number[][] = [];
     for (let start = 0; start < lineOfArc.length; ++start) {
         if (lineOfArc[start] >= 0) continue;
         const points: number[] = [];
-        let dot = Math.floor(start / sides);
-        let arc = start % sides;
-        let isAnticlockwise = true;
-        do {
+        walkLine(grid, states, start, (dot, arc, isAnticlockwise) => {
             lineOfArc[sides * dot + arc] = strands.length;
-            const next = (arc + 1) % sides;
-            const entry = isAnticlockwise ? arc : next;
+            const entry = isAnticlockwise ? arc : (arc + 1) % sides;
             points.push(dots[dot].x + ways[entry][0] / 2, (dots[dot].level + ways[entry][1] / 2) * rise);
-            const exit: number = isAnticlockwise ? next : arc;
-            const gap: number = gapAt[sides * dot + exit];
-            if (gap < 0 || states[gap] === turned) {
-                arc = (arc + (isAnticlockwise ? 1 : sides - 1)) % sides;
-            } else {
-                dot = gaps[gap].from === dot ? gaps[gap].to : gaps[gap].from;
-                isAnticlockwise = (states[gap] === crossed) !== isAnticlockwise;
-                arc = (exit + sides / 2 + (isAnticlockwise ? 0 : sides - 1)) % sides;
-            }
-        } while (!(sides * dot + arc === start && isAnticlockwise));
+        });
         strands.push(points);
     }
     return { strands, lineOfArc };

@@ -2,6 +2,7 @@
 import type { SymmetryName } from "../protocol";
 import type { DotGrid, GridSymmetry, Lines, Place } from "./dot_grid";
 import { agrees, countLines, crossed, followLines, joined, lineOrbits, no_grid, turned } from "./dot_grid";
+import { roundedStrands } from "./rounded_lines";
 import { isSymmetric, symmetrised } from "./symmetry";
 
 /// States that a click steps through: crossed, turned back, joined.
@@ -15,6 +16,7 @@ export class Kolam {
     grid: DotGrid = no_grid;
     states = new Uint8Array(0);
     lines: Lines = followLines(no_grid, this.states);
+    drawn: number[][] = []; // the control points of the lines
     lineOrbits: number[] = []; // see lineOrbits()
     symmetry: GridSymmetry = no_grid.symmetries[0];
     /// The user has chosen the symmetry; otherwise it follows the drawing.
@@ -51,6 +53,7 @@ export class Kolam {
     setStates(states: Uint8Array): void {
         this.states = Uint8Array.from(states);
         this.lines = followLines(this.grid, this.states);
+        this.drawn = roundedStrands(this.grid, this.states, this.lines);
         this.lineOrbits = lineOrbits(this.grid, this.states, this.lines);
     }
 

@@ -44,10 +44,10 @@ export interface Look {
 export interface Chances {
     density: number; // of crossed gaps
     joined: number; // of the others
-    connects: boolean; // crosses further gaps until all dots are connected
+    composed: boolean; // connects all dots; on interlaced grids, forms petals and stars
     seed: number;
 }
-export const first_chances: Chances = { density: 0.7, joined: 0, connects: true, seed: 1 };
+export const first_chances: Chances = { density: 0.7, joined: 0, composed: true, seed: 1 };
 
 export interface SideActs {
     resize(rows: number, columns: number): void;
@@ -80,7 +80,7 @@ export class Side {
     private readonly lockName = element("p", { class: "bench-lock-name" });
     private readonly density = shareSlider("density");
     private readonly joined = shareSlider("joined");
-    private readonly connects = checkbox((connects) => this.acts.chances({ ...this.chances, connects }));
+    private readonly composed = checkbox((composed) => this.acts.chances({ ...this.chances, composed }));
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
     private readonly boxes = new Map<keyof Look, HTMLInputElement>();
     private counted: unknown = null; // the lines counted last
@@ -196,7 +196,7 @@ export class Side {
                 { class: "bench-random" },
                 shareRow("Crossed", this.density),
                 shareRow("Joined", this.joined),
-                labelled(this.connects, "Connect all dots"),
+                labelled(this.composed, "Compose"),
                 element("div", { class: "bench-dice" }, seedLabel, this.seed, dice),
             ),
         ];
@@ -251,7 +251,7 @@ export class Side {
         this.lockName.textContent = symmetry_labels[kolam.symmetry.name];
         showShare(this.density, chances.density, "of the gaps");
         showShare(this.joined, chances.joined, "of the other gaps");
-        this.connects.checked = chances.connects;
+        this.composed.checked = chances.composed;
         this.seed.value = String(chances.seed);
         for (const [name, box] of this.boxes) box.checked = look[name];
     }

@@ -107,6 +107,7 @@ def make_kolam(
     attempts: int,
     colours: bool,
     dots: bool,
+    rim: str,
 ) -> tuple[str, str]: ...
 def make_radial_kolam(size: str, order: str, colours: bool, dots: bool) -> str: ...
 def read_kolam(
