@@ -42,8 +42,7 @@ class Composition {
 public:
     Composition(const DotGrid& grid, GridSymmetry symmetry)
         : grid_(grid), crossings_(grid.gaps().size()), neighbours_(sides * grid.dots().size(), no_dot) {
-        for (std::uint32_t i = 0; i < grid.gaps().size(); ++i) {
-            const GridGap& gap = grid.gaps()[i];
+        for (const GridGap& gap : grid.gaps()) {
             neighbours_[sides * gap.from + gap.side] = gap.to;
             neighbours_[sides * gap.to + (gap.side + sides / 2) % sides] = gap.from;
         }
