@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/language/unit_vector.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace sikku {
@@ -67,8 +67,8 @@ std::vector<glm::dvec2> shape_of(const DotGrid& grid, std::uint32_t dot, glm::dv
     const std::span<const RimPoint> points = rim_points(std::fabs(aside) < 1e-6 ? RimStyle::pointed : style);
     std::vector<glm::dvec2> shape;
     for (const RimPoint& point : points) {
-        const double angle = (aside < 0 ? -point.angle : point.angle) * std::numbers::pi / 180;
-        const glm::dvec2 ray = std::cos(angle) * outwards + std::sin(angle) * left_of(outwards);
+        const glm::dvec2 turn = unit_vector(aside < 0 ? -point.angle : point.angle);
+        const glm::dvec2 ray = turn.x * outwards + turn.y * left_of(outwards);
         const glm::dvec2 place = dot_place(grid, dot) + point.radius * ray;
         // Control points that nearly coincide make a corner.
         const double apart = point.is_tip ? (aside < 0 ? -0.01 : 0.01) : 0;

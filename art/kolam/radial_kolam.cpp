@@ -4,6 +4,7 @@
 #include "art/print/ornaments.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/language/unit_vector.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,7 +42,7 @@ std::vector<std::uint32_t> odd_then_even(std::uint32_t dots) {
 }
 
 glm::dvec2 polar(double angle, double radius) {
-    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+    return radius * unit_vector(angle * 180 / std::numbers::pi);
 }
 double angle_of(const RadialKolam& kolam, double arm) {
     return std::numbers::pi / 2 - 2 * std::numbers::pi * arm / kolam.arms;
@@ -67,7 +68,7 @@ std::vector<glm::dvec2> places_along(const RadialKolam& kolam, std::uint32_t lin
         const double to = dot_of(kolam, line, k + 1);
         for (std::size_t i = 0; i < spans; ++i) {
             const double share = static_cast<double>(i) / spans;
-            const double radius = from + (to - from) * (1 - std::cos(std::numbers::pi * share)) / 2;
+            const double radius = from + (to - from) * (1 - unit_vector(180 * share).x) / 2;
             places.push_back(polar(angle_of(kolam, static_cast<double>(k % kolam.arms) + share), radius));
         }
     }

@@ -1,6 +1,7 @@
 #include "art/kolam/turtle_walk.h"
 
 #include "art/print/micrometres.h"
+#include "engine/language/unit_vector.h"
 
 #include <cmath>
 #include <numbers>
@@ -13,10 +14,25 @@ double rounded_number(double value) {
     return std::round(value * 1e10) / 1e10;
 }
 
+/// The arc tangent of 0 to 1 in radians, the same on every machine: the series of atan(u), |u| <= sqrt(2) - 1, to
+/// 1e-17.
+double arc_tangent(double tangent) {
+    const bool is_large = tangent > std::numbers::sqrt2 - 1;
+    const double u = is_large ? (tangent - 1) / (tangent + 1) : tangent;
+    double sum = 0;
+    for (int n = 43; n >= 1; n -= 2) sum = 1.0 / n - u * u * sum;
+    return u * sum + (is_large ? std::numbers::pi / 4 : 0);
+}
+
 }  // namespace
 
 double direction_of(glm::dvec2 from, glm::dvec2 to) {
-    return std::atan2(to.y - from.y, to.x - from.x) * 180 / std::numbers::pi;
+    const double x = to.x - from.x, y = to.y - from.y;
+    const double along = std::fabs(x), across = std::fabs(y);
+    if (along == 0 && across == 0) return 0;
+    double angle = along >= across ? arc_tangent(across / along) : std::numbers::pi / 2 - arc_tangent(along / across);
+    if (x < 0) angle = std::numbers::pi - angle;
+    return (y < 0 ? -angle : angle) * 180 / std::numbers::pi;
 }
 
 void TurtleWalk::put(std::string_view symbols) {
@@ -37,12 +53,12 @@ void TurtleWalk::turn(double direction) {
 }
 
 void TurtleWalk::move(glm::dvec2 to, char symbol) {
-    const double length = rounded_number(std::hypot(to.x - at_.x, to.y - at_.y));
+    const double x = to.x - at_.x, y = to.y - at_.y;
+    const double length = rounded_number(std::sqrt(x * x + y * y));
     if (length == 0) return;
     const std::string turn = turned(direction_of(at_, to));
     put(turn + symbol + '(' + decimal(length, decimals) + ')');
-    const double radians = heading_ * std::numbers::pi / 180;
-    at_ += length * glm::dvec2(std::cos(radians), std::sin(radians));
+    at_ += length * unit_vector(heading_);
 }
 
 }  // namespace sikku

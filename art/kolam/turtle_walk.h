@@ -29,7 +29,7 @@ private:
     double heading_;
 };
 
-/// Direction from one place to another, in degrees anticlockwise from the right.
+/// Direction from one place to another, in degrees anticlockwise from the right; the same on every machine.
 double direction_of(glm::dvec2 from, glm::dvec2 to);
 
 }  // namespace sikku

@@ -167,6 +167,9 @@ for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3", "7-4 idukku", "oo./o
         for (const single_line of [false, true]) await compare({ do: "grid", grid, symmetry, single_line, joined: 0.3, seed: "5" });
     }
 }
+for (const seed of ["1", "2", "3"]) {
+    await compare({ do: "grid", grid: "9-5 idukku", symmetry: "D6", composed: true, coloured: true, strands: true, seed });
+}
 const imports = join(root, "tests/corpus/import");
 for (const name of readdirSync(imports, { recursive: true })) {
     if (/\.(l|frm)$/.test(name)) await compare({ do: "import", name: basename(name) }, readFileSync(join(imports, name)));
