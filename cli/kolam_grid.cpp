@@ -38,12 +38,17 @@ std::string text_of(const std::string& value) {
     return value.starts_with('@') ? read_pattern_text(value.substr(1)).text : value;
 }
 
+RimStyle rim_of(const KolamGridOptions& options) {
+    return of_option("--rim", [&] { return parse_rim_style(options.rim); });
+}
+
 /// Refuses outputs that cannot represent the kolam, and JSON on the output of the pattern.
 void check_output(const KolamGridOptions& options) {
     if (options.as_json && options.output.empty()) {
         throw UsageError("--json needs -o FILE for the pattern, because JSON goes to standard output");
     }
     check_kolam_output(options.output);
+    rim_of(options);
     if (is_pattern_file(options.output)) return;
     if (!options.radial.empty()) {
         throw UsageError(
@@ -52,7 +57,7 @@ void check_output(const KolamGridOptions& options) {
                         options.output));
     }
     const char* look = options.colours ? "--colours" : options.dots ? "--dots" : "--rim";
-    if (options.colours || options.dots || options.rim != KolamGridOptions().rim) {
+    if (options.colours || options.dots || rim_of(options) != RimStyle::round) {
         throw UsageError(
             fmt::format("{}: -o {} holds dots and gaps, not a drawing; expected NAME.lsys", look, options.output));
     }
@@ -74,11 +79,17 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
     KolamPatternOptions pattern = describe_grid_kolam(grid, request, made);
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
-    pattern.rim = of_option("--rim", [&] { return parse_rim_style(options.rim); });
+    pattern.rim = rim_of(options);
     pattern.monitor = stop_monitor();
     const auto other = text_for(options.output, grid, made.states);
-    const KolamPattern drawn = kolam_pattern(grid, made.states, pattern);
-    write_file(options.output, other ? *other : drawn.text);
+    bool has_rim = true;
+    if (other) {
+        write_file(options.output, *other);
+    } else {
+        const KolamPattern drawn = kolam_pattern(grid, made.states, pattern);
+        has_rim = pattern.rim == RimStyle::round || drawn.shaped > 0;
+        write_file(options.output, drawn.text);
+    }
     if (options.as_json) {
         fmt::print("{}", grid_kolam_json(grid, made));
     } else {
@@ -88,15 +99,15 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
         tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
                     pattern.description, note);
     }
-    if (pattern.rim != RimStyle::round && drawn.shaped == 0) {
-        tell_unless(quiet,
-                    "sikku: warning: --rim has no effect: this kolam has no loops at its rim with room for it\n");
+    if (!has_rim) {
+        tell_unless(quiet, "sikku: warning: --rim has no effect: no loop at the rim has enough room\n");
     }
     if (made.same_seed) {
-        tell_unless(quiet,
-                    "sikku: note: seed {} gives the same kolam as seed {}: no more than {} were found; another "
-                    "--density or --symmetry gives others\n",
-                    options.seed, *made.same_seed, made.different);
+        tell_unless(
+            quiet,
+            "sikku: note: seed {} gives the same kolam as seed {}; only {} different kolams were found; try another "
+            "--density or --symmetry\n",
+            options.seed, *made.same_seed, made.different);
     }
 }
 
@@ -132,9 +143,9 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
                   "(rotations and mirrors); excludes --crossings (the seed chooses one that the grid and "
                   "--single-line permit; with --enumerate none)");
     auto* density = group.add("--density", options.density, "SHARE",
-                              "share of the gaps in which lines cross, 0 to 1 (the seed chooses it and connects all "
-                              "dots; on interlaced dots, "
-                              "it composes petals and stars)");
+                              "share of the gaps in which lines cross, 0 to 1 (chosen by the seed, and all dots are "
+                              "connected; interlaced dots "
+                              "get petals and stars instead)");
     auto* joined = group.add("--joined", options.joined, "SHARE",
                              "share of the other gaps in which lines run past both dots, 0 to 1; with --enumerate, "
                              "any share above 0 includes such kolams (0)");

@@ -60,11 +60,12 @@ py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::opt
         if (crossings) {
             options.gaps = of_option("crossings", *crossings, [&] { return parse_gap_states(grid, *crossings); });
         }
+        const RimStyle style = of_option("rim", rim, [&] { return parse_rim_style(rim); });
         const GridKolam made = make_grid_kolam(grid, options, monitor);
         KolamPatternOptions pattern = describe_grid_kolam(grid, options, made);
         pattern.coloured = is_coloured;
         pattern.dot_symbols = draws_dots;
-        pattern.rim = of_option("rim", rim, [&] { return parse_rim_style(rim); });
+        pattern.rim = style;
         pattern.monitor = monitor;
         return std::pair(kolam_pattern(grid, made.states, pattern).text, grid_kolam_json(grid, made));
     });

@@ -222,4 +222,10 @@ glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot) {
     return {0.5 * at.x, row * at.y};
 }
 
+glm::dvec2 centre_of(const DotGrid& grid) {
+    glm::dvec2 sum(0.0);
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) sum += dot_place(grid, dot);
+    return sum / static_cast<double>(grid.dots().size());
+}
+
 }  // namespace sikku

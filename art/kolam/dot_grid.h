@@ -92,6 +92,8 @@ glm::dvec2 lattice_ray(DotLattice lattice, std::uint32_t side);
 
 /// The place of a dot, in spacings from the middle of the grid's box.
 glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot);
+/// The centroid of the dots, about which the grid is symmetric.
+glm::dvec2 centre_of(const DotGrid& grid);
 
 /// Reads the notations of practitioners, in any case, with `×` for `x`, any dash, and words such as `pulli` and
 /// `dots`:

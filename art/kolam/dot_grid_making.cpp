@@ -152,7 +152,8 @@ GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
         }
     }
     const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
-    const bool is_interlaced = kolam.composed && grid.lattice() == DotLattice::triangular;
+    const bool is_interlaced =
+        kolam.composed && grid.lattice() == DotLattice::triangular && grid.dots().size() <= most_composed_dots;
     GapStates states = is_interlaced ? interlaced_states(grid, kolam.symmetry, kolam.seed) : GapStates(orbits.size());
     SplitMix chance(kolam.seed);
     std::vector<GapState> drawn;
@@ -220,6 +221,8 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
     Pulse pulse(monitor);
     for (int attempt = 1; attempt <= attempts && steps > 0; ++attempt, attempted.seed = seeds.next()) {
         monitor.check();
+        // Compositions take long; where they do not help, independent gaps may.
+        attempted.composed = kolam.composed && (grid.lattice() == DotLattice::square || attempt <= 20);
         const GapStates begun = random_states(grid, attempted);
         SingleLine found{begun, 0, attempt};
         SplitMix chance(attempted.seed);

@@ -17,7 +17,8 @@ struct RandomKolam {
     GridSymmetry symmetry = GridSymmetry::none;
     /// In the square lattice, crosses further gaps, with their images, until lines around neighbouring dots connect
     /// all dots of a group, without rings around single dots or separate pieces. In the triangular lattice, crosses
-    /// those of interlaced_states() instead, whatever the density.
+    /// those of interlaced_states() instead, whatever the density; single lines with a symmetry only in the first 20
+    /// attempts.
     bool composed = false;
 };
 

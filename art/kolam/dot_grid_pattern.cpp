@@ -153,7 +153,9 @@ private:
     }
     void check_length() {
         pulse_();
-        if (text_.size() <= most_pattern_bytes) return;
+        if (text_.size() > most_pattern_bytes) refuse_length();
+    }
+    [[noreturn]] void refuse_length() const {
         throw std::runtime_error(fmt::format("the pattern of a kolam on {} would be over {} MB long", grid_.text(),
                                              most_pattern_bytes >> 20U));
     }
@@ -252,6 +254,8 @@ private:
         return controls;
     }
     void write_rounded() {
+        constexpr std::size_t least_bytes = 8;  // of a step
+        if (least_bytes * grid_.sides() * grid_.dots().size() > most_pattern_bytes) refuse_length();
         const std::vector<glm::dvec2> first = controls_of(starts_[0]);
         TurtleWalk walk(text_, first[0], 0);
         if (is_single()) {
@@ -286,7 +290,9 @@ private:
     }
     void write_rounded_single(TurtleWalk& walk, std::vector<glm::dvec2> controls,
                               const std::vector<std::uint8_t>& turns) {
-        const std::size_t steps = period_of(turns), parts = turns.size() / steps, period = controls.size() / parts;
+        const std::size_t steps = period_of(turns), repeated = turns.size() / steps;
+        // Where the rim is less symmetric than the line, nothing repeats.
+        const std::size_t parts = controls.size() % repeated == 0 ? repeated : 1, period = controls.size() / parts;
         write_rounded_keys(parts > 1 ? 1 : 0);
         if (parts == 1) {
             write_along(walk, controls, controls.size());

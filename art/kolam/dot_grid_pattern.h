@@ -39,7 +39,7 @@ struct KolamPattern {
     std::string text;              ///< text of the pattern file
     std::vector<glm::dvec2> dots;  ///< their positions in turtle steps, in the order of DotGrid::dots()
     std::size_t lines = 0;
-    std::size_t shaped = 0;  ///< loops at the rim that have the style
+    std::size_t shaped = 0;  ///< loops at the rim that are not round
 };
 
 /// Writes a kolam as a pattern with `line: spline`. Each line is one closed stroke; the first starts at 0 0. A single

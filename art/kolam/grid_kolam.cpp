@@ -60,7 +60,6 @@ std::optional<GridKolam> make_single(const DotGrid& grid, const Choice& choice, 
         if (found) {
             return GridKolam{.states = std::move(found->states),
                              .symmetry = symmetry,
-                             .density = random.density,
                              .changed = found->changed,
                              .attempt = found->attempt};
         }
@@ -73,12 +72,10 @@ std::optional<GridKolam> make_by_chance(const DotGrid& grid, const GridKolamOpti
     Choice choice = choice_of(grid, options, seed);
     if (options.single_line) return make_single(grid, choice, effort, monitor);
     choice.random.symmetry = choice.symmetries.front();
-    return GridKolam{.states = random_states(grid, choice.random),
-                     .symmetry = choice.random.symmetry,
-                     .density = choice.random.density};
+    return GridKolam{.states = random_states(grid, choice.random), .symmetry = choice.random.symmetry};
 }
 
-/// Replaces a kolam that an earlier seed has by another, as long as one is found soon: small grids have few.
+/// Replaces a kolam that an earlier seed gives by another, as long as one is found soon: small grids have few.
 void replace_known(const DotGrid& grid, const GridKolamOptions& options, GridKolam& kolam, const Monitor& monitor) {
     constexpr std::uint64_t most_seeds = 100, most_attempts = 200;
     constexpr std::size_t most_gaps = 150;
@@ -96,11 +93,13 @@ void replace_known(const DotGrid& grid, const GridKolamOptions& options, GridKol
         }
         return std::nullopt;
     };
-    for (std::uint64_t seed = 0; seed < options.seed; ++seed) find_new(seed);
+    // Where one seed finds nothing new, the others take what chance gives.
+    bool are_more = true;
+    for (std::uint64_t seed = 0; seed < options.seed && are_more; ++seed) are_more = find_new(seed).has_value();
     const auto known = seeds.find(canonical_states(grid, kolam.states));
     if (known == seeds.end()) return;
     const std::uint64_t same = known->second;
-    if (auto other = find_new(options.seed)) {
+    if (auto other = are_more ? find_new(options.seed) : std::nullopt) {
         kolam = std::move(*other);
     } else {
         kolam.same_seed = same;
@@ -164,9 +163,7 @@ KolamPatternOptions describe_grid_kolam(const DotGrid& grid, const GridKolamOpti
     pattern.description = fmt::format("{}, {}, {}", dots, summary_of(kolam.states), counted(kolam.lines, "line"));
     if (options.gaps) return pattern;
     pattern.description += fmt::format("; seed {}", options.seed);
-    if (options.density || grid.lattice() == DotLattice::square) {
-        pattern.description += fmt::format(", density {:.3g}", kolam.density);
-    }
+    if (options.density) pattern.description += fmt::format(", density {}", *options.density);
     if (options.joined > 0) pattern.description += fmt::format(", joined {}", options.joined);
     if (kolam.symmetry != GridSymmetry::none) {
         pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(kolam.symmetry));

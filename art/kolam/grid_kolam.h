@@ -26,7 +26,6 @@ struct GridKolamOptions {
 struct GridKolam {
     GapStates states;
     GridSymmetry symmetry = GridSymmetry::none;
-    double density = 0.0;                      ///< that was asked for
     std::optional<std::uint64_t> same_seed{};  ///< an earlier seed that gives this kolam, if no other was found
     std::size_t different = 0;                 ///< kolams that the seeds up to this one give, if same_seed
     std::size_t changed = 0;                   ///< gaps changed to join the lines
@@ -35,7 +34,7 @@ struct GridKolam {
     std::optional<std::size_t> nullity{};  ///< counted by the Laplacian of the dots; absent if that would take long
 };
 
-/// Makes a kolam; the same on every machine. Seeds from 0 to 100 of grids with up to 200 gaps give different kolams,
+/// Makes a kolam; the same on every machine. Seeds from 0 to 100 of grids with up to 150 gaps give different kolams,
 /// not counting images under symmetries of the grid, as long as some are found. Cost: at most seconds.
 /// @throws std::runtime_error if the grid does not have the symmetry, no single line can have it, or none was found;
 /// Stopped

@@ -8,8 +8,6 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -143,12 +141,12 @@ private:
     }
     /// Distances of gaps from the centre, 0 to below 1.
     void find_distances() {
+        const glm::dvec2 centre = centre_of(grid_);
         std::vector<double> squares;
-        double most = 1;
+        double most = 0.1;
         for (const GridGap& gap : grid_.gaps()) {
-            const GridDot sum = grid_.dots()[gap.from] + grid_.dots()[gap.to];
-            const double x = sum.x, y = sum.y * std::numbers::sqrt3 / 2;
-            squares.push_back(x * x + y * y);
+            const glm::dvec2 from = 0.5 * (dot_place(grid_, gap.from) + dot_place(grid_, gap.to)) - centre;
+            squares.push_back(from.x * from.x + from.y * from.y);
             most = std::max(most, squares.back());
         }
         for (const double square : squares) distances_.push_back(std::sqrt(square / (most * 1.0001)));
@@ -279,8 +277,8 @@ std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
 }  // namespace
 
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
-    constexpr double begun_triangles = 0.28;                           // share of those chosen at first
-    constexpr std::size_t most_proposals = 1500, most_work = 300'000;  // work: dots times proposals
+    constexpr double begun_triangles = 0.28;  // share of those chosen at first
+    constexpr std::size_t most_proposals = 1500;
     Composition composition(grid, symmetry);
     SplitMix chance(seed);
     composition.aim_at(random_densities(grid.dots().size(), chance));
@@ -289,7 +287,7 @@ GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uin
     }
     if (composition.motifs() == 0) return composition.states();
     double cost = composition.cost();
-    const std::size_t proposals = std::min(most_proposals, most_work / grid.dots().size());
+    const std::size_t proposals = std::min(most_proposals, most_composed_dots / grid.dots().size());
     std::array<std::size_t, 2> changes;
     for (std::size_t i = 0; i < proposals; ++i) {
         const double kind = chance.fraction();

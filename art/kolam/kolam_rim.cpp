@@ -52,18 +52,19 @@ glm::dvec2 left_of(glm::dvec2 way) {
 }
 
 /// Positive if a horn has room on the left, negative for the right: where there are fewer dots, or away from the axis
-/// through the middle of the grid. Near 0 if it would break a symmetry.
-double room_aside(const DotGrid& grid, std::uint32_t dot, glm::dvec2 outwards) {
+/// through the centre of the grid. Near 0 if it would break a symmetry.
+double room_aside(const DotGrid& grid, glm::dvec2 centre, std::uint32_t dot, glm::dvec2 outwards) {
     const glm::dvec2 left = left_of(outwards);
     double room = 0;
     for (std::uint32_t side = 0; side < grid.sides(); ++side) {
         if (grid.gap(dot, side) < 0) room += glm::dot(lattice_ray(grid.lattice(), side), left);
     }
-    return std::fabs(room) > 0.1 ? room : glm::dot(dot_place(grid, dot), left);
+    return std::fabs(room) > 0.1 ? room : glm::dot(dot_place(grid, dot) - centre, left);
 }
 
-std::vector<glm::dvec2> shape_of(const DotGrid& grid, std::uint32_t dot, glm::dvec2 outwards, RimStyle style) {
-    const double aside = style == RimStyle::horn ? room_aside(grid, dot, outwards) : 1;
+std::vector<glm::dvec2> shape_of(const DotGrid& grid, glm::dvec2 centre, std::uint32_t dot, glm::dvec2 outwards,
+                                 RimStyle style) {
+    const double aside = style == RimStyle::horn ? room_aside(grid, centre, dot, outwards) : 1;
     const std::span<const RimPoint> points = rim_points(std::fabs(aside) < 1e-6 ? RimStyle::pointed : style);
     std::vector<glm::dvec2> shape;
     for (const RimPoint& point : points) {
@@ -122,11 +123,11 @@ std::string_view rim_style_name(RimStyle style) {
 }
 
 KolamRim::KolamRim(const DotGrid& grid, const GapStates& states, RimStyle style)
-    : grid_(grid), outwards_(grid.dots().size()), shapes_(grid.dots().size()) {
+    : grid_(grid), centre_(centre_of(grid)), outwards_(grid.dots().size()), shapes_(grid.dots().size()) {
     if (style == RimStyle::round) return;
     find_loops(states, style);
     for (const std::uint32_t dot : loops_that_meet())
-        shapes_[dot] = shape_of(grid, dot, outwards_[dot], RimStyle::pointed);
+        shapes_[dot] = shape_of(grid, centre_, dot, outwards_[dot], RimStyle::pointed);
     for (const std::uint32_t dot : loops_that_meet()) shapes_[dot].clear();
     shaped_ = static_cast<std::size_t>(
         std::count_if(shapes_.begin(), shapes_.end(), [](const auto& shape) { return !shape.empty(); }));
@@ -147,7 +148,7 @@ void KolamRim::find_loops(const GapStates& states, RimStyle style) {
             if (grid_.gap(dot, middle % sides) >= 0 || grid_.gap(dot, other % sides) >= 0) continue;
             outwards_[dot] =
                 glm::normalize(lattice_ray(grid_.lattice(), middle) + lattice_ray(grid_.lattice(), other));
-            shapes_[dot] = shape_of(grid_, dot, outwards_[dot], style);
+            shapes_[dot] = shape_of(grid_, centre_, dot, outwards_[dot], style);
         }
     }
 }

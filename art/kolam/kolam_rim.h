@@ -9,14 +9,14 @@
 
 namespace sikku {
 
-/// Loops at the rim: lines that turn back on more than half of the sides of a dot, but not on all, where the dot has
-/// no neighbour in the middle. Where shapes would meet each other or another dot, loops are pointed instead, or stay
+/// Loops at the rim: lines that turn back on more than half of the sides of a dot, but not on all, whose middle
+/// side has no neighbour. Where shapes would meet each other or another dot, loops are pointed instead, or stay
 /// round.
 class KolamRim {
 public:
     KolamRim(const DotGrid& grid, const GapStates& states, RimStyle style);
 
-    /// Number of loops that have the style.
+    /// Number of loops that are not round: they have the style, or are pointed.
     std::size_t shaped() const { return shaped_; }
     /// Replaces the control points of a line in the loops, except the first and the last of each.
     /// @param points  where the steps end, in spacings from the middle of the grid's box
@@ -27,6 +27,7 @@ private:
     std::vector<std::uint32_t> loops_that_meet() const;
 
     const DotGrid& grid_;
+    glm::dvec2 centre_;
     std::vector<glm::dvec2> outwards_;             // by dot, of loops
     std::vector<std::vector<glm::dvec2>> shapes_;  // by dot: the control points anticlockwise, or none
     std::size_t shaped_ = 0;

@@ -7,7 +7,7 @@
 
 namespace sikku {
 
-/// Walks a turtle to places, which it takes in steps, and writes its turns and moves with ten decimals:
+/// Moves a turtle to places, given in steps, and writes its turns and moves with ten decimals:
 /// `-(60)F(1.5)`.
 class TurtleWalk {
 public:

@@ -46,8 +46,8 @@ def make_kolam(
     seed: random seed, 0 or more.
     symmetry: none, C2, C3, C4, C6, mirror-x, mirror-y, diagonal, mirrors, diagonals, D3, D3-y, D4 or D6; by default the
         seed chooses one that the grid permits.
-    density: share of the gaps in which lines cross, 0 to 1; by default the seed chooses it and connects all dots; on
-        interlaced dots, it composes petals and stars.
+    density: share of the gaps in which lines cross, 0 to 1; by default chosen by the seed, and all dots are
+        connected; interlaced dots get petals and stars instead.
     joined: share of the other gaps in which lines run past both dots.
     crossings: the states of the gaps instead of chance: all, none, or a digit for each gap.
     single_line: make a single line.
