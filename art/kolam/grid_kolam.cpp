@@ -16,7 +16,7 @@
 namespace sikku {
 namespace {
 
-/// What the seed chooses where it is not given.
+/// A random kolam, with symmetry and density from the options or else chosen by the seed.
 struct Choice {
     RandomKolam random;
     std::vector<GridSymmetry> symmetries;  ///< in the order in which they are tried

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t sides = 6;
 constexpr std::uint32_t no_dot = UINT32_MAX;
 
-/// What a composition costs, found by looking at hundreds of kolams.
+/// Weights of the faults and merits of a composition, set by eye on hundreds of kolams.
 struct Costs {
     double straight = 0.5;  ///< times the square of the crossings beyond four that a line runs straight through
     double parallel = 3;    ///< three parallel straight strands
@@ -52,7 +52,6 @@ public:
 
     std::size_t triangle_motifs() const { return triangle_motifs_; }
     std::size_t motifs() const { return motifs_.size(); }
-    bool has(std::size_t motif) const { return is_chosen_[motif] != 0; }
     void change(std::size_t motif) {
         is_chosen_[motif] ^= 1;
         for (const std::uint32_t gap : motifs_[motif]) crossings_[gap] += is_chosen_[motif] ? 1U : UINT32_MAX;
