@@ -216,10 +216,13 @@ glm::dvec2 lattice_ray(DotLattice lattice, std::uint32_t side) {
     return lattice == DotLattice::square ? four[side % 4] : six[side % 6];
 }
 
+glm::dvec2 lattice_point(DotLattice lattice, GridDot place) {
+    const double rows = lattice == DotLattice::square ? 0.5 : std::numbers::sqrt3 / 4;
+    return {0.5 * place.x, rows * place.y};
+}
+
 glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot) {
-    const GridDot at = grid.dots()[dot];
-    const double row = grid.lattice() == DotLattice::square ? 0.5 : std::numbers::sqrt3 / 4;
-    return {0.5 * at.x, row * at.y};
+    return lattice_point(grid.lattice(), grid.dots()[dot]);
 }
 
 glm::dvec2 centre_of(const DotGrid& grid) {

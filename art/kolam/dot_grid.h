@@ -90,6 +90,8 @@ private:
 /// The unit vector towards a side of a dot.
 glm::dvec2 lattice_ray(DotLattice lattice, std::uint32_t side);
 
+/// A place of a GridDot in the plane of the lattice: neighbours are 1 apart, y points up.
+glm::dvec2 lattice_point(DotLattice lattice, GridDot place);
 /// The place of a dot, in spacings from the middle of the grid's box.
 glm::dvec2 dot_place(const DotGrid& grid, std::uint32_t dot);
 /// The centroid of the dots, about which the grid is symmetric.

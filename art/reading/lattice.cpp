@@ -414,11 +414,6 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-glm::dvec2 lattice_point(DotLattice lattice, GridDot place) {
-    const double rows = lattice == DotLattice::square ? 0.5 : std::numbers::sqrt3 / 4;
-    return {0.5 * place.x, rows * place.y};
-}
-
 GridDot nearest_place(DotLattice lattice, glm::dvec2 point) {
     if (lattice == DotLattice::square) {
         return {2 * static_cast<std::int32_t>(std::lround(point.x)),

@@ -34,8 +34,6 @@ private:
 /// The middle one of values, or the upper of the two; 0 if there are none.
 double median(std::vector<double> values);
 
-/// A place of a GridDot in the plane of the lattice: neighbours are 1 apart, y points up.
-glm::dvec2 lattice_point(DotLattice lattice, GridDot place);
 /// The place of the lattice nearest to a point of its plane.
 GridDot nearest_place(DotLattice lattice, glm::dvec2 point);
 
