@@ -77,6 +77,8 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
     }
     const GridKolam made = make_grid_kolam(grid, request, stop_monitor());
     KolamPatternOptions pattern = describe_grid_kolam(grid, request, made);
+    const std::string title = dot_grid_title(text_of(options.grid));
+    if (!title.empty()) pattern.title = title;
     pattern.coloured = options.colours;
     pattern.dot_symbols = options.dots;
     pattern.rim = rim_of(options);
@@ -96,7 +98,10 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
         std::string note;
         if (options.single_line) note += fmt::format("; {} changed to join the lines", counted(made.changed, "gap"));
         if (made.attempt > 1) note += fmt::format(", attempt {}", made.attempt);
-        tell_unless(quiet, "sikku: {}: {}{}\n", grid.is_solid() ? printable(grid.text(), 80) : "shape",
+        tell_unless(quiet, "sikku: {}: {}{}\n",
+                    grid.is_solid() ? printable(grid.text(), 80)
+                    : title.empty() ? "shape"
+                                    : printable(title, 80),
                     pattern.description, note);
     }
     if (!has_rim) {
@@ -134,8 +139,9 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* grid =
         group.add("--grid", options.grid, "DOTS",
                   "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row "
-                  "and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), or a shape of "
-                  "'o' and '.' (oo./ooo/.oo); @FILE reads it from a file");
+                  "and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), letters "
+                  "(text:MEERA, 'text 18:MEERA' with 18 rows of dots), or a shape of 'o' and '.' (oo./ooo/.oo); "
+                  "@FILE reads it from a file");
     auto* symmetry =
         group.add("--symmetry", options.symmetry, "GROUP",
                   "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and "

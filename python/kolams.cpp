@@ -63,6 +63,7 @@ py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::opt
         const RimStyle style = of_option("rim", rim, [&] { return parse_rim_style(rim); });
         const GridKolam made = make_grid_kolam(grid, options, monitor);
         KolamPatternOptions pattern = describe_grid_kolam(grid, options, made);
+        if (const std::string title = dot_grid_title(dots); !title.empty()) pattern.title = title;
         pattern.coloured = is_coloured;
         pattern.dot_symbols = draws_dots;
         pattern.rim = style;

@@ -108,12 +108,16 @@ glm::dvec2 centre_of(const DotGrid& grid);
 /// - `7x3 to 3`: three rows of 7, then shorter ones above and below;
 /// - `15x9-9x3`: a block of 15 dots x 9 rows, then 9 dots x 3 rows above and below it;
 /// - a shape drawn in text, rows separated by line feeds or `/`: `o` (or O * # •) is a dot, `.` or `_` none. With
-///   blanks between the dots, each row may be shifted by half a spacing against its neighbours: interlaced.
-/// @throws std::runtime_error for anything else, and as DotGrid does
+///   blanks between the dots, each row may be shifted by half a spacing against its neighbours: interlaced;
+/// - `text:MEERA`, `text 18:MEERA`: letters of 12 or 18 rows of dots; see text_grid().
+/// @throws std::runtime_error for anything else, and as DotGrid and text_grid() do
 DotGrid parse_dot_grid(std::string_view text);
 
 /// Returns a note about notations such as `1-15-1` and `15 dots`, which users write for a diamond but which mean a
 /// few rows here; empty for others.
 std::string dot_grid_note(std::string_view text);
+
+/// The letters of `text:MEERA`, as a title in one line; empty for other notations.
+std::string dot_grid_title(std::string_view text);
 
 }  // namespace sikku

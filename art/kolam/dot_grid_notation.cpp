@@ -1,5 +1,6 @@
 // art/kolam/dot_grid_notation.cpp: reads the notations of grids of dots.
 #include "art/kolam/dot_grid.h"
+#include "art/kolam/dot_grid_text.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -125,6 +126,31 @@ DotGrid parse_shape(std::string_view text) {
     }
     const bool is_triangular = parity[0] && parity[1] && *parity[0] != *parity[1];
     return DotGrid(is_triangular ? DotLattice::triangular : DotLattice::square, columns);
+}
+
+// --- text ---------------------------------------------------------------------------------------------------------
+
+struct TextInDots {
+    std::string_view letters;
+    std::uint32_t rows = usual_letter_rows;
+};
+
+/// Reads `text:MEERA` and `text 12:MEERA`; nullopt for other notations.
+std::optional<TextInDots> parse_text_in_dots(std::string_view given) {
+    constexpr std::string_view word = "text";
+    const std::size_t colon = given.find(':');
+    if (colon == std::string_view::npos || !lower_case(given.substr(0, word.size())).starts_with(word)) return {};
+    TextInDots text{given.substr(colon + 1)};
+    const std::string_view rows = trimmed(given.substr(word.size(), colon - word.size()));
+    if (rows.empty()) return text;
+    const auto [end, error] = std::from_chars(rows.data(), rows.data() + rows.size(), text.rows);
+    if (error != std::errc() || end != rows.data() + rows.size() || text.rows < fewest_letter_rows ||
+        text.rows > most_letter_rows) {
+        refuse(given, fmt::format("'{}' is not a number of rows of dots from {} to {}; expected text:LETTERS or "
+                                  "'text ROWS:LETTERS'",
+                                  printable(rows, 40), fewest_letter_rows, most_letter_rows));
+    }
+    return text;
 }
 
 // --- numbers ------------------------------------------------------------------------------------------------------
@@ -334,13 +360,20 @@ private:
 }  // namespace
 
 DotGrid parse_dot_grid(std::string_view given) {
+    if (const auto text = parse_text_in_dots(given)) return text_grid(text->letters, text->rows);
     const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
     if (is_shape(text)) return parse_shape(text);
     auto [items, sort] = NotationReader(given).read();
     return Notation(given, std::move(items), sort).grid();
 }
 
+std::string dot_grid_title(std::string_view given) {
+    const auto text = parse_text_in_dots(given);
+    return text ? std::string(trimmed(replaced(replaced(text->letters, "/", ' '), "\n", ' '))) : "";
+}
+
 std::string dot_grid_note(std::string_view given) {
+    if (parse_text_in_dots(given)) return "";
     const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
     if (is_shape(text)) return "";
     const auto [items, sort] = NotationReader(given).read();

@@ -437,6 +437,15 @@ double text_width(std::string_view utf8, double height) {
     return units * (height / capital);
 }
 
+std::vector<std::string_view> letters_of(std::string_view utf8) {
+    std::vector<std::string_view> letters;
+    each_glyph(utf8, [&](const Glyph&, std::size_t taken, bool) {
+        letters.push_back(utf8.substr(0, taken));
+        utf8.remove_prefix(taken);
+    });
+    return letters;
+}
+
 bool has_letters(std::string_view utf8) {
     bool all = true;
     each_glyph(utf8, [&](const Glyph&, std::size_t, bool known) { all = all && known; });

@@ -23,6 +23,9 @@ constexpr double letter_descent = 0.4;
 /// Width from the beginning of a text to that of the next.
 double text_width(std::string_view utf8, double height);
 
+/// Splits a text into its letters, with their marks; Tamil into syllables.
+std::vector<std::string_view> letters_of(std::string_view utf8);
+
 /// True if the font contains every character of the text.
 bool has_letters(std::string_view utf8);
 
