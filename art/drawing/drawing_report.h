@@ -41,7 +41,7 @@ struct DrawingReport {
     bool overflows = false;                  ///< it is larger than the page within its margins (a step was given)
     std::size_t dots = 0;                    ///< number of kolam dots drawn
     double covered = 0;                      ///< share of a wallpaper that the copies cover, by their convex hulls
-    double covered_by_moves = 0;             ///< the same if the copies were only translated (p1)
+    double covered_if_packed = 0;            ///< the same for `packed`
     std::size_t copies = 0;                  ///< number of copies of a repeated drawing
     std::optional<std::size_t> strokes;      ///< number of lines of all copies, or of a weave before it is cut
     std::size_t fields = 0;                  ///< number of fields between lines, filled or not

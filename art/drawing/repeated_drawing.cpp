@@ -45,10 +45,11 @@ RepeatedDrawing::RepeatedDrawing(std::unique_ptr<Drawing> inner, const DrawingOp
     strokes_ = shape.strokes();
     const double ink = print.style.stroke.in_steps ? one.widest : 0.0;
     if (options_.repeat->group != "ring") {
-        Repeat moves = *options_.repeat;
-        moves.group = "p1";
+        Repeat packed = *options_.repeat;
+        packed.group = "packed";
         covered_ = covered_share(*options_.repeat, hull_, ink);
-        covered_by_moves_ = covered_share(moves, hull_, ink);
+        constexpr double much = 0.7;
+        covered_if_packed_ = covered_ > much ? covered_ : covered_share(packed, hull_, ink);
     }
     if (options_.repeat->fills) {
         measure_cells(ink);
@@ -122,7 +123,7 @@ void RepeatedDrawing::report(DrawingReport& report) const {
     report.copies = drawn_;
     report.strokes = report.strokes.value_or(strokes_) * drawn_;
     report.covered = covered_;
-    report.covered_by_moves = covered_by_moves_;
+    report.covered_if_packed = covered_if_packed_;
 }
 
 }  // namespace sikku

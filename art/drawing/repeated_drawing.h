@@ -44,7 +44,7 @@ private:
     std::vector<glm::dvec2> hull_;  ///< hull of one copy
     glm::dvec2 centre_{0.0};        ///< centre of mass of one copy
     double covered_ = 0;            ///< see DrawReport
-    double covered_by_moves_ = 0;
+    double covered_if_packed_ = 0;
     std::size_t strokes_ = 0;  ///< strokes of one copy
 };
 

@@ -1,6 +1,7 @@
 #include "art/print/repeat.h"
 
 #include "art/print/crop.h"
+#include "art/print/packing.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -26,7 +27,7 @@ struct Operation {
     double a, b, c, d, e, f;
 };
 
-enum class LatticeKind { rectangular, square, hexagonal };
+enum class LatticeKind { rectangular, square, hexagonal, densest };
 
 /// A group of the plane. The asymmetric unit of a rectangular one is a rectangle of any proportions, in which
 /// coordinates are measured; the others have a polygon in coordinates of the cell.
@@ -95,6 +96,7 @@ std::vector<Group> make_groups() {
         {"p31m", hexagonal, 1, 1, with(p3, p31m), sixth},
         {"p6", hexagonal, 1, 1, with(p3, turned(p3)), sixth},
         {"p6m", hexagonal, 1, 1, with(with(p3, turned(p3)), with(p3m1, p31m)), {{0, 0}, {0.5, 0}, {2. / 3, 1. / 3}}},
+        {"packed", densest, 1, 1, {identity}},
         {"frieze", rectangular, 1, 1, {identity}, {}, true},
         {"frieze-p11g", rectangular, 2, 1, {identity, flip_y(1, 1)}, {}, true},
         {"frieze-p1m1", rectangular, 2, 1, {identity, flip_x(2, 0)}, {}, true},
@@ -308,6 +310,11 @@ Wallpaper wallpaper_of(const Repeat& repeat, std::span<const glm::dvec2> hull, d
         wallpaper.across = static_cast<double>(group.wide) * a;
         wallpaper.up = static_cast<double>(group.high) * b;
         shift = unit / 2.0 - (box.low + box.high) / 2.0;
+    } else if (group.lattice == LatticeKind::densest) {
+        const PlaneLattice lattice = densest_lattice(hull, gap);
+        wallpaper.across = a = lattice.across;
+        wallpaper.up = b = lattice.up;
+        shift = -(box.low + box.high) / 2.0;
     } else {
         a = {1, 0};
         b = group.lattice == LatticeKind::square ? glm::dvec2(0, 1) : glm::dvec2(-0.5, std::sqrt(0.75));
@@ -334,15 +341,17 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
         return ring_of(repeat.columns, hull, box, gap);
     }
     const Wallpaper wallpaper = wallpaper_of(repeat, hull, ink);
-    const bool is_hexagonal = find_group(repeat.group)->lattice == LatticeKind::hexagonal;
+    const LatticeKind lattice = find_group(repeat.group)->lattice;
+    const double shift = glm::dot(wallpaper.up, wallpaper.across) / glm::dot(wallpaper.across, wallpaper.across);
     std::vector<glm::dmat3x2> copies;
     copies.reserve(static_cast<std::size_t>(repeat.copies()));
     for (int row = repeat.rows - 1; row >= 0; --row) {
         for (int column = 0; column < repeat.columns; ++column) {
-            // Rows of a hexagonal lattice are moved back, so that the whole is about a rectangle.
-            const int back = is_hexagonal ? row / 2 : 0;
-            const glm::dvec2 cell =
-                static_cast<double>(column + back) * wallpaper.across + static_cast<double>(row) * wallpaper.up;
+            // Oblique rows are moved back, so that the whole is about a rectangle.
+            const double back = lattice == LatticeKind::hexagonal ? row / 2
+                                : lattice == LatticeKind::densest ? -std::floor(row * shift + 1e-9)
+                                                                  : 0;
+            const glm::dvec2 cell = (column + back) * wallpaper.across + static_cast<double>(row) * wallpaper.up;
             for (glm::dmat3x2 copy : wallpaper.cell) {
                 copy[2] += cell;
                 copies.push_back(copy);

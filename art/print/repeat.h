@@ -15,7 +15,7 @@ namespace sikku {
 
 /// The repetition of a drawing.
 struct Repeat {
-    std::string group;             ///< `frieze`, `p4m`, `ring`, …
+    std::string group;             ///< `frieze`, `p4m`, `packed`, `ring`, …
     int columns = 1, rows = 1;     ///< translation cells; of a ring, `columns` copies
     double gap = 0.08;             ///< space between neighbouring copies; negative: they overlap
     bool gap_is_in_steps = false;  ///< the gap is in turtle steps, not a part of the drawing's larger side
@@ -31,7 +31,8 @@ struct Repeat {
 constexpr int most_copies = 10'000;
 
 /// Parses `GROUP[:COUNT][,gap=GAP]`. The group is a wallpaper group by its name (p1 p2 pm pg cm pmm pmg pgg cmm p4
-/// p4m p4g p3 p3m1 p31m p6 p6m) with `COLUMNSxROWS` cells (3x3), or `fill` or `COLUMNSxfill` to cover the page; a
+/// p4m p4g p3 p3m1 p31m p6 p6m), or `packed` for translated copies as in densest_lattice(), with `COLUMNSxROWS` cells
+/// (3x3), or `fill` or `COLUMNSxfill` to cover the page; a
 /// frieze group: frieze (translations alone), frieze-p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm, with a number of cells
 /// (5), or `fill` for a row from edge to edge of the page; or ring with a number of copies (8). The gap is in steps,
 /// or in percent of the drawing's larger side (8%). Nullopt for anything else and for more than most_copies.

@@ -131,11 +131,11 @@ private:
                                   counted(report.strokes.value_or(0), "line")));
         }
         constexpr double half = 0.55, most = 0.7;
-        if (report.copies > 0 && report.covered > 0 && report.covered < half && report.covered_by_moves > most) {
+        if (report.copies > 0 && report.covered > 0 && report.covered < half && report.covered_if_packed > most) {
             made.fact(
                 fmt::format("the copies cover only {:.0f} % of {}, whose units have another shape than the drawing; "
-                            "p1 covers {:.0f} %",
-                            100 * report.covered, settings().look.repeat->group, 100 * report.covered_by_moves));
+                            "packed covers {:.0f} %",
+                            100 * report.covered, settings().look.repeat->group, 100 * report.covered_if_packed));
         }
     }
 

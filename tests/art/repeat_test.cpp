@@ -279,7 +279,7 @@ double distance(const Points& a, const Points& b) {
 TEST(Repeat, CopiesKeepTheirDistance) {
     for (std::string name :
          {"p2:2x2", "cmm:2x2", "p4:2x2", "p4m:2x2", "p4g:2x2", "p3:2x2", "p3m1:2x2", "p31m:2x2", "p6:2x2", "p6m:2x2",
-          "ring:1", "ring:2", "ring:3", "ring:7", "frieze:4", "frieze-p2mg:2"}) {
+          "packed:3x3", "ring:1", "ring:2", "ring:3", "ring:7", "frieze:4", "frieze-p2mg:2"}) {
         SCOPED_TRACE(name);
         const std::vector<Points> copies = drawn(name + ",gap=0.5");
         const double step = glm::length(copies[0][1] - copies[0][0]);
@@ -315,7 +315,7 @@ TEST(Repeat, IsParsed) {
     EXPECT_DOUBLE_EQ(parse_repeat("p1:2x2,gap=5%")->gap, 0.05);
     for (const char* bad :
          {"", "p5", "p4:3", "frieze:3x3", "ring:0", "ring:x", "p1:0x3", "p1:101x100", "ring:10001", "p4:2x2,gap",
-          "p4:2x2,gap=x", "p4:2x2,gap=nan", "p4:2x2x2", "p4:99999999999x2", "gap=3"}) {
+          "packed:3", "p4:2x2,gap=x", "p4:2x2,gap=nan", "p4:2x2x2", "p4:99999999999x2", "gap=3"}) {
         EXPECT_FALSE(parse_repeat(bad)) << bad;
     }
 }
@@ -408,10 +408,10 @@ TEST(Repeat, CopiesInUnitsOfAnotherShapeAreReported) {
         return made_work(prints(), square, "svg", {{"repeat", repeat}}).remarks;
     };
     for (const char* repeat : {"p4m:3x4", "p4m:fill", "p6m:2x2"}) {
-        EXPECT_TRUE(has(report(repeat), "; p1 covers 86 %"));
+        EXPECT_TRUE(has(report(repeat), "; packed covers 86 %"));
     }
-    for (const char* repeat : {"p1:3x4", "pmm:2x2", "p4:2x2", "frieze:3", "ring:5"}) {
-        EXPECT_FALSE(has(report(repeat), "p1 covers"));
+    for (const char* repeat : {"p1:3x4", "packed:3x4", "pmm:2x2", "p4:2x2", "frieze:3", "ring:5"}) {
+        EXPECT_FALSE(has(report(repeat), "packed covers"));
     }
     const std::vector<glm::dvec2> unit = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     Repeat repeat = *parse_repeat("p1:1x1,gap=0");
