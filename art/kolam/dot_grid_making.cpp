@@ -180,6 +180,8 @@ std::vector<GridSymmetry> usual_symmetries(const DotGrid& grid, bool single_line
         if (!is_possible || !has_symmetry(grid, symmetry)) continue;
         if (!single_line || !symmetry_obstacle(grid, symmetry)) found.push_back(symmetry);
     }
+    std::stable_sort(found.begin(), found.end(),
+                     [](GridSymmetry a, GridSymmetry b) { return grid_symmetry_order(a) > grid_symmetry_order(b); });
     found.push_back(GridSymmetry::none);
     return found;
 }

@@ -232,6 +232,17 @@ GridSymmetry parse_grid_symmetry(std::string_view text) {
         printable(text, 80)));
 }
 
+int grid_symmetry_order(GridSymmetry symmetry) {
+    const Group& group = group_of(symmetry);
+    const bool has_mirrors = std::any_of(group.generators.begin(), group.generators.end(),
+                                         [](const Isometry& isometry) { return isometry.is_mirror; });
+    return group.rotations * (has_mirrors ? 2 : 1);
+}
+
+bool has_half_turn(GridSymmetry symmetry) {
+    return group_of(symmetry).rotations % 2 == 0;
+}
+
 std::string_view grid_symmetry_name(GridSymmetry symmetry) {
     return group_of(symmetry).name;
 }

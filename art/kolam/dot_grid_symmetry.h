@@ -36,6 +36,9 @@ enum class GridSymmetry : std::uint8_t {
 /// `D3-y`, `D4`, `D6`, in any case. @throws std::runtime_error
 GridSymmetry parse_grid_symmetry(std::string_view text);
 std::string_view grid_symmetry_name(GridSymmetry symmetry);
+/// Number of rotations and mirrors of the group, the identity included.
+int grid_symmetry_order(GridSymmetry symmetry);
+bool has_half_turn(GridSymmetry symmetry);
 /// All symmetries, `none` first.
 std::span<const GridSymmetry> grid_symmetry_list();
 

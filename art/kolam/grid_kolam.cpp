@@ -31,10 +31,17 @@ Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint
         return choice;
     }
     choice.symmetries = usual_symmetries(grid, options.single_line);
-    // Half of the kolams have the largest symmetry; none is the last.
-    const std::size_t symmetric = choice.symmetries.size() - 1;
-    if (symmetric > 1 && chance.below(2) == 1) {
-        const auto chosen = choice.symmetries.begin() + static_cast<std::ptrdiff_t>(1 + chance.below(symmetric - 1));
+    // Three of four kolams have the largest symmetry. Kolams without half turns and with few images of a motif look
+    // accidental, and are made only where no others can be had.
+    const GridSymmetry largest = choice.symmetries.front();
+    const auto end =
+        std::stable_partition(choice.symmetries.begin(), choice.symmetries.end(), [&](GridSymmetry other) {
+            return other == largest ||
+                   (grid_symmetry_order(other) >= 4 && has_half_turn(other) == has_half_turn(largest));
+        });
+    const auto large = static_cast<std::size_t>(end - choice.symmetries.begin());
+    if (large > 1 && chance.below(4) == 0) {
+        const auto chosen = choice.symmetries.begin() + static_cast<std::ptrdiff_t>(1 + chance.below(large - 1));
         std::rotate(choice.symmetries.begin(), chosen, chosen + 1);
     }
     return choice;

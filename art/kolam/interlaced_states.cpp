@@ -7,7 +7,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,9 +23,9 @@ constexpr std::uint32_t no_dot = UINT32_MAX;
 struct Costs {
     double straight = 0.5;  ///< times the square of the crossings beyond four that a line runs straight through
     double parallel = 3;    ///< three parallel straight strands
-    double ring = 0.3;      ///< a line around a single dot
-    double many_rings = 3;  ///< each beyond one dot in ten
-    double rim_ring = 0.4;  ///< at the rim
+    double ring = 0.6;      ///< a line around a single dot
+    double many_rings = 3;  ///< each beyond one dot in fourteen
+    double rim_ring = 2;    ///< at the rim
     double neighbouring_rings = 1;
     double piece = 2;             ///< each beyond the first
     double closed_rim = 0.7;      ///< a dot of the rim without a loop
@@ -38,8 +40,12 @@ using Motif = std::vector<std::uint32_t>;
 
 class Composition {
 public:
-    Composition(const DotGrid& grid, GridSymmetry symmetry)
-        : grid_(grid), crossings_(grid.gaps().size()), neighbours_(sides * grid.dots().size(), no_dot) {
+    /// @param period  motifs that repeat by this step are one; without it, none are
+    Composition(const DotGrid& grid, GridSymmetry symmetry, std::optional<GridDot> period)
+        : grid_(grid),
+          period_(period),
+          crossings_(grid.gaps().size()),
+          neighbours_(sides * grid.dots().size(), no_dot) {
         for (const GridGap& gap : grid.gaps()) {
             neighbours_[sides * gap.from + gap.side] = gap.to;
             neighbours_[sides * gap.to + (gap.side + sides / 2) % sides] = gap.from;
@@ -51,6 +57,40 @@ public:
     }
 
     std::size_t triangle_motifs() const { return triangle_motifs_; }
+    /// The motifs of triangles around a dot.
+    std::vector<std::size_t> star(std::uint32_t dot) const {
+        std::vector<std::size_t> motifs;
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            if (std::find(corners_[i].begin(), corners_[i].end(), dot) != corners_[i].end()) {
+                motifs.push_back(motif_of_triangle_[i]);
+            }
+        }
+        std::sort(motifs.begin(), motifs.end());
+        motifs.erase(std::unique(motifs.begin(), motifs.end()), motifs.end());
+        return motifs;
+    }
+    /// Crosses the gaps between neighbouring dots of the rim, which makes a wreath.
+    void close_rim() {
+        for (std::size_t i = 0; i < crossings_.size(); ++i) {
+            const GridGap& gap = grid_.gaps()[i];
+            if (!is_rim(gap.from) || !is_rim(gap.to)) continue;
+            crossings_[i] = 1;
+            has_wreath_ = true;
+        }
+    }
+    bool is_rim(std::uint32_t dot) const {
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            if (neighbour(dot, side) == no_dot) return true;
+        }
+        return false;
+    }
+    /// True if a motif does not reach the rim.
+    bool is_inside(std::size_t motif) const {
+        return std::none_of(motifs_[motif].begin(), motifs_[motif].end(), [&](std::uint32_t gap) {
+            return is_rim(grid_.gaps()[gap].from) || is_rim(grid_.gaps()[gap].to);
+        });
+    }
+    bool has_wreath() const { return has_wreath_; }
     std::size_t motifs() const { return motifs_.size(); }
     void change(std::size_t motif) {
         is_chosen_[motif] ^= 1;
@@ -84,6 +124,7 @@ private:
                 triangles_.push_back({static_cast<std::uint32_t>(grid_.gap(dot, side)),
                                       static_cast<std::uint32_t>(grid_.gap(dot, (side + 1) % sides)),
                                       static_cast<std::uint32_t>(grid_.gap(a, (side + 2) % sides))});
+                corners_.push_back({dot, a, b});
             }
         }
     }
@@ -107,7 +148,9 @@ private:
                 images.join(i, numbers.at(sorted(gaps)));
             }
         }
+        if (period_) join_repeats(images);
         const std::vector<std::uint32_t> classes = images.set_numbers();
+        motif_of_triangle_ = classes;
         for (std::size_t i = 0; i < classes.size(); ++i) {
             if (classes[i] == motifs_.size()) motifs_.emplace_back();
             motifs_[classes[i]].insert(motifs_[classes[i]].end(), triangles_[i].begin(), triangles_[i].end());
@@ -118,6 +161,42 @@ private:
             motifs_[triangle_motifs_ + orbits[i]].push_back(i);
         }
         is_chosen_.assign(motifs_.size(), 0);
+    }
+    /// Joins triangles that the period takes to each other. Those around the centre, which are its figure, repeat
+    /// nowhere, and those of the rim only along it.
+    void join_repeats(UnionFind& images) {
+        constexpr double centre_radius = 1.3;  // in spacings
+        const glm::dvec2 centre = centre_of(grid_);
+        enum class Zone : std::uint8_t { figure, field, rim };
+        std::map<GridDot, std::pair<std::uint32_t, Zone>> at;  // by the sum of their corners
+        std::vector<std::pair<GridDot, Zone>> places;
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+            GridDot sum;
+            glm::dvec2 middle(0.0);
+            bool touches_rim = false;
+            for (const std::uint32_t dot : corners_[i]) {
+                sum = sum + grid_.dots()[dot];
+                middle += dot_place(grid_, dot) / 3.0;
+                touches_rim = touches_rim || is_rim(dot);
+            }
+            const Zone zone = touches_rim                                    ? Zone::rim
+                              : glm::length(middle - centre) < centre_radius ? Zone::figure
+                                                                             : Zone::field;
+            at[sum] = {i, zone};
+            places.emplace_back(sum, zone);
+        }
+        // By turns of the period, which the lattice has.
+        GridDot step = *period_;
+        for (std::uint32_t turn = 0; turn < sides / 2; ++turn) {
+            for (std::uint32_t i = 0; i < places.size(); ++i) {
+                const auto [sum, zone] = places[i];
+                const auto found = at.find(sum + step + step + step);
+                if (zone != Zone::figure && found != at.end() && found->second.second == zone) {
+                    images.join(i, found->second.first);
+                }
+            }
+            step = {(2 * step.x - 3 * step.y) / 4, (4 * step.x + 2 * step.y) / 4};
+        }
     }
     /// The gaps that a line from rim to rim runs straight through where all are crossed.
     void find_courses() {
@@ -175,12 +254,12 @@ private:
                 }
             } else if (crossed == sides) {
                 cost += costs.star;
-            } else if (is_rim && near > 2 && crossed == near) {
+            } else if (is_rim && !has_wreath_ && near > 2 && crossed == near) {
                 cost += costs.closed_rim;
             }
             cost += cost_of_parallels(dot);
         }
-        return cost + costs.many_rings * std::max(0.0, rings - 0.1 * count);
+        return cost + costs.many_rings * std::max(0.0, rings - 0.07 * count);
     }
     /// Straight strands on both sides of a dot, parallel to a side.
     bool has_pair(std::uint32_t dot, std::uint32_t side) const {
@@ -230,7 +309,8 @@ private:
         for (std::uint32_t dot = 0; dot < crossed_sides_.size(); ++dot) {
             count += crossed_sides_[dot] != 0 && pieces.find(dot) == dot;
         }
-        return count > 1 ? costs.piece * (count - 1) : 0;
+        const std::uint32_t wanted = has_wreath_ ? 2 : 1;
+        return count > wanted ? costs.piece * (count - wanted) : 0;
     }
     double cost_of_density() const {
         std::vector<std::pair<double, double>> rings(wanted_.size());  // gaps, crossed ones
@@ -251,11 +331,15 @@ private:
     }
 
     const DotGrid& grid_;
+    std::optional<GridDot> period_;
     std::vector<std::uint32_t> crossings_;                 // by gap: chosen motifs that cross it
     std::vector<std::uint32_t> neighbours_;                // by dot and side
     std::vector<std::array<std::uint32_t, 3>> triangles_;  // their gaps
+    std::vector<std::array<std::uint32_t, 3>> corners_;    // their dots
     std::vector<Motif> motifs_;
+    std::vector<std::uint32_t> motif_of_triangle_;
     std::size_t triangle_motifs_ = 0;
+    bool has_wreath_ = false;
     std::vector<char> is_chosen_;
     std::vector<std::int32_t> courses_;  // -1 after each
     std::vector<double> distances_;
@@ -263,9 +347,12 @@ private:
     std::vector<std::uint32_t> crossed_sides_;  // by dot, as bits
 };
 
+constexpr std::size_t fewest_repeated_dots = 80;
+
 /// Shares of crossed gaps for one to three rings around the centre.
 std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
     std::vector<double> densities(1 + chance.below(dots < 30 ? 2 : 3));
+    if (dots >= fewest_repeated_dots) return {0.3 + 0.12 * chance.fraction()};
     if (densities.size() == 1) return {0.38 + 0.2 * chance.fraction()};
     const double dense = 0.5 + 0.15 * chance.fraction(), sparse = 0.28 + 0.12 * chance.fraction();
     const std::size_t first = chance.below(2);
@@ -273,16 +360,45 @@ std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
     return densities;
 }
 
+/// Crosses all gaps around a dot inside the rim, and the images of these.
+void begin_with_star(Composition& composition, const DotGrid& grid, SplitMix& chance) {
+    std::vector<std::uint32_t> inner;
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+        if (composition.is_rim(dot)) continue;
+        const std::vector<std::size_t> motifs = composition.star(dot);
+        const bool is_inside = std::all_of(motifs.begin(), motifs.end(),
+                                           [&](std::size_t motif) { return composition.is_inside(motif); });
+        if (is_inside) inner.push_back(dot);
+    }
+    if (inner.empty()) return;
+    for (const std::size_t motif : composition.star(inner[chance.below(inner.size())])) composition.change(motif);
+}
+
+/// A step by which motifs of a large grid repeat: many motifs at once have no figure.
+std::optional<GridDot> random_period(std::size_t dots, SplitMix& chance) {
+    if (dots < fewest_repeated_dots) return std::nullopt;
+    // Three spacings along a row, two by two, and four along a row.
+    constexpr std::array<GridDot, 3> periods = {{{6, 0}, {6, 4}, {8, 0}}};
+    return periods[chance.below(dots < 120 ? 2 : 3)];
+}
+
 }  // namespace
 
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
     constexpr double begun_triangles = 0.28;  // share of those chosen at first
     constexpr std::size_t most_proposals = 1500;
-    Composition composition(grid, symmetry);
     SplitMix chance(seed);
+    Composition composition(grid, symmetry, random_period(grid.dots().size(), chance));
+    const bool is_large = grid.dots().size() >= fewest_repeated_dots;
     composition.aim_at(random_densities(grid.dots().size(), chance));
-    for (std::size_t i = 0; i < composition.triangle_motifs(); ++i) {
-        if (chance.fraction() < begun_triangles) composition.change(i);
+    if (is_large) {
+        // A star that repeats, and mostly a wreath around it all: the eye finds a figure and a border.
+        if (chance.below(4) > 0) composition.close_rim();
+        begin_with_star(composition, grid, chance);
+    } else {
+        for (std::size_t i = 0; i < composition.triangle_motifs(); ++i) {
+            if (chance.fraction() < begun_triangles) composition.change(i);
+        }
     }
     if (composition.motifs() == 0) return composition.states();
     double cost = composition.cost();
@@ -294,7 +410,10 @@ GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uin
         const std::size_t first = is_gap ? composition.triangle_motifs() : 0;
         const std::size_t end = is_gap ? composition.motifs() : composition.triangle_motifs();
         const std::size_t count = !is_gap && kind < 0.3 ? 2 : 1;
-        for (std::size_t k = 0; k < count; ++k) composition.change(changes[k] = first + chance.below(end - first));
+        for (std::size_t k = 0; k < count; ++k) changes[k] = first + chance.below(end - first);
+        // Triangles would hide a wreath.
+        if (composition.has_wreath() && !is_gap && !composition.is_inside(changes[0])) continue;
+        for (std::size_t k = 0; k < count; ++k) composition.change(changes[k]);
         const double changed = composition.cost();
         if (changed <= cost) {
             cost = changed;

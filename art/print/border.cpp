@@ -26,12 +26,14 @@ struct BorderRow {
     double depth;
     void (*draw)(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink) = nullptr;
 };
-constexpr std::array<BorderRow, 7> border_rows = {{{BorderKind::kaavi, 1.0},
+constexpr std::array<BorderRow, 9> border_rows = {{{BorderKind::kaavi, 1.0},
                                                    {BorderKind::padi, 1.9, draw_padi},
                                                    {BorderKind::lotus, 1.75, draw_lotus},
                                                    {BorderKind::rope, 1.35, draw_rope},
                                                    {BorderKind::diamonds, 1.5, draw_diamonds},
                                                    {BorderKind::waves, 1.5, draw_waves},
+                                                   {BorderKind::marigolds, 1.6, draw_marigolds},
+                                                   {BorderKind::lamps, 1.75, draw_lamps},
                                                    {BorderKind::pattern, 1.6}}};
 
 const BorderRow& row_of(BorderKind kind) {

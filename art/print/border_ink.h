@@ -1,6 +1,7 @@
 // art/print/border_ink.h: draws the parts of borders in the coordinates of the sides of the frame.
 #pragma once
 
+#include "art/print/border.h"
 #include "art/print/print.h"
 
 #include <glm/mat2x2.hpp>
@@ -95,11 +96,45 @@ private:
     std::vector<glm::dvec2> points_;
 };
 
+namespace border {
+
+inline constexpr int flour = 0, earth = 1;  ///< colours of BorderInk
+
+inline const BorderSide& next(std::span<const BorderSide, 4> sides, std::size_t side) {
+    return sides[(side + 1) % 4];
+}
+
+/// The repeats of both kinds of sides, whose corners take `corner` of each end; `multiple` of them belong together.
+inline BorderRepeats repeats_of(std::span<const BorderSide, 4> sides, double corner, double length,
+                                int multiple = 1) {
+    BorderRepeats repeats =
+        border_repeats(sides[0].length - 2 * corner, sides[1].length - 2 * corner, multiple * length);
+    repeats.across *= multiple;
+    repeats.down *= multiple;
+    return repeats;
+}
+
+inline int count_of(const BorderRepeats& repeats, std::size_t side) {
+    return side % 2 == 0 ? repeats.across : repeats.down;
+}
+
+/// A closed line at a distance from the outer edge.
+inline void draw_rectangle(std::span<const BorderSide, 4> sides, double inset, double width, int colour,
+                           BorderInk& ink) {
+    ink.begin(sides[0].at({inset, inset}), width, colour);
+    for (std::size_t i = 0; i < 4; ++i) ink.line(next(sides, i).at({inset, inset}));
+    ink.end(true);
+}
+
+}  // namespace border
+
 /// Draw the borders of BorderKind with these names within `sides`, at this depth in millimetres.
 void draw_padi(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_lotus(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_rope(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_diamonds(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 void draw_waves(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
+void draw_marigolds(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
+void draw_lamps(std::span<const BorderSide, 4> sides, double depth, BorderInk& ink);
 
 }  // namespace sikku

@@ -16,32 +16,7 @@ namespace {
 
 using Point = glm::dvec2;
 using Sides = std::span<const BorderSide, 4>;
-
-constexpr int flour = 0, earth = 1;
-
-const BorderSide& next(Sides sides, std::size_t side) {
-    return sides[(side + 1) % 4];
-}
-
-/// The repeats of both kinds of sides, whose corners take `corner` of each end; `multiple` of them belong together.
-BorderRepeats repeats_of(Sides sides, double corner, double length, int multiple = 1) {
-    BorderRepeats repeats =
-        border_repeats(sides[0].length - 2 * corner, sides[1].length - 2 * corner, multiple * length);
-    repeats.across *= multiple;
-    repeats.down *= multiple;
-    return repeats;
-}
-
-int count_of(const BorderRepeats& repeats, std::size_t side) {
-    return side % 2 == 0 ? repeats.across : repeats.down;
-}
-
-/// A closed line at a distance from the outer edge.
-void draw_rectangle(Sides sides, double inset, double width, int colour, BorderInk& ink) {
-    ink.begin(sides[0].at({inset, inset}), width, colour);
-    for (std::size_t i = 0; i < 4; ++i) ink.line(next(sides, i).at({inset, inset}));
-    ink.end(true);
-}
+using namespace border;
 
 void draw_segment(Point from, Point to, double width, int colour, BorderInk& ink) {
     ink.begin(from, width, colour);
@@ -235,90 +210,6 @@ void draw_waves(Sides sides, double d, BorderInk& ink) {
             if (k > 0) ink.disc(side.at({u, low - 2 * rise - swing + 0.13 * d}), 0.05 * d, flour);
         }
         ink.disc(side.at({centre, centre}), 0.06 * d, flour);
-    }
-}
-
-namespace {
-
-/// A petal that stands on a base: its outline from the left foot over the tip to the right foot.
-struct Petal {
-    std::array<Bezier, 2> sides;
-};
-/// @param foot  the middle of its base @param up  from there to its tip @param across  half its width, to the right
-/// @param base  width of the base, as part of the widest
-Petal petal(Point foot, Point up, Point across, double base) {
-    const auto at = [&](double x, double y) { return foot + x * across + y * up; };
-    return {{{{at(-base, 0), at(-1.25, 0.42), at(-0.62, 0.72), at(0, 1)},
-              {at(0, 1), at(0.62, 0.72), at(1.25, 0.42), at(base, 0)}}}};
-}
-
-void draw_petal(const Petal& drawn, double width, int colour, BorderInk& ink) {
-    ink.begin(drawn.sides[0][0], width, colour);
-    for (const Bezier& side : drawn.sides) ink.curve(side[1], side[2], side[3]);
-    ink.end(false);
-}
-
-void fill_petal(const Petal& filled, int colour, BorderInk& ink) {
-    const auto& [left, right] = filled.sides;
-    const std::array outline = {left[0], left[1], left[2], left[3], right[1], right[2], right[3]};
-    ink.area(outline, colour);
-}
-
-/// The visible part of a petal behind two others: from the side of the one to its tip, and down to the other's.
-void draw_back_petal(const Petal& left, const Petal& right, Point tip, double width, BorderInk& ink) {
-    const Point from = part_of(left.sides[1], 0.42, 0.42)[0], to = part_of(right.sides[0], 0.58, 0.58)[0];
-    const Point between = (from + to) / 2.0;
-    ink.begin(from, width, flour);
-    ink.curve(from + 0.5 * (tip - between), tip + 0.3 * (from - tip), tip);
-    ink.curve(tip + 0.3 * (to - tip), to + 0.5 * (tip - between), to);
-    ink.end(false);
-}
-
-}  // namespace
-
-/// Petals that open outwards from a double line, with others behind them, and one across each corner.
-void draw_lotus(Sides sides, double d, BorderInk& ink) {
-    const double line = 0.045 * d;
-    const double base = 0.84 * d, high = 0.66 * d;
-    const BorderRepeats repeats = repeats_of(sides, base, 0.52 * d);
-    draw_rectangle(sides, base, line, flour, ink);
-    draw_rectangle(sides, d - line / 2, line, flour, ink);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const BorderSide& side = sides[i];
-        const BorderSide& turn = next(sides, i);
-        const int count = count_of(repeats, i);
-        const double p = (side.length - 2 * base) / count;
-        const double after = (turn.length - 2 * base) / count_of(repeats, i + 1);
-        const auto standing = [&](const BorderSide& on, double u, double pitch, double size) {
-            return petal(on.at({u, base}), -size * high * on.inwards, 0.44 * size * pitch * on.along, 0.62);
-        };
-        const Point corner = turn.at({base, base});
-        const Point diagonal = turn.at({0, 0}) - corner;
-        const auto corner_petal = [&](double size) {
-            const Point up = glm::normalize(diagonal) * high * 1.38;
-            return petal(corner + (1 - size) * 0.3 * up, size * up,
-                         size * 0.5 * p * glm::normalize(side.along + turn.along), 0.0);
-        };
-        std::vector<Petal> row;
-        for (int k = 0; k < count; ++k) {
-            const double u = base + (k + 0.5) * p;
-            row.push_back(standing(side, u, p, 1));
-            fill_petal(standing(side, u, p, 0.62), earth, ink);
-        }
-        row.push_back(corner_petal(1));
-        fill_petal(corner_petal(0.62), earth, ink);
-        for (const Petal& each : row) draw_petal(each, line, flour, ink);
-        row.push_back(standing(turn, base + 0.5 * after, after, 1));
-        for (std::size_t k = 0; k + 1 < row.size(); ++k) {
-            const bool is_last = k + 2 == row.size();
-            const Point foot = is_last ? corner : side.at({base + static_cast<double>(k + 1) * p, base});
-            const Point up = is_last ? -high * turn.inwards : -high * side.inwards;
-            // Beside the petal of the corner, halfway between its direction and that of the row.
-            const bool is_corner = k + 3 >= row.size();
-            const Point lean = is_corner ? high * glm::normalize(up / high + glm::normalize(diagonal)) : up;
-            draw_back_petal(row[k], row[k + 1], foot + (is_corner ? 0.92 : 0.78) * lean, line, ink);
-            ink.disc(foot + (is_corner ? 1.14 : 1.0) * lean, 0.035 * d, flour);
-        }
     }
 }
 

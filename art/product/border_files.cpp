@@ -43,12 +43,13 @@ std::shared_ptr<const BorderPattern> load_part(const std::string& name, const Dr
         diagnostics.throw_if_errors();
         return std::make_shared<const BorderPattern>(BorderPattern{document.shared_grammar(), std::move(style)});
     } catch (const NotFound& error) {
-        const std::string_view near = nearest(name, {"kaavi", "padi", "lotus", "rope", "diamonds", "waves", "none"});
+        std::vector<std::string_view> names(border_names().begin(), border_names().end());
+        names.push_back("none");
+        const std::string_view near = nearest(name, names);
         if (near == name) refuse_option("border", name, "a border with a corner consists of two patterns");
         refuse_option("border", name,
                       near.empty()
-                          ? fmt::format("expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern: {}",
-                                        error.what())
+                          ? fmt::format("expected {}, or a pattern: {}", fmt::join(names, ", "), error.what())
                           : "unknown border" + did_you_mean(near));
     } catch (const Stopped&) {
         throw;

@@ -375,16 +375,16 @@ const std::array own_rows = {
                   s.look.dot_spacing = length_between("dot-spacing", t, s.paper.dpi, above_0, longest,
                                                       "expected a length above 0 and at most 10 m");
               }},
-    Option<S>{
-        {.name = "border",
-         .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, or a pattern file to repeat along the "
-                 "sides, optionally with another for the corners",
-         .value = "NAME|FILE[,CORNER]",
-         .group = kolams,
-         .scope = Scope::extras,
-         .neutral = "none",
-         .is_key = true},
-        [](S& s, Text t) { s.look.border = t; }},
+    Option<S>{{.name = "border",
+               .help = "draw a frame: kaavi, padi, lotus, rope, diamonds, waves, marigolds, lamps, or a pattern file "
+                       "to repeat along the "
+                       "sides, optionally with another for the corners",
+               .value = "NAME|FILE[,CORNER]",
+               .group = kolams,
+               .scope = Scope::extras,
+               .neutral = "none",
+               .is_key = true},
+              [](S& s, Text t) { s.look.border = t; }},
     Option<S>{
         {.name = "repeat",
          .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "

@@ -458,13 +458,18 @@ std::vector<int> slots(const Style& style, Colour (Style::*colour_of)(const Pen&
     return result;
 }
 
+/// In the order of BorderKind.
+constexpr std::array<std::string_view, 8> named_borders = {"kaavi",    "padi",  "lotus",     "rope",
+                                                           "diamonds", "waves", "marigolds", "lamps"};
+
 void read_border(const Key& key, Style& style, Diagnostics& diagnostics) {
     if (lower_case(trimmed(key.value.view())) == "none") return;
     style.border = parse_border(key.value.view());
     if (!style.border) {
         diagnostics.error(key.value.empty() ? key.name_at : key.value,
-                          "expected kaavi, padi, lotus, rope, diamonds, waves, none, or a pattern file such as "
-                          "petal.lsys, optionally followed by a comma and another for the corners");
+                          fmt::format("expected {}, none, or a pattern file such as petal.lsys, optionally followed "
+                                      "by a comma and another for the corners",
+                                      fmt::join(named_borders, ", ")));
     }
 }
 
@@ -479,17 +484,15 @@ void read_sway(const Key& key, Style& style, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::span<const std::string_view> border_names() {
+    return named_borders;
+}
+
 std::optional<BorderStyle> parse_border(std::string_view text) {
-    constexpr std::array<std::pair<std::string_view, BorderKind>, 6> names = {{{"kaavi", BorderKind::kaavi},
-                                                                               {"padi", BorderKind::padi},
-                                                                               {"lotus", BorderKind::lotus},
-                                                                               {"rope", BorderKind::rope},
-                                                                               {"diamonds", BorderKind::diamonds},
-                                                                               {"waves", BorderKind::waves}}};
     text = trimmed(text);
     const std::string lower = lower_case(text);
-    for (const auto& [name, kind] : names) {
-        if (lower == name) return BorderStyle{.kind = kind};
+    for (std::size_t i = 0; i < named_borders.size(); ++i) {
+        if (lower == named_borders[i]) return BorderStyle{.kind = static_cast<BorderKind>(i)};
     }
     const std::size_t comma = text.find(',');
     BorderStyle border{.kind = BorderKind::pattern, .pattern = std::string(trimmed(text.substr(0, comma)))};

@@ -36,7 +36,7 @@ struct DotStyle {
 };
 
 /// Frame of a print.
-enum class BorderKind : std::uint8_t { kaavi, padi, lotus, rope, diamonds, waves, pattern };
+enum class BorderKind : std::uint8_t { kaavi, padi, lotus, rope, diamonds, waves, marigolds, lamps, pattern };
 struct BorderStyle {
     BorderKind kind = BorderKind::kaavi;
     std::string pattern{};  ///< for BorderKind::pattern: the pattern whose drawing is repeated, by path or name
@@ -108,7 +108,9 @@ struct Style {
     double disc_radius(double radius, const Pen& pen, double step) const;
 };
 
-/// Parses the value of `border:`: kaavi, padi, lotus, rope, diamonds, waves; or one or two pattern files, separated
+/// The names of the borders that are not patterns.
+std::span<const std::string_view> border_names();
+/// Parses the value of `border:`: one of border_names(); or one or two pattern files, separated
 /// by a comma: the repeat and the corner. Returns nullopt for anything else. A file ends in `.lsys`; other words are
 /// names of bundled patterns.
 std::optional<BorderStyle> parse_border(std::string_view text);

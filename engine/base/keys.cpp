@@ -82,7 +82,8 @@ constexpr KeyInfo language[] = {
     {"palette", art, "colours, or a set of powders", "eight colours",
      "Colours of the indices 0, 1, 2 …, repeated from the end", KeyScope::all},
     {"dots", art, "a size and a colour such as 0.2 step white; none", "none", "Dots of a kolam"},
-    {"border", art, "kaavi, padi, lotus, rope, diamonds, waves; a pattern file, or two; none", "none",
+    {"border", art, "kaavi, padi, lotus, rope, diamonds, waves, marigolds, lamps; a pattern file, or two; none",
+     "none",
      "Frame around the drawing; the first pattern file is repeated along the sides, the second drawn in the "
      "corners",
      KeyScope::all, names_border_file},

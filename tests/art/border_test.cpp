@@ -57,8 +57,9 @@ private:
     glm::dvec2 first_{0.0}, last_{0.0};
 };
 
-const std::vector<BorderKind> kinds = {BorderKind::kaavi, BorderKind::padi,     BorderKind::lotus,
-                                       BorderKind::rope,  BorderKind::diamonds, BorderKind::waves};
+const std::vector<BorderKind> kinds = {BorderKind::kaavi,     BorderKind::padi,     BorderKind::lotus,
+                                       BorderKind::rope,      BorderKind::diamonds, BorderKind::waves,
+                                       BorderKind::marigolds, BorderKind::lamps};
 const std::vector<Page> pages = {{210, 297, 10}, {594, 841, 20}, {300, 300, 10}, {297, 210, 0}, {500, 150, 12}};
 
 Points drawn(BorderKind kind, const Page& page) {
