@@ -125,7 +125,7 @@ constexpr Rule product_rules[] = {
 
     {when::colouring,
      {{"dots", "border", "colour-by", "fields", "powders", "weave", "parallel", "hand", "fill", "palette", "ground",
-       "tile-colours", "tissue"}},
+       "tile-colours", "tile-edges", "tissue"}},
      "cannot be combined with 'colouring', which draws outlines alone, in one ink on white paper"},
     {when::colouring, {{lesson, "divide"}}, "a colouring page shows the whole drawing at once"},
     {when::animated_colouring, {{"colouring"}}, "a colouring page is printed; a .gif is shown on screens"},
