@@ -242,8 +242,11 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
 /// True if the prints are on white paper, which then continues between them.
 bool is_white(const std::vector<const GalleryJob*>& jobs, const std::vector<SheetCell>& cells) {
     const auto has_paper = [](const GalleryJob* job) {
-        const auto key = job->keys.find("paper");
-        return key != job->keys.end() && key->second == "white";
+        const auto is_paper = [](const auto& setting) {
+            return setting.first == "paper" && setting.second == "white";
+        };
+        return std::any_of(job->keys.begin(), job->keys.end(), is_paper) ||
+               std::any_of(job->overrides.begin(), job->overrides.end(), is_paper);
     };
     return std::any_of(jobs.begin(), jobs.end(), has_paper) &&
            std::all_of(cells.begin(), cells.end(),

@@ -39,6 +39,11 @@ std::unique_ptr<Drawing> bare_drawing(const Grammar& grammar, const Style& style
     return make_drawing(grammar, style, bare);
 }
 
+void add(double area, RegionReport& report) {
+    report.least = report.count == 0 ? area : std::min(report.least, area);
+    ++report.count;
+}
+
 /// @param print  placed
 ColouringCheck measured(const Drawing& drawing, Print print) {
     constexpr double most_dpi = 300, most_pixels = 12e6, inch = 25.4;
@@ -51,21 +56,42 @@ ColouringCheck measured(const Drawing& drawing, Print print) {
     const glm::dmat3x2& to_page = print.placement.to_page;
     const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
     ColouringCheck check;
+    RegionReport holes;
     for (const ClosedRegion& region : closed_regions(*rendering, pixel_size(print.page, print.dpi))) {
         const double area = region.pixels * pixel * pixel;
-        if (area <= line * line) {
+        const bool is_speck = area <= line * line;
+        if (is_speck) {
             check.specks.push_back({back * (pixel * region.centre - to_page[2]), 0.6 * line / print.placement.step});
-            continue;
         }
-        check.regions.least = check.regions.count == 0 ? area : std::min(check.regions.least, area);
-        ++check.regions.count;
+        add(area, is_speck ? holes : check.regions);
     }
+    // A drawing that is so fine has no other regions.
+    if (check.regions.count == 0) check.regions = holes;
     return check;
 }
 
-/// The factor by which the drawing has to grow. The lines keep their width, so that regions grow a little faster.
-double growth(const RegionReport& report, double wanted) {
-    return std::sqrt(wanted * rounding / report.least);
+/// The print and its page, larger by a factor; lines keep their width.
+Print enlarged(Print print, double factor) {
+    print.page = {factor * print.page.width, factor * print.page.height, print.page.margin};
+    glm::dmat3x2& to_page = print.placement.to_page;
+    to_page = {factor * to_page[0], factor * to_page[1], factor * to_page[2]};
+    print.placement.step *= factor;
+    return print;
+}
+
+/// The factor by which the drawing has to grow until its regions have the area, if 16 suffices. The side of a region
+/// between lines of constant width grows linearly.
+std::optional<double> growth(const Drawing& drawing, const Print& print, const RegionReport& report, double wanted) {
+    constexpr double most_growth = 16;
+    const auto side = [&](double factor) {
+        return std::sqrt(measured(drawing, enlarged(print, factor)).regions.least);
+    };
+    const double needed = std::sqrt(wanted * rounding), now = std::sqrt(report.least);
+    const double most = std::min(needed / now, most_growth);
+    const double largest = side(most);
+    if (largest < needed) return std::nullopt;
+    const double factor = 1 + (needed - now) / (largest - now) * (most - 1);
+    return side(factor) >= std::sqrt(wanted) ? factor : most;
 }
 
 std::string name_of_size(glm::dvec2 size) {
@@ -145,10 +171,11 @@ ColouringCheck check_regions(const Grammar& grammar, const Style& style, const D
     const RegionReport& report = check.regions;
     if (report.count == 0) refuse_option("colouring", "", "the lines enclose no region that could be coloured");
     if (report.least >= wanted) return check;
-    const double factor = growth(report, wanted);
-    std::vector<std::string> hints = {hint_of_size(sheet, drawing->fixed_step(), factor),
-                                      hint_of_length(grammar, style, options, placed, wanted)};
-    if (hints.back().empty()) hints.back() = hint_of_dots(grammar, style, options, factor);
+    const std::optional<double> factor = growth(*drawing, print, report, wanted);
+    std::vector<std::string> hints;
+    if (factor) hints.push_back(hint_of_size(sheet, drawing->fixed_step(), *factor));
+    const std::string length = hint_of_length(grammar, style, options, placed, wanted);
+    hints.push_back(length.empty() && factor ? hint_of_dots(grammar, style, options, *factor) : length);
     hints.push_back("a smaller area");
     std::erase(hints, "");
     refuse_regions(report, wanted, hints);

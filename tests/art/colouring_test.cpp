@@ -147,6 +147,7 @@ TEST_F(Colouring, StatesALargerPageOrAShorterDerivation) {
 }
 
 TEST_F(Colouring, RefusesWhatIsNotAnOutline) {
+    EXPECT_TRUE(has(refused(squares, {{"step", "1.2mm"}}), "the smallest of 4 closed regions has 0.0"));
     EXPECT_TRUE(has(refused("axiom: F+F\nstroke: 1mm black\n", {}), "no region"));
     for (const char* option :
          {"dots", "border", "fields", "weave", "parallel", "hand", "palette", "ground", "fill"}) {
