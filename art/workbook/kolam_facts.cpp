@@ -46,7 +46,10 @@ std::string symmetry_text(const KolamSymmetry& symmetry) {
 }
 
 std::string lines_text(const KolamFacts& facts) {
-    const std::string lines = facts.lines == 1 ? "1 closed line" : fmt::format("{} lines", facts.lines);
+    const char* const kind = facts.open_lines == 0             ? "closed line"
+                             : facts.open_lines == facts.lines ? "open line"
+                                                               : "line";
+    const std::string lines = counted(facts.lines, kind);
     return facts.crossings == 0 ? lines + " without crossings"
                                 : lines + " with " + counted(facts.crossings, "crossing");
 }
@@ -134,7 +137,11 @@ int KolamFacts::level() const {
 
 std::vector<std::string> notes_of(const KolamFacts& facts) {
     std::vector<std::string> notes = {fmt::format("Level {} of {}", facts.level(), most_level)};
-    if (!facts.grid.empty()) notes.push_back(fmt::format("Grid: {}, {}", facts.grid, counted(facts.dots, "dot")));
+    if (!facts.grid.empty()) {
+        notes.push_back(fmt::format("Grid: {}, {}", facts.grid, counted(facts.dots, "dot")));
+    } else if (facts.dots > 0) {
+        notes.push_back(fmt::format("Dots: {}", facts.dots));
+    }
     notes.push_back("Lines: " + lines_text(facts));
     notes.push_back("Symmetry: " + symmetry_text(facts.symmetry));
     notes.push_back("Strokes: " + order_text(facts));

@@ -36,8 +36,9 @@ private:
 /// The facts about a kolam that notes for teachers state.
 struct KolamFacts {
     std::string title;
-    std::string grid;  ///< customary notation; empty without dots
+    std::string grid;  ///< customary notation; empty if the dots form no grid
     std::size_t dots = 0, lines = 0, crossings = 0;
+    std::size_t open_lines = 0;
     std::size_t strokes = 0;  ///< steps of its lesson, without the dots and the whole
     KolamSymmetry symmetry;
     std::vector<DotNumber> starts;  ///< dots at which the strokes begin, in their order

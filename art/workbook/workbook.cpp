@@ -207,8 +207,6 @@ private:
         std::vector<glm::dvec2> dots;
         for (const glm::dvec2 dot : dot_places(found)) dots.push_back(on_page(dot));
         const DotRows dot_rows(std::move(dots));
-        constexpr std::size_t longest_grid = 40;
-        const std::string stated(kolam_comment(draft.document.source().text(), "grid"));
         Print print;
         print.style = draft.whole.style;
         DrawOptions options;
@@ -217,15 +215,25 @@ private:
         options.monitor = page_.monitor;
         const LessonLength lesson = lesson_length(draft.document.grammar(), print, options);
         KolamFacts facts{.title = draft.whole.title,
-                         .grid = stated.empty() || stated.size() > longest_grid ? dot_rows.notation() : stated,
+                         .grid = grid_of(draft, found, dot_rows),
                          .dots = dot_rows.count(),
                          .lines = found.lines,
                          .crossings = found.crossings,
+                         .open_lines = found.open_lines,
                          .strokes = lesson.starts.size(),
                          .symmetry = found.symmetry,
                          .starts = {}};
         for (const glm::dvec2 start : lesson.starts) facts.starts.push_back(dot_rows.nearest(on_page(start)));
         return facts;
+    }
+
+    /// The notation of the pattern if it is short, else that of its dots; empty for radial kolams.
+    static std::string grid_of(const Draft& draft, const KolamExamination& found, const DotRows& dots) {
+        constexpr std::size_t longest = 20;
+        if (found.dots_on_lines() > 0) return "";
+        const std::string stated(kolam_comment(draft.document.source().text(), "grid"));
+        const bool is_shape = stated.find('/') != std::string::npos || stated.starts_with('@');
+        return stated.empty() || is_shape || stated.size() > longest ? dots.notation() : stated;
     }
 
     /// The drawing of the colouring page, if its regions are large enough.
