@@ -57,7 +57,8 @@ std::string lines_text(const KolamFacts& facts) {
 /// The number of strokes, and where they begin.
 std::string order_text(const KolamFacts& facts) {
     constexpr std::size_t most_named = 8;
-    std::string text = counted(facts.strokes, "stroke") + ", anticlockwise";
+    std::string text = counted(facts.strokes, "stroke");
+    if (facts.open_lines == 0) text += ", anticlockwise";
     if (facts.lines > 1) text += ", from the centre outwards";
     if (facts.starts.empty() || facts.starts.front().row == 0) return text;
     const bool is_one = facts.starts.size() == 1;

@@ -45,13 +45,14 @@ void add(double area, RegionReport& report) {
 }
 
 /// @param print  placed
-ColouringCheck measured(const Drawing& drawing, Print print) {
+ColouringCheck measured(const Drawing& drawing, Print print, const Monitor& monitor) {
     constexpr double most_dpi = 300, most_pixels = 12e6, inch = 25.4;
     print.dpi = std::min(most_dpi, inch * std::sqrt(most_pixels / (print.page.width * print.page.height)));
     print.style = drawing.style();
     print.style.stroke_colour = Colour{0, 0, 0, 255};  // dark, whatever the ink
     print.press = {};
     const auto rendering = drawing.rendering(print);
+    rendering->watch([&] { monitor.check(); });
     const double pixel = inch / print.dpi, line = print.style.line_width({}, print.placement.step);
     const glm::dmat3x2& to_page = print.placement.to_page;
     const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_page[0], to_page[1]));
@@ -81,10 +82,11 @@ Print enlarged(Print print, double factor) {
 
 /// The factor by which the drawing has to grow until its regions have the area, if 16 suffices. The side of a region
 /// between lines of constant width grows linearly.
-std::optional<double> growth(const Drawing& drawing, const Print& print, const RegionReport& report, double wanted) {
+std::optional<double> growth(const Drawing& drawing, const Print& print, const RegionReport& report, double wanted,
+                             const Monitor& monitor) {
     constexpr double most_growth = 16;
     const auto side = [&](double factor) {
-        return std::sqrt(measured(drawing, enlarged(print, factor)).regions.least);
+        return std::sqrt(measured(drawing, enlarged(print, factor), monitor).regions.least);
     };
     const double needed = std::sqrt(wanted * rounding), now = std::sqrt(report.least);
     const double most = std::min(needed / now, most_growth);
@@ -125,7 +127,7 @@ std::string hint_of_length(const Grammar& grammar, const Style& style, const Dra
         try {
             const auto drawing = bare_drawing(*shorter, style, options);
             drawing->place(print);
-            const RegionReport report = measured(*drawing, print).regions;
+            const RegionReport report = measured(*drawing, print, options.monitor).regions;
             if (report.count > 1 && report.least >= wanted * rounding) return fmt::format("n = {}", steps);
         } catch (const NothingDrawn&) {
             break;
@@ -167,11 +169,11 @@ ColouringCheck check_regions(const Grammar& grammar, const Style& style, const D
     Print print = placed;
     if (drawing->fixed_step()) place_whole(*drawing, print);
     drawing->seen();
-    ColouringCheck check = measured(*drawing, print);
+    ColouringCheck check = measured(*drawing, print, options.monitor);
     const RegionReport& report = check.regions;
     if (report.count == 0) refuse_option("colouring", "", "the lines enclose no region that could be coloured");
     if (report.least >= wanted) return check;
-    const std::optional<double> factor = growth(*drawing, print, report, wanted);
+    const std::optional<double> factor = growth(*drawing, print, report, wanted, options.monitor);
     std::vector<std::string> hints;
     if (factor) hints.push_back(hint_of_size(sheet, drawing->fixed_step(), *factor));
     const std::string length = hint_of_length(grammar, style, options, placed, wanted);
