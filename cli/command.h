@@ -156,6 +156,7 @@ void add_derive(CLI::App& app, bool& quiet);
 void add_measure(CLI::App& app, bool& quiet);
 void add_draw(CLI::App& app, bool& quiet);
 void add_sheet(CLI::App& app, bool& quiet);
+void add_workbook(CLI::App& app, bool& quiet);
 void add_kolam(CLI::App& app, bool& quiet);
 void add_tiling(CLI::App& app, bool& quiet);
 void add_play(CLI::App& app, bool& quiet);

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/link_argument.h"
 #include "cli/options.h"
+#include "cli/sheet_item.h"
 
 #include <fmt/format.h>
 
@@ -55,8 +56,9 @@ OptionValues read_settings(std::string_view text) {
     return values;
 }
 
-/// Reads `PATTERN` or `PATTERN@SETTINGS`. A file whose name contains an `@` is a pattern.
-SheetItem read_item(const std::string& text, const PatternOptions& shared, bool quiet) {
+}  // namespace
+
+SheetItem read_sheet_item(const std::string& text, const PatternOptions& shared, bool quiet) {
     std::error_code error;
     const std::size_t at = std::filesystem::exists(text, error) ? std::string::npos : text.rfind('@');
     PatternOptions pattern = shared;
@@ -69,6 +71,8 @@ SheetItem read_item(const std::string& text, const PatternOptions& shared, bool 
     std::erase_if(values, [](const OptionValue& value) { return value.name == "variant"; });
     return {load(pattern, quiet), std::move(values)};
 }
+
+namespace {
 
 void run(const SheetCommand& command, bool quiet) {
     const auto format = print_format(command.output);
@@ -83,7 +87,8 @@ void run(const SheetCommand& command, bool quiet) {
     const std::string name(info(*format).extension);
     check_sheet(name, values);
     std::vector<SheetItem> items;
-    for (const std::string& drawing : command.drawings) items.push_back(read_item(drawing, command.pattern, quiet));
+    for (const std::string& drawing : command.drawings)
+        items.push_back(read_sheet_item(drawing, command.pattern, quiet));
     const auto work = plan_sheet(items, name, values);
     make(*work, command.output, quiet);
     if (name != "png" && has_option(values, "compression")) {

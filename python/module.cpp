@@ -4,6 +4,7 @@
 #include "art/kolam/kolam_text.h"
 #include "art/prints.h"
 #include "art/sheets.h"
+#include "art/workbook/workbook.h"
 #include "engine/measurement.h"
 #include "music/scores.h"
 #include "python/collections.h"
@@ -81,13 +82,28 @@ py::list write_outputs(const Document& document, const std::string& interpreter_
     return to_list(long_call(make, progress).remarks);
 }
 
+using DocumentsWithOptions = std::vector<std::pair<Document, TextPairs>>;
+
+std::vector<SheetItem> to_items(const DocumentsWithOptions& drawings) {
+    std::vector<SheetItem> items;
+    for (const auto& [document, own] : drawings) items.push_back({document, to_values(own)});
+    return items;
+}
+
 /// Writes several documents, each with its own options, on one sheet, and returns the remarks.
-py::list write_sheet(const std::vector<std::pair<Document, TextPairs>>& drawings, const std::string& format,
-                     const TextPairs& values, const std::string& path, const py::object& progress) {
+py::list write_sheet(const DocumentsWithOptions& drawings, const std::string& format, const TextPairs& values,
+                     const std::string& path, const py::object& progress) {
     const auto make = [&](const Monitor& monitor) {
-        std::vector<SheetItem> items;
-        for (const auto& [document, own] : drawings) items.push_back({document, to_values(own)});
-        return plan_sheet(items, format, to_values(values))->make(file_system(), path, monitor);
+        return plan_sheet(to_items(drawings), format, to_values(values))->make(file_system(), path, monitor);
+    };
+    return to_list(long_call(make, progress).remarks);
+}
+
+/// Writes a workbook of several documents, each with its own options, and returns the remarks.
+py::list write_workbook(const DocumentsWithOptions& kolams, const TextPairs& values, const std::string& path,
+                        const py::object& progress) {
+    const auto make = [&](const Monitor& monitor) {
+        return plan_workbook(to_items(kolams), to_values(values))->make(file_system(), path, monitor);
     };
     return to_list(long_call(make, progress).remarks);
 }
@@ -208,6 +224,7 @@ PYBIND11_MODULE(_core, module) {
     module.def("make", &make_outputs);
     module.def("write", &write_outputs);
     module.def("write_sheet", &write_sheet);
+    module.def("write_workbook", &write_workbook);
     module.def("measure", &measure_document);
     module.def("kolam", &examine_document);
     module.def("path", &path_of);
@@ -220,6 +237,7 @@ PYBIND11_MODULE(_core, module) {
     module.def("notes", &notes_of);
     module.def("options", [](const std::string& name) { return list_options(interpreter_of(name).options()); });
     module.def("sheet_options", [] { return list_options(sheet_options()); });
+    module.def("workbook_options", [] { return list_options(workbook_options()); });
     module.def("formats", [](const std::string& name) { return list_formats(interpreter_of(name)); });
     module.def("keys", &list_keys);
     module.attr("version") = SIKKU_VERSION;

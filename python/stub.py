@@ -67,6 +67,9 @@ def stub() -> str:
     sheets = {row[0]: row for row in _core.options("prints") + _core.sheet_options()}
     text += "\ndef sheet(\n    path: PathName,\n    *drawings: Union[Pattern, tuple[Pattern, dict[str, Value]]],\n"
     text += f"    progress: Optional[Progress] = ...,\n{keywords(list(sheets.values()), '    ')}) -> list[str]: ...\n"
+    text += "\ndef workbook(\n    path: PathName,\n    *kolams: Union[Pattern, tuple[Pattern, dict[str, Value]]],\n"
+    rows = keywords(_core.workbook_options(), "    ").replace("    **settings: Value,\n", "")
+    text += f"    progress: Optional[Progress] = ...,\n{rows}) -> list[str]: ...\n"
     return text + "\ndef format_of(path: PathName) -> tuple[str, str]: ...\n"
 
 

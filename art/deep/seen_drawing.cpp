@@ -132,7 +132,8 @@ double most_nodes(PixelSize size, double budget) {
 /// True if the drawing contains more than a View shows.
 bool is_composed(const Style& style, const DrawingOptions& options, const Reading& reading) {
     return has_ornaments(style, options) || has_tile_work(style) || style.hand > 0 || options.lesson_step ||
-           has_frame(style, options) || options.repeat || reading.is_in_sheets || reading.is_plot();
+           options.colouring || has_frame(style, options) || options.repeat || reading.is_in_sheets ||
+           reading.is_plot();
 }
 
 double longest_step(const Grammar& grammar) {

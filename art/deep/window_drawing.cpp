@@ -73,10 +73,11 @@ std::unique_ptr<WindowDrawing> WindowDrawing::make(const std::shared_ptr<const G
     const auto cost = estimate(*plain, true);
     if (cost && cost->nodes <= most_clipped_symbols) return nullptr;
     if (style.line == Line::spline || has_ornaments(style, options) || style.hand > 0 || options.lesson_step ||
-        has_frame(style, options) || options.repeat || reading.is_plot() || reading.is_in_sheets) {
+        has_frame(style, options) || options.repeat || options.colouring || reading.is_plot() ||
+        reading.is_in_sheets) {
         why =
             "splines with polygons, dots, fields, weaves, parallel lines, borders, lines of text, repeats, colours "
-            "by strand, hand-drawn lines, sheets and plots need the whole drawing";
+            "by strand, hand-drawn lines, colouring pages, sheets and plots need the whole drawing";
         return nullptr;
     }
     auto patches = make_patches(*plain, !grammar->is_plain(), style, why);

@@ -1,7 +1,8 @@
 #include "art/drawing/composition.h"
 
-#include "art/drawing/faint_inks.h"
 #include "art/print/ornaments.h"
+#include "art/style/contrast.h"
+#include "art/style/white_paper.h"
 #include "engine/geometry/point_tree.h"
 
 #include <fmt/format.h>
@@ -76,14 +77,11 @@ void Composition::add_colours() {
     if (work_) add_field_colours();
     if (style_.dots) {
         dot_pen_.colour = static_cast<int>(style_.palette.size());
-        // For practice on white paper, in the colour of the ground that it replaces.
-        const Colour paper{255, 255, 255, 255};
         Colour colour = style_.line_colour({});
         if (options_.only_dots) {
-            if (style_.ground && style_.ground->alpha > 0 && !is_faint(*style_.ground, paper))
-                colour = *style_.ground;
-            if (is_faint(colour, paper)) colour = {0, 0, 0, 255};
-            style_.ground = paper;
+            // For practice on white paper.
+            colour = ink_on_paper(style_.ground, is_faint(colour, white_paper) ? deep_earth : colour);
+            style_.ground = white_paper;
         }
         style_.palette.push_back(style_.dots->colour.value_or(colour));
     }

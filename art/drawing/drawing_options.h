@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sikku {
 
@@ -36,6 +37,12 @@ struct Cell {
     std::array<glm::dvec2, 2> sides{};
 };
 
+/// A hole between lines that is closed with ink, in steps.
+struct Speck {
+    glm::dvec2 centre{0.0};
+    double radius = 0;
+};
+
 /// Options of a drawing that users choose.
 struct DrawingSettings {
     PlacementOptions placement;
@@ -48,6 +55,8 @@ struct DrawingSettings {
     std::optional<std::string> title_line{};  ///< text below the drawing on the left
     std::string edition{};                    ///< text below the drawing on the right, such as 3/50; empty: none
     double kerf = 0;  ///< millimetres; the border of united edges of tiles moves outwards by half of it
+    /// A colouring page, in a style from prepare_colouring(), whose closed regions have at least this area in mm².
+    std::optional<double> colouring{};
 };
 
 /// Contents and place of a drawing, on a page of its own or in a cell of a sheet.
@@ -55,11 +64,13 @@ struct DrawingOptions : DrawingSettings {
     std::optional<DrawnExtent> frame;  ///< extent to place on the page instead of the drawing's own
     glm::dvec2 stretch{1.0};           ///< scale of the placed drawing, across and down, about the middle of the page
     bool may_be_empty = false;  ///< a drawing without lines gives an empty page, as for one of several generations
-    std::optional<std::size_t> lesson_step;                ///< show this step of a lesson, from 0: see LessonDrawing
-    std::size_t most_steps = 40;                           ///< maximum steps of a lesson; more are joined
-    std::shared_ptr<LessonMemo> lesson_memo{};             ///< shared by the drawings of all steps; null: none
-    std::shared_ptr<MapFrames> map_frames{};               ///< shared by all generations of a map; null: none
-    double map_share = 1;                                  ///< progress of a map from the step before, for animations
+    std::optional<std::size_t> lesson_step;     ///< show this step of a lesson, from 0: see LessonDrawing
+    std::vector<Speck> specks{};                ///< holes of a colouring page that are filled
+    std::optional<double> traced;               ///< share of the steps of a lesson that are pale: a page to trace
+    std::size_t most_steps = 40;                ///< maximum steps of a lesson; more are joined
+    std::shared_ptr<LessonMemo> lesson_memo{};  ///< shared by the drawings of all steps; null: none
+    std::shared_ptr<MapFrames> map_frames{};    ///< shared by all generations of a map; null: none
+    double map_share = 1;                       ///< progress of a map from the step before, for animations
     std::shared_ptr<const BorderPattern> border_repeat{};  ///< the pattern that the style's border repeats
     std::shared_ptr<const BorderPattern> border_corner{};  ///< the pattern in its corners
     std::optional<Cell> cell{};                            ///< draw only this part, and the ground only there

@@ -33,6 +33,12 @@ struct Contents {
     bool has_fills() const { return has_polygons || has_areas || has_discs; }
 };
 
+/// The closed regions of a colouring page.
+struct RegionReport {
+    std::size_t count = 0;
+    double least = 0.0;  ///< area of the smallest between the lines, in mm²
+};
+
 /// Findings about a finished drawing.
 struct DrawingReport {
     double step = 0.0;                       ///< millimetres of one turtle step
@@ -47,6 +53,7 @@ struct DrawingReport {
     std::size_t fields = 0;                  ///< number of fields between lines, filled or not
     std::optional<std::size_t> woven;        ///< number of crossings of a weave
     std::optional<ParallelReport> parallel;  ///< report of parallel lines
+    std::optional<RegionReport> regions;     ///< regions of a colouring page
     bool tiles_are_alike = false;            ///< `tile colours` gave all tiles, more than one, the same colour
     bool lacks_worms = false;                ///< worms were requested, but no tiles form any
     std::uint64_t replaced = 0;              ///< parts too small to be resolved, replaced by their appearance

@@ -159,11 +159,6 @@ private:
 
 }  // namespace
 
-bool is_faint(Colour ink, Colour ground) {
-    constexpr double least_difference = 15;
-    return ink.alpha > 0 && colour_difference(laid_over(ink, ground), ground) < least_difference;
-}
-
 std::vector<FaintInk> faint_inks(const Drawing& drawing, const Print& print) {
     if (!print.style.ground || print.style.ground->alpha < 255) return {};
     FaintSink sink(print);

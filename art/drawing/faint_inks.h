@@ -7,9 +7,6 @@
 
 namespace sikku {
 
-/// True for a visible ink whose colour differs by less than 15 from that of the ground (see colour_difference()).
-bool is_faint(Colour ink, Colour ground);
-
 /// The colours of lines, discs and areas that are faint on the ground, each once. Leaves out polygons with
 /// outlines, and everything on a transparent ground. Reads the drawing again, up to ten million points, only if
 /// its palette has such colours. @param print  placed

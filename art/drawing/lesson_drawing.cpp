@@ -173,12 +173,22 @@ std::size_t LessonDrawing::count(const Print& print) const {
     return plan(print, whole_page(print.page))->steps.size() + 2;
 }
 
+std::vector<glm::dvec2> LessonDrawing::starts(const Print& print) const {
+    const auto plan = this->plan(print, whole_page(print.page));
+    std::vector<glm::dvec2> starts;
+    for (const LessonStep& step : plan->steps) {
+        starts.push_back(plan->strokes.lines[step.front().line].nodes[step.front().from].at);
+    }
+    return starts;
+}
+
 void LessonDrawing::read(const Print& print, const Window& window, PathSink& sink) const {
     const auto plan = this->plan(print, window);
     if (step_ > plan->steps.size()) {
         inner_->read(print, window, sink);
         return;
     }
+    if (options_.traced) return draw_traced(print, *plan, sink);
     for (std::size_t number = 1; number <= step_; ++number) {
         for (const Stretch& stretch : plan->steps[number - 1]) {
             HandLine line = part_of(plan->strokes.lines[stretch.line], stretch);
@@ -188,6 +198,33 @@ void LessonDrawing::read(const Print& print, const Window& window, PathSink& sin
     }
     for (const HandDot& dot : plan->strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
     draw_signs(print, window, *plan, sink);
+}
+
+/// Pale strokes to trace, and a mark where the first stroke begins that is missing, or the first of all.
+void LessonDrawing::draw_traced(const Print& print, const LessonPlan& plan, PathSink& sink) const {
+    const auto count =
+        static_cast<std::size_t>(std::lround(*options_.traced * static_cast<double>(plan.steps.size())));
+    for (std::size_t i = 0; i < std::min(count, plan.steps.size()); ++i) {
+        for (const Stretch& stretch : plan.steps[i]) {
+            const HandLine line = part_of(plan.strokes.lines[stretch.line], stretch);
+            draw_stretch(line, pale_begin_ + drawn_.index(line.pen), sink);
+        }
+    }
+    for (const HandDot& dot : plan.strokes.dots) sink.disc(dot.at, dot.radius, dot.pen);
+    if (plan.steps.empty()) return;
+    const Stretch& next = plan.steps[count < plan.steps.size() ? count : 0].front();
+    const HandNode& start = plan.strokes.lines[next.line].nodes[next.from];
+    draw_mark(start, mark_of(start, print, plan), sink);
+}
+
+/// Radius of the mark at the start of a line, in steps.
+double LessonDrawing::mark_of(const HandNode& start, const Print& print, const LessonPlan& plan) const {
+    return std::max(1.25 * start.half, std::min(most_mark / print.placement.step, mark_share * plan.pitch));
+}
+
+void LessonDrawing::draw_mark(const HandNode& start, double radius, PathSink& sink) const {
+    sink.disc(start.at, 1.35 * radius, Pen{.colour = halo_});
+    sink.disc(start.at, radius, Pen{.colour = sign_});
 }
 
 std::unique_ptr<Rendering> LessonDrawing::rendering(const Print& print, const Window& window) const {
@@ -308,10 +345,8 @@ void LessonDrawing::draw_signs(const Print& print, const Window& window, const L
     for (const HandLine& line : lines) {
         reading_.monitor.check();
         ++part;
-        const double half = line.nodes.front().half;
-        const double mark = std::max(1.25 * half, std::min(most_mark / step_length, mark_share * plan.pitch));
-        sink.disc(line.nodes.front().at, 1.35 * mark, Pen{.colour = halo_});
-        sink.disc(line.nodes.front().at, mark, Pen{.colour = sign_});
+        const double mark = mark_of(line.nodes.front(), print, plan);
+        draw_mark(line.nodes.front(), mark, sink);
         if (part > most_numbers) continue;
         const std::string text = lines.size() > 1 ? fmt::format("{}.{}", step_, part) : std::to_string(step_);
         write_number(text, line, mark * step_length, print, window, plan, sink);

@@ -45,6 +45,7 @@ private:
 /// hand (order_by_hand(), lesson_steps()), then the whole drawing. The stretch of a step is drawn as a line with its
 /// number, a mark where it starts and arrow heads; those before it are pale. Fields and other areas come last, with
 /// the whole. Numbers are upright on the page, however the drawing is rotated or mirrored.
+/// With DrawingOptions::traced, it shows the strokes of the first steps instead, all of them pale, to be traced.
 class LessonDrawing : public DerivedDrawing {
 public:
     LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawingOptions& options, const Reading& reading);
@@ -59,6 +60,8 @@ public:
 
     /// Number of steps: the dots, the stretches, and the whole. Call after place().
     std::size_t count(const Print& print) const;
+    /// Where the strokes begin, in turtle steps. Call after place().
+    std::vector<glm::dvec2> starts(const Print& print) const;
     /// Selects the step that read() and rendering() show, from 0, and the share of its stretch that is drawn.
     void show(std::size_t step, double share = 1.0) {
         step_ = step;
@@ -72,6 +75,9 @@ public:
 private:
     std::shared_ptr<const LessonPlan> plan(const Print& print, const Window& window) const;
     void draw_stretch(const HandLine& line, int colour, PathSink& sink) const;
+    void draw_traced(const Print& print, const LessonPlan& plan, PathSink& sink) const;
+    double mark_of(const HandNode& start, const Print& print, const LessonPlan& plan) const;
+    void draw_mark(const HandNode& start, double radius, PathSink& sink) const;
     void draw_signs(const Print& print, const Window& window, const LessonPlan& plan, PathSink& sink) const;
     void draw_heads(const Print& print, const HandLine& line, double arm, PathSink& sink) const;
     void write(const std::string& text, glm::dvec2 start, double height, const Print& print, PathSink& sink) const;

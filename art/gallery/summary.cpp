@@ -6,6 +6,7 @@
 #include "art/product/draw_settings.h"
 #include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
+#include "art/style/white_paper.h"
 #include "engine/base/output_file.h"
 #include "engine/derivation/forecast.h"
 
@@ -203,7 +204,8 @@ std::vector<SheetCell> cells_of(const std::vector<const GalleryJob*>& jobs, cons
     for (auto& [job, loaded] : prints) {
         const DrawSettings settings = read_draw_settings(job->values());
         SheetCell cell = print_cell(loaded, settings, job->folder);
-        cell.dot_spacing.reset();  // the drawing is scaled to fill its cell
+        cell.dot_spacing.reset();                // the drawing is scaled to fill its cell
+        if (cell.colouring) cell.colouring = 0;  // regions of any area
         if (cell.title.empty()) cell.title = job->pattern->name;
         if (has_rows) {
             cell.caption = {fmt::format("n = {}", cell.grammar->steps())};
@@ -237,6 +239,20 @@ SheetOptions options_of(const SheetRequest& request, const std::filesystem::path
     return options;
 }
 
+/// True if the prints are on white paper, which then continues between them.
+bool is_white(const std::vector<const GalleryJob*>& jobs, const std::vector<SheetCell>& cells) {
+    const auto has_paper = [](const GalleryJob* job) {
+        const auto is_paper = [](const auto& setting) {
+            return setting.first == "paper" && setting.second == "white";
+        };
+        return std::any_of(job->keys.begin(), job->keys.end(), is_paper) ||
+               std::any_of(job->overrides.begin(), job->overrides.end(), is_paper);
+    };
+    return std::any_of(jobs.begin(), jobs.end(), has_paper) &&
+           std::all_of(cells.begin(), cells.end(),
+                       [](const SheetCell& cell) { return cell.style.ground == white_paper; });
+}
+
 }  // namespace
 
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
@@ -244,6 +260,7 @@ std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const
     const std::vector<SheetCell> cells = cells_of(jobs, request);
     if (cells.empty()) throw GalleryError("this gallery has no prints for a sheet");
     SheetOptions options = options_of(request, file);
+    if (is_white(jobs, cells)) options.ground = white_paper;
     options.monitor = monitor;
     options.watch = [monitor](std::uint64_t) { monitor.check(); };
     return draw_sheet(cells, options, file).missing_letters;

@@ -122,7 +122,7 @@ LessonLength lesson_length(const Grammar& grammar, Print print, const DrawOption
     DrawReport report = lesson->place(print);
     print.style = lesson->style();
     lesson->report(report);
-    return {report.dots > 0 ? std::size_t{0} : std::size_t{1}, lesson->count(print)};
+    return {report.dots > 0 ? std::size_t{0} : std::size_t{1}, lesson->count(print), lesson->starts(print)};
 }
 
 }  // namespace sikku

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <glm/vec2.hpp>
+#include <vector>
 
 namespace sikku {
 
@@ -22,8 +24,9 @@ DrawReport draw_lesson(const Grammar& grammar, Print print, const DrawOptions& o
 
 /// The steps of a lesson.
 struct LessonLength {
-    std::size_t first = 0;  ///< 0, the dots; 1 for drawings without dots
-    std::size_t count = 0;  ///< one after the last, the whole drawing
+    std::size_t first = 0;             ///< 0, the dots; 1 for drawings without dots
+    std::size_t count = 0;             ///< one after the last, the whole drawing
+    std::vector<glm::dvec2> starts{};  ///< where the strokes begin, in turtle steps
 };
 /// @throws as draw()
 LessonLength lesson_length(const Grammar& grammar, Print print, const DrawOptions& options);

@@ -2,6 +2,7 @@
 
 #include "art/print/border_ink.h"
 #include "art/print/ornaments.h"
+#include "art/style/white_paper.h"
 #include "engine/geometry/moved_path.h"
 
 #include <fmt/format.h>
@@ -221,8 +222,6 @@ std::vector<Colour> border_colours(const Border& border, const std::optional<Col
     constexpr double least = 0.14;  // in OKLab
     const Colour white = kolam_palette().front();
     const Colour under = ground && ground->alpha > 0 ? *ground : Colour{255, 255, 255, 255};
-    const Colour kaavi{0xb3, 0x45, 0x2c, 255};
-    const Colour deep_earth{0x6e, 0x2c, 0x1c, 255};
     const Colour pale_earth{0xe0, 0x7a, 0x50, 255};
     const bool is_light = lightness(under) > 0.6;
     if (border.kind == BorderKind::pattern) {

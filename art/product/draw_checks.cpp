@@ -53,6 +53,7 @@ constexpr Rule model_rules[] = {
     {when::model, {{scale}}, "a model has one unit for each turtle step"},
 };
 constexpr Rule relief_rules[] = {
+    {when::solid_colouring, {{"colouring"}}, "a colouring page is printed; a model has no page"},
     {when::no_relief, {{solid}}, "applies only to reliefs; needs 'relief' or STL"},
     {when::flat_relief, {{solid}}, "a relief is STL, OBJ or glTF"},
     {when::relief, {{sheets}}, "a relief can be cut in the program that prints it"},
@@ -122,6 +123,13 @@ constexpr Rule product_rules[] = {
     {when::division, {{"kerf"}}, "tiles that divide are not cut"},
     {when::division, {{"dot-spacing"}}, "does not apply to tiles that divide; 'step' sets their scale"},
 
+    {when::colouring,
+     {{"dots", "border", "colour-by", "fields", "powders", "weave", "parallel", "hand", "fill", "palette", "ground",
+       "tile-colours", "tile-edges", "tissue"}},
+     "cannot be combined with 'colouring', which draws outlines alone, in one ink on white paper"},
+    {when::colouring, {{lesson, "divide"}}, "a colouring page shows the whole drawing at once"},
+    {when::animated_colouring, {{"colouring"}}, "a colouring page is printed; a .gif is shown on screens"},
+
     {when::plot, {{lesson}}, "a lesson has colours, numbers and several steps; a plot is one drawing"},
     {when::one_page, {{lesson}}, "a lesson has several pages; an {format} has one"},
     {when::lesson, {{"border"}}, "a lesson teaches the lines of the kolam; a border is not one of them"},
@@ -139,7 +147,7 @@ constexpr Rule map_rules[] = {
 constexpr const char* no_plane =
     "applies only to drawings in the plane; this one pitches, rolls, bends or has surfaces";
 constexpr Rule space_rules[] = {
-    {when::always, {{solid, "window", kolam, extras, copies, lesson, "animate", "divide"}}, no_plane},
+    {when::always, {{solid, "window", kolam, extras, copies, lesson, "animate", "divide", "colouring"}}, no_plane},
     {when::pixels, {{sheets}}, "drawings in space can be cut into sheets only as SVG, PDF or EPS"},
     {when::no_plot, {{"spot"}}, "drawings in space have more shades of light than there are inks"},
 };

@@ -1,5 +1,6 @@
 #include "art/product/draw_settings.h"
 
+#include "art/drawing/colouring_drawing.h"
 #include "art/print/tiles.h"
 #include "art/relief/relief_options.h"
 #include "art/style/length.h"
@@ -24,6 +25,7 @@ namespace {
 
 constexpr double longest = 10'000;  // millimetres: wider than any press or plotter
 constexpr double above_0 = std::numeric_limits<double>::denorm_min();
+constexpr double most_area = 1e6;  // square millimetres
 constexpr double any_length = std::numeric_limits<double>::infinity();
 
 int to_int(const std::string& text) {
@@ -496,6 +498,21 @@ const std::array own_rows = {
         [](S& s, Text t) {
             s.look.kerf = length_between("kerf", t, s.paper.dpi, 0, 10, "expected a length from 0 to 10mm");
         }},
+    Option<S>{{.name = "colouring",
+               .help = "colouring page: the outlines of fields and tiles on white paper, in lines of at least 3pt; "
+                       "refused if a "
+                       "closed region has less than this area (200mm2)",
+               .value = "[AREA]",
+               .group = kolams,
+               .scope = Scope::look,
+               .unit = "mm2"},
+              [](S& s, Text t) {
+                  double area = 200;
+                  if ((!t.empty() && !read_number(t, area)) || !(area >= 0 && area <= most_area)) {
+                      refuse_option("colouring", t, "expected an area in mm2 from 0 to 1000000");
+                  }
+                  s.look.colouring = area;
+              }},
     Option<S>{
         {.name = "lesson",
          .help = "drawing lesson: the dots, then stroke after stroke as a hand draws them, with numbers and "
@@ -987,6 +1004,27 @@ PlotSetup plot_setup(const DrawSettings& settings, PrintFormat format) {
     return setup;
 }
 
+namespace {
+
+/// Converts a style to that of a colouring page: black, unless the user sets a stroke.
+void make_colouring(const DrawSettings& settings, const Grammar& grammar, Style& style) {
+    const auto stroke = std::find_if(settings.keys.begin(), settings.keys.end(),
+                                     [](const Setting& setting) { return setting.key == "stroke"; });
+    Colour ink{0, 0, 0, 255};
+    double width = colouring_line;
+    if (stroke != settings.keys.end()) {
+        if (!style.stroked || style.stroke.in_steps || style.stroke.value < colouring_line) {
+            refuse_option("stroke", stroke->value,
+                          fmt::format("expected a width of at least {:g}mm for a colouring page", colouring_line));
+        }
+        width = style.stroke.value;
+        if (style.stroke_colour) ink = *style.stroke_colour;
+    }
+    prepare_colouring(style, grammar, ink, width);
+}
+
+}  // namespace
+
 Style read_print_style(const Document& document, const DrawSettings& settings) {
     Document drawn = document;
     const auto set = [&](const char* key, const std::string& value) {
@@ -1004,6 +1042,7 @@ Style read_print_style(const Document& document, const DrawSettings& settings) {
     Diagnostics diagnostics;
     Style style = read_style(drawn.pattern(), settings.paper.dpi, diagnostics);
     diagnostics.throw_if_errors();
+    if (settings.look.colouring) make_colouring(settings, document.grammar(), style);
     if ((settings.look.dots || settings.look.dot_spacing || settings.time.lesson) && !style.dots)
         style.dots.emplace();
     return style;

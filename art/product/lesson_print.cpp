@@ -1,5 +1,4 @@
 // art/product/lesson_print.cpp: drawing lessons, and generations side by side.
-#include "art/drawing/faint_inks.h"
 #include "art/drawing/lesson_drawing.h"
 #include "art/image/image_file.h"
 #include "art/motion/lesson.h"
@@ -7,6 +6,7 @@
 #include "art/product/plot_remarks.h"
 #include "art/product/print_cell.h"
 #include "art/product/print_work.h"
+#include "art/style/contrast.h"
 #include "engine/derivation/forecast.h"
 
 #include <algorithm>

@@ -101,6 +101,7 @@ private:
         warn_of_faint_inks(report.faint, made);
         report_copies(made);
         report_drawing(made);
+        if (report.regions) made.fact(regions_text(*report.regions));
         if (report.relief) report_relief(*report.relief, made);
         report_pens(options, made);
         if (report.sheets > 0) report_sheets(report, made);

@@ -46,6 +46,12 @@ void warn_of_letters(const std::string& missing, Made& made) {
     made.warn(letters_warning(missing));
 }
 
+std::string regions_text(const RegionReport& regions) {
+    return regions.count == 1
+               ? fmt::format("1 region of {:.0f} mm² to colour", regions.least)
+               : fmt::format("{} regions to colour, the smallest of {:.0f} mm²", regions.count, regions.least);
+}
+
 std::string faint_text(const FaintInk& ink) {
     const char* const what = ink.kind == FaintInk::Kind::lines   ? "lines"
                              : ink.kind == FaintInk::Kind::discs ? "dots"

@@ -21,6 +21,9 @@ void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& m
 /// Warns that a text has characters that the lettering font lacks. @param missing  list of them; empty: none
 void warn_of_letters(const std::string& missing, Made& made);
 
+/// A fact about the regions of a colouring page.
+std::string regions_text(const RegionReport& regions);
+
 /// A warning that an ink is hardly visible.
 std::string faint_text(const FaintInk& ink);
 /// Warns of inks that are hardly visible, once of each kind and colour.

@@ -55,6 +55,11 @@ constexpr PrintKind lesson_of_dots = [](const S& s, Format) { return s.time.less
 constexpr PrintKind lesson_cells = [](const S& s, Format f) {
     return s.time.lesson && !is_vector(f) && f != Format::gif;
 };
+constexpr PrintKind colouring = [](const S& s, Format) { return s.look.colouring.has_value(); };
+constexpr PrintKind animated_colouring = [](const S& s, Format f) { return s.look.colouring && f == Format::gif; };
+constexpr PrintKind solid_colouring = [](const S& s, Format f) {
+    return s.look.colouring && (is_model(s, f) || is_relief(s, f));
+};
 /// Derivation lengths one after the other, or in a file each.
 constexpr PrintKind grown = [](const S& s, Format f) {
     return s.time.frames || (f == Format::gif && !s.time.lesson);

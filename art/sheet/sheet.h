@@ -39,6 +39,7 @@ struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
     std::string title;                                             ///< title above all cells; empty: none
     std::string subtitle;                                          ///< line under the title
+    std::string footer;         ///< line in the bottom margin, in the middle; empty: none
     int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
     std::optional<double> gap;  ///< millimetres between cells, exactly; absent: about a tenth of their width
     double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell

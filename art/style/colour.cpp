@@ -201,6 +201,12 @@ std::optional<Colour> parse_hex(std::string_view digits) {
     return Colour{channels[0], channels[1], channels[2], channels[3]};
 }
 
+/// Relative luminance of ITU-R BT.709 and of WCAG.
+double luminance(Colour colour) {
+    return 0.2126 * linear_light(colour.red) + 0.7152 * linear_light(colour.green) +
+           0.0722 * linear_light(colour.blue);
+}
+
 /// CIE L*a*b* relative to the white of sRGB.
 glm::dvec3 cielab(Colour colour) {
     const double r = linear_light(colour.red), g = linear_light(colour.green), b = linear_light(colour.blue);
@@ -317,6 +323,17 @@ double colour_distance(Colour a, Colour b) {
 
 double colour_difference(Colour a, Colour b) {
     return glm::length(cielab(a) - cielab(b));
+}
+
+bool is_faint(Colour ink, Colour ground) {
+    constexpr double least_difference = 15;
+    return ink.alpha > 0 && colour_difference(laid_over(ink, ground), ground) < least_difference;
+}
+
+double contrast_ratio(Colour a, Colour b) {
+    constexpr double flare = 0.05;
+    const double one = luminance(a) + flare, other = luminance(b) + flare;
+    return std::max(one, other) / std::min(one, other);
 }
 
 Colour laid_over(Colour colour, Colour ground) {

@@ -2,6 +2,7 @@
 
 #include "art/style/length.h"
 #include "art/style/values.h"
+#include "art/style/white_paper.h"
 #include "engine/base/decimal.h"
 #include "engine/base/text.h"
 
@@ -21,7 +22,6 @@ constexpr double widest_pen_mm = 1e5;  // after the turtle's factors, so that ev
 constexpr std::size_t most_colours = 4096;
 
 constexpr Colour black{0, 0, 0, 255};
-constexpr Colour white{255, 255, 255, 255};
 
 bool is_separator(char byte, bool commas) {
     return byte == ' ' || byte == '\t' || (commas && byte == ',');
@@ -482,6 +482,33 @@ void read_sway(const Key& key, Style& style, Diagnostics& diagnostics) {
     style.sway = degrees.value_or(0.0);
 }
 
+/// True for a key whose value was set from outside the file.
+bool is_given(const Pattern& pattern, std::string_view name) {
+    const Key* key = pattern.find(name);
+    return key && key->value.source != pattern.source.get();
+}
+
+/// A ground that is given replaces the paper of the pattern, but contradicts a paper that is given.
+void read_paper(const Pattern& pattern, Style& style, Diagnostics& diagnostics) {
+    constexpr std::string_view expected = "white or none";
+    const Key* key = pattern.find("paper");
+    if (!key) return;
+    const auto word = only_word(*key, expected, diagnostics);
+    if (!word) return;
+    const std::string text = lower_case(word->view());
+    if (text == "none") return;
+    if (text != "white") return refuse(*word, expected, diagnostics);
+    if (is_given(pattern, "ground")) {
+        if (!is_given(pattern, "paper")) return;
+        diagnostics.error(*word, "white paper cannot be combined with a ground; give one of the two");
+        return;
+    }
+    put_on_white_paper(style, {.stroke = is_given(pattern, "stroke"),
+                               .fill = is_given(pattern, "fill"),
+                               .palette = is_given(pattern, "palette"),
+                               .dots = is_given(pattern, "dots")});
+}
+
 }  // namespace
 
 std::span<const std::string_view> border_names() {
@@ -569,7 +596,7 @@ double Style::disc_radius(double radius, const Pen& pen, double step) const {
 
 Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
     Style style;
-    style.ground = white;
+    style.ground = white_paper;
     style.palette = default_palette();
     if (const Key* key = pattern.find("line")) read_line(*key, style, diagnostics);
     if (const Key* key = pattern.find("hand")) read_hand(*key, style, diagnostics);
@@ -604,6 +631,7 @@ Style read_style(const Pattern& pattern, double dpi, Diagnostics& diagnostics) {
         style.palette.front() = *style.stroke_colour;
     }
     style.map = read_map_style(pattern, palette ? style.palette : std::vector<Colour>(), diagnostics);
+    read_paper(pattern, style, diagnostics);
     return style;
 }
 

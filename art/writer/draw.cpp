@@ -12,6 +12,7 @@
 #include "art/space/model.h"
 #include "art/space/solids.h"
 #include "art/vector/vector_formats.h"
+#include "art/writer/colouring.h"
 #include "art/writer/make_drawing.h"
 #include "art/writer/picture.h"
 #include "art/writer/press_inks.h"
@@ -116,6 +117,17 @@ ReliefReport draw_relief(const Drawing& drawing, const Print& print, const DrawO
     return write_relief(shapes, print, *options.relief, file, options.monitor, destination);
 }
 
+/// Checks the regions of a colouring page, and adds its specks to the options. @param print  not placed
+RegionReport prepare_page(const Grammar& grammar, Print print, DrawOptions& options) {
+    DrawOptions quiet = options;
+    quiet.begin = nullptr;
+    const Style style = print.style;
+    make_drawing(grammar, style, quiet)->place(print);
+    ColouringCheck check = check_regions(grammar, style, quiet, print, print.page);
+    options.specks = std::move(check.specks);
+    return check.regions;
+}
+
 }  // namespace
 
 void draw_plot(const Drawing& drawing, Print print, const DrawOptions& options, Output& output, DrawReport& report) {
@@ -191,15 +203,22 @@ void draw_placed(const Drawing& drawing, const Print& print, const DrawOptions& 
 
 DrawReport draw(const Grammar& grammar, Print print, const DrawOptions& given_options,
                 const std::filesystem::path& file, Destination& destination) {
-    const DrawOptions options = with_locked_watch(given_options);
+    DrawOptions options = with_locked_watch(given_options);
     if (uses_image_module(options.format) && !options.show_pixels) prepare_images(options.threads);
     if (grammar.is_spatial() && print.animation) {
         throw std::runtime_error("animations apply only to drawings in the plane");
     }
     load_inks(print.press, options.format);  // before the drawing, which may take long
+    std::optional<RegionReport> regions;
+    if (options.colouring) regions = prepare_page(grammar, print, options);
     const auto drawing = make_drawing(grammar, print.style, options);
-    if (options.tiles) return draw_tiles(*drawing, std::move(print), options, file, destination);
+    if (options.tiles) {
+        DrawReport report = draw_tiles(*drawing, std::move(print), options, file, destination);
+        report.regions = regions;
+        return report;
+    }
     DrawReport report = drawing->place(print);
+    report.regions = regions;
     print.style = drawing->style();
     check_spots(print.press, print.style);
     if (options.lists_contents) report.contents = contents_of(*drawing, print);

@@ -2,6 +2,7 @@
 
 #include "art/deep/seen_drawing.h"
 #include "art/deep/window_drawing.h"
+#include "art/drawing/colouring_drawing.h"
 #include "art/drawing/composition.h"
 #include "art/drawing/framed_drawing.h"
 #include "art/drawing/hand_drawing.h"
@@ -114,6 +115,7 @@ std::unique_ptr<Drawing> surrounded(std::unique_ptr<Drawing> drawing, std::uint6
     if (options.repeat) drawing = std::make_unique<RepeatedDrawing>(std::move(drawing), options, reading);
     if (has_tile_work(style)) drawing = std::make_unique<TileDrawing>(std::move(drawing), seed, options, reading);
     if (options.cell) drawing = std::make_unique<CellDrawing>(std::move(drawing), *options.cell, options, reading);
+    if (options.colouring) drawing = std::make_unique<ColouringDrawing>(std::move(drawing), options, reading);
     drawing = with_frame(std::move(drawing), style, options, reading);
     if (!(style.hand > 0) && !options.lesson_step) return drawing;
     auto by_hand = std::make_unique<HandDrawing>(std::move(drawing), seed, options, reading);

@@ -28,6 +28,17 @@ def test_a_sheet_is_that_of_the_program(tmp_path: Path, run: Run) -> None:
         sikku.sheet(ours, snake, nonsense=1)
 
 
+def test_a_workbook_is_that_of_the_program(tmp_path: Path, run: Run) -> None:
+    snake = sikku.load("snake-kolam")
+    ours, theirs = tmp_path / "ours.pdf", tmp_path / "theirs.pdf"
+    sikku.workbook(ours, (snake, {"n": 1}), (snake, {"n": 2, "border": "rope"}), booklet=True, heading="Class 3")
+    command = ["workbook", "snake-kolam@n=1", "snake-kolam@n=2,border=rope", "--booklet", "--heading", "Class 3"]
+    assert run(*command, "-o", str(theirs)).returncode == 0
+    assert ours.read_bytes() == theirs.read_bytes()
+    with pytest.raises(sikku.SettingError):
+        sikku.workbook(ours, snake, nonsense=1)
+
+
 def test_the_derivation_length_is_an_option_named_n(tmp_path: Path) -> None:
     hilbert = sikku.load("hilbert")
     three = hilbert.with_settings(n=3)

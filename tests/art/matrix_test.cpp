@@ -101,6 +101,13 @@ std::vector<Feature> features() {
          {{"fields", "chessboard"}},
          {{"plotter", "true"}, {"hatch", "2mm"}},
          {{"plotter", "true"}}},
+        {"white paper",
+         kolam,
+         {{"paper", "white"}, {"stroke", "0.2 step #fffaf0"}},
+         {},
+         {},
+         {{"stroke", "0.2 step #fffaf0"}}},
+        {"colouring page", kolam, {}, {{"colouring", "0"}}, {}},
         {"powders",
          kolam,
          {{"fields", "by kind"}, {"powders", "lotus"}},
@@ -205,7 +212,8 @@ std::vector<Target> targets() {
             {"frame", "svg", {{"generations", "0:2"}, {"frames", "true"}}}};
 }
 
-/// Combinations where a feature rightly changes nothing: an STL has no colours, is always a relief, and has
+/// Combinations where a feature rightly changes nothing: HP-GL and STL have no colours, and those of glTF are not
+/// compared; an STL is always a relief, and has
 /// grooves instead of the edges of tiles, HP-GL, G-code
 /// and DXF are always plots, which fill fields only by hatching, a light only by pictures, and a sheet of generations
 /// is compared with itself.
@@ -235,6 +243,9 @@ const std::set<std::string> unchanged = {"light on SVG",
                                          "powders on STL",
                                          "colours of tiles on STL",
                                          "edges of tiles on STL",
+                                         "white paper on HP-GL",
+                                         "white paper on glTF",
+                                         "white paper on STL",
                                          "tiles on tile"};
 
 using Outputs = std::map<std::string, std::string>;

@@ -72,6 +72,7 @@ const std::map<std::string, std::string> values = {{"size", "120x90mm"},
                                                    {"divide", ""},
                                                    {"name-tiles", "true"},
                                                    {"kerf", "0.3mm"},
+                                                   {"colouring", "0"},
                                                    {"lesson", ""},
                                                    {"tile", "60x60mm"},
                                                    {"overlap", "5mm"},
@@ -112,6 +113,7 @@ const std::map<std::string, std::string> values = {{"size", "120x90mm"},
                                                    {"hand", "0.5"},
                                                    {"stroke", "1mm #305070"},
                                                    {"ground", "#eeeedd"},
+                                                   {"paper", "white"},
                                                    {"fill", "#a03050"},
                                                    {"palette", "#a03050 #3050a0"},
                                                    {"fields", "chessboard"},
@@ -144,6 +146,8 @@ struct Exception {
 };
 const std::vector<Exception> exceptions = {
     {"mirror", {"kolam", "tiling", "solid"}, {}, "the drawing is its own mirror image"},
+    {"paper", {"tiling", "tree", "solid"}, {}, "these are on white paper in any case"},
+    {"paper", {"kolam"}, {"gcode", "hpgl", "dxf", "obj", "stl"}, "the line can be seen, and there is no ground"},
     {"plotter", {}, {"plot", "gcode", "hpgl", "dxf"}, "these are plots in any case"},
     {"decorate", {"tiling"}, {"stl"}, "dots lie within tiles of the same height"}};
 

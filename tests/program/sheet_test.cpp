@@ -54,6 +54,38 @@ TEST_F(SheetProgram, ReportsMistakes) {
     expect_mistake({"no-such-pattern", "-o", "x.svg"}, "no-such-pattern");
 }
 
+TEST_F(SheetProgram, WorkbooksArePdf) {
+    const auto workbook = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "workbook");
+        return run(arguments, here_);
+    };
+    const Outcome made = workbook({"snake-kolam@n=2", "snake-kolam@n=1,border=rope", "--booklet", "-o", "class.pdf"});
+    EXPECT_EQ(made.status, 0) << made.errors;
+    EXPECT_TRUE(has(made.errors, "4 sheets to fold"));
+    EXPECT_TRUE(has(contents(folder_ / "class.pdf"), "%PDF-1.6"));
+    const auto refused = [&](const std::vector<std::string>& arguments, const std::string& part) {
+        const Outcome outcome = workbook(arguments);
+        EXPECT_EQ(outcome.status, 2) << outcome.errors;
+        EXPECT_TRUE(has(outcome.errors, part));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "x.pdf"));
+    };
+    refused({"snake-kolam", "-o", "x.svg"}, "expected a PDF");
+    refused({"snake-kolam", "--size", "1mm", "-o", "x.pdf"}, "10 cm");
+    refused({"snake-kolam@tile=A4", "-o", "x.pdf"}, "the pages of a workbook have their own");
+    refused({"snake-kolam@ground=navy", "-o", "x.pdf"}, "white paper");
+    refused({"no-such-pattern", "-o", "x.pdf"}, "no-such-pattern");
+    refused({"-o", "x.pdf"}, "KOLAM");
+}
+
+TEST_F(SheetProgram, GalleriesOnWhitePaperHaveWhitePosters) {
+    const Outcome made = run(
+        {"gallery", "a.lsys", "snake-kolam", "-o", "wall", "-f", "svg", "--paper", "white", "--poster", "A4"}, here_);
+    EXPECT_EQ(made.status, 0) << made.errors;
+    const std::string poster = contents(folder_ / "wall/poster.svg");
+    EXPECT_FALSE(has(poster, "#f7f4ec"));
+    EXPECT_TRUE(has(poster, "fill=\"#ffffff\""));
+}
+
 TEST_F(SheetProgram, BordersAndLinesOfTextComeFromThePattern) {
     folder_.write("tooth.lsys", "axiom: +F--F\nangle increment: 45\nstroke: 0.1 step lime\n");
     folder_.write("b.lsys", "title: Framed\naxiom: F+F+F+F\nborder: tooth.lsys\nstroke: 1mm navy\n");

@@ -25,7 +25,7 @@ from sikku.errors import (
 from sikku.files import ImportedSystem, Provenance, import_systems, show
 from sikku.kolams import Kolam, make_kolam, radial_kolam, read_kolam
 from sikku.lib import _core
-from sikku.outputs import sheet
+from sikku.outputs import sheet, workbook
 from sikku.pattern import Pattern, PatternInfo, load, patterns
 
 __version__: str = _core.version
@@ -63,4 +63,5 @@ __all__ = [
     "read_kolam",
     "sheet",
     "show",
+    "workbook",
 ]

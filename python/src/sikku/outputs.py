@@ -14,7 +14,7 @@ from sikku.settings import Value, to_options
 if TYPE_CHECKING:
     from sikku.pattern import Pattern
 
-__all__ = ["Outputs", "Progress", "sheet"]
+__all__ = ["Outputs", "Progress", "sheet", "workbook"]
 
 Progress = Callable[[int, float], object]
 """Called some twenty times a second with the units of work (symbols, lines, rows) that are done and those expected, 0 if
@@ -110,6 +110,32 @@ def sheet(
             [(pattern._document, to_options("prints", own)) for pattern, own in items],
             format,
             to_options("sheet", options),
+            os.fsencode(path),
+            progress,
+        )
+    )
+
+
+def workbook(
+    path: PathName,
+    *kolams: Union[Pattern, tuple[Pattern, dict[str, Value]]],
+    progress: Optional[Progress] = None,
+    **options: Value,
+) -> list[str]:
+    """Writes a workbook of kolams for a class, from easy to hard, as PDF.
+
+    kolams: patterns, or pairs of a pattern and its look: `(kolam, {"border": "rope"})`.
+    options: those of `sikku workbook`: `heading="Class 3"`, `booklet=True`, …
+    progress: called with the units of work that are done and those expected.
+
+    Returns facts about the output. Warnings are issued as SikkuWarning. Raises SettingError, PatternError,
+    BudgetError, WordError, and Error if a kolam has no lines or the file cannot be written.
+    """
+    items = [one if isinstance(one, tuple) else (one, {}) for one in kolams]
+    return warn_of(
+        _core.write_workbook(
+            [(pattern._document, to_options("prints", own)) for pattern, own in items],
+            to_options("workbook", options),
             os.fsencode(path),
             progress,
         )

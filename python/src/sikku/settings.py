@@ -48,7 +48,10 @@ def _keys() -> frozenset[str]:
 @functools.lru_cache(maxsize=None)
 def _options(interpreter: str) -> dict[str, tuple[bool, bool]]:
     """For the name of each option: whether it may be repeated, and whether its value may be omitted."""
-    rows = _core.options("prints") + _core.sheet_options() if interpreter == "sheet" else _core.options(interpreter)
+    if interpreter == "sheet":
+        rows = _core.options("prints") + _core.sheet_options()
+    else:
+        rows = _core.workbook_options() if interpreter == "workbook" else _core.options(interpreter)
     return {name: (is_list, value.startswith("[")) for name, is_list, _, value, _ in rows}
 
 
@@ -64,7 +67,7 @@ def to_settings(values: dict[str, Value]) -> Texts:
 
 
 def to_options(interpreter: str, values: dict[str, Value]) -> Texts:
-    """Options of an interpreter (or of a `sheet`), keys and defines with the texts of their values."""
+    """Options of an interpreter (or of a `sheet` or `workbook`), keys and defines with the texts of their values."""
     known = _options(interpreter)
     texts: Texts = []
     for name, value in values.items():
