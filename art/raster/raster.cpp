@@ -205,7 +205,7 @@ public:
     void blot(std::size_t prepared, glm::dvec2 centre) override;
 
     void expect(const Pen& pen) override { line_nib(pen); }
-    void powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) override;
+    void powder(std::span<const PowderPoint> line, const Pen& pen, bool fills) override;
     void set_grain(double steps) override { grain_.emplace(matrix_, steps); }
     void watch(std::function<void()> watch) override { watch_ = std::move(watch); }
     int channels() const override;
@@ -620,7 +620,7 @@ void BandRaster::blot(std::size_t prepared, glm::dvec2 centre) {
     }
 }
 
-void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) {
+void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, bool fills) {
     const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
     const std::size_t slot = static_cast<std::size_t>((fills ? fill_slots_ : line_slots_)[index]);
     if ((fills ? fill_colours_ : line_colours_)[index].alpha == 0 || line.empty() || !grain_) return;
@@ -628,7 +628,6 @@ void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, doubl
     if (bands.empty()) bands.resize(static_cast<std::size_t>(bands_));
     const double step = print_.placement.step * millimetre_;
     PowderSegment segment;
-    segment.height = static_cast<float>(height);
     const auto start = [&](const PowderPoint& point) {
         const glm::dvec2 at = to_pixels(point.at);
         return std::array<float, 3>{static_cast<float>(at.x), static_cast<float>(at.y),
@@ -638,6 +637,7 @@ void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, doubl
         const auto from = start(a), to = start(b);
         segment.ax = from[0], segment.ay = from[1], segment.a_radius = from[2];
         segment.bx = to[0], segment.by = to[1], segment.b_radius = to[2];
+        segment.a_height = static_cast<float>(a.height), segment.b_height = static_cast<float>(b.height);
     };
     const auto whole = [](const PowderSegment& s) {
         return static_cast<float>(powder_reach) * std::max(s.a_radius, s.b_radius);
