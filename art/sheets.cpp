@@ -357,13 +357,15 @@ private:
 
     /// One ground under all drawings if they share it; texts stand out from it.
     void set_ground() {
-        const std::optional<Colour> first = cells_.front().style.ground;
-        const bool is_shared = std::all_of(cells_.begin(), cells_.end(),
-                                           [&](const SheetCell& cell) { return cell.style.ground == first; });
+        const Style& first = cells_.front().style;
+        const bool is_shared = std::all_of(cells_.begin(), cells_.end(), [&](const SheetCell& cell) {
+            return cell.style.ground == first.ground && cell.style.floor == first.floor;
+        });
         if (shared_.sheet.has_ground) {
             options_.ground = shared_.sheet.ground;
         } else if (is_shared) {
-            options_.ground = first;
+            options_.ground = first.ground;
+            options_.floor = first.floor;
         }
         if (options_.ground && options_.ground->alpha > 0 && lightness(*options_.ground) < 0.6) {
             options_.ink = {0xff, 0xfa, 0xf0, 255};

@@ -101,6 +101,7 @@ public:
         print_.pattern = options.pattern;
         print_.made = options.made;
         print_.style.ground = options.ground;
+        print_.style.floor = options.floor;
         print_.style.stroke = {1.0, false, 1.0};
         print_.style.palette = {options.ink, options.pale_ink};
         // Text is laid out in millimetres.
@@ -637,7 +638,9 @@ std::vector<Strip> Sheet::strips(PixelSize size, Colour ground) const {
         cell.bottom = std::max(cell.top + 1, pixels(window.top + window.height, size.height));
         cell.print.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre,
                            window.margin};
-        cell.print.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+        const glm::dvec2 corner(cell.left / millimetre, cell.top / millimetre);
+        cell.print.placement.to_page[2] -= corner;
+        cell.print.floor_corner += corner;
         strips[static_cast<std::size_t>(placed.row)].cells.push_back(std::move(cell));
     }
     for (std::size_t row = 1; row < strips.size(); ++row) {
@@ -669,6 +672,7 @@ void Sheet::write_pixels(Output& output, const std::filesystem::path& file) cons
         print.style.ground = ground;
         print.page = {size.width / millimetre, (strip.bottom - strip.top) / millimetre, 0.0};
         print.placement.to_page[2].y -= strip.top / millimetre;
+        print.floor_corner.y += strip.top / millimetre;
         const auto texts = make_raster(print);
         write_texts(strip.top / millimetre, strip.bottom / millimetre, *texts);
         texts->watch([&] { watch(0); });
