@@ -8,9 +8,9 @@
 namespace sikku {
 namespace {
 
-constexpr double grain_share = 0.055;      // share of a line's width
-constexpr double least_powder_pixels = 3;  // narrower lines show no grain
-constexpr double least_crumb_pixels = 0.45;
+constexpr double grain_share = 0.055;        // share of a line's width
+constexpr double least_powder_pixels = 3;    // narrower lines show no grain
+constexpr double least_crumb_pixels = 0.45;  // radius
 constexpr double crossing_height = 1.5, dot_height = 1.25, crumb_height = 0.8;
 constexpr double flour_flatness = 0.15;  // pixels
 /// Widths of lines that are drawn with pens differ by this share before the pen is changed.
@@ -58,14 +58,11 @@ private:
             points_.push_back({node.at, node.half, node.flow});
         }
         raster_.powder(points_, stroke.pen, false);
-        drop(crumbs_beside(stroke, options_), stroke.pen, false);
+        drop(crumbs_beside(stroke, least_crumb_pixels / pixels_, options_), stroke.pen, false);
     }
 
     void drop(const std::vector<HandCrumb>& crumbs, const Pen& pen, bool fills) {
-        for (const HandCrumb& crumb : crumbs) {
-            if (crumb.radius * pixels_ < least_crumb_pixels) continue;
-            heap({crumb.at, crumb.radius, crumb_height}, pen, fills);
-        }
+        for (const HandCrumb& crumb : crumbs) heap({crumb.at, crumb.radius, crumb_height}, pen, fills);
     }
 
     /// Flour lies on flour where lines cross.
@@ -82,7 +79,7 @@ private:
         for (const HandDot& part : heaps_of(dot, number, options_)) {
             heap({part.at, part.radius, dot_height}, dot.pen, true);
         }
-        drop(crumbs_around(dot, number, options_), dot.pen, true);
+        drop(crumbs_around(dot, number, least_crumb_pixels / pixels_, options_), dot.pen, true);
     }
 
     void heap(const PowderPoint& point, const Pen& pen, bool fills) {

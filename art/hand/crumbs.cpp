@@ -8,7 +8,8 @@
 namespace sikku {
 namespace {
 
-constexpr double for_width = 7, at_beginning = 16;            // number for each width of the line, at full strength
+constexpr double for_width = 7, at_beginning = 16;  // number for each width of the line, at full strength
+constexpr double most_of_node = 100;
 constexpr double around_dot = 22;                             // number at full strength
 constexpr double scatter = 0.24;                              // scale of the distance from the edge, in widths
 constexpr double farthest = 2.2;                              // widths
@@ -21,7 +22,7 @@ public:
     explicit Draws(std::uint64_t seed) : chance_(seed) {}
     double next() { return chance_.fraction(); }
     /// A whole number with a mean of `mean`.
-    int count(double mean) { return static_cast<int>(std::floor(std::min(mean, 1e4) + next())); }
+    int count(double mean) { return static_cast<int>(std::floor(std::min(mean, most_of_node) + next())); }
     /// Distance from the edge in widths: the density falls with its third power.
     double distance() { return scatter * (1 / std::sqrt(std::max(1 - next(), 1e-9)) - 1); }
     /// Radius in widths: most crumbs are small.
@@ -40,7 +41,7 @@ std::uint64_t seed_of(const HandOptions& options, std::uint64_t kind, std::uint6
 
 }  // namespace
 
-std::vector<HandCrumb> crumbs_beside(const HandLine& line, const HandOptions& options) {
+std::vector<HandCrumb> crumbs_beside(const HandLine& line, double least, const HandOptions& options) {
     std::vector<HandCrumb> crumbs;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const HandNode &node = line.nodes[i], &next = line.nodes[i + 1];
@@ -52,7 +53,7 @@ std::vector<HandCrumb> crumbs_beside(const HandLine& line, const HandOptions& op
         for (int left = draws.count(options.strength * more * line.step(i) / width); left > 0; --left) {
             const double sign = draws.next() < 0.5 ? -1 : 1, share = draws.next();
             const double distance = draws.distance(), radius = draws.radius() * width;
-            if (distance > farthest || distance * width + radius > room_share * node.room) continue;
+            if (radius < least || distance > farthest || distance * width + radius > room_share * node.room) continue;
             const glm::dvec2 middle = node.at + share * (next.at - node.at);
             crumbs.push_back({middle + sign * (node.half + distance * width) * side, radius});
         }
@@ -60,14 +61,15 @@ std::vector<HandCrumb> crumbs_beside(const HandLine& line, const HandOptions& op
     return crumbs;
 }
 
-std::vector<HandCrumb> crumbs_around(const HandDot& dot, std::uint64_t number, const HandOptions& options) {
+std::vector<HandCrumb> crumbs_around(const HandDot& dot, std::uint64_t number, double least,
+                                     const HandOptions& options) {
     std::vector<HandCrumb> crumbs;
     Draws draws(seed_of(options, 0x63646f74, 0, number));
     for (int left = draws.count(options.strength * around_dot); left > 0; --left) {
         const glm::dvec2 way(2 * draws.next() - 1, 2 * draws.next() - 1);
         const double distance = draws.distance(), radius = draws.radius() * 2 * dot.radius;
         const double length = std::sqrt(way.x * way.x + way.y * way.y);
-        if (!(length > 0.1) || length > 1 || distance > farthest / 2) continue;
+        if (radius < least || !(length > 0.1) || length > 1 || distance > farthest / 2) continue;
         crumbs.push_back({dot.at + way * (dot.radius * (1 + 2 * distance) / length), radius});
     }
     return crumbs;

@@ -15,9 +15,10 @@ struct HandCrumb {
 
 /// The crumbs beside a line: their number follows its flour, with more where a pinch begins, and falls off quickly
 /// with the distance. They keep to the near side of the gap to the next line. Cost: about 0.2 µs a crumb; at full
-/// strength a few crumbs for each width of the line.
-std::vector<HandCrumb> crumbs_beside(const HandLine& line, const HandOptions& options);
+/// strength some ten crumbs for each width of the line. @param least  radius of the smallest crumbs that are returned
+std::vector<HandCrumb> crumbs_beside(const HandLine& line, double least, const HandOptions& options);
 /// The crumbs around a dot. @param number  of the dot
-std::vector<HandCrumb> crumbs_around(const HandDot& dot, std::uint64_t number, const HandOptions& options);
+std::vector<HandCrumb> crumbs_around(const HandDot& dot, std::uint64_t number, double least,
+                                     const HandOptions& options);
 
 }  // namespace sikku

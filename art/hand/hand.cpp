@@ -23,6 +23,7 @@ constexpr double ground_drift = 0.19, drift_knots = 1.25;
 constexpr double sway = 0.16, sway_wave = 1.7;
 constexpr double growth = 0.14, growth_wave = 5;  // by which loops are larger or smaller than each other
 constexpr double tremor = 0.012, tremor_wave = 0.4;
+constexpr double corner_window = 0.12;
 constexpr double bend_window = 0.22;  // length over which a hand changes its speed
 // Exponent of the width over curvature: a third for the speed, half of that for the width, and more at full strength
 // than measured.
@@ -35,6 +36,7 @@ constexpr double flow_share = 0.4;  // by which the width follows the flour
 
 // Shares of the gap between two lines that each of them, and the drift, may take.
 constexpr double sway_share = 0.17, swell_share = 0.12, miss_share = 0.08, drift_share = 0.16;
+constexpr double room_reach = 0.8;    // loops up to which a line has room
 constexpr double nearest_gap = 0.03;  // share of the distance: narrower gaps count as touching
 constexpr double side_by_side = 0.7;  // cosine of the angle up to which lines run side by side
 constexpr double wedge = 0.6;         // gap, in widths, up to which lines that meet are in a wedge
@@ -171,7 +173,7 @@ private:
 /// @return share of the drift, 0 to 1
 double find_room(std::vector<HandLine>& lines, const Places& places, const std::vector<glm::dvec2>& drifts,
                  double loop, const HandOptions& options) {
-    const double reach = 2 * widest_half(lines) + 0.6 * loop;
+    const double far_gap = room_reach * loop, reach = 2 * widest_half(lines) + far_gap;
     const PointGrid grid(places.at, reach);
     const Meetings meetings(lines, places);
     const auto is_end = [](const HandLine& of, std::size_t k) {
@@ -182,6 +184,7 @@ double find_room(std::vector<HandLine>& lines, const Places& places, const std::
         if (i % 1024 == 0) options.monitor.check();
         HandLine& line = lines[places.of[i].line];
         HandNode& node = line.nodes[places.of[i].node];
+        node.room = std::min(node.room, far_gap);
         grid.visit(places.at[i], 1, [&](std::size_t j) {
             const glm::dvec2 way = places.at[j] - places.at[i];
             const double distance = glm::length(way);
@@ -283,20 +286,46 @@ void set_widths(HandLine& line, const std::vector<double>& bends, const HandOpti
     }
 }
 
+/// The mean of vectors within a window around each node.
+std::vector<glm::dvec2> smoothed(const HandLine& line, const std::vector<glm::dvec2>& vectors, double window) {
+    const std::size_t count = line.size();
+    std::vector<double> lengths(count), xs(count), ys(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        lengths[i] = (line.step(i) + line.step(line.previous(i))) / 2;
+        xs[i] = lengths[i] * vectors[i].x;
+        ys[i] = lengths[i] * vectors[i].y;
+    }
+    lengths = windowed(line, lengths, window);
+    xs = windowed(line, xs, window);
+    ys = windowed(line, ys, window);
+    std::vector<glm::dvec2> means(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        means[i] = lengths[i] > 0 ? glm::dvec2(xs[i], ys[i]) / lengths[i] : vectors[i];
+    }
+    return means;
+}
+
 /// @param bends  of the line around each node, positive to the left
 void move_nodes(HandLine& line, const std::vector<double>& bends, const glm::dvec2* drifts, const glm::dvec2* ways,
                 const HandOptions& options) {
     const LineNoise sways(seed_of(options, line.number, 0), line.length, sway_wave * line.loop, line.closed);
     const LineNoise tremors(seed_of(options, line.number, 1), line.length, tremor_wave * line.loop, line.closed);
     const LineNoise growths(seed_of(options, line.number, 6), line.length, growth_wave * line.loop, line.closed);
+    std::vector<glm::dvec2> moves(line.size());
     for (std::size_t i = 0; i < line.size(); ++i) {
-        HandNode& node = line.nodes[i];
+        const HandNode& node = line.nodes[i];
         const double most = sway_share * node.room;
         const double outwards = -std::clamp(bends[i], -1.0, 1.0) * growth * growths(node.along);
         const double aside =
             options.strength * line.loop * (sway * sways(node.along) + tremor * tremors(node.along) + outwards);
         const double limited = most > 0 ? aside / (1 + std::fabs(aside) / most) : 0;
-        node.at += drifts[i] + limited * glm::dvec2(-ways[i].y, ways[i].x);
+        moves[i] = limited * glm::dvec2(-ways[i].y, ways[i].x);
+    }
+    // At a corner, the sides move differently, and a hand rounds the difference.
+    moves = smoothed(line, moves, std::min(corner_window * line.loop, line.length / 8));
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const double length = glm::length(moves[i]), most = sway_share * line.nodes[i].room;
+        line.nodes[i].at += drifts[i] + (length > most ? most / length : 1) * moves[i];
     }
 }
 

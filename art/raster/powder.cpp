@@ -18,7 +18,7 @@ constexpr float line_peak = 165;  // height of a line in its middle
 constexpr int edge_height = static_cast<int>(165 * (1 - 1 / powder_reach));
 constexpr int texels_of_grain = 4;
 constexpr double grains_of_clump = 4.7;
-// Heights by which grains and clumps rise or fall; together less than that of the edge.
+// Heights by which grains and clumps rise or fall; together rarely more than that of the edge.
 constexpr int grain_relief = 24, clump_relief = 26;
 constexpr int opaque_edge = 205;  // opacity at the edge
 constexpr double most_contrast = 15;

@@ -85,8 +85,8 @@ Print kolam_print(const Document& document, double side, double hand) {
     return print;
 }
 
-Document kolam(const std::string& name, std::int64_t steps) {
-    return load((std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns/kolams" / (name + ".lsys")).string())
+Document kolam(const std::string& name, std::int64_t steps, const char* folder = "kolams") {
+    return load((std::filesystem::path(SIKKU_SOURCE_DIR) / "patterns" / folder / (name + ".lsys")).string())
         .with({{"derivation length", "derivation length", std::to_string(steps)}});
 }
 
@@ -314,7 +314,7 @@ TEST_F(Hand, CrumbsFallBesideTheLineAndMoreWhereAPinchBegins) {
     const HandOptions options{0.6, 3};
     draw_lines(lines, dots, options);
     const HandLine& line = lines[0];
-    const std::vector<HandCrumb> crumbs = crumbs_beside(line, options);
+    const std::vector<HandCrumb> crumbs = crumbs_beside(line, 0, options);
     ASSERT_GT(crumbs.size(), 1000U);
     std::size_t near = 0, far = 0, fresh = 0;
     double fresh_length = 0;
@@ -337,8 +337,8 @@ TEST_F(Hand, CrumbsFallBesideTheLineAndMoreWhereAPinchBegins) {
     EXPECT_GT(far, 0U);
     const double share = static_cast<double>(fresh) / static_cast<double>(crumbs.size());
     EXPECT_GT(share, 1.4 * fresh_length / line.length);
-    EXPECT_EQ(crumbs_beside(line, options).front().at, crumbs.front().at);
-    EXPECT_LT(crumbs_beside(line, {0.2, 3}).size(), crumbs.size() / 2);
+    EXPECT_EQ(crumbs_beside(line, 0, options).front().at, crumbs.front().at);
+    EXPECT_LT(crumbs_beside(line, 0, {0.2, 3}).size(), crumbs.size() / 2);
 }
 
 /// Crumbs stay on the near half of the gap to a neighbour.
@@ -355,7 +355,7 @@ TEST_F(Hand, CrumbsKeepToTheirSideOfTheGap) {
     draw_lines(lines, dots, options);
     std::size_t count = 0;
     for (std::size_t of = 0; of < 2; ++of) {
-        for (const HandCrumb& crumb : crumbs_beside(lines[of], options)) {
+        for (const HandCrumb& crumb : crumbs_beside(lines[of], 0, options)) {
             const auto distance_to = [&](const HandLine& line) {
                 double distance = 1e9;
                 for (const HandNode& node : line.nodes) {
@@ -545,11 +545,16 @@ TEST_F(Hand, GrainMovesWithTheDrawing) {
 /// them, and in pictures without their grain.
 TEST_F(Hand, KeepsTheTopologyOfKolams) {
     NEEDS("pdftoppm");
-    const std::vector<std::pair<std::string, std::int64_t>> kolams = {
-        {"snake-kolam", 2}, {"anklets-of-krishna", 3}, {"kooja-kolam", 0}, {"bag-of-candies", 2}, {"scissors", 1}};
+    const std::vector<std::pair<std::string, std::int64_t>> kolams = {{"snake-kolam", 2},
+                                                                      {"anklets-of-krishna", 3},
+                                                                      {"kooja-kolam", 0},
+                                                                      {"bag-of-candies", 2},
+                                                                      {"scissors", 1},
+                                                                      {"kolam-9-to-1-085zkcfp", 0},
+                                                                      {"kolam-11-6-idukku-d30xsr9p", 0}};
     for (const auto& [name, steps] : kolams) {
         SCOPED_TRACE(name);
-        Document document = kolam(name, steps);
+        Document document = kolam(name, steps, name.starts_with("kolam-") ? "kolam-library" : "kolams");
         const Colour black{0, 0, 0, 255}, white{255, 255, 255, 255};
         std::pair<int, int> plain;
         for (const double strength : {0.0, 0.5, 1.0}) {
@@ -571,6 +576,7 @@ TEST_F(Hand, KeepsTheTopologyOfKolams) {
                 continue;
             }
             EXPECT_EQ(parts, plain);
+            if (name.find("idukku") != std::string::npos) continue;  // lines thinner than two of these pixels
             Print picture = print;
             picture.dpi = 25.4 * 4;
             int channels = 0;
