@@ -38,7 +38,7 @@ struct HandCrossing {
 ///
 /// - Fills and dots move with the ground, those at a line with the line.
 ///
-/// Cost: about 2 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
+/// Cost: about 3 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
 void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, std::vector<HandFill>& fills,
                   const HandOptions& options);
 

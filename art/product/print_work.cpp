@@ -46,7 +46,7 @@ void PrintWork::plan_drawing() {
     drawing_.budget = settings_.work.budget;
     if (settings_.place.swatch_place) place_swatch(*settings_.place.swatch_place);
     static_cast<PictureOptions&>(drawing_) = settings_.work;
-    if (print_.style.hand > 0 && !drawing_.compression) drawing_.compression = 4;
+    if (print_.style.hand > 0 && !print_.style.floor && !drawing_.compression) drawing_.compression = 4;
     drawing_.lists_contents = needs_contents(given_);
     if (settings_.paper.tile) drawing_.tiles = tile_options(settings_);
     static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
