@@ -342,9 +342,10 @@ private:
         options_.columns = shared_.sheet.columns;
         options_.gap = shared_.sheet.gutter;
         options_.same_scale = shared_.sheet.same_scale;
-        const bool has_hand =
-            std::any_of(cells_.begin(), cells_.end(), [](const SheetCell& cell) { return cell.style.hand > 0; });
-        if (has_hand && !options_.compression) options_.compression = 4;
+        const auto any = [&](auto&& has) { return std::any_of(cells_.begin(), cells_.end(), has); };
+        const bool has_hand = any([](const SheetCell& cell) { return cell.style.hand > 0; });
+        const bool has_floor = any([](const SheetCell& cell) { return cell.style.floor.has_value(); });
+        if (has_hand && !has_floor && !options_.compression) options_.compression = 4;
         const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
             return item.document.source().text() == items.front().document.source().text();
         });
@@ -357,13 +358,15 @@ private:
 
     /// One ground under all drawings if they share it; texts stand out from it.
     void set_ground() {
-        const std::optional<Colour> first = cells_.front().style.ground;
-        const bool is_shared = std::all_of(cells_.begin(), cells_.end(),
-                                           [&](const SheetCell& cell) { return cell.style.ground == first; });
+        const Style& first = cells_.front().style;
+        const bool is_shared = std::all_of(cells_.begin(), cells_.end(), [&](const SheetCell& cell) {
+            return cell.style.ground == first.ground && cell.style.floor == first.floor;
+        });
         if (shared_.sheet.has_ground) {
             options_.ground = shared_.sheet.ground;
         } else if (is_shared) {
-            options_.ground = first;
+            options_.ground = first.ground;
+            options_.floor = first.floor;
         }
         if (options_.ground && options_.ground->alpha > 0 && lightness(*options_.ground) < 0.6) {
             options_.ink = {0xff, 0xfa, 0xf0, 255};

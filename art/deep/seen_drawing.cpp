@@ -450,6 +450,7 @@ struct Strip {
     Strip(const Print& whole, int first, int count) : print(whole) {
         print.page.height = count * 25.4 / print.dpi;
         print.placement.to_page[2].y -= first * 25.4 / print.dpi;
+        print.floor_corner.y += first * 25.4 / print.dpi;
         raster = make_raster(print);
         raster->expect({});
     }

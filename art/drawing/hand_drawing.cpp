@@ -4,35 +4,12 @@
 #include "art/raster/raster.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace sikku {
 namespace {
 
-constexpr double nodes_of_curve = 400;     // memory and time of a curve that is kept, in derivation nodes
-constexpr double grain_share = 0.07;       // share of a line's width
-constexpr double least_powder_pixels = 3;  // narrower lines show no grain
-constexpr double crossing_height = 1.5, dot_height = 1.3;
-constexpr double flatness = 0.15;  // pixels
-
-/// Widths of lines that are drawn with pens differ by this share before the pen is changed.
-constexpr double width_step = 0.03;
-
-void draw_with_pens(const HandLine& stroke, double step, double stroke_unit, double tolerance, PathSink& sink) {
-    const std::vector<HandNode> points = flattened(stroke, tolerance);
-    const auto pen_of = [&](double half) { return Pen{2 * half * step / stroke_unit, true, stroke.pen.colour}; };
-    double half = points.front().half;
-    sink.begin_stroke(points.front().at, pen_of(half));
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        if (std::fabs(points[i].half - half) > width_step * half) {
-            half = points[i].half;
-            sink.change_pen(pen_of(half));
-        }
-        sink.lines(std::span(&points[i].at, 1));
-    }
-    sink.end_stroke(false);
-}
+constexpr double nodes_of_curve = 400;  // memory and time of a curve that is kept, in derivation nodes
 
 }  // namespace
 
@@ -61,14 +38,17 @@ const DrawnExtent& HandDrawing::seen() {
 HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathSink& fills,
                                  std::vector<LessonStep>* steps) const {
     const double step = print.placement.step;
-    HandGatherer gatherer(fills, print.style, step, reading_.budget / nodes_of_curve);
+    HandGatherer gatherer(print.style, step, reading_.budget / nodes_of_curve);
     if (steps) gatherer.limit(most_lesson_lines, most_lesson_points);
     OldColours coloured(gatherer, drawn_);
     inner_->read(print, window, coloured);
     HandStrokes strokes{std::move(gatherer.gathered), std::move(gatherer.dots)};
     order_by_hand(strokes.lines);
     if (steps) *steps = lesson_steps(strokes.lines, options_.most_steps);
-    draw_by_hand(strokes.lines, strokes.dots, hand_);
+    draw_by_hand(strokes.lines, strokes.dots, gatherer.fills, hand_);
+    for (const HandFill& fill : gatherer.fills) {
+        fill.is_polygon ? fills.polygon(fill.outline, fill.pen) : fills.area(fill.outline, fill.pen);
+    }
     return strokes;
 }
 
@@ -140,44 +120,7 @@ void HandDrawing::read_outlines(const Print& print, const HandStrokes& strokes, 
 std::unique_ptr<Rendering> HandDrawing::rendering(const Print& print, const Window& window) const {
     if (!(hand_.strength > 0)) return Drawing::rendering(print, window);
     auto raster = make_raster(print);
-    const HandStrokes strokes = this->strokes(print, window, *raster);
-    const double pixels = print.placement.step * print.dpi / 25.4;  // pixels of a step
-    double sum = 0, length = 0;
-    for (const HandLine& line : strokes.lines) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            sum += 2 * line.nodes[i].half * line.step(i);
-            length += line.step(i);
-        }
-    }
-    const double width = length > 0 ? sum / length : 1;
-    raster->set_grain(grain_share * width);
-    const bool is_powder = width * pixels >= least_powder_pixels;
-    std::vector<PowderPoint> points;
-    for (const HandLine& line : strokes.lines) {
-        const HandLine stroke = drawn_stroke(line, hand_);
-        if (!is_powder) {
-            draw_with_pens(stroke, style_.stroke.in_steps ? 1.0 : print.placement.step, print.style.stroke.unit,
-                           flatness / pixels, *raster);
-            continue;
-        }
-        points.clear();
-        for (const HandNode& node : flattened(stroke, flatness / pixels)) points.push_back({node.at, node.half});
-        raster->powder(points, line.pen, 1.0, false);
-    }
-    if (is_powder) {
-        for (const HandCrossing& crossing : hand_crossings(strokes.lines)) {
-            const PowderPoint point{crossing.at, crossing.half};
-            raster->powder(std::span(&point, 1), strokes.lines[crossing.line].pen, crossing_height, false);
-        }
-    }
-    for (const HandDot& dot : strokes.dots) {
-        if (2 * dot.radius * pixels < least_powder_pixels) {
-            raster->disc(dot.at, dot.radius, dot.pen);
-            continue;
-        }
-        const PowderPoint point{dot.at, dot.radius};
-        raster->powder(std::span(&point, 1), dot.pen, dot_height, true);
-    }
+    lay_flour(strokes(print, window, *raster), hand_, print, *raster);
     return raster;
 }
 

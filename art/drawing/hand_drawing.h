@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/drawing/drawing.h"
+#include "art/drawing/hand_flour.h"
 #include "art/hand/hand.h"
 #include "art/hand/lesson_steps.h"
 
@@ -10,12 +11,6 @@
 #include <vector>
 
 namespace sikku {
-
-/// The lines of a drawing in the order in which a hand draws them, and its dots.
-struct HandStrokes {
-    std::vector<HandLine> lines;
-    std::vector<HandDot> dots;
-};
 
 /// Makes the lines and dots of another drawing waver and swell (see draw_by_hand()), by the `hand` of its style.
 /// Vector formats get outlines, pictures powder, plotters the middle of the lines. The visible part does not affect
@@ -32,7 +27,8 @@ public:
     using Drawing::rendering;
     std::unique_ptr<Rendering> rendering(const Print& print, const Window& window) const override;
 
-    /// The strokes of a placed print. Fills are passed on. @param steps  if not null, receives the steps of a lesson
+    /// The strokes of a placed print. Fills are passed on, in their order. @param steps  if not null, receives the
+    /// steps of a lesson
     /// @throws BudgetError, for a lesson also over its limits
     HandStrokes strokes(const Print& print, const Window& window, PathSink& fills,
                         std::vector<LessonStep>* steps = nullptr) const;

@@ -30,12 +30,17 @@ struct HandCrossing {
 ///   sway along their course, in waves about a loop long, and tremble slightly.
 /// - The hand slows in bends, where more flour falls. The speed of hands is proportional to the cube root of the
 ///   radius (Lacquaniti, Terzuolo & Viviani 1983); the cross-section of a heap of flour is inversely proportional to
-///   speed, and its width to the root of that. The width also pulses as the fingers refill.
+///   speed, and its width to the root of that. The width also pulses with the fingers.
+/// - A pinch of flour lasts some loops (see Pinches). Towards its end there is less flour, and the line is narrower.
+/// - Loops differ in size, so that the images of a motif are not equal.
 /// - Neighbouring lines keep their distance: sway, swell and drift together take less than the gap between two lines
 ///   that run side by side, so that lines that do not touch never do. Lines that cross still cross.
 ///
-/// Cost: about 2 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
-void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, const HandOptions& options);
+/// - Fills and dots move with the ground, those at a line with the line.
+///
+/// Cost: about 3 µs a node. Memory: 300 bytes a node. @throws what the monitor throws
+void draw_by_hand(std::vector<HandLine>& lines, std::vector<HandDot>& dots, std::vector<HandFill>& fills,
+                  const HandOptions& options);
 
 /// Finds where lines cross. Cost: O(n).
 std::vector<HandCrossing> hand_crossings(const std::vector<HandLine>& lines);
@@ -53,6 +58,9 @@ std::vector<glm::dvec2> hand_middle(const HandLine& line);
 
 /// The outline of a dot: a small heap, not quite round.
 std::vector<glm::dvec2> dot_outline(const HandDot& dot, std::uint64_t number, const HandOptions& options);
+
+/// The heaps of flour of which a dot consists: one in its middle and some smaller ones, within its radius.
+std::vector<HandDot> heaps_of(const HandDot& dot, std::uint64_t number, const HandOptions& options);
 
 /// Points along a stroke that deviate from its middle by at most `tolerance` steps.
 std::vector<HandNode> flattened(const HandLine& stroke, double tolerance);

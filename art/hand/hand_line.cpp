@@ -250,7 +250,19 @@ double HandGatherer::loop_of(const std::vector<Piece>& pieces, bool closed) {
     return bend > 0 ? 2 * turn / bend : 1e300;
 }
 
-void HandGatherer::count_points(int more) {
+void HandGatherer::polygon(std::span<const glm::dvec2> vertices, const Pen& pen) {
+    if (!fills_with(pen)) return;
+    count_points(static_cast<double>(vertices.size()));
+    fills.push_back({{vertices.begin(), vertices.end()}, true, pen});
+}
+
+void HandGatherer::area(std::span<const glm::dvec2> outline, const Pen& pen) {
+    if (!fills_with(pen) || outline.empty()) return;
+    count_points(static_cast<double>(outline.size()));
+    fills.push_back({{outline.begin(), outline.end()}, false, pen});
+}
+
+void HandGatherer::count_points(double more) {
     points_ += more;
     if (points_ > most_points_) {
         throw BudgetError(fmt::format(

@@ -21,6 +21,8 @@ struct HandNode {
     double along = 0;     ///< length of the line up to here
     double half = 0;      ///< half of its width
     double room = 1e300;  ///< distance to the nearest line that runs beside it
+    double flow = 1;      ///< flour, relative to that of a full hand
+    double fresh = 0;     ///< 1 where a pinch of flour begins, 0 half a loop later
 };
 
 /// A line of one colour. The nodes of a closed line do not repeat the first one at the end.
@@ -49,6 +51,13 @@ struct HandDot {
     Pen pen;
 };
 
+/// A filled shape under the lines: the vertices of a polygon, or the outline of an area for PathSink::area().
+struct HandFill {
+    std::vector<glm::dvec2> outline;
+    bool is_polygon = false;
+    Pen pen;
+};
+
 /// Direction of the line at a node, of length about 1.
 glm::dvec2 hand_direction(const HandLine& line, std::size_t i);
 /// The same, of length 1.
@@ -68,13 +77,13 @@ void measure_again(HandLine& line);
 /// Drawing and Cognition, 1984.
 void order_by_hand(std::vector<HandLine>& lines);
 
-/// Gathers the visible lines and dots of a drawing. Polygons and areas are passed on to another sink, as they lie
-/// under all lines. Corners become short bends; a line ends where its colour changes.
+/// Gathers the visible lines, dots and fills of a drawing. Corners become short bends; a line ends where its colour
+/// changes. Edges of fills are divided into pieces that a line can take along.
 class HandGatherer : public PathSink {
 public:
     /// @param step  millimetres of a turtle step  @param most  maximum number of curves; more throw BudgetError
-    HandGatherer(PathSink& fills, const Style& style, double step, double most)
-        : fills_(fills), style_(style), step_(step), most_(most), most_points_(8 * most) {}
+    HandGatherer(const Style& style, double step, double most)
+        : style_(style), step_(step), most_(most), most_points_(8 * most) {}
     /// Limits the size of a drawing for a lesson. @param lines, points  maximum numbers; more throw BudgetError
     void limit(std::size_t lines, double points) {
         most_lines_ = lines;
@@ -86,12 +95,13 @@ public:
     void curves(std::span<const glm::dvec2> controls) override;
     void change_pen(const Pen& pen) override;
     void end_stroke(bool closed) override;
-    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override { fills_.polygon(vertices, pen); }
-    void area(std::span<const glm::dvec2> outline, const Pen& pen) override { fills_.area(outline, pen); }
+    void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) override;
+    void area(std::span<const glm::dvec2> outline, const Pen& pen) override;
     void disc(glm::dvec2 centre, double radius, const Pen& pen) override;
 
     std::vector<HandLine> gathered;
     std::vector<HandDot> dots;
+    std::vector<HandFill> fills;
 
 private:
     struct Piece {
@@ -102,10 +112,10 @@ private:
     static double loop_of(const std::vector<Piece>& pieces, bool closed);
     void add(const Bezier& curve);
     void finish(bool closed);
-    void count_points(int more);
+    void count_points(double more);
+    bool fills_with(const Pen& pen) const { return style_.fill_colour(pen).alpha > 0; }
     double half_width() const { return style_.line_width(pen_, step_) / step_ / 2; }
 
-    PathSink& fills_;
     const Style& style_;
     double step_;
     double most_, most_points_;

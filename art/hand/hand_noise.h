@@ -3,6 +3,7 @@
 
 #include "engine/base/chance.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,12 @@ namespace sikku {
 inline double hand_chance(std::uint64_t seed, std::uint64_t number) {
     const std::uint64_t bits = scrambled(seed + 0x9E3779B97F4A7C15U * (number + 1)) >> 11;
     return static_cast<double>(bits) * 0x1p-52 - 1;
+}
+
+/// Cubic step with level ends: 0 up to 0, 1 from 1 on.
+inline double smooth_step(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
 }
 
 /// Weights of a uniform cubic B-spline at `t` between two knots.

@@ -178,6 +178,19 @@ std::vector<glm::dvec2> dot_outline(const HandDot& dot, std::uint64_t number, co
     return outline;
 }
 
+std::vector<HandDot> heaps_of(const HandDot& dot, std::uint64_t number, const HandOptions& options) {
+    constexpr std::uint64_t lobes = 3;
+    const double away = std::min(0.1 + 0.3 * options.strength, 0.3);
+    const std::uint64_t seed = scrambled(scrambled(options.seed + 0x68656170) + number);
+    std::vector<HandDot> heaps = {{dot.at, (1 - away / 2) * dot.radius, dot.pen}};
+    for (std::uint64_t k = 0; k < lobes; ++k) {
+        const glm::dvec2 off(hand_chance(seed, 3 * k), hand_chance(seed, 3 * k + 1));
+        const double size = 0.75 + 0.25 * hand_chance(seed, 3 * k + 2);
+        heaps.push_back({dot.at + away * dot.radius * off, (1 - away) * size * dot.radius, dot.pen});
+    }
+    return heaps;
+}
+
 std::vector<HandNode> flattened(const HandLine& stroke, double tolerance) {
     Edge middle;
     std::vector<std::size_t> nodes;
@@ -202,6 +215,7 @@ std::vector<HandNode> flattened(const HandLine& stroke, double tolerance) {
             point.at = middle.point(k, k + 1, t);
             point.along += t * (next.along - point.along);
             point.half += t * (next.half - point.half);
+            point.flow += t * (next.flow - point.flow);
             points.push_back(point);
         }
     }

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -59,25 +60,63 @@ std::uint32_t dot_of(const RadialKolam& kolam, std::uint32_t line, std::size_t k
     return kolam.order[(line + k) % kolam.dots()];
 }
 
-/// Places along a line, `spans` from one arm to the next: between two dots the distance from the centre follows half
-/// a wave of a cosine, and so the line leaves and meets arms at right angles.
+/// Growth of the distance from the centre at the k-th dot of a line, from one arm to the next: 0 where the line turns
+/// back, otherwise the harmonic mean of the differences to the dots before and after, so that the distance grows or
+/// shrinks steadily. Source: Fritsch & Butland, A method for constructing local monotone piecewise cubic
+/// interpolants, SIAM Journal on Scientific and Statistical Computing 5 (1984).
+double slope_at(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
+    const double dot = dot_of(kolam, line, k);
+    const double in = dot - dot_of(kolam, line, k + kolam.dots() - 1), out = dot_of(kolam, line, k + 1) - dot;
+    return in * out > 0 ? 2 * in * out / (in + out) : 0;
+}
+
+/// Change of that growth at the k-th dot: the mean of the second derivatives of the cubics before and after it.
+double bend_at(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
+    const std::size_t previous = k + kolam.dots() - 1;
+    const double dot = dot_of(kolam, line, k), before = dot_of(kolam, line, previous),
+                 after = dot_of(kolam, line, k + 1);
+    return 3 * (before + after - 2 * dot) + slope_at(kolam, line, previous) - slope_at(kolam, line, k + 1);
+}
+
+/// The distance from the centre between two dots as a polynomial of degree 5 of the share of the way.
+std::array<double, 6> distance_between(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
+    const double from = dot_of(kolam, line, k), to = dot_of(kolam, line, k + 1);
+    const double slope = slope_at(kolam, line, k), bend = bend_at(kolam, line, k);
+    // What the first terms lack at the end.
+    const double rest = to - from - slope - bend / 2, slope_rest = slope_at(kolam, line, k + 1) - slope - bend,
+                 bend_rest = bend_at(kolam, line, k + 1) - bend;
+    return {from,
+            slope,
+            bend / 2,
+            10 * rest - 4 * slope_rest + bend_rest / 2,
+            -15 * rest + 7 * slope_rest - bend_rest,
+            6 * rest - 3 * slope_rest + bend_rest / 2};
+}
+
+/// Places along a line, `spans` from one arm to the next. Curvature has no jumps.
 std::vector<glm::dvec2> places_along(const RadialKolam& kolam, std::uint32_t line, std::size_t length) {
     std::vector<glm::dvec2> places;
     for (std::size_t k = 0; k < length; ++k) {
-        const double from = dot_of(kolam, line, k);
-        const double to = dot_of(kolam, line, k + 1);
+        const std::array<double, 6> terms = distance_between(kolam, line, k);
         for (std::size_t i = 0; i < spans; ++i) {
             const double share = static_cast<double>(i) / spans;
-            const double radius = from + (to - from) * (1 - unit_vector(180 * share).x) / 2;
+            double radius = 0;
+            for (std::size_t term = terms.size(); term-- > 0;) radius = radius * share + terms[term];
             places.push_back(polar(angle_of(kolam, static_cast<double>(k % kolam.arms) + share), radius));
         }
     }
     return places;
 }
 
-/// The control points of a closed uniform cubic B-spline along a line. It passes through each dot at a knot, at right
-/// angles to the arm; elsewhere it is the quasi-interpolant of the places, which differs from them in the fourth
-/// order.
+/// Unit normal of a line at a dot of an arm. @param slope  growth of its distance from the centre
+glm::dvec2 normal_at(const RadialKolam& kolam, std::uint32_t arm, double radius, double slope) {
+    const glm::dvec2 outwards = polar(angle_of(kolam, arm), 1.0), clockwise(outwards.y, -outwards.x);
+    const glm::dvec2 along = slope * outwards + 2 * std::numbers::pi * radius / kolam.arms * clockwise;
+    return glm::dvec2(-along.y, along.x) / glm::length(along);
+}
+
+/// The control points of a closed uniform cubic B-spline along a line. It passes through each dot at a knot, in the
+/// direction of the places; elsewhere it is their quasi-interpolant, which differs from them in the fourth order.
 std::vector<glm::dvec2> control_points(const RadialKolam& kolam, std::uint32_t line, std::size_t length) {
     const std::vector<glm::dvec2> places = places_along(kolam, line, length);
     const std::size_t count = places.size();
@@ -88,14 +127,15 @@ std::vector<glm::dvec2> control_points(const RadialKolam& kolam, std::uint32_t l
     }
     for (std::size_t k = 0; k < length; ++k) {
         const auto arm = static_cast<std::uint32_t>(k % kolam.arms);
-        const glm::dvec2 outwards = polar(angle_of(kolam, arm), 1.0);
+        const std::uint32_t dot = dot_of(kolam, line, k);
+        const glm::dvec2 normal = normal_at(kolam, arm, dot, slope_at(kolam, line, k));
         glm::dvec2& last = controls[before(k * spans)];
         glm::dvec2& next = controls[k * spans + 1];
         // The tangent at a knot is the difference of the controls on either side.
-        const double lean = glm::dot(next - last, outwards) / 2;
-        last += lean * outwards;
-        next -= lean * outwards;
-        controls[k * spans] = (6.0 * place_of(kolam, arm, dot_of(kolam, line, k)) - last - next) / 4.0;
+        const double lean = glm::dot(next - last, normal) / 2;
+        last += lean * normal;
+        next -= lean * normal;
+        controls[k * spans] = (6.0 * place_of(kolam, arm, dot) - last - next) / 4.0;
     }
     return controls;
 }

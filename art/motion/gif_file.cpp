@@ -41,6 +41,7 @@ void GifFile::frame(const Drawing& drawing, const Print& placed, double seconds)
     Print print = placed;
     print.style.ground = print.style.ground.value_or(Colour{255, 255, 255, 255});
     print.style.ground->alpha = 255;
+    print.style.floor.reset();  // 256 colours are too few
     const PixelSize size = pixel_size(print.page, print.dpi);
     const auto rendering = drawing.rendering(print);
     const auto channels = static_cast<std::size_t>(rendering->channels());

@@ -168,6 +168,7 @@ Print as_picture(Print print) {
     print.page.height += 2 * bleed;
     print.page.margin += bleed;
     print.placement.to_page[2] += glm::dvec2(bleed);
+    print.floor_corner -= glm::dvec2(bleed);
     print.press.bleed = 0.0;
     if (print.press.bits == 1 && print.press.screen.kind == Screen::Kind::threshold) {
         Style& style = print.style;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -46,6 +47,7 @@ struct WriterOptions {
 struct Print : WriterOptions {
     Style style;
     Placement placement;
+    glm::dvec2 floor_corner{0.0};              ///< place of the page's top left corner on the floor, in millimetres
     std::string title;                         ///< title of the pattern, UTF-8
     std::string pattern;                       ///< the text of the pattern file, so that the print can be made again
     std::string made;                          ///< the recipe: `sikku 0.2.0, -n 4`

@@ -30,6 +30,7 @@ PrintWork::PrintWork(PrintRequest request)
     plan_drawing();
     check_drawing();
     drop_border();
+    drop_floor();
     load_border(print_.style, document_, settings_, folder_, drawing_,
                 [this](const std::string& name, const std::string& text) { files_.emplace_back(name, text); });
     for (const auto& surface : request.document.grammar().surfaces()) {
@@ -45,7 +46,7 @@ void PrintWork::plan_drawing() {
     drawing_.budget = settings_.work.budget;
     if (settings_.place.swatch_place) place_swatch(*settings_.place.swatch_place);
     static_cast<PictureOptions&>(drawing_) = settings_.work;
-    if (print_.style.hand > 0 && !drawing_.compression) drawing_.compression = 4;
+    if (print_.style.hand > 0 && !print_.style.floor && !drawing_.compression) drawing_.compression = 4;
     drawing_.lists_contents = needs_contents(given_);
     if (settings_.paper.tile) drawing_.tiles = tile_options(settings_);
     static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);
@@ -71,7 +72,20 @@ void PrintWork::drop_border() {
                                                      : nullptr;
     if (!why) return;
     print_.style.border.reset();
-    dropped_border_ = fmt::format("the border of the pattern is not drawn: {}", why);
+    dropped_.push_back(fmt::format("the border of the pattern is not drawn: {}", why));
+}
+
+/// A floor is the ground of pictures in the plane: elsewhere its mean colour is, and a warning says why.
+void PrintWork::drop_floor() {
+    const FormatKind kind = info(format_).kind;
+    if (!print_.style.floor || (kind != FormatKind::pixels && kind != FormatKind::animation)) return;
+    const char* why = settings_.place.swatch_place       ? "a swatch repeats, and the floor does not"
+                      : kind == FormatKind::animation    ? "an animation has too few colours for its texture"
+                      : document_.grammar().is_spatial() ? "drawings in space stand on a plain ground"
+                                                         : nullptr;
+    if (!why) return;
+    print_.style.floor.reset();
+    dropped_.push_back(fmt::format("the floor is drawn in its mean colour: {}", why));
 }
 
 /// Checks that the settings apply to this drawing. @throws SettingError, PatternError
@@ -154,7 +168,7 @@ void warn_of_length(const Document& document, const DrawSettings& settings, Made
 Made PrintWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
                      int threads) try {
     Made made;
-    if (!dropped_border_.empty()) made.warn(dropped_border_);
+    for (const std::string& warning : dropped_) made.warn(warning);
     warn_of_letters(document_.grammar(), made);
     warn_of_length(document_, settings_, made);
     if (!no_steps().empty()) made.warn(no_steps());

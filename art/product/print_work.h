@@ -65,6 +65,7 @@ private:
     void plan_drawing();
     void place_swatch(const Swatch& swatch);
     void drop_border();
+    void drop_floor();
     void check_drawing() const;
     void refuse_key(const char* name, const std::string& message) const;
 
@@ -74,7 +75,7 @@ private:
     GivenOptions given_;
     Print print_;
     DrawOptions drawing_;
-    std::string dropped_border_;                              ///< warning; empty: none
+    std::vector<std::string> dropped_;                        ///< warnings of a border or floor that is left out
     std::vector<std::pair<std::string, std::string>> files_;  ///< of borders and surfaces
     std::filesystem::path folder_;
 };

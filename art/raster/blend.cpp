@@ -184,13 +184,23 @@ Canvas::Canvas(int width, int rows, int channels, Simd simd)
 void Canvas::clear(Colour ground, int rows) {
     ground_ = ground;
     rows_ = rows;
-    bare_ready_ = false;
+    bare_ready_ = has_floor_ = false;
     const Bytes colour = bytes(ground);
     fill(pixels_.data(), pixels().size(), colour, channels_);
 }
 
-void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage, Colour colour) {
-    const Bytes paint = bytes(colour), ground = bytes(ground_);
+void Canvas::lay_floor(const FloorPaint& floor, int top) {
+    has_floor_ = true;
+    for (int row = 0; row < rows_; ++row) {
+        floor.paint(pixels_.data() + static_cast<std::ptrdiff_t>(row) * width_ * channels_, top + row, width_,
+                    channels_);
+    }
+}
+
+/// @param ground  its colour at the pixel
+void Canvas::polygon_pixel(std::uint8_t* pixel, const std::uint8_t* ground, std::uint8_t& bare, int coverage,
+                           Colour colour) {
+    const Bytes paint = bytes(colour);
     const int bare_after = bare < coverage ? 0 : bare - coverage;
     if (channels_ < 4 && colour.alpha == 255 && (coverage <= bare || bare == 0)) {
         // The common cases: all of it on the bare share, which was ground; or all on painted parts.
@@ -226,18 +236,24 @@ void Canvas::polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage
     bare = static_cast<std::uint8_t>(bare_after);
 }
 
+void Canvas::begin_polygons() {
+    bare_.assign(static_cast<std::size_t>(width_) * rows_, 255);
+    if (has_floor_) floor_.assign(pixels().begin(), pixels().end());
+    bare_ready_ = true;
+}
+
 void Canvas::polygon_span(int row, int first, int end, int coverage, Colour colour) {
     // The last band of a page has fewer rows than a polygon that reaches below it.
     if (row >= rows_) return;
-    if (!bare_ready_) {
-        bare_.assign(static_cast<std::size_t>(width_) * rows_, 255);
-        bare_ready_ = true;
-    }
+    if (!bare_ready_) begin_polygons();
     std::uint8_t* bare = bare_.data() + static_cast<std::ptrdiff_t>(row) * width_;
-    std::uint8_t* pixels = pixels_.data() + static_cast<std::ptrdiff_t>(row) * width_ * channels_;
+    const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(row) * width_ * channels_;
+    std::uint8_t* pixels = pixels_.data() + start;
     if (coverage < 255 || colour.alpha < 255) {
+        const Bytes plain = bytes(ground_);
         for (int column = first; column < end; ++column) {
-            polygon_pixel(pixels + column * channels_, bare[column], coverage, colour);
+            const std::uint8_t* ground = has_floor_ ? floor_.data() + start + column * channels_ : plain.data();
+            polygon_pixel(pixels + column * channels_, ground, bare[column], coverage, colour);
         }
         return;
     }

@@ -1,6 +1,7 @@
 // art/raster/blend.h: blends colours onto a band of pixels.
 #pragma once
 
+#include "art/raster/floor.h"
 #include "art/raster/stroke.h"
 #include "art/style/colour.h"
 
@@ -18,6 +19,9 @@ public:
 
     /// Starts a band of at most the rows of the constructor: all ground, nothing painted.
     void clear(Colour ground, int rows);
+    /// Paints a floor as its ground, which begins `top` rows below the picture's top edge. Call after clear(), with
+    /// at least three channels.
+    void lay_floor(const FloorPaint& floor, int top);
 
     /// Paints a run of pixels of which a polygon covers `coverage` / 255. Polygons that share an edge do not leave a
     /// seam, whatever their colours: until a pixel is full, parts are taken to lie beside each other and not above
@@ -32,7 +36,9 @@ public:
     }
 
 private:
-    void polygon_pixel(std::uint8_t* pixel, std::uint8_t& bare, int coverage, Colour colour);
+    void polygon_pixel(std::uint8_t* pixel, const std::uint8_t* ground, std::uint8_t& bare, int coverage,
+                       Colour colour);
+    void begin_polygons();
 
     int width_, rows_, channels_;
     Simd simd_;
@@ -40,6 +46,8 @@ private:
     std::vector<std::uint8_t> pixels_;
     std::vector<std::uint8_t> bare_;  ///< share of each pixel not covered by polygons so far; made when needed
     bool bare_ready_ = false;
+    bool has_floor_ = false;
+    std::vector<std::uint8_t> floor_;  ///< the pixels before the first polygon, on a floor
 };
 
 }  // namespace sikku

@@ -17,6 +17,11 @@ namespace {
 constexpr float line_peak = 165;  // height of a line in its middle
 constexpr int edge_height = static_cast<int>(165 * (1 - 1 / powder_reach));
 constexpr int texels_of_grain = 4;
+constexpr double grains_of_clump = 4.7;
+// Heights by which grains and clumps rise or fall; together rarely more than that of the edge.
+constexpr int grain_relief = 24, clump_relief = 26;
+constexpr int opaque_edge = 205;  // opacity at the edge
+constexpr double most_contrast = 15;
 constexpr int full_bits = 9;
 constexpr int levels = 5;
 
@@ -83,7 +88,8 @@ const PowderGrain::Texture& PowderGrain::texture() {
     return made;
 }
 
-PowderGrain::PowderGrain(const glm::dmat3x2& to_pixels, double grain) {
+/// @param grain  size of a grain in the unit of the drawing
+PowderGrain::Layer PowderGrain::layer(const glm::dmat3x2& to_pixels, double grain) {
     const glm::dmat2x2 back = glm::inverse(glm::dmat2x2(to_pixels[0], to_pixels[1]));
     double texel = grain / texels_of_grain;
     const double pixel = glm::length(back[0]);
@@ -92,58 +98,75 @@ PowderGrain::PowderGrain(const glm::dmat3x2& to_pixels, double grain) {
         texel *= 2;
         ++level;
     }
-    texels_ = texture().level[level].data();
-    bits_ = full_bits - static_cast<int>(level);
-    // Edges are not sharper than pixels: a line is about 14 grains wide.
-    const double radius = 7 * grain / pixel;
-    contrast_ = static_cast<int>(std::clamp(255 * powder_reach * radius / 165, 1.0, 7.0) * 16);
     const auto fixed = [&](double value) {
         return static_cast<std::int64_t>(std::llround(std::clamp(value / texel, -1e12, 1e12) * 65536));
     };
     const glm::dvec2 origin = back * (glm::dvec2(0.5) - to_pixels[2]);
-    origin_x_ = fixed(origin.x);
-    origin_y_ = fixed(origin.y);
-    column_x_ = fixed(back[0].x);
-    column_y_ = fixed(back[0].y);
-    row_x_ = fixed(back[1].x);
-    row_y_ = fixed(back[1].y);
+    return {texture().level[level].data(),
+            full_bits - static_cast<int>(level),
+            fixed(origin.x),
+            fixed(origin.y),
+            fixed(back[0].x),
+            fixed(back[0].y),
+            fixed(back[1].x),
+            fixed(back[1].y)};
+}
+
+PowderGrain::PowderGrain(const glm::dmat3x2& to_pixels, double grain)
+    : grains_(layer(to_pixels, grain)), clumps_(layer(to_pixels, grains_of_clump * grain)) {
+    // Edges are not sharper than pixels: a line is about 14 grains wide.
+    const double radius = 7 * grain * glm::length(to_pixels[0]);
+    contrast_ = static_cast<int>(std::clamp(255 * powder_reach * radius / 165, 1.0, most_contrast) * 16);
 }
 
 /// Height of the grains at a place in 1/65536 texels, from -128 to 127.
-inline int PowderGrain::grain_at(std::int64_t x, std::int64_t y) const {
-    const std::uint32_t mask = (1u << bits_) - 1;
+inline int PowderGrain::Layer::at(std::int64_t x, std::int64_t y) const {
+    const std::uint32_t mask = (1u << bits) - 1;
     const std::uint32_t x0 = static_cast<std::uint32_t>(x >> 16) & mask, x1 = (x0 + 1) & mask;
-    const std::uint32_t y0 = (static_cast<std::uint32_t>(y >> 16) & mask) << bits_;
+    const std::uint32_t y0 = (static_cast<std::uint32_t>(y >> 16) & mask) << bits;
     const std::uint32_t y1 = (y0 + mask + 1) & ((mask + 1) * (mask + 1) - 1);
     const int across = static_cast<int>(x >> 8) & 255, down = static_cast<int>(y >> 8) & 255;
-    const int upper = (256 - across) * texels_[y0 + x0] + across * texels_[y0 + x1];
-    const int lower = (256 - across) * texels_[y1 + x0] + across * texels_[y1 + x1];
+    const int upper = (256 - across) * texels[y0 + x0] + across * texels[y0 + x1];
+    const int lower = (256 - across) * texels[y1 + x0] + across * texels[y1 + x1];
     return (((256 - down) * upper + down * lower) >> 16) - 128;
 }
 
+namespace {
+
+/// Fewer levels compress better, and nobody sees the difference.
+std::uint8_t in_steps(int paint) {
+    return static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);
+}
+
+}  // namespace
+
 void PowderGrain::settle(std::uint8_t* heights, int row, int first, int end) const {
-    const std::int64_t row_x = origin_x_ + row_x_ * row, row_y = origin_y_ + row_y_ * row;
+    const Layer &g = grains_, &c = clumps_;
+    const std::int64_t gx = g.origin_x + g.row_x * row, gy = g.origin_y + g.row_y * row;
+    const std::int64_t cx = c.origin_x + c.row_x * row, cy = c.origin_y + c.row_y * row;
     for (int column = first; column < end; ++column) {
         const int height = heights[column];
         if (height == 0) continue;
-        const int grain = grain_at(row_x + column_x_ * column, row_y + column_y_ * column);
+        const int grain = g.at(gx + g.column_x * column, gy + g.column_y * column);
+        const int clump = c.at(cx + c.column_x * column, cy + c.column_y * column);
         // There is powder where the height with its grains is above that of the edge.
-        const int above = height - edge_height + grain * 36 / 128;
+        const int above = height - edge_height + (grain * grain_relief + clump * clump_relief) / 128;
         const int cover = std::clamp(128 + above * contrast_ / 16, 0, 255);
-        // It is denser where it is high.
-        const int dense = std::clamp(192 + (height - 70) * 5 / 9 + grain / 5, 120, 255);
-        const int paint = cover * dense / 255;
-        heights[column] = static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);
+        // It is opaque where it is high; near its edges, the ground shows between the grains.
+        const int dense = std::clamp(opaque_edge + above + grain / 4, 96, 248 + (grain + clump) / 12);
+        heights[column] = in_steps(cover * dense / 255);
     }
 }
 
 void PowderGrain::strew(std::uint8_t* coverage, int row, int first, int end) const {
-    const std::int64_t row_x = origin_x_ + row_x_ * row, row_y = origin_y_ + row_y_ * row;
+    const Layer &g = grains_, &c = clumps_;
+    const std::int64_t gx = g.origin_x + g.row_x * row, gy = g.origin_y + g.row_y * row;
+    const std::int64_t cx = c.origin_x + c.row_x * row, cy = c.origin_y + c.row_y * row;
     for (int column = first; column < end; ++column) {
-        const int grain = grain_at(row_x + column_x_ * column, row_y + column_y_ * column);
-        const int dense = std::clamp(226 + grain * 3 / 4, 0, 255);
-        const int paint = coverage[column] * dense / 255;
-        coverage[column] = static_cast<std::uint8_t>(paint >= 248 ? 255 : (paint + 4) & ~7);
+        const int grain = g.at(gx + g.column_x * column, gy + g.column_y * column);
+        const int clump = c.at(cx + c.column_x * column, cy + c.column_y * column);
+        const int dense = std::clamp(226 + grain * 5 / 8 + clump / 3, 0, 255);
+        coverage[column] = in_steps(coverage[column] * dense / 255);
     }
 }
 
@@ -160,9 +183,10 @@ void pile(const PowderSegment& s, Mask& mask, int top, std::vector<std::pair<int
     constexpr float reach_share = static_cast<float>(powder_reach);
     const float reach = reach_share * std::max(s.a_radius, s.b_radius);
     const float before = half + std::min(s.before, reach), after = half + std::min(s.after, reach);
-    const float peak = line_peak * s.height;
-    const float a_fall = peak / (reach_share * s.a_radius), b_fall = peak / (reach_share * s.b_radius);
+    const float a_peak = line_peak * s.a_height, b_peak = line_peak * s.b_height;
+    const float a_fall = a_peak / (reach_share * s.a_radius), b_fall = b_peak / (reach_share * s.b_radius);
     const float fall = (a_fall + b_fall) / 2, more_fall = length > 0 ? (b_fall - a_fall) / length : 0;
+    const float peak = (a_peak + b_peak) / 2, more_peak = length > 0 ? (b_peak - a_peak) / length : 0;
     const int y0 = std::max(static_cast<int>(std::floor(std::min(ay, by) - reach)), 0);
     const int y1 = std::min(static_cast<int>(std::ceil(std::max(ay, by) + reach)), mask.rows);
     for (int row = y0; row < y1; ++row) {
@@ -190,7 +214,8 @@ void pile(const PowderSegment& s, Mask& mask, int top, std::vector<std::pair<int
             const float u = u_row + x * ux, v = v_row - x * uy;
             const float along = std::min(std::max(u, -half), half);
             const float off = u - along;
-            const float height = peak - std::sqrt(off * off + v * v) * (fall + more_fall * along);
+            const float distance = std::sqrt(off * off + v * v);
+            const float height = peak + more_peak * along - distance * (fall + more_fall * along);
             const int level = static_cast<int>(std::min(std::max(height, 0.0f), 255.0f));
             line[column] = static_cast<std::uint8_t>(std::max(static_cast<int>(line[column]), level));
         }

@@ -16,8 +16,8 @@ namespace sikku {
 struct PowderSegment {
     float ax = 0, ay = 0, bx = 0, by = 0;
     float a_radius = 0, b_radius = 0;
-    float before = 0, after = 0;  ///< pixels beyond the ends that this piece covers, too
-    float height = 1;             ///< 1 for a line; more for a crossing or a dot, which is denser
+    float before = 0, after = 0;       ///< pixels beyond the ends that this piece covers, too
+    float a_height = 1, b_height = 1;  ///< 1 for a line; more where it is denser, less where it has gaps
 };
 
 /// Maximum distance of the grains of a heap from its middle, in radii.
@@ -37,14 +37,20 @@ public:
 
 private:
     struct Texture;
-    int grain_at(std::int64_t x, std::int64_t y) const;
-    static const Texture& texture();
+    /// A size of the texture, placed on the page.
+    struct Layer {
+        const std::uint8_t* texels = nullptr;
+        int bits = 0;  ///< binary logarithm of its side
+        // In 1/65536 texel.
+        std::int64_t origin_x = 0, origin_y = 0, column_x = 0, column_y = 0, row_x = 0, row_y = 0;
 
-    const std::uint8_t* texels_;
-    int bits_;  ///< binary logarithm of the texture's side
+        int at(std::int64_t x, std::int64_t y) const;
+    };
+    static const Texture& texture();
+    static Layer layer(const glm::dmat3x2& to_pixels, double grain);
+
+    Layer grains_, clumps_;
     int contrast_;
-    // In 1/65536 texel.
-    std::int64_t origin_x_, origin_y_, column_x_, column_y_, row_x_, row_y_;
 };
 
 /// Draws segments into a mask whose upper left corner is `top` rows below that of the page: the height of the heaps,

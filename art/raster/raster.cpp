@@ -205,7 +205,7 @@ public:
     void blot(std::size_t prepared, glm::dvec2 centre) override;
 
     void expect(const Pen& pen) override { line_nib(pen); }
-    void powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) override;
+    void powder(std::span<const PowderPoint> line, const Pen& pen, bool fills) override;
     void set_grain(double steps) override { grain_.emplace(matrix_, steps); }
     void watch(std::function<void()> watch) override { watch_ = std::move(watch); }
     int channels() const override;
@@ -261,6 +261,7 @@ private:
     int band_rows_, band_bits_, bands_;
     bool transparent_;
     Colour ground_;
+    std::optional<FloorPaint> floor_;
 
     // Colours by index, and for each index the first one of the same colour, whose layer it shares.
     std::vector<Colour> line_colours_, fill_colours_;
@@ -310,6 +311,7 @@ BandRaster::BandRaster(const Print& print) : print_(print), size_(pixel_size(pri
 
     ground_ = print.style.ground.value_or(Colour{255, 255, 255, 0});
     transparent_ = ground_.alpha < 255;
+    if (const auto floor = print.style.shown_floor()) floor_.emplace(*floor, 1 / millimetre_, print.floor_corner);
     const int colours = std::max(static_cast<int>(print.style.palette.size()), 1);
     for (int index = 0; index < colours; ++index) {
         const Pen pen{.colour = index};
@@ -620,7 +622,7 @@ void BandRaster::blot(std::size_t prepared, glm::dvec2 centre) {
     }
 }
 
-void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) {
+void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, bool fills) {
     const std::size_t index = static_cast<std::size_t>(print_.style.index(pen));
     const std::size_t slot = static_cast<std::size_t>((fills ? fill_slots_ : line_slots_)[index]);
     if ((fills ? fill_colours_ : line_colours_)[index].alpha == 0 || line.empty() || !grain_) return;
@@ -628,7 +630,6 @@ void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, doubl
     if (bands.empty()) bands.resize(static_cast<std::size_t>(bands_));
     const double step = print_.placement.step * millimetre_;
     PowderSegment segment;
-    segment.height = static_cast<float>(height);
     const auto start = [&](const PowderPoint& point) {
         const glm::dvec2 at = to_pixels(point.at);
         return std::array<float, 3>{static_cast<float>(at.x), static_cast<float>(at.y),
@@ -638,6 +639,7 @@ void BandRaster::powder(std::span<const PowderPoint> line, const Pen& pen, doubl
         const auto from = start(a), to = start(b);
         segment.ax = from[0], segment.ay = from[1], segment.a_radius = from[2];
         segment.bx = to[0], segment.by = to[1], segment.b_radius = to[2];
+        segment.a_height = static_cast<float>(a.height), segment.b_height = static_cast<float>(b.height);
     };
     const auto whole = [](const PowderSegment& s) {
         return static_cast<float>(powder_reach) * std::max(s.a_radius, s.b_radius);
@@ -679,7 +681,7 @@ void BandRaster::add_powder(std::vector<Powder>& into, PowderSegment segment) {
 
 int BandRaster::channels() const {
     if (transparent_) return 4;
-    bool all_grey = grey(ground_);
+    bool all_grey = grey(ground_) && !floor_;
     for (std::size_t index = 0; index < line_colours_.size(); ++index) {
         if (!strokes_[index].empty() || !powders_[index].empty()) all_grey = all_grey && grey(line_colours_[index]);
         if (!discs_[index].empty() || !heaps_[index].empty() || polygon_colours_[index]) {
@@ -704,6 +706,7 @@ void BandRaster::add_blots(Mask& mask, int top, const std::vector<float>& blots)
 void BandRaster::render_band(Workplace& workplace, int band) const {
     const int top = band * band_rows_;
     workplace.canvas.clear(ground_, std::min(band_rows_, size_.height - top));
+    if (floor_) workplace.canvas.lay_floor(*floor_, top);
     const std::size_t at = static_cast<std::size_t>(band);
     if (!polygons_.empty() && !polygons_[at].empty()) {
         polygons_[at].read(PolygonReader(workplace, top, fill_colours_, grain_ ? &*grain_ : nullptr), watch_);

@@ -21,10 +21,12 @@ PixelSize pixel_size(const Page& page, double dpi);
 /// Receives finished rows, 8 bits a channel, top to bottom; called from one thread at a time, in order.
 using RowSink = std::function<void(int first_row, int rows, std::span<const std::uint8_t> pixels)>;
 
-/// A point of a line of powder: its place and half its width, in turtle steps.
+/// A point of a line of powder: its place and half its width, in turtle steps, and its height: 1 for a line, up
+/// to 1.5 where powder lies on powder, less where the hand runs dry.
 struct PowderPoint {
     glm::dvec2 at{0.0};
     double half = 0;
+    double height = 1;
 };
 
 /// A complete picture, which renders its pixels in bands.
@@ -62,8 +64,7 @@ public:
 
     /// Adds a line of powder in the colour of the pen, or a heap if it is one point. Powder lies over the strokes of
     /// its colour, or, with `fills`, over all discs, in the pen's colour of fills. Set the grain first.
-    /// @param height  1 for a line; up to 1.5 where powder lies on powder
-    virtual void powder(std::span<const PowderPoint> line, const Pen& pen, double height, bool fills) = 0;
+    virtual void powder(std::span<const PowderPoint> line, const Pen& pen, bool fills) = 0;
     /// Sets the size of a grain of powder, in turtle steps.
     virtual void set_grain(double steps) = 0;
 };

@@ -105,7 +105,9 @@ std::vector<Strip> SheetMaker::strips(PixelSize size, Colour ground) const {
         cell.bottom = std::max(cell.top + 1, pixels(window.top + window.height, size.height));
         cell.print.page = {(cell.right - cell.left) / millimetre, (cell.bottom - cell.top) / millimetre,
                            window.margin};
-        cell.print.placement.to_page[2] -= glm::dvec2(cell.left / millimetre, cell.top / millimetre);
+        const glm::dvec2 corner(cell.left / millimetre, cell.top / millimetre);
+        cell.print.placement.to_page[2] -= corner;
+        cell.print.floor_corner += corner;
         strips[static_cast<std::size_t>(placed.row)].cells.push_back(std::move(cell));
     }
     for (std::size_t row = 1; row < strips.size(); ++row) {
@@ -137,6 +139,7 @@ void SheetMaker::write_pixels(Output& output, const std::filesystem::path& file)
         print.style.ground = ground;
         print.page = {size.width / millimetre, (strip.bottom - strip.top) / millimetre, 0.0};
         print.placement.to_page[2].y -= strip.top / millimetre;
+        print.floor_corner.y += strip.top / millimetre;
         const auto texts = make_raster(print);
         write_texts(strip.top / millimetre, strip.bottom / millimetre, *texts);
         texts->watch([&] { watch(0); });

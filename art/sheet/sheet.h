@@ -35,6 +35,7 @@ struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
 
     PrintFormat format = PrintFormat::svg;
     std::optional<Colour> ground = Colour{0xf7, 0xf4, 0xec, 255};  ///< ground between the cells
+    std::optional<Floor> floor{};                                  ///< floor whose mean colour is the ground
     Colour ink{0x2a, 0x26, 0x22, 255};                             ///< colour of title and captions
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
     std::string title;                                             ///< title above all cells; empty: none

@@ -48,6 +48,7 @@ SheetMaker::SheetMaker(const std::vector<SheetCell>& cells, const SheetOptions& 
     print_.pattern = options.pattern;
     print_.made = options.made;
     print_.style.ground = options.ground;
+    print_.style.floor = options.floor;
     print_.style.stroke = {1.0, false, 1.0};
     print_.style.palette = {options.ink, options.pale_ink};
     // Text is laid out in millimetres.

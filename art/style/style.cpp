@@ -252,11 +252,22 @@ void read_dots(const Key& key, double dpi, Style& style, Diagnostics& diagnostic
 }
 
 void read_ground(const Key& key, Style& style, Diagnostics& diagnostics) {
-    constexpr std::string_view expected = "a colour or none";
+    const std::string expected = fmt::format("a colour, {} or none", fmt::join(floor_names(), ", "));
     const auto word = only_word(key, expected, diagnostics);
     if (!word) return;
     style.ground.reset();
-    if (lower_case(word->view()) == "none") return;
+    const std::string text = lower_case(word->view());
+    if (text == "none") return;
+    style.floor = find_floor(text);
+    if (style.floor) {
+        style.ground = mean_colour(*style.floor);
+        return;
+    }
+    const std::string_view near = parse_colour(text) ? std::string_view() : nearest(text, floor_names());
+    if (!near.empty()) {
+        diagnostics.error(*word, fmt::format("{} is not a floor; did you mean '{}'?", quoted_value(text), near));
+        return;
+    }
     style.ground = read_colour(*word, expected, diagnostics);
     if (style.ground && style.ground->alpha == 0) style.ground.reset();
 }
@@ -548,6 +559,10 @@ std::vector<Colour> fill_powders(const Style& style, std::span<const Colour> oth
 std::vector<Colour> default_palette() {
     return {{0x00, 0x00, 0x00, 255}, {0xe6, 0x9f, 0x00, 255}, {0x56, 0xb4, 0xe9, 255}, {0x00, 0x9e, 0x73, 255},
             {0xf0, 0xe4, 0x42, 255}, {0x00, 0x72, 0xb2, 255}, {0xd5, 0x5e, 0x00, 255}, {0xcc, 0x79, 0xa7, 255}};
+}
+
+std::optional<Floor> Style::shown_floor() const {
+    return floor && ground == mean_colour(*floor) ? floor : std::nullopt;
 }
 
 int Style::index(const Pen& pen) const {

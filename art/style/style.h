@@ -5,6 +5,7 @@
 #include "art/style/camera.h"
 #include "art/style/colour.h"
 #include "art/style/decoration.h"
+#include "art/style/floor.h"
 #include "art/style/light.h"
 #include "art/style/map_style.h"
 #include "engine/geometry/path.h"
@@ -69,6 +70,7 @@ struct Style {
     std::optional<Colour> stroke_colour;    ///< colour of index 0; absent: the palette's first
     bool stroked = true;                    ///< false for `stroke: none`
     std::optional<Colour> ground;           ///< absent: transparent
+    std::optional<Floor> floor;             ///< floor whose mean colour is the ground: see shown_floor()
     std::optional<Colour> fill;             ///< colour of polygons and discs with index 0; absent: the palette's
     std::vector<Colour> palette;            ///< never empty after read_style
     std::map<int, std::string> cut_layers;  ///< names of layers of DXF by colour index, instead of numbers of pens
@@ -91,6 +93,8 @@ struct Style {
 
     /// True if undrawn steps are control points of the line.
     bool moves_draw() const { return line == Line::spline && !moves_lift; }
+    /// The floor that pictures show: none if the ground was changed to another colour.
+    std::optional<Floor> shown_floor() const;
     /// The colour index as a number in [0, palette.size()).
     int index(const Pen& pen) const;
     Colour line_colour(const Pen& pen) const;

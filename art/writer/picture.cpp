@@ -24,7 +24,8 @@ Picture::Picture(const Print& print, const DrawOptions& options, int channels, O
                  std::filesystem::path file)
     : file_(std::move(file)),
       channels_(static_cast<std::size_t>(channels)),
-      ground_(print.style.ground.value_or(Colour{255, 255, 255, 0})) {
+      ground_(print.style.ground.value_or(Colour{255, 255, 255, 0})),
+      has_ink_(print.style.shown_floor().has_value()) {
     const PixelSize size = pixel_size(print.page, print.dpi);
     ImageSpec spec;
     spec.format = info(options.format).extension;

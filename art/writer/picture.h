@@ -22,7 +22,7 @@ public:
     Picture(const Print& print, const DrawOptions& options, int channels, Output& output, std::filesystem::path file);
     void rows(int first_row, int rows, std::span<const std::uint8_t> pixels);
     void close();
-    /// True if no pixel can be distinguished from the ground. Call after the last row.
+    /// True if no pixel can be distinguished from the ground; false on a floor. Call after the last row.
     bool is_blank() const { return !has_ink_; }
 
 private:

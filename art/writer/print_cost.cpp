@@ -52,6 +52,8 @@ constexpr double ornament_line_seconds = 2e-6;
 constexpr double worked_line_seconds = 8e-6;
 constexpr double tile_edge_seconds = 3e-6;
 constexpr double hand_line_seconds = 30e-6;
+constexpr double hand_pixel_seconds = 40e-9, floor_pixel_seconds = 8e-9;
+constexpr double floor_seconds = 0.3, floor_bytes = 2;  // of its texture, and for each pixel of a compressed picture
 constexpr double frame_points = 2e4;
 
 double square(double value) {
@@ -234,7 +236,11 @@ void add_picture(const Grammar& grammar, const Print& print, const DrawOptions& 
     if (grammar.is_spatial()) return add_scene(print, drawing, cost);
     cost.seconds +=
         drawing.points * 60e-9 + drawing.length * fine * 4e-9 + (drawing.ink + drawing.area) * square(fine) * 2e-9;
-    if (print.style.hand > 0) cost.seconds += inked * 40e-9;
+    if (print.style.hand > 0) cost.seconds += inked * hand_pixel_seconds;
+    if (print.style.shown_floor()) {
+        cost.seconds += floor_seconds + pixels * (each.ink_seconds + floor_pixel_seconds);
+        cost.bytes += pixels * floor_bytes;
+    }
 }
 
 constexpr double plot_point_seconds = 1.2e-6;

@@ -270,6 +270,7 @@ private:
         Print print;
         print.style = style_;
         print.style.border.reset();
+        print.style.floor.reset();
         const glm::dvec2 size = moved.frame.high - moved.frame.low;
         print.page = {size.x / std::max(size.x, size.y) * side, size.y / std::max(size.x, size.y) * side, 0};
         print.dpi = 25.4;

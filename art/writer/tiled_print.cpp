@@ -123,6 +123,7 @@ private:
 Print moved(const Print& print, glm::dvec2 corner) {
     Print part = print;
     part.placement.to_page[2] -= corner;
+    part.floor_corner += corner;
     return part;
 }
 

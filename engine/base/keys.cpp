@@ -76,11 +76,12 @@ constexpr KeyInfo language[] = {
      KeyScope::all},
     {"stroke", art, "a width and a colour such as 0.4mm #fff or 0.2 step white; none", "0.4mm black",
      "Width of the pen in mm (or cm, in, pt, px) or in steps, and its colour", KeyScope::all},
-    {"ground", art, "a colour, none", "white", "Colour of the page; none is transparent", KeyScope::all},
+    {"ground", art, "a colour, none; red-earth, cow-dung, slate, concrete", "white",
+     "Colour of the page, none is transparent; or a floor, which pictures show and other formats in its mean colour",
+     KeyScope::all},
     {"paper", art, "white, none", "none",
      "White paper instead of the ground, to save ink: lines, dots and fills that would vanish on it take the colour "
-     "of "
-     "the ground, or of red earth",
+     "of the ground, or of red earth",
      KeyScope::all},
     {"fill", art, "a colour; of maps also age, sides, none", "the palette's first, or the stroke's; none in maps",
      "Colour of polygons and discs with colour index 0, or of the cells of a map", KeyScope::all},

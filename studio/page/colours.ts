@@ -1,6 +1,7 @@
 // The colours of stroke and ground, and the parts of the stroke.
 import type { Application } from "./application";
 import { element } from "./elements";
+import { plainGround } from "./floors";
 import { optionOf } from "./options";
 import { valueInText } from "./pattern_text";
 import type { Opened } from "./protocol";
@@ -50,7 +51,7 @@ export function makeColours(application: Application): { element: HTMLElement; u
         ),
         update() {
             stroke.input.value = plain(splitStroke(value("stroke", "0.4mm black")).rest || "black") ?? "#000000";
-            ground.input.value = plain(value("ground", "white")) ?? "#ffffff";
+            ground.input.value = plain(plainGround(value("ground", "white"))) ?? "#ffffff";
         },
     };
 }

@@ -3,13 +3,14 @@
 import { cameraOf, decimalsOf, fitting, limited, pixelOf, pointAt, windowOf, type Camera, type Size } from "./camera";
 import { RequestFailed, type Studio, type Work } from "./context";
 import { exactOf, exactText, readExact } from "./decimal";
+import { plainGround } from "./floors";
 import { layersOf } from "./layers";
 import { Motion } from "./map_motion";
 import { Painter, type Loupe, type Overview } from "./map_painter";
 import { Overviews } from "./overviews";
 import { colourOf, TileLoader, type Bitmap, type Colour, type Subject } from "./pictures";
 import { pageOptions, planeOptions } from "./option_scopes";
-import type { Opened, Request } from "./protocol";
+import type { Opened, Options, Request } from "./protocol";
 import { cameraOfSheet, isComposed, laidOut, sheetOf, styleOf, type Laid } from "./sheet";
 import { Subjects } from "./subjects";
 import { levelScale, seenTiles, tileGrid, type TileGrid } from "./tiles";
@@ -453,7 +454,7 @@ export class MapView {
         const pixels = (length: number) => Math.max(16, Math.round(length * (1 + 2 * around) * ratio));
         const [across, down] = [pixels(this.size.width), pixels(this.size.height)];
         const size = { width: across / ratio, height: down / ratio };
-        const options = planeOptions(this.studio.help, work.draw);
+        const options = this.planeOptionsOf(work);
         this.ask(
             `${name} ${ratio} ${camera.x} ${camera.y} ${camera.scale} ${across}`,
             { width: across, height: down, window: windowOf(camera, size), ratio, options },
@@ -491,8 +492,17 @@ export class MapView {
 
     private groundOf(work: Work): string {
         const facts = this.facts?.facts;
-        const text = (facts && styleOf("ground", facts, work.draw)) ?? "white";
+        const text = plainGround((facts && styleOf("ground", facts, work.draw)) ?? "white");
         return text === "none" || CSS.supports("color", text) ? text : "white";
+    }
+
+    // The texture of a floor has a size in millimetres, and the plane has none: there the ground is plain.
+    private planeOptionsOf(work: Work): Options {
+        const options = planeOptions(this.studio.help, work.draw);
+        const facts = this.facts?.facts;
+        const text = facts && styleOf("ground", facts, work.draw);
+        if (text === undefined || plainGround(text) === text) return options;
+        return [...options.filter(([name]) => name !== "ground"), ["ground", plainGround(text)]];
     }
 
     private wantTiles(now: number): void {
@@ -503,7 +513,7 @@ export class MapView {
         const subject: Subject = {
             name: this.planeName,
             pattern: this.work.pattern,
-            options: planeOptions(this.studio.help, this.work.draw),
+            options: this.planeOptionsOf(this.work),
         };
         this.tiles.want(subject, seenTiles(this.camera, this.size, this.grid, scale), this.grid, this.ratio);
     }

@@ -77,10 +77,21 @@ TEST(RadialKolam, LinesAreTheGreatestCommonDivisorAndVisitEveryDot) {
     }
 }
 
-/// The tangent of a Bézier at its beginning leads to its next control.
-TEST(RadialKolam, LinesCrossArmsAtRightAngles) {
+/// Where a line goes at a dot: 1 outwards, -1 inwards, 0 where it turns back.
+int way_at(const RadialKolam& kolam, std::uint32_t dot) {
+    const auto at =
+        static_cast<std::size_t>(std::find(kolam.order.begin(), kolam.order.end(), dot) - kolam.order.begin());
+    const std::uint32_t before = kolam.order[(at + kolam.dots() - 1) % kolam.dots()];
+    const std::uint32_t after = kolam.order[(at + 1) % kolam.dots()];
+    return before < dot && dot < after ? 1 : before > dot && dot > after ? -1 : 0;
+}
+
+/// The tangent of a Bézier at its beginning leads to its next control. Lines turn back at right angles to the arm,
+/// and run on through other dots.
+TEST(RadialKolam, LinesTurnBackAtRightAnglesToTheArms) {
     for (const char* size : {"8x5", "5x4", "6x3", "12x7", "2x3"}) {
-        const KolamPattern pattern = radial_pattern(parse_radial_kolam(size));
+        const RadialKolam kolam = parse_radial_kolam(size);
+        const KolamPattern pattern = radial_pattern(kolam);
         std::size_t crossed = 0;
         for (const reference::Line& stroke : drawn(pattern.text).strokes) {
             for (std::size_t i = 0; i + 1 < stroke.points.size(); i += 3) {
@@ -91,7 +102,13 @@ TEST(RadialKolam, LinesCrossArmsAtRightAngles) {
                 if (!is_dot) continue;
                 ++crossed;
                 const double along_arm = at.x * way.x + at.y * way.y;
-                EXPECT_LT(std::fabs(along_arm), 1e-7 * std::hypot(at.x, at.y) * std::hypot(way.x, way.y)) << size;
+                const double share = along_arm / (std::hypot(at.x, at.y) * std::hypot(way.x, way.y));
+                const int wanted = way_at(kolam, static_cast<std::uint32_t>(std::lround(std::hypot(at.x, at.y))));
+                if (wanted == 0) {
+                    EXPECT_LT(std::fabs(share), 1e-7) << size;
+                } else {
+                    EXPECT_GT(wanted * share, 0.1) << size;
+                }
             }
         }
         EXPECT_EQ(crossed, pattern.dots.size()) << size;
