@@ -12,6 +12,21 @@
 
 namespace sikku {
 
+namespace {
+
+/// Refuses the options that make a kolam, except those that have a meaning for --read, too.
+void refuse_options_of_grids(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || option->get_group() != grid_heading) continue;
+        if (name != "--grid" && name != "--output" && name != "--jobs") {
+            throw UsageError(fmt::format("--read excludes {}", name));
+        }
+    }
+}
+
+}  // namespace
+
 void add_kolam(CLI::App& app, bool& quiet) {
     auto* command = app.add_subcommand("kolam",
                                        "Examine a drawing as a kolam, make one on a grid of dots, or read one from a "
@@ -50,7 +65,9 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "touchings, multiple, diagram (the lines as an alternating knot or link, or null: alternating, crossings, "
         "components, parts, nugatory, reduced, crossing_number, writhe, linked_pairs), symmetry, rotations, "
         "mirrors, centre, loose_dots, dots_on_lines, dots. With --read: grid, dots, gaps, crossed, joined, lines, "
-        "symmetry, doubtful and repaired (row, gap, state, certainty), notes, crossings.\n\n"
+        "symmetry, doubtful and repaired (row, gap, state, certainty), notes, crossings; of a photograph also "
+        "kolams, "
+        "open_ends, missing and completed (row, place, x, y).\n\n"
         "Examples:\n"
         "  sikku kolam snake-kolam\n"
         "  sikku kolam --grid 7x7 --symmetry C4 --single-line --seed 3 -o mine.lsys\n"
@@ -59,17 +76,17 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "  sikku kolam --grid 3x3 --enumerate\n"
         "  sikku kolam --read photo.jpg -o mine.lsys --overlay found.png\n"
         "  sikku kolam --read photo.jpg -o mine.lsys --fix '3,4: cross; 5,1: turn'\n"
+        "  sikku kolam --read photo.jpg --grid 9-5 --crop 200,100,1200,1200 -o mine.lsys --overlay found.png\n"
         "  sikku kolam mine.lsys -o mine.kolam.json\n"
         "  sikku kolam anklets-of-krishna -n 4 --json");
-    command->callback([options, grid, read, &quiet] {
+    command->callback([options, grid, read, command, &quiet] {
         const bool makes = !grid->grid.empty() || !grid->radial.empty();
         const bool has_pattern = !options->pattern.empty() || !options->steps.empty() || !options->settings.empty() ||
                                  !options->variant.empty();
         if (!read->file.empty()) {
-            if (makes || has_pattern || grid->colours || grid->dots) {
-                throw UsageError(
-                    "--read excludes PATTERN, -n, --set, --variant, --grid, --radial, --colours and --dots");
-            }
+            if (has_pattern) throw UsageError("--read excludes PATTERN, -n, --set and --variant");
+            refuse_options_of_grids(*command);
+            read->grid = grid->grid;
             read->output = grid->output;
             read->as_json = options->as_json;
             read->budget = options->budget;

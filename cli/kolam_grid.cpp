@@ -136,12 +136,13 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
 
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     const OptionGroup group{command, grid_heading};
-    auto* grid =
-        group.add("--grid", options.grid, "DOTS",
-                  "make a kolam on this grid of dots: 7x7, the dots of each row (1-3-5-3-1), the longest row "
-                  "and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks (15x9-9x3), letters "
-                  "(text:MEERA, 'text 18:MEERA' with 18 rows of dots), or a shape of 'o' and '.' (oo./ooo/.oo); "
-                  "@FILE reads it from a file");
+    auto* grid = group.add(
+        "--grid", options.grid, "DOTS",
+        "make a kolam on this grid of dots, or with --read the dots that the kolam of a photograph has: 7x7, the "
+        "dots "
+        "of each row (1-3-5-3-1), the longest row and the last ('7 to 1 ner pulli', '15-8 idukku pulli'), blocks "
+        "(15x9-9x3), letters (text:MEERA, 'text 18:MEERA' with 18 rows of dots), or a shape of 'o' and '.' "
+        "(oo./ooo/.oo); @FILE reads it from a file");
     auto* symmetry =
         group.add("--symmetry", options.symmetry, "GROUP",
                   "none, C2, C3, C4, C6 (rotations), mirror-x (left and right), mirror-y (top and "

@@ -4,6 +4,7 @@
 #include "art/image/image_file.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "art/reading/kolam_file.h"
+#include "art/reading/kolam_fixes.h"
 #include "art/reading/kolam_report.h"
 #include "cli/mistakes.h"
 #include "cli/options.h"
@@ -13,6 +14,7 @@
 #include "engine/base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -49,15 +51,21 @@ void report_places(const Photograph& photograph, bool quiet) {
         std::string text;
         for (std::size_t i = 0; i < std::min(places.size(), most_listed); ++i) {
             const glm::dvec2 at = photograph.in_file(places[i]);
-            text += fmt::format("{} {:.0f},{:.0f}", i > 0 ? ";" : "", at.x, at.y);
+            const DotAddress address = address_of(photograph.kolam.grid, places[i]);
+            text += fmt::format("  row {}, place {}: pixel {:.0f},{:.0f}\n", address.row, address.number, at.x, at.y);
         }
-        if (places.size() > most_listed) text += fmt::format("; and {} more", places.size() - most_listed);
-        tell_unless(quiet, "sikku: warning: {}, at pixels{}\n", what, text);
+        if (places.size() > most_listed) text += fmt::format("  and {} more\n", places.size() - most_listed);
+        tell_unless(quiet, "sikku: {}:\n{}", what, text);
     };
-    list(photograph.open_ends, "open ends, where lines leave the kolam");
-    list(photograph.missing, "places that may have a dot that was not seen");
-    if (photograph.kolams > 1)
-        tell_unless(quiet, "sikku: --number 1 to {} selects another kolam\n", photograph.readable);
+    list(photograph.completed, "dots that were not seen, completed as in --grid");
+    list(photograph.open_ends, "warning: open ends, where lines leave the kolam");
+    list(photograph.missing, "warning: places that may have a dot that was not seen");
+    if (!photograph.open_ends.empty() || !photograph.missing.empty()) {
+        tell_unless(quiet, "sikku: --fix 'dot ROW,PLACE' adds a dot\n");
+    }
+    if (photograph.readable > 1) {
+        tell_unless(quiet, "sikku: --part 1 to {} selects another kolam\n", photograph.readable);
+    }
 }
 
 /// Writes the pattern of gestures that meet in the middle of four dots, and reports it.
@@ -99,14 +107,47 @@ bool write_gesture_drawing(const KolamReadOptions& options, const std::string& s
     return true;
 }
 
-FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
-    std::error_code error;
-    if (!std::filesystem::exists(options.file, error)) {
-        throw UsageError(fmt::format("--read {}: no such file", options.file));
+/// Turns failures to read the value of an option into usage errors.
+template <typename Work>
+auto of_read_option(const char* option, const Work& work) {
+    try {
+        return work();
+    } catch (const std::runtime_error& error) {
+        throw UsageError(fmt::format("{} {}", option, error.what()));
     }
-    KolamFileOptions reading{.number = options.number, .repair = !options.no_repair};
+}
+
+DotGrid expected_grid(const KolamReadOptions& options) {
+    const std::string& given = options.grid;
+    DotGrid grid = parse_dot_grid(given.starts_with('@') ? read_pattern_text(given.substr(1)).text : given);
+    const std::string wanted = grid.lattice() == DotLattice::square ? "square" : "interlaced";
+    if (options.lattice.empty() || options.lattice == wanted) return grid;
+    throw std::runtime_error(fmt::format("'{}': {} dots; --lattice expects others", printable(given, 80), wanted));
+}
+
+/// Refuses options that other files than photographs have no use for.
+void check_photograph_options(const KolamReadOptions& options) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(options.file, error) && is_picture(InputFile(options.file).read(0, 64))) {
+        return;
+    }
+    const char* given = !options.grid.empty()      ? "--grid"
+                        : !options.corners.empty() ? "--corners"
+                        : !options.crop.empty()    ? "--crop"
+                                                   : nullptr;
+    if (given != nullptr) throw UsageError(fmt::format("{} with --read applies only to photographs", given));
+}
+
+FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
+    KolamFileOptions reading{.number = options.number, .repair = !options.no_repair, .fixes = options.fixes};
     if (options.lattice == "square") reading.lattice = DotLattice::square;
     if (options.lattice == "interlaced") reading.lattice = DotLattice::triangular;
+    if (!options.grid.empty()) reading.grid = of_read_option("--grid", [&] { return expected_grid(options); });
+    if (!options.crop.empty()) reading.region = of_read_option("--crop", [&] { return parse_crop(options.crop); });
+    if (!options.corners.empty()) {
+        const std::string corners = fmt::to_string(fmt::join(options.corners, " "));
+        reading.region = of_read_option("--corners", [&] { return parse_corners(corners); });
+    }
     Progress progress(quiet);
     try {
         FoundKolam found = read_kolam_file(options.file, options.file, reading, options.budget, progress.monitor());
@@ -119,6 +160,8 @@ FoundKolam read_file_as_kolam(const KolamReadOptions& options, bool quiet) {
             file.commit();
         }
         throw;
+    } catch (const FixError& wrong) {
+        throw UsageError(fmt::format("--fix {}", wrong.what()));
     }
 }
 
@@ -162,25 +205,39 @@ void add_kolam_read_options(CLI::App& command, KolamReadOptions& options) {
                            "read a kolam from a photograph (JPEG, PNG, TIFF, WebP, HEIF), a .kolam.json, a CSV of "
                            "one-stroke kolams, an SVG, gestures, or a pattern");
     group
-        .add("--number", options.number, "N",
-             "number of the kolam in a CSV, a list of .kolam.json or a photograph, from 1 (1)")
+        .add("--number,--part", options.number, "N",
+             "number of the kolam in a CSV, a list of .kolam.json or a photograph, from 1; the largest one of a "
+             "photograph is the first (1)")
         ->check(whole_number(1, 1'000'000))
         ->needs(read);
+    auto* corners =
+        group
+            .add("--corners", options.corners, "X,Y X,Y X,Y X,Y",
+                 "corners of the part of a photograph that is read and straightened, in pixels, around it "
+                 "from the top left one")
+            ->expected(1, 4)
+            ->needs(read);
     group
         .add("--lattice", options.lattice, "KIND",
              "square or interlaced dots of a photograph or SVG (whichever fits better)")
         ->check(one_of({"square", "interlaced"}))
         ->needs(read);
+    group.add("--crop", options.crop, "X,Y,WIDTH,HEIGHT", "read only this part of a photograph, in pixels")
+        ->excludes(corners)
+        ->needs(read);
     group
-        .add("--fix", options.fixes, "GAPS",
-             "set gaps by hand: 'ROW,GAP: STATE', with row and number as in the report and the overlay, and cross, "
-             "turn or join; separate several by semicolons; may be repeated")
+        .add("--fix", options.fixes, "CHANGES",
+             "change gaps and dots by hand: 'ROW,GAP: STATE', with row and number as in the report and the overlay, "
+             "and cross, turn or join; 'dot ROW,PLACE' and 'no dot ROW,PLACE', with places from the left side of the "
+             "grid; separate several by semicolons; may be repeated; each counts in the kolam that those before it "
+             "made")
         ->allow_extra_args(false)
         ->needs(read);
     group
-        .add("--overlay", options.overlay, "FILE",
-             "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
-             "doubtful ones ringed; lost dots in red rings; also if the photograph is refused")
+        .add(
+            "--overlay", options.overlay, "FILE",
+            "draw what was read over the photograph, as PNG: crossed gaps green, turned blue, joined magenta, "
+            "doubtful ones ringed; lost dots in red rings, completed ones in cyan; also if the photograph is refused")
         ->needs(read);
     group
         .flag("--no-repair", options.no_repair,
@@ -198,6 +255,11 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
     }
     keep_input("--overlay", options.overlay, options.file);
     keep_input("-o", options.output, options.file);
+    std::error_code missing;
+    if (!std::filesystem::exists(options.file, missing)) {
+        throw UsageError(fmt::format("--read {}: no such file", options.file));
+    }
+    check_photograph_options(options);
     const std::string source = std::filesystem::path(options.file).filename().string();
     std::optional<FoundKolam> read = [&]() -> std::optional<FoundKolam> {
         try {
@@ -213,17 +275,9 @@ void kolam_read(const KolamReadOptions& options, bool quiet) {
     }();
     if (!read) return;
     FoundKolam& found = *read;
-    for (const std::string& fix : options.fixes) {
-        try {
-            fix_gaps(found.kolam, fix);
-        } catch (const std::runtime_error& error) {
-            throw UsageError(fmt::format("--fix {}", error.what()));
-        }
-    }
     const KolamReport facts = report_kolam(found.kolam, stop_monitor());
     write(found.kolam, facts, options.output, source);
     if (!options.overlay.empty() && found.photograph) {
-        found.photograph->kolam = found.kolam;
         OutputFile file(options.overlay);
         write_overlay(*found.photograph, file.temporary());
         file.commit();

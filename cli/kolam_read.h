@@ -19,6 +19,9 @@ struct KolamReadOptions {
     std::string file;
     std::size_t number = 1;
     std::string lattice;
+    std::string grid;  ///< the dots that the kolam of a photograph has; `@FILE` reads them from a file
+    std::vector<std::string> corners;
+    std::string crop;
     std::vector<std::string> fixes;
     std::string overlay;
     bool no_repair = false;

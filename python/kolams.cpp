@@ -2,6 +2,7 @@
 
 #include "art/kolam/grid_kolam.h"
 #include "art/kolam/radial_kolam.h"
+#include "art/reading/kolam_fixes.h"
 #include "art/reading/kolam_report.h"
 #include "engine/base/option.h"
 #include "engine/base/text.h"
@@ -10,6 +11,7 @@
 #include "python/interruption.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -84,9 +86,10 @@ py::str make_radial_kolam(const std::string& size, const std::string& order, boo
     }));
 }
 
-py::tuple read_kolam(const std::string& path, std::size_t number, const std::string& lattice, bool repairs,
+py::tuple read_kolam(const std::string& path, std::size_t number, const std::string& lattice, const std::string& grid,
+                     const std::string& corners, const std::string& crop, bool repairs,
                      const std::vector<std::string>& fixes, double budget) {
-    KolamFileOptions options{.number = number, .repair = repairs};
+    KolamFileOptions options{.number = number, .repair = repairs, .fixes = fixes};
     if (lattice == "square") {
         options.lattice = DotLattice::square;
     } else if (lattice == "interlaced") {
@@ -94,22 +97,29 @@ py::tuple read_kolam(const std::string& path, std::size_t number, const std::str
     } else if (!lattice.empty()) {
         refuse_option("lattice", lattice, "expected square or interlaced");
     }
+    if (!grid.empty()) options.grid = of_option("grid", grid, [&] { return parse_dot_grid(grid); });
+    if (options.grid && options.lattice.value_or(options.grid->lattice()) != options.grid->lattice()) {
+        refuse_option("grid", grid, "expected dots of the lattice '" + lattice + "'");
+    }
+    if (!corners.empty()) {
+        options.region = of_option("corners", corners, [&] { return parse_corners(corners); });
+    }
+    if (!crop.empty()) {
+        if (options.region) refuse_option("crop", crop, "excludes corners");
+        options.region = of_option("crop", crop, [&] { return parse_crop(crop); });
+    }
     const auto [text, facts] = long_call([&](const Monitor& monitor) {
         std::error_code error;
         if (!std::filesystem::exists(path, error)) throw NotFound(path + ": No such file or directory", false);
-        FoundKolam found = [&] {
+        const FoundKolam found = [&] {
             try {
                 return read_kolam_file(path, path, options, budget, monitor);
             } catch (const NoKolam& refused) {
                 throw std::runtime_error(path + ": " + refused.what());
+            } catch (const FixError& error) {
+                throw SettingError("fix", fmt::format("{}", fmt::join(fixes, "; ")), error.what());
             }
         }();
-        for (const std::string& fix : fixes) {
-            of_option("fix", fix, [&] {
-                fix_gaps(found.kolam, fix);
-                return true;
-            });
-        }
         const KolamReport report = report_kolam(found.kolam, monitor);
         const std::string source = std::filesystem::path(path).filename().string();
         return std::pair(read_kolam_pattern(found.kolam, report, source, monitor),

@@ -22,7 +22,8 @@ pybind11::str make_radial_kolam(const std::string& size, const std::string& orde
 
 /// Reads a kolam. Returns (text of the pattern, facts as JSON). Arguments are those of `sikku kolam --read`.
 /// @throws SettingError, NotFound, std::runtime_error, PatternError
-pybind11::tuple read_kolam(const std::string& path, std::size_t number, const std::string& lattice, bool repairs,
+pybind11::tuple read_kolam(const std::string& path, std::size_t number, const std::string& lattice,
+                           const std::string& grid, const std::string& corners, const std::string& crop, bool repairs,
                            const std::vector<std::string>& fixes, double budget);
 
 }  // namespace sikku

@@ -169,9 +169,10 @@ double distance_to(const Curve& curve, glm::dvec2 point) {
         const glm::dvec2 way = curve[i] - curve[i - 1];
         const double along =
             std::clamp(glm::dot(point - curve[i - 1], way) / std::max(glm::dot(way, way), 1e-12), 0.0, 1.0);
-        least = std::min(least, glm::distance(point, curve[i - 1] + along * way));
+        const glm::dvec2 off = curve[i - 1] + along * way - point;
+        least = std::min(least, glm::dot(off, off));
     }
-    return least;
+    return std::sqrt(least);
 }
 
 /// A shape as ink at the places of a window, with a mean of 0 and a length of 1.
@@ -315,10 +316,11 @@ std::vector<float> patch(const GreyPicture& ink, const LatticeMap& map, const Ga
 
 /// The sum of products; several at a time, which the compiler turns into vectors.
 double product(const std::vector<float>& a, const std::vector<float>& b) {
-    std::array<float, 8> sums{};
+    constexpr std::size_t lanes = 16;
+    std::array<float, lanes> sums{};
     std::size_t i = 0;
-    for (; i + 8 <= a.size(); i += 8) {
-        for (std::size_t k = 0; k < 8; ++k) sums[k] += a[i + k] * b[i + k];
+    for (; i + lanes <= a.size(); i += lanes) {
+        for (std::size_t k = 0; k < lanes; ++k) sums[k] += a[i + k] * b[i + k];
     }
     float sum = 0;
     for (const float part : sums) sum += part;

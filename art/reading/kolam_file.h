@@ -10,14 +10,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sikku {
 
 struct KolamFileOptions {
     std::size_t number = 1;  ///< number of the kolam in a table
     std::optional<DotLattice> lattice =
-        {};              ///< lattice of drawings and photographs; absent: the one that fits better
-    bool repair = true;  ///< repair doubtful gaps of photographs by symmetry
+        {};                            ///< lattice of drawings and photographs; absent: the one that fits better
+    bool repair = true;                ///< repair doubtful gaps of photographs by symmetry
+    std::optional<DotGrid> grid = {};  ///< the dots that the kolam of a photograph has
+    std::optional<PictureRegion> region = {};  ///< the part of a photograph that is read
+    std::vector<std::string> fixes = {};       ///< changes by hand, as in fix_gaps()
 };
 
 /// Reads a text in the format that it resembles: `.kolam.json`, CSV of one-stroke kolams, SVG, or gestures.

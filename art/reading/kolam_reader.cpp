@@ -44,11 +44,22 @@ public:
             dots_.insert(dot);
             box.add(found_.at(dot), 2 * found_.spacing);
         }
-        pieces_.emplace(smooth, 0.4 * level_, box.low, box.high);
+        box_ = box;
         regular_ = found_.map;
         regular_.forget();
         exact_ = found_.map;
         exact_.follow();
+    }
+
+    /// Reads the gaps between given dots.
+    LineReading read_as(const std::vector<GridDot>& places, const Monitor& monitor) {
+        find_offset(monitor);
+        is_given_ = true;
+        dots_ = {places.begin(), places.end()};
+        for (const GridDot place : dots_) {
+            if (!found_.map.has_seen(place)) added_.insert(place);
+        }
+        return read_part();
     }
 
     std::vector<LineReading> read(const Monitor& monitor) {
@@ -115,9 +126,15 @@ private:
         const std::vector<GridDot> missing = complete();
         LineReading reading{.grid = found_.with({dots_.begin(), dots_.end()})};
         const GridDot origin = reading.grid.placed.origin - found_.placed.origin;
+        reading.is_given = is_given_;
         for (const GridDot place : added_) {
-            if (dots_.contains(place)) reading.added.push_back(place - origin);
+            if (!dots_.contains(place)) continue;
+            reading.added.push_back(place - origin);
+            if (!is_given_) continue;
+            if (!has_ink(place)) reading.blank.push_back(place - origin);
+            reading.outside += !is_inside(ink_, found_.at(place));
         }
+        std::sort(reading.added.begin(), reading.added.end(), is_before);
         for (const GridGap& gap : reading.grid.grid().gaps()) {
             const GridDot from = reading.grid.grid().dots()[gap.from];
             reading.evidence.push_back(evidence(from + origin, gap.side));
@@ -138,6 +155,10 @@ private:
         reading.joined = static_cast<std::size_t>(std::count(is_joined.begin(), is_joined.end(), 1));
         reading.reaches_edge = sikku::reaches_edge(ink_, reading.grid, level_);
         return reading;
+    }
+    const InkPieces& ink_pieces() const {
+        if (!pieces_) pieces_.emplace(ink_, 0.4 * level_, box_.low, box_.high);
+        return *pieces_;
     }
     const DotGrid& grid() const { return found_.grid(); }
     GridDot next(GridDot from, std::uint32_t side) const { return from + grid().step(side); }
@@ -224,7 +245,8 @@ private:
     }
 
     /// Adds places beside the grid that have lines around them although no dot was seen there: all gaps between them
-    /// and dots have both strands, and some strands lead to them. @return true if there were any
+    /// and dots have both strands, and some strands lead to them, or run around them alone. @return true if there
+    /// were any
     bool add_encircled(const Monitor& monitor) {
         std::set<GridDot> tried;
         std::vector<GridDot> added;
@@ -254,13 +276,15 @@ private:
             joined += gap.best() != GapState::turned;
         }
         if (gaps == grid().sides()) return true;
-        return gaps > 0 && joined > 0 && has_blob(place);
+        if (gaps == 0 || !has_blob(place)) return false;
+        // A ring of its own touches the loops of several dots.
+        return joined > 0 || (gaps > 1 && has_own_lines({place}));
     }
 
     /// Adds dots that the symmetry of the others suggests where the lines agree. @return places with ink where the
     /// lines do not agree, and places within the kolam that have ink
     std::vector<GridDot> complete() {
-        if (is_hopeless_) return {};
+        if (is_hopeless_ || is_given_) return {};
         std::set<GridDot> asked;
         for (int round = 0; round < 3; ++round) {
             const FoundGrid now = found_.with({dots_.begin(), dots_.end()});
@@ -339,7 +363,7 @@ private:
             for (int k = -8; k <= 8; ++k) {
                 const double off = 0.015 * k;
                 const glm::dvec2 place = start + (0.25 + off) * along + sign * (0.25 + off) * aside;
-                if (const std::uint32_t piece = pieces_->at(found_.map(place)); piece != 0) pieces.insert(piece);
+                if (const std::uint32_t piece = ink_pieces().at(found_.map(place)); piece != 0) pieces.insert(piece);
             }
         }
         return pieces;
@@ -445,9 +469,9 @@ private:
                 const double angle = 2 * std::numbers::pi * k / ways;
                 const glm::dvec2 way(std::cos(angle), std::sin(angle));
                 for (double reach = 0.2; reach < 0.72; reach += 0.02) {
-                    const std::uint32_t piece = pieces_->at(found_.map(middle + reach * way));
+                    const std::uint32_t piece = ink_pieces().at(found_.map(middle + reach * way));
                     if (piece == 0) continue;
-                    closed += pieces_->size(piece) < most;
+                    closed += ink_pieces().size(piece) < most;
                     break;
                 }
             }
@@ -564,8 +588,10 @@ private:
     LatticeMap exact_;    ///< through the dots
     const GapReader& reader_;
     double level_;
-    std::optional<InkPieces> pieces_;
-    bool is_hopeless_ = false;  ///< hardly any gap agrees with a kolam
+    Box box_;                                  ///< around the dots that were found
+    mutable std::optional<InkPieces> pieces_;  ///< of the ink in the box; many lattices do not need them
+    bool is_hopeless_ = false;                 ///< hardly any gap agrees with a kolam
+    bool is_given_ = false;                    ///< the dots were given
     std::set<GridDot> dots_;
     std::set<GridDot> added_;
     std::map<std::pair<GridDot, std::uint32_t>, GapEvidence> evidence_;
@@ -573,11 +599,21 @@ private:
 
 }  // namespace
 
-std::vector<LineReading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
+const GreyPicture& InkReader::smooth_for(const FoundGrid& grid) {
     // Pages have kolams of similar sizes.
     const double blur = std::exp2(std::round(4 * std::log2(0.018 * grid.spacing)) / 4);
     if (!smooth_ || smooth_->first != blur) smooth_.emplace(blur, blurred(ink_, blur));
-    const GreyPicture& smooth = smooth_->second;
+    return smooth_->second;
+}
+
+LineReading InkReader::read_as(const FoundGrid& grid, const std::vector<GridDot>& places, const Monitor& monitor) {
+    const GreyPicture& smooth = smooth_for(grid);
+    const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, templates_, monitor);
+    return LineWork(smooth, grid, reader).read_as(places, monitor);
+}
+
+std::vector<LineReading> InkReader::read(const FoundGrid& grid, const Monitor& monitor) {
+    const GreyPicture& smooth = smooth_for(grid);
     const GapReader reader(smooth, grid.grid(), grid.map, grid.dot_radius, templates_, monitor);
     std::vector<LineReading> readings = LineWork(smooth, grid, reader).read(monitor);
     if (readings.size() == 1 && readings[0].left_out == 0) return readings;

@@ -24,6 +24,9 @@ struct LineReading {
     std::vector<GridDot> missing = {};    ///< places that should have one, by the dots around them or by symmetry
     std::size_t left_out = 0;             ///< a few dots on the lattice without lines to the others
     bool reaches_edge = false;
+    bool is_given = false;            ///< the dots were given
+    std::vector<GridDot> blank = {};  ///< given dots that were not seen, without ink around them
+    std::size_t outside = 0;          ///< given dots outside of the picture
 };
 
 /// Reads the kolams on the lattices of a picture.
@@ -39,7 +42,14 @@ public:
     /// Cost: about 0.1 s for 200 dots.
     std::vector<LineReading> read(const FoundGrid& grid, const Monitor& monitor);
 
+    /// Reads the gaps between given dots, whether they were seen or not.
+    /// @param grid    its map has to fit the picture
+    /// @param places  of all dots, as places of `grid`; not empty
+    LineReading read_as(const FoundGrid& grid, const std::vector<GridDot>& places, const Monitor& monitor);
+
 private:
+    const GreyPicture& smooth_for(const FoundGrid& grid);
+
     const GreyPicture& ink_;
     std::optional<std::pair<double, GreyPicture>> smooth_;  ///< blurred by a distance
     GapTemplates templates_;

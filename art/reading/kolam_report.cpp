@@ -1,6 +1,7 @@
 #include "art/reading/kolam_report.h"
 
 #include "art/kolam/dot_grid_pattern.h"
+#include "art/reading/kolam_fixes.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"
 #include "engine/base/json_text.h"
@@ -31,11 +32,14 @@ GridSymmetry symmetry_of(const ReadKolam& kolam) {
 JsonText photograph_json(const Photograph& photograph) {
     const auto pixels = [&](GridDot place) {
         const glm::dvec2 at = photograph.in_file(place);
-        return JsonText::object("x", JsonText::raw(fmt::format("{:.1f}", at.x)), "y",
+        const DotAddress address = address_of(photograph.kolam.grid, place);
+        return JsonText::object("row", address.row, "place", address.number, "x",
+                                JsonText::raw(fmt::format("{:.1f}", at.x)), "y",
                                 JsonText::raw(fmt::format("{:.1f}", at.y)));
     };
     return JsonText::object("kolams", photograph.kolams, "open_ends", JsonText::list(photograph.open_ends, pixels),
-                            "missing", JsonText::list(photograph.missing, pixels));
+                            "missing", JsonText::list(photograph.missing, pixels), "completed",
+                            JsonText::list(photograph.completed, pixels));
 }
 
 }  // namespace
@@ -48,22 +52,33 @@ FoundKolam read_kolam_file(const std::filesystem::path& file, const std::string&
     // Pipes can be read only once, and contain texts.
     const bool can_be_picture = std::filesystem::is_regular_file(file, error);
     if (can_be_picture && is_picture(InputFile(file).read(0, 64))) {
-        const PhotographOptions picture{
-            .lattice = options.lattice, .repair = options.repair, .number = options.number};
+        const PhotographOptions picture{.lattice = options.lattice,
+                                        .repair = options.repair,
+                                        .number = options.number,
+                                        .grid = options.grid,
+                                        .region = options.region,
+                                        .fixes = options.fixes};
         Photograph photograph = read_photograph(file, picture, monitor);
         ReadKolam kolam = photograph.kolam;
         return {std::move(kolam), std::move(photograph)};
     }
+    if (options.grid || options.region) {
+        fail(fmt::format("not a photograph, which {} needs", options.grid ? "an expected grid" : "a region"));
+    }
+    const auto fixed = [&](ReadKolam kolam) -> FoundKolam {
+        for (const std::string& fix : options.fixes) fix_gaps(kolam, fix);
+        return {std::move(kolam), std::nullopt};
+    };
     std::string text = read_file(file, name, most_kolam_text, monitor);
     if (text.size() > most_kolam_text) fail(fmt::format("larger than {} MB", most_kolam_text >> 20U));
-    if (auto kolam = read_kolam_text(text, options, monitor)) return {std::move(*kolam), std::nullopt};
+    if (auto kolam = read_kolam_text(text, options, monitor)) return fixed(std::move(*kolam));
     const std::string unknown =
         "unknown format; expected a photograph (JPEG, PNG, TIFF, WebP, HEIF), .kolam.json, a CSV of one-stroke "
         "kolams, an "
         "SVG, gestures or a pattern";
     if (!states_axiom(text)) fail(unknown);
     try {
-        return {read_kolam_document(parse(name, std::move(text)), budget, monitor), std::nullopt};
+        return fixed(read_kolam_document(parse(name, std::move(text)), budget, monitor));
     } catch (const PatternError& damaged) {
         // Every text with a line `axiom:` looks like a pattern.
         if (name.ends_with(".lsys")) throw;

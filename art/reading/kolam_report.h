@@ -26,8 +26,9 @@ struct FoundKolam {
 /// Reads a kolam from a photograph, a .kolam.json, a CSV of one-stroke kolams, an SVG, gestures or a pattern.
 /// @param name    of the file, for messages
 /// @param budget  maximum number of derivation nodes visited, for a pattern
-/// @throws NoKolam, without the name, for a photograph without one; PatternError, BudgetError, WordError, Stopped;
-/// std::runtime_error, which begins with the name, if the file cannot be read
+/// @throws NoKolam, without the name, for a photograph without one; FixError; PatternError, BudgetError, WordError,
+/// Stopped; std::runtime_error, which begins with the name, if the file cannot be read, or is not a photograph, which
+/// an expected grid and a region need
 FoundKolam read_kolam_file(const std::filesystem::path& file, const std::string& name,
                            const KolamFileOptions& options, double budget, const Monitor& monitor);
 

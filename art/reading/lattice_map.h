@@ -21,6 +21,8 @@ public:
 
     /// Records where the dot of a place was seen.
     void see(GridDot place, glm::dvec2 at);
+    /// True if the dot of a place was recorded.
+    bool has_seen(GridDot place) const { return deviations_.contains({place.y + origin_.y, place.x + origin_.x}); }
     /// Removes all recorded dots.
     void forget() { deviations_.clear(); }
     /// Makes the map pass exactly through the recorded dots, not only near them.

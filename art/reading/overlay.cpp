@@ -1,4 +1,5 @@
 // art/reading/overlay.cpp: draws the kolam that was read over its photograph.
+#include "art/reading/kolam_fixes.h"
 #include "art/reading/kolam_lines.h"
 #include "art/reading/photograph.h"
 
@@ -59,7 +60,7 @@ public:
             line(at(i), at(i + 1), width, colour);
         }
     }
-    /// Draws digits and a comma, 3 x 5 cells each, on a dark ground.
+    /// Draws digits and commas, 3 x 5 cells each, on a dark ground.
     void number(std::string_view text, glm::dvec2 at, double cell, glm::dvec3 colour) {
         static constexpr std::array<std::uint16_t, 10> digits = {075557, 026227, 071747, 071717, 055711,
                                                                  074717, 074757, 071111, 075757, 075717};
@@ -134,6 +135,7 @@ std::array<std::array<glm::dvec2, 2>, 2> strands(GapState state, DotLattice latt
 }
 
 constexpr glm::dvec3 open_colour(255, 40, 40);
+constexpr glm::dvec3 completed_colour(0, 220, 230);
 constexpr glm::dvec3 other_colour(150, 150, 150);
 
 /// The picture, faded behind the drawing.
@@ -141,6 +143,11 @@ DecodedPicture faded(const DecodedPicture& picture) {
     DecodedPicture behind = picture;
     for (std::uint8_t& value : behind.pixels) value = static_cast<std::uint8_t>(40 + (value * 2U) / 3U);
     return behind;
+}
+
+/// Size of the cells of digits.
+double cell_size(double spacing) {
+    return std::clamp(std::round(spacing / 28), 1.0, 6.0);
 }
 
 void draw_kolam(Canvas& canvas, const Photograph& photograph) {
@@ -153,11 +160,22 @@ void draw_kolam(Canvas& canvas, const Photograph& photograph) {
         canvas.ring(at, 0.1 * spacing, std::max(1.0, 0.03 * spacing), colour);
     };
     for (const GridDot dot : kolam.grid.dots()) ring_dot(map.dot(dot), spacing_at(dot), dot_colour);
+    const auto label = [&](GridDot place, glm::dvec3 colour) {
+        const DotAddress address = address_of(kolam.grid, place);
+        const double spacing = spacing_at(place);
+        canvas.number(fmt::format("{},{}", address.row, address.number), map.dot(place) + 0.2 * spacing,
+                      cell_size(spacing), colour);
+    };
+    for (const GridDot place : photograph.completed) {
+        canvas.broken_ring(map.dot(place), 0.2 * spacing_at(place), bold(place), completed_colour);
+    }
     for (const GridDot place : photograph.open_ends) {
         canvas.ring(map.dot(place), 0.34 * spacing_at(place), bold(place), open_colour);
+        label(place, open_colour);
     }
     for (const GridDot place : photograph.missing) {
         canvas.broken_ring(map.dot(place), 0.26 * spacing_at(place), bold(place), open_colour);
+        label(place, open_colour);
     }
     const std::vector<GapPlace> places = gap_places(kolam.grid);
     for (std::uint32_t i = 0; i < kolam.states.size(); ++i) {
@@ -176,9 +194,8 @@ void draw_kolam(Canvas& canvas, const Photograph& photograph) {
         const glm::dvec3 colour = is_repaired ? repair_colour : doubt_colour;
         const glm::dvec2 at = map(middle);
         canvas.ring(at, 0.3 * spacing, std::max(2.0, 0.05 * spacing), colour);
-        const double cell = std::clamp(std::round(spacing / 28), 1.0, 6.0);
         canvas.number(fmt::format("{},{}", places[i].row, places[i].number),
-                      at + glm::dvec2(0.24 * spacing, 0.18 * spacing), cell, colour);
+                      at + glm::dvec2(0.24 * spacing, 0.18 * spacing), cell_size(spacing), colour);
     }
     const double spacing = spacing_at(kolam.grid.dots().front());
     for (const glm::dvec2 dot : photograph.others) ring_dot(dot, spacing, other_colour);

@@ -9,35 +9,64 @@
 namespace sikku {
 namespace {
 
-/// Averages over 2 r + 1 values along rows, and turns rows into columns.
-void average_rows(const GreyPicture& from, GreyPicture& to, std::size_t r) {
+/// Averages over 2 r + 1 values along columns; values outside continue the border.
+void average_columns(const GreyPicture& from, GreyPicture& to, std::size_t r) {
+    to.width = from.width;
+    to.height = from.height;
+    to.values.resize(from.values.size());
+    const std::size_t last = from.height - 1;
+    const std::size_t width = from.width;
+    const auto row = [&](std::size_t y) { return from.values.data() + y * width; };
+    const float share = 1.0F / static_cast<float>(2 * r + 1);
+    std::vector<float> sums(width);
+    for (std::size_t x = 0; x < width; ++x) {
+        double sum = static_cast<double>(r + 1) * row(0)[x];
+        for (std::size_t i = 1; i <= r; ++i) sum += row(std::min(i, last))[x];
+        sums[x] = static_cast<float>(sum);
+    }
+    for (std::size_t y = 0; y <= last; ++y) {
+        const float* enters = row(std::min(y + r + 1, last));
+        const float* leaves = row(y > r ? y - r : 0);
+        float* here = to.values.data() + y * width;
+        float* sum = sums.data();
+        for (std::size_t x = 0; x < width; ++x) {
+            here[x] = sum[x] * share;
+            sum[x] += enters[x] - leaves[x];
+        }
+    }
+}
+
+/// Turns rows into columns, in blocks that fit into the cache.
+void transpose(const GreyPicture& from, GreyPicture& to) {
     to.width = from.height;
     to.height = from.width;
     to.values.resize(from.values.size());
-    const std::size_t last = from.width - 1;
-    const float share = 1.0F / static_cast<float>(2 * r + 1);
-    // Blocks of rows keep the writes to columns within the cache.
-    constexpr std::size_t block = 16;
-    std::vector<float> sums(block);
-    for (std::size_t begin = 0; begin < from.height; begin += block) {
-        const std::size_t end = std::min(begin + block, from.height);
-        for (std::size_t y = begin; y < end; ++y) {
-            const float* row = from.values.data() + y * from.width;
-            double sum = static_cast<double>(r + 1) * row[0];
-            for (std::size_t i = 1; i <= r; ++i) sum += row[std::min(i, last)];
-            sums[y - begin] = static_cast<float>(sum);
-        }
-        for (std::size_t x = 0; x < from.width; ++x) {
-            const std::size_t enters = std::min(x + r + 1, last);
-            const std::size_t leaves = x > r ? x - r : 0;
-            float* column = to.values.data() + x * to.width;
-            for (std::size_t y = begin; y < end; ++y) {
-                const float* row = from.values.data() + y * from.width;
-                column[y] = sums[y - begin] * share;
-                sums[y - begin] += row[enters] - row[leaves];
+    constexpr std::size_t block = 32;
+    for (std::size_t top = 0; top < from.height; top += block) {
+        const std::size_t bottom = std::min(top + block, from.height);
+        for (std::size_t left = 0; left < from.width; left += block) {
+            const std::size_t right = std::min(left + block, from.width);
+            for (std::size_t x = left; x < right; ++x) {
+                float* column = to.values.data() + x * to.width;
+                for (std::size_t y = top; y < bottom; ++y) column[y] = from.values[y * from.width + x];
             }
         }
     }
+}
+
+/// The half widths of three averages that are nearly a Gaussian of a standard deviation, without those of 0.
+std::vector<std::size_t> averages_for(double radius) {
+    // Each average of 2 r + 1 values adds ((2 r + 1)^2 - 1) / 12 to the variance.
+    std::vector<std::size_t> halves;
+    double missing = radius * radius;
+    for (int pass = 3; pass > 0; --pass) {
+        const auto r = static_cast<std::size_t>(std::lround((std::sqrt(12 * missing / pass + 1) - 1) / 2));
+        if (r == 0) break;
+        halves.push_back(r);
+        const double side = 2.0 * static_cast<double>(r) + 1;
+        missing = std::max(0.0, missing - (side * side - 1) / 12);
+    }
+    return halves;
 }
 
 /// Interpolates a line of pixels.
@@ -69,18 +98,17 @@ void stretch(const std::uint8_t* from, std::size_t length, std::size_t apart, st
 
 GreyPicture blurred(GreyPicture picture, double radius) {
     if (picture.values.empty()) return picture;
-    // Each average of 2 r + 1 values adds ((2 r + 1)^2 - 1) / 12 to the variance.
-    GreyPicture turned;
+    GreyPicture other;
     // A wider average than the picture is that of its border.
     radius = std::min(radius, static_cast<double>(std::max(picture.width, picture.height)));
-    double missing = radius * radius;
-    for (int pass = 3; pass > 0; --pass) {
-        const auto r = static_cast<std::size_t>(std::lround((std::sqrt(12 * missing / pass + 1) - 1) / 2));
-        if (r == 0) break;
-        const double side = 2.0 * static_cast<double>(r) + 1;
-        missing = std::max(0.0, missing - (side * side - 1) / 12);
-        average_rows(picture, turned, r);
-        average_rows(turned, picture, r);
+    const std::vector<std::size_t> halves = averages_for(radius);
+    for (int way = 0; way < 2 && !halves.empty(); ++way) {
+        for (const std::size_t r : halves) {
+            average_columns(picture, other, r);
+            std::swap(picture, other);
+        }
+        transpose(picture, other);
+        std::swap(picture, other);
     }
     return picture;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -21,9 +22,27 @@ struct GreyPicture {
     GreyPicture(std::size_t columns, std::size_t rows) : width(columns), height(rows), values(columns * rows) {}
     /// Interpolates bilinearly; pixels outside continue the border.
     float at(glm::dvec2 point) const;
+    /// True for points between the middles of four pixels.
+    bool is_between_pixels(glm::dvec2 point) const {
+        return point.x >= 0 && point.y >= 0 && point.x < static_cast<double>(width) - 1 &&
+               point.y < static_cast<double>(height) - 1;
+    }
+    /// The same as at(), for points between pixels.
+    float between(glm::dvec2 point) const;
 };
 
+inline float GreyPicture::between(glm::dvec2 point) const {
+    const auto left = static_cast<std::int32_t>(point.x);
+    const auto top = static_cast<std::int32_t>(point.y);
+    const auto u = static_cast<float>(point.x - left);
+    const auto v = static_cast<float>(point.y - top);
+    const float* above = values.data() + static_cast<std::size_t>(top) * width + static_cast<std::size_t>(left);
+    const float* below = above + width;
+    return (above[0] * (1 - u) + above[1] * u) * (1 - v) + (below[0] * (1 - u) + below[1] * u) * v;
+}
+
 inline float GreyPicture::at(glm::dvec2 point) const {
+    if (is_between_pixels(point)) return between(point);
     const double x = std::clamp(point.x, 0.0, static_cast<double>(width - 1));
     const double y = std::clamp(point.y, 0.0, static_cast<double>(height - 1));
     const auto left = std::min(static_cast<std::size_t>(x), width - 1);

@@ -39,9 +39,12 @@ struct GapPlace {
 /// The place of each gap, in the order of DotGrid::gaps().
 std::vector<GapPlace> gap_places(const DotGrid& grid);
 
-/// Sets the gaps that `text` names: `3,4: cross`, several of them separated by semicolons. States: cross, turn, join
-/// (or crossed, turned, joined, x, p, j). The gaps become certain and are listed as repaired.
-/// @throws std::runtime_error for anything else, and for places without a gap
+/// Changes a kolam as `text` says, several fixes separated by semicolons. `3,4: cross` sets a gap; the states are
+/// cross, turn and join (or crossed, turned, joined, x, p, j). `dot 0,3` and `no dot 2,1` add and remove dots by row
+/// and place; rows of dots count from 1 at the top, places from 1 at the left side of the grid's box. Each fix counts
+/// in the grid that those before it have made. Gaps that are set become certain and are listed as repaired; those of
+/// added dots turn back and are doubtful.
+/// @throws std::runtime_error for anything else, and for places without a gap or dot
 void fix_gaps(ReadKolam& kolam, std::string_view text);
 
 /// Replaces the states of doubtful gaps by those of their certain images under those symmetries of the grid that all

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::size_t ring_points = 20;
 /// Number of points around a spot that may be noise.
 constexpr std::size_t noise_points = 2;
 
-std::array<double, ring_points> ink_around(const GreyPicture& picture, glm::dvec2 middle, double radius) {
+const std::array<glm::dvec2, ring_points>& ring_directions() {
     static const auto directions = [] {
         std::array<glm::dvec2, ring_points> list{};
         for (std::size_t i = 0; i < ring_points; ++i) {
@@ -24,6 +25,11 @@ std::array<double, ring_points> ink_around(const GreyPicture& picture, glm::dvec
         }
         return list;
     }();
+    return directions;
+}
+
+std::array<double, ring_points> ink_around(const GreyPicture& picture, glm::dvec2 middle, double radius) {
+    const auto& directions = ring_directions();
     std::array<double, ring_points> around{};
     for (std::size_t i = 0; i < ring_points; ++i) around[i] = picture.at(middle + radius * directions[i]);
     return around;
@@ -46,18 +52,24 @@ void SpotFinder::negate() {
     }
 }
 
-double SpotFinder::strength(std::size_t scale, glm::dvec2 at) const {
+double SpotFinder::strength(std::size_t scale, glm::dvec2 at, double limit) const {
     const GreyPicture& picture = blurred_[scale];
     const double ring = 1.95 * radii_[scale];
-    if (at.x < ring || at.y < ring || at.x + ring >= static_cast<double>(picture.width) ||
-        at.y + ring >= static_cast<double>(picture.height)) {
-        return 0;
-    }
+    if (at.x < ring || at.y < ring || !picture.is_between_pixels(at + ring)) return 0;
     const double middle = picture.at(at);
-    std::array<double, ring_points> around = ink_around(picture, at, ring);
-    std::nth_element(around.begin(), around.begin() + noise_points, around.end(), std::greater<>());
     // Where lines cross there is much ink in the middle, but ink around it, too.
-    return middle - around[noise_points] - 1.5 * std::max(0.0, around[noise_points]);
+    const auto above = [middle](double around) { return middle - around - 1.5 * std::max(0.0, around); };
+    // The greatest values around it; all but those that may be noise count.
+    std::array<double, noise_points + 1> most;
+    most.fill(-1e300);
+    for (const glm::dvec2 way : ring_directions()) {
+        const double around = picture.between(at + ring * way);
+        if (around <= most.back()) continue;
+        most.back() = around;
+        for (std::size_t k = noise_points; k > 0 && most[k] > most[k - 1]; --k) std::swap(most[k], most[k - 1]);
+        if (above(most.back()) <= limit) return 0;
+    }
+    return above(most.back());
 }
 
 void SpotFinder::find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor) const {
@@ -156,8 +168,8 @@ std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
                     continue;
                 }
                 const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
-                const double found = strength(scale, at);
-                if (found < 0.2) continue;
+                const double found = strength(scale, at, 0.2);
+                if (found <= 0.2) continue;
                 // The top of a parabola through three values.
                 const auto offset = [](double before, double here, double after) {
                     const double bend = before - 2 * here + after;
@@ -204,7 +216,7 @@ InkSpot SpotFinder::near(glm::dvec2 at, double radius, double reach) const {
         for (double dy = -reach; dy <= reach; dy += step) {
             for (double dx = -reach; dx <= reach; dx += step) {
                 const glm::dvec2 place = at + glm::dvec2(dx, dy);
-                const double found = strength(scale, place);
+                const double found = strength(scale, place, best.strength);
                 if (found > best.strength) best = {place, radii_[scale], found};
             }
         }

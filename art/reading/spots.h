@@ -34,7 +34,8 @@ public:
     InkSpot near(glm::dvec2 at, double radius, double reach) const;
 
 private:
-    double strength(std::size_t scale, glm::dvec2 at) const;
+    /// The strength of a spot at a place; 0 if it is not above a limit.
+    double strength(std::size_t scale, glm::dvec2 at, double limit) const;
     /// Pieces of ink that are small and round, however near other ink is.
     void find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor) const;
     std::vector<double> radii_;

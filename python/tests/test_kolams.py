@@ -62,6 +62,24 @@ def test_kolams_are_read_back(name: str, tmp_path: Path) -> None:
     assert [one["gap"] for one in fixed.facts["repaired"]] == [1, 2]
 
 
+def test_photographs_with_an_expected_grid(tmp_path: Path) -> None:
+    made = sikku.make_kolam("1-3-5-3-1", seed=2)
+    file = tmp_path / "x.png"
+    made.pattern.save(file, dots=True, size="80x80mm", dpi=150)
+    whole = sikku.read_kolam(file, grid="5-1")
+    assert whole.facts["crossings"] == made.facts["crossings"]
+    assert whole.facts["completed"] == []
+    side = 472
+    for part in ({"crop": (2, 3, 465, 466)}, {"corners": [(0, 0), (side, 0), (side, side), (0, side)]}):
+        assert sikku.read_kolam(file, **part).facts["crossings"] == made.facts["crossings"]  # type: ignore[arg-type]
+    assert sikku.read_kolam(file, fix=["no dot 1,3"]).facts["dots"] == 12
+    with pytest.raises(sikku.Error, match="found 13 dots .*; expected 25 dots"):
+        sikku.read_kolam(file, grid="5x5")
+    for wrong in ({"grid": "x"}, {"crop": (1, 2, 3)}, {"corners": [(1, 1)] * 4}, {"fix": ["dot 1,3"]}):
+        with pytest.raises(sikku.SettingError, match=next(iter(wrong))):
+            sikku.read_kolam(file, **wrong)  # type: ignore[arg-type]
+
+
 def test_errors_of_kolams(tmp_path: Path) -> None:
     for arguments in (
         {"grid": "7y7"},

@@ -120,6 +120,14 @@ TEST(PhotographMarks, FlowersAreDots) {
     }
 }
 
+/// No line leads to the corners, which are flowers in rings.
+TEST(PhotographMarks, RingsAroundFlowersAreKept) {
+    MadePhotograph made = made_of("5x5", 1, 0.4);
+    made.states = parse_gap_states(made.grid, "0110 01110 1111 11111 1111 11111 1111 01110 0110");
+    made.large = {0, 4, 20, 24};
+    expect_no_silent_loss(made);
+}
+
 TEST(PhotographMarks, PetalsWithoutDotsAreNotDots) {
     MadePhotograph made = made_of("2-4-6-6-4-2", 3, 0.4);
     for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(-1, 0), glm::dvec2(0, -1)}) {

@@ -93,6 +93,46 @@ TEST_F(KolamRead, PhotographsGiveAPatternAnOverlayAndAReport) {
     EXPECT_TRUE(has(kolam({"a.lsys"}).output, "kolam      yes"));
 }
 
+TEST_F(KolamRead, PhotographsMayHaveAnExpectedGrid) {
+    write_photo("photo.jpg", "4x4", "101 1111 010 1001 111 1111 101");
+    const Outcome read = kolam({"--read", "photo.jpg", "--grid", "4x4", "-o", "a.lsys", "--json"});
+    ASSERT_EQ(read.status, 0) << read.errors;
+    EXPECT_TRUE(has(read.output, "\"completed\": []"));
+    folder_.write("grid.txt", "oooo\noooo\noooo\noooo\n");
+    EXPECT_EQ(kolam({"--read", "photo.jpg", "--grid", "@grid.txt", "-o", "b.lsys"}).status, 0);
+    EXPECT_EQ(contents(folder_ / "b.lsys"), contents(folder_ / "a.lsys"));
+    const Outcome other = kolam({"--read", "photo.jpg", "--grid", "6x6", "-o", "c.lsys", "--overlay", "found.png"});
+    EXPECT_EQ(other.status, 1);
+    EXPECT_EQ(other.errors, "sikku: photo.jpg: found 16 dots (4x4); expected 36 dots (6x6)\n");
+    EXPECT_GT(std::filesystem::file_size(folder_ / "found.png"), 10'000U);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "c.lsys"));
+}
+
+TEST_F(KolamRead, PhotographsMayBeCutAndChangedByHand) {
+    write_photo("photo.jpg", "4x4", "101 1111 010 1001 111 1111 101");
+    ASSERT_EQ(kolam({"--read", "photo.jpg", "-o", "a.lsys"}).status, 0);
+    for (const std::vector<std::string>& part : {std::vector<std::string>{"--crop", "0,0,800,600"},
+                                                 {"--corners", "0,0", "800,0", "800,600", "0,600"},
+                                                 {"--corners", "0,0 0,600 800,600 800,0"},
+                                                 {"--part", "1"}}) {
+        std::vector<std::string> arguments = {"--read", "photo.jpg", "-o", "b.lsys"};
+        arguments.insert(arguments.end(), part.begin(), part.end());
+        const Outcome read = kolam(arguments);
+        EXPECT_EQ(read.status, 0) << read.errors;
+        EXPECT_EQ(gaps("b.lsys"), gaps("a.lsys"));
+    }
+    const Outcome fixed =
+        kolam({"--read", "photo.jpg", "-o", "b.lsys", "--fix", "no dot 1,1; no dot 4,4; 1,1: join"});
+    ASSERT_EQ(fixed.status, 0) << fixed.errors;
+    EXPECT_TRUE(has(fixed.errors, "by hand, 0 dots added and 2 removed"));
+    EXPECT_TRUE(has(gaps("b.lsys"), "// gaps: 21 111 010 1001 111 111 10"));
+    // Dots of other files, whose new gaps turn back.
+    const Outcome dots = kolam({"--read", "b.lsys", "-o", "c.lsys", "--fix", "dot 1,1", "--fix", "dot 4,4"});
+    ASSERT_EQ(dots.status, 0) << dots.errors;
+    EXPECT_TRUE(has(gaps("c.lsys"), "// gaps: 021 0111 010 1001 111 1110 100"));
+    EXPECT_TRUE(has(dots.errors, "4 of 24 gaps are doubtful"));
+}
+
 /// The process that decodes a picture gets descriptors 0 to 2, which may be those of the file and of its answers.
 TEST_F(KolamRead, PhotographsNeedNoStandardStreams) {
     write_photo("a.png", "3x3", "all");
@@ -169,7 +209,16 @@ TEST_F(KolamRead, MistakesAreNamed) {
     expect({"--read", "ring.json", "--overlay", "a.jpg"}, 2, "expected a PNG");
     expect({"--read", "ring.json", "--fix", "2,1: cross"}, 2, "numbered 1 to 1");
     expect({"--read", "ring.json", "--json"}, 2, "--json needs -o FILE");
-    expect({"--read", "ring.json", "--grid", "3x3"}, 2, "--read excludes");
+    expect({"--read", "ring.json", "--grid", "3x3"}, 2, "--grid with --read applies only to photographs");
+    expect({"--read", "ring.json", "--crop", "1,2,3,4"}, 2, "--crop with --read applies only to photographs");
+    expect({"--read", "ring.json", "--symmetry", "D4", "--grid", "3x3"}, 2, "--read excludes --symmetry");
+    expect({"--read", "ring.json", "--radial", "8x5"}, 2, "--read excludes --radial");
+    expect({"--read", "ring.json", "--fix", "dot 1,1"}, 2, "--fix 'dot 1,1': there is a dot already");
+    expect({"--read", "fake.jpg", "-o", "a.lsys", "--grid", "x"}, 2, "--grid 'x': expected ROWSxCOLUMNS");
+    expect({"--read", "fake.jpg", "-o", "a.lsys", "--grid", "3x3", "--lattice", "interlaced"}, 2,
+           "--lattice expects");
+    expect({"--read", "fake.jpg", "-o", "a.lsys", "--crop", "1,2,3"}, 2, "--crop '1,2,3': expected X,Y,WIDTH,HEIGHT");
+    expect({"--read", "fake.jpg", "-o", "a.lsys", "--corners", "1,2"}, 2, "--corners '1,2': expected four points");
     expect({"--fix", "1,1: cross", "snake-kolam"}, 2, "--read");
     expect({"-o", "a.lsys"}, 2, "-o needs PATTERN");
 }

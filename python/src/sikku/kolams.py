@@ -93,6 +93,9 @@ def read_kolam(
     *,
     number: int = 1,
     lattice: str = "",
+    grid: str = "",
+    corners: Sequence[tuple[float, float]] = (),
+    crop: Sequence[int] = (),
     repair: bool = True,
     fix: Sequence[str] = (),
     budget: float = 2e8,
@@ -101,15 +104,24 @@ def read_kolam(
 
     number: which of several kolams, from 1.
     lattice: square or interlaced; by default whichever fits better.
+    grid: the dots that the kolam of a photograph has, in the notations of make_kolam(): dots that were not seen are
+        completed, and another kolam is an error.
+    corners: four corners (x, y) of the part of a photograph that is read and straightened, in pixels, around it from the
+        top left one.
+    crop: x, y, width and height of the part of a photograph that is read, in pixels.
     repair: whether doubtful gaps of a photograph are replaced by their images under its symmetry.
-    fix: gaps set by hand, such as `"3,4: cross"`.
+    fix: gaps and dots changed by hand, such as `"3,4: cross"`, `"dot 0,3"` and `"no dot 2,1"`.
     budget: maximum number of derivation nodes visited, for a pattern.
 
     Doubtful gaps are issued as SikkuWarning. Raises NotFoundError, SettingError, PatternError, and Error if the file
     contains no kolam that can be read.
     """
     number = _count("number", number, 1, 1_000_000)
-    text, facts = _core.read_kolam(os.fsencode(path), number, lattice, repair, list(fix), budget)
+    around = " ".join(f"{float(x)!r},{float(y)!r}" for x, y in corners)
+    part = ",".join(str(int(whole("crop", one))) for one in crop)
+    text, facts = _core.read_kolam(
+        os.fsencode(path), number, lattice, grid, around, part, repair, list(fix), budget
+    )
     found = json.loads(facts)
     if found["doubtful"]:
         places = ", ".join(f"row {one['row']} gap {one['gap']}" for one in found["doubtful"][:20])

@@ -114,7 +114,15 @@ def make_kolam(
 ) -> tuple[str, str]: ...
 def make_radial_kolam(size: str, order: str, colours: bool, dots: bool) -> str: ...
 def read_kolam(
-    path: bytes, number: int, lattice: str, repair: bool, fixes: list[str], budget: float
+    path: bytes,
+    number: int,
+    lattice: str,
+    grid: str,
+    corners: str,
+    crop: str,
+    repair: bool,
+    fixes: list[str],
+    budget: float,
 ) -> tuple[str, str]: ...
 def sheet_options() -> list[tuple[str, bool, str, str, str]]: ...
 def workbook_options() -> list[tuple[str, bool, str, str, str]]: ...
