@@ -28,6 +28,7 @@ struct Costs {
     double rim_ring = 2;    ///< at the rim
     double neighbouring_rings = 1;
     double piece = 2;             ///< each beyond the first
+    double hook = 0.35;           ///< on large grids, a dot inside the rim with one crossed gap
     double closed_rim = 0.7;      ///< a dot of the rim without a loop
     double open_triangle = 0.09;  ///< two gaps of three are crossed
     double star = -0.5;           ///< all six gaps of a dot are crossed
@@ -252,6 +253,8 @@ private:
                     const std::uint32_t other = neighbour(dot, side);
                     if (other != no_dot && crossed_sides_[other] == 0) cost += costs.neighbouring_rings;
                 }
+            } else if (crossed == 1 && !is_rim && period_) {
+                cost += costs.hook;
             } else if (crossed == sides) {
                 cost += costs.star;
             } else if (is_rim && !has_wreath_ && near > 2 && crossed == near) {

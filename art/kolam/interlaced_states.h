@@ -15,10 +15,11 @@ constexpr std::size_t most_composed_dots = 300'000;
 /// petals, and around a dot a star, and some single gaps. From a random choice, orbits are changed one at a time as
 /// long as that improves the kolam. Long straight runs, parallel lines, separate pieces, rings around single dots,
 /// and dots of the rim without a loop cost; stars are rewarded; the share of crossed gaps alternates between rings
-/// around the centre. From 80 dots on, motifs between the centre and the rim repeat by a step, and those of the rim
-/// along it, because many motifs at once have no figure. The seed also determines this step, how dense the kolam is,
-/// and how many such rings there are. Cost: about 20 ms for 169 dots (15-8). Larger grids are improved less, those of
-/// over most_composed_dots not at all.
+/// around the centre. From 80 dots on, where many motifs at once would hide any figure, motifs between the centre and
+/// the rim repeat by a step, and those of the rim along it; the first choice is a star that repeats, mostly within a
+/// wreath along the rim. The seed determines the step, the star, the density, and the number of rings of densities.
+/// Cost: about 20 ms for 169 dots (15-8). Larger grids are improved less, those of over most_composed_dots not at
+/// all.
 /// @throws std::runtime_error if the grid does not have the symmetry
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed);
 

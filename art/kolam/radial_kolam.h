@@ -32,9 +32,9 @@ RadialKolam parse_radial_kolam(std::string_view size, std::string_view order = {
 KolamPatternOptions describe_radial_kolam(const RadialKolam& kolam);
 
 /// The first arm points up, and lines go round clockwise; dots are one step apart. A line is a spline through its
-/// dots (to 1e-9 steps). Where it turns back towards or away from the centre, it is at right angles to the arm; through
-/// other dots it runs on steadily. The turtle steps between its control points, 4 for each dot.
-/// `dot_symbols` draws the dots and the centre; otherwise dots are marked with a transparent pen.
+/// dots (to 1e-9 steps). Where it turns back towards or away from the centre, it is at right angles to the arm;
+/// through other dots it runs on steadily. The turtle steps between its control points, 4 for each dot. `dot_symbols`
+/// draws the dots and the centre; otherwise dots are marked with a transparent pen.
 KolamPattern radial_pattern(const RadialKolam& kolam, const KolamPatternOptions& options = {});
 
 }  // namespace sikku
