@@ -8,6 +8,7 @@
 #include "art/product/print_cell.h"
 #include "art/sheet/sheet.h"
 #include "art/style/length.h"
+#include "art/writer/picture.h"
 #include "engine/base/text.h"
 #include "engine/geometry/lettering.h"
 
@@ -342,10 +343,12 @@ private:
         options_.columns = shared_.sheet.columns;
         options_.gap = shared_.sheet.gutter;
         options_.same_scale = shared_.sheet.same_scale;
-        const auto any = [&](auto&& has) { return std::any_of(cells_.begin(), cells_.end(), has); };
-        const bool has_hand = any([](const SheetCell& cell) { return cell.style.hand > 0; });
-        const bool has_floor = any([](const SheetCell& cell) { return cell.style.floor.has_value(); });
-        if (has_hand && !has_floor && !options_.compression) options_.compression = 4;
+        if (!options_.compression) {
+            for (const SheetCell& cell : cells_) {
+                const auto usual = usual_compression(cell.style);
+                options_.compression = std::min(usual, options_.compression.value_or(usual));
+            }
+        }
         const bool is_one = std::all_of(items.begin(), items.end(), [&](const SheetItem& item) {
             return item.document.source().text() == items.front().document.source().text();
         });

@@ -47,7 +47,11 @@ HandStrokes HandDrawing::strokes(const Print& print, const Window& window, PathS
     if (steps) *steps = lesson_steps(strokes.lines, options_.most_steps);
     draw_by_hand(strokes.lines, strokes.dots, gatherer.fills, hand_);
     for (const HandFill& fill : gatherer.fills) {
-        fill.is_polygon ? fills.polygon(fill.outline, fill.pen) : fills.area(fill.outline, fill.pen);
+        if (fill.is_polygon) {
+            fills.polygon(fill.outline, fill.pen);
+        } else {
+            fills.area(fill.outline, fill.pen);
+        }
     }
     return strokes;
 }

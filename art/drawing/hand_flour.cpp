@@ -45,7 +45,11 @@ public:
         for (const HandLine& line : strokes_.lines) {
             options_.monitor.check();
             const HandLine stroke = drawn_stroke(line, options_);
-            is_flour ? strew(stroke) : draw_with_pens(stroke);
+            if (is_flour) {
+                strew(stroke);
+            } else {
+                draw_with_pens(stroke);
+            }
         }
         if (is_flour) lay_crossings();
         for (std::size_t i = 0; i < strokes_.dots.size(); ++i) lay_dot(strokes_.dots[i], i);

@@ -4,6 +4,7 @@
 #include "art/drawing/word_drawing.h"
 #include "art/product/border_files.h"
 #include "art/product/plot_remarks.h"
+#include "art/writer/picture.h"
 #include "engine/derivation/forecast.h"
 #include "engine/geometry/lettering.h"
 #include "engine/language/surface.h"
@@ -46,7 +47,7 @@ void PrintWork::plan_drawing() {
     drawing_.budget = settings_.work.budget;
     if (settings_.place.swatch_place) place_swatch(*settings_.place.swatch_place);
     static_cast<PictureOptions&>(drawing_) = settings_.work;
-    if (print_.style.hand > 0 && !print_.style.floor && !drawing_.compression) drawing_.compression = 4;
+    if (!drawing_.compression) drawing_.compression = usual_compression(print_.style);
     drawing_.lists_contents = needs_contents(given_);
     if (settings_.paper.tile) drawing_.tiles = tile_options(settings_);
     static_cast<PlotSetup&>(drawing_) = plot_setup(settings_, format_);

@@ -20,6 +20,10 @@ auto named(const std::filesystem::path& file, Action&& action) {
 
 }  // namespace
 
+int usual_compression(const Style& style) {
+    return style.floor ? 3 : style.hand > 0 ? 4 : 6;
+}
+
 Picture::Picture(const Print& print, const DrawOptions& options, int channels, Output& output,
                  std::filesystem::path file)
     : file_(std::move(file)),

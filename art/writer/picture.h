@@ -16,6 +16,9 @@
 
 namespace sikku {
 
+/// PNG compression unless it is requested: grain compresses slowly, and hardly better at higher levels.
+int usual_compression(const Style& style);
+
 /// Writes one picture file. Failures throw std::runtime_error and name the file.
 class Picture {
 public:

@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"stroke: red blue", 13, "unexpected 'blue'"}, Bad{"stroke: none white", 14, "must stand alone"},
         Bad{"stroke: 1mm none", 13, "must stand alone"}, Bad{"stroke: inf", 9, "'inf' is not a colour"},
         Bad{"stroke: nanmm", 9, "is not a colour"},
-        Bad{"ground:", 1, "'ground:' is empty: expected a colour or none"},
+        Bad{"ground:", 1, "'ground:' is empty: expected a colour, red-earth, cow-dung, slate, concrete or none"},
         Bad{"ground: earth", 9, "is not a colour"}, Bad{"ground: red green", 13, "unexpected 'green'"},
         Bad{"fill:", 1, "'fill:' is empty"}, Bad{"fill: goldd", 7, "did you mean 'gold'?"},
         Bad{"fill: #12345g", 7, "3, 4, 6 or 8"}, Bad{"palette:", 1, "'palette:' is empty"},
