@@ -156,7 +156,7 @@ KolamPart part_of(LineReading reading, bool is_dark) {
     doubt_more(kolam);
     for (const GridDot place : uncertain_places(reading)) doubt_around(kolam, place);
     if (refusal.empty() && gaps > 0 && kolam.doubtful().size() == gaps) {
-        refusal = fmt::format("{} on a lattice, but every gap between them is beside a place that may have another",
+        refusal = fmt::format("{} on a lattice, but every gap between them is doubtful",
                               counted(grid.dots().size(), "dot"));
     }
     return {std::move(reading), std::move(kolam), std::move(refusal), is_dark};

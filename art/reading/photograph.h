@@ -80,7 +80,7 @@ private:
 ///     few dots to others, and if no kolam has the expected grid; FixError; std::runtime_error if the file is not a
 ///     picture, has fewer kolams than `number`, or does not contain the region, and for an expected grid of more than
 ///     10,000 dots
-/// Time: about 1.5 s for 12 megapixels.
+/// Time: about 1 s for 12 megapixels, and up to 3 s for pictures without a readable kolam.
 Photograph read_photograph(const std::filesystem::path& path, const PhotographOptions& options = {},
                            const Monitor& monitor = {});
 

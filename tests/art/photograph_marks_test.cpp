@@ -198,6 +198,16 @@ TEST(PhotographMarks, SeveralKolamsAreCountedAndChosen) {
               "kolam 5 does not exist: the picture has 4 kolams that can be read");
 }
 
+/// Chance finds lattices in textures, such as the grain of wood, whose lines run beside each other.
+TEST(PhotographMarks, LinesThatNeverCrossAreNotAKolam) {
+    MadePhotograph made = made_of("4x5", 2, 0.4);
+    for (std::size_t gap = 0; gap < made.states.size(); ++gap) {
+        made.states[gap] = made.grid.gaps()[gap].side == 0 ? GapState::joined : GapState::turned;
+    }
+    const std::string refusal = error_of<NoKolam>([&] { read_made(made); }, "read");
+    EXPECT_TRUE(has(refusal, "20 dots on a lattice, but lines cross between none of them")) << refusal;
+}
+
 /// A picture of black lines that a function draws on white.
 class Sketch {
 public:
