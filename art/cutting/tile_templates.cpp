@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_templates = 1'000;
 constexpr double least_width = 190;  // width of a row, in millimetres
 constexpr double longest_side = 10'000;
-constexpr double gap = 6;  // between templates
+constexpr double template_gap = 6;  // between templates
 
 struct Template {
     std::uint32_t shape = 0;
@@ -59,11 +59,11 @@ glm::dvec2 arrange(std::vector<Template>& templates, double margin) {
     for (Template& each : templates) {
         const glm::dvec2 size = each.box.high - each.box.low;
         if (at.x > 0 && at.x + size.x > width) {
-            at = {0, at.y + row + gap};
+            at = {0, at.y + row + template_gap};
             row = 0;
         }
         each.at = {margin + at.x, at.y + size.y};  // from the top, for now
-        at.x += size.x + gap;
+        at.x += size.x + template_gap;
         row = std::max(row, size.y);
     }
     double used = 0;

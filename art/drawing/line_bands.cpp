@@ -1,6 +1,7 @@
 #include "art/drawing/line_bands.h"
 
 #include "engine/geometry/box.h"
+#include "engine/geometry/left_of.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/geometry/point_tree.h"
 
@@ -22,9 +23,6 @@ constexpr double beside = 0.6;          // share of a spacing: more room between
 constexpr double least_spacing = 1e-3;  // in steps
 constexpr int samples = 4;              // points of each piece, for distances
 
-glm::dvec2 left_of(glm::dvec2 along) {
-    return {-along.y, along.x};
-}
 /// Finds the point where two straight strands meet that run `offset` to the left of a corner. Returns false if it is
 /// far away, or far outside of the corner.
 bool mitre(glm::dvec2 corner, glm::dvec2 before, glm::dvec2 after, double offset, glm::dvec2& found) {

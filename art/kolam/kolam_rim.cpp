@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/left_of.h"
 #include "engine/language/unit_vector.h"
 
 #include <fmt/format.h>
@@ -45,10 +46,6 @@ std::span<const RimPoint> rim_points(RimStyle style) {
             break;
     }
     return {};
-}
-
-glm::dvec2 left_of(glm::dvec2 way) {
-    return {-way.y, way.x};
 }
 
 /// Positive if a horn has room on the left, negative for the right: where there are fewer dots, or away from the axis

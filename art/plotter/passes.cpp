@@ -3,6 +3,7 @@
 #include "art/plotter/shading.h"
 #include "engine/geometry/bezier.h"
 #include "engine/geometry/box.h"
+#include "engine/geometry/left_of.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,9 +17,6 @@
 namespace sikku {
 namespace {
 
-glm::dvec2 left_of(glm::dvec2 way) {
-    return {-way.y, way.x};
-}
 double square(glm::dvec2 way) {
     return glm::dot(way, way);
 }

@@ -1,4 +1,5 @@
 #include "art/print/packing.h"
+#include "engine/geometry/left_of.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,10 +21,6 @@ constexpr double most_waste = 0.1;   // of a level lattice whose rows stand abov
 glm::dvec2 direction(int step) {
     const double t = static_cast<double>(step) / direction_count;
     return glm::dvec2(1 - t * t, 2 * t) / (1 + t * t);
-}
-
-glm::dvec2 left_of(glm::dvec2 vector) {
-    return {-vector.y, vector.x};
 }
 
 /// The normals of the sides of a hull that are long enough to touch a neighbour along them.

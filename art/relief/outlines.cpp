@@ -1,6 +1,7 @@
 #include "art/relief/outlines.h"
 
 #include "engine/geometry/box.h"
+#include "engine/geometry/left_of.h"
 #include "engine/geometry/simple_polygon.h"
 
 #include <glm/geometric.hpp>
@@ -20,10 +21,6 @@ constexpr double least_length = 0.004;    // shortest part of a stroke, in milli
 
 Micrometres whole(glm::dvec2 point) {
     return {to_whole(point.x * 1000), to_whole(point.y * 1000)};
-}
-
-glm::dvec2 left_of(glm::dvec2 direction) {
-    return {-direction.y, direction.x};
 }
 
 glm::dvec2 turned(glm::dvec2 vector, double angle) {

@@ -1,4 +1,5 @@
 #include "engine/geometry/parallel_curve.h"
+#include "engine/geometry/left_of.h"
 
 #include <cmath>
 
@@ -10,10 +11,6 @@ constexpr int most_halvings = 10;
 glm::dvec2 acceleration(const Bezier& b, double t) {
     return 6 * (1 - t) * (b[2] - 2.0 * b[1] + b[0]) + 6 * t * (b[3] - 2.0 * b[2] + b[1]);
 }
-glm::dvec2 left_of(glm::dvec2 along) {
-    return {-along.y, along.x};
-}
-
 /// Distance of a point from the curve, whose nearest point is near `t`.
 double distance_from(glm::dvec2 from, const Bezier& curve, double t) {
     for (int i = 0; i < 3; ++i) {
