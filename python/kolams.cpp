@@ -116,8 +116,8 @@ py::tuple read_kolam(const std::string& path, std::size_t number, const std::str
                 return read_kolam_file(path, path, options, budget, monitor);
             } catch (const NoKolam& refused) {
                 throw std::runtime_error(path + ": " + refused.what());
-            } catch (const FixError& error) {
-                throw SettingError("fix", fmt::format("{}", fmt::join(fixes, "; ")), error.what());
+            } catch (const FixError& fix) {
+                throw SettingError("fix", fmt::format("{}", fmt::join(fixes, "; ")), fix.what());
             }
         }();
         const KolamReport report = report_kolam(found.kolam, monitor);

@@ -8,6 +8,7 @@
 #include "tests/maps.h"
 #include "tests/sha256.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
