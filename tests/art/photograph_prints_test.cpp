@@ -64,7 +64,8 @@ void expect_as_drawn(const PrintedKolam& kolam, const std::string& border, const
     EXPECT_FALSE(has(notes_of(read), "another kolam"));
 }
 
-const std::vector<std::string> borders = {"kaavi", "padi", "lotus", "rope", "diamonds", "waves", "marigolds", "lamps"};
+const std::vector<std::string> borders = {"kaavi",    "padi",  "lotus",     "rope",
+                                          "diamonds", "waves", "marigolds", "lamps"};
 
 /// Borders have dots, rings and crossings, some of them at places of the lattice or like the dots of the kolam.
 TEST(PhotographPrints, BordersAreNotPartsOfKolams) {
