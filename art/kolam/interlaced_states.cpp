@@ -365,16 +365,17 @@ std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
 
 /// Crosses all gaps around a dot inside the rim, and the images of these.
 void begin_with_star(Composition& composition, const DotGrid& grid, SplitMix& chance) {
-    std::vector<std::uint32_t> inner;
-    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+    constexpr int attempts = 100;  // half of the dots of a hexagon with 80 dots are inside
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        const auto dot = static_cast<std::uint32_t>(chance.below(grid.dots().size()));
         if (composition.is_rim(dot)) continue;
         const std::vector<std::size_t> motifs = composition.star(dot);
         const bool is_inside = std::all_of(motifs.begin(), motifs.end(),
                                            [&](std::size_t motif) { return composition.is_inside(motif); });
-        if (is_inside) inner.push_back(dot);
+        if (!is_inside) continue;
+        for (const std::size_t motif : motifs) composition.change(motif);
+        return;
     }
-    if (inner.empty()) return;
-    for (const std::size_t motif : composition.star(inner[chance.below(inner.size())])) composition.change(motif);
 }
 
 /// A step by which motifs of a large grid repeat: many motifs at once have no figure.

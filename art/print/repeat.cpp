@@ -348,7 +348,7 @@ std::vector<glm::dmat3x2> copies_of(const Repeat& repeat, std::span<const glm::d
     for (int row = repeat.rows - 1; row >= 0; --row) {
         for (int column = 0; column < repeat.columns; ++column) {
             // Oblique rows are moved back, so that the whole is about a rectangle.
-            const double back = lattice == LatticeKind::hexagonal ? row / 2
+            const double back = lattice == LatticeKind::hexagonal ? std::floor(row / 2.0)
                                 : lattice == LatticeKind::densest ? -std::floor(row * shift + 1e-9)
                                                                   : 0;
             const glm::dvec2 cell = (column + back) * wallpaper.across + static_cast<double>(row) * wallpaper.up;
