@@ -180,6 +180,12 @@ bool DotGrid::is_solid() const {
     return true;
 }
 
+std::string DotGrid::name() const {
+    constexpr std::size_t longest = 40;
+    std::string notation = text();
+    return notation.size() <= longest ? notation : fmt::format("a grid of {} dots", dots_.size());
+}
+
 std::string DotGrid::text() const {
     const std::vector<std::uint32_t> counts = rows();
     if (is_solid()) {

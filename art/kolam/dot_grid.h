@@ -75,6 +75,8 @@ public:
     bool is_solid() const;
     /// Canonical notation, which parse_dot_grid() reads: `7x7`, `1-3-5-3-1`, `15-8 idukku`, `.o./ooo/.o.`.
     std::string text() const;
+    /// The notation if it is short, for messages; `a grid of 60 dots` otherwise.
+    std::string name() const;
 
 private:
     void place(DotLattice lattice, const std::vector<std::vector<std::int32_t>>& columns);

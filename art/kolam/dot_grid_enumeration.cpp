@@ -56,8 +56,8 @@ Plan make_plan(const DotGrid& grid, const EnumerationOptions& options) {
     if (choices > static_cast<std::size_t>(most)) {
         throw std::runtime_error(fmt::format(
             "cannot enumerate the kolams of {}: its {} {} gaps make {}^{} of them, and more than {}^{} take hours",
-            printable(grid.text(), 80), choices, options.symmetry == GridSymmetry::none ? "free" : "classes of",
-            plan.state_count, choices, plan.state_count, most));
+            grid.name(), choices, options.symmetry == GridSymmetry::none ? "free" : "classes of", plan.state_count,
+            choices, plan.state_count, most));
     }
     static_assert(most_gaps >= std::size_t{12} * most_choices);
     plan.choices.resize(choices);
@@ -227,7 +227,7 @@ std::string enumeration_json(const DotGrid& grid, GridSymmetry symmetry, const E
 }
 
 std::string enumeration_text(const DotGrid& grid, GridSymmetry symmetry, const Enumeration& found) {
-    std::string text = printable(grid.text(), 80);
+    std::string text = grid.name();
     if (symmetry != GridSymmetry::none) text += fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
     text += fmt::format(": {} states, {} with a single line, {} of them distinct\n", found.states, found.single_line,
                         found.distinct);

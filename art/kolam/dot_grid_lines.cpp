@@ -30,10 +30,10 @@ GapStates parse_gap_states(const DotGrid& grid, std::string_view text) {
         }
     }
     if (states.size() != count) {
-        throw std::runtime_error(fmt::format(
-            "{} digits, but the grid {} has {} gaps: for each row from the top those within it, then those to the "
-            "next row",
-            states.size(), printable(grid.text(), 80), count));
+        throw std::runtime_error(
+            fmt::format("{} digits, but {} has {} gaps: for each row from the top those within it, then those to the "
+                        "next row",
+                        states.size(), grid.name(), count));
     }
     return states;
 }

@@ -16,11 +16,11 @@ namespace sikku {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text) {
-    throw std::runtime_error(
-        fmt::format("'{}': expected ROWSxCOLUMNS such as 7x7, the dots of each row such as 1-3-5-3-1, the longest "
-                    "row and the last "
-                    "such as '7 to 1' or '15-8 idukku', or a shape of 'o' and '.'; every number 1 or more",
-                    printable(text, 80)));
+    throw std::runtime_error(fmt::format(
+        "'{}': expected ROWSxCOLUMNS such as 7x7, the dots of each row such as 1-3-5-3-1, the longest "
+        "row and the last such as '7 to 1' or '15-8 idukku', letters such as text:MEERA, or a shape of 'o' and "
+        "'.'; every number 1 or more",
+        printable(text, 80)));
 }
 
 [[noreturn]] void refuse(std::string_view text, std::string_view reason) {
@@ -138,6 +138,7 @@ struct TextInDots {
 /// Reads `text:MEERA` and `text 12:MEERA`; nullopt for other notations.
 std::optional<TextInDots> parse_text_in_dots(std::string_view given) {
     constexpr std::string_view word = "text";
+    while (given.starts_with(' ') || given.starts_with('\t')) given.remove_prefix(1);
     const std::size_t colon = given.find(':');
     if (colon == std::string_view::npos || !lower_case(given.substr(0, word.size())).starts_with(word)) return {};
     TextInDots text{given.substr(colon + 1)};

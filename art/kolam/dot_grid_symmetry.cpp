@@ -210,7 +210,7 @@ std::string no_single_line(const DotGrid& grid, GridSymmetry symmetry, std::stri
     const std::string whose = symmetry == GridSymmetry::none
                                   ? std::string()
                                   : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
-    return fmt::format("there is no single line on {}{}: {}", printable(grid.text(), 80), whose, reason);
+    return fmt::format("there is no single line on {}{}: {}", grid.name(), whose, reason);
 }
 
 }  // namespace
@@ -266,8 +266,8 @@ void require_symmetry(const DotGrid& grid, GridSymmetry symmetry) {
         reason = grid.lattice() == DotLattice::square ? "; straight grids have C2, C4, mirrors and D4"
                                                       : "; interlaced grids have C2, C3, C6, mirrors, D3 and D6";
     }
-    throw std::runtime_error(fmt::format("the grid {} itself does not have the symmetry {}{}",
-                                         printable(grid.text(), 80), grid_symmetry_name(symmetry), reason));
+    throw std::runtime_error(
+        fmt::format("{} itself does not have the symmetry {}{}", grid.name(), grid_symmetry_name(symmetry), reason));
 }
 
 std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid) {

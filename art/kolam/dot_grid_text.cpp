@@ -198,6 +198,9 @@ public:
         std::vector<glm::ivec2> line;
         std::int32_t end = 0;  // column after the last letter
         for (const std::string_view letter : letters_of(text)) {
+            if (end > static_cast<std::int32_t>(DotGrid::most_dots)) {
+                throw std::runtime_error("a line of the text is too long");
+            }
             const DottedLetter& dotted = letter_of(letter);
             if (dotted.dots.empty()) {
                 end += gap_;
@@ -216,6 +219,11 @@ public:
         const auto [lowest, highest] =
             std::minmax_element(dots_.begin(), dots_.end(), [](glm::ivec2 a, glm::ivec2 b) { return a.y < b.y; });
         const std::int32_t top = highest->y;
+        const auto [left, right] =
+            std::minmax_element(dots_.begin(), dots_.end(), [](glm::ivec2 a, glm::ivec2 b) { return a.x < b.x; });
+        const std::uint64_t places = (std::uint64_t{1} + static_cast<std::uint32_t>(right->x - left->x)) *
+                                     (std::uint64_t{1} + static_cast<std::uint32_t>(top - lowest->y));
+        if (places > 16 * DotGrid::most_dots) throw std::runtime_error("the letters of the text lie too far apart");
         std::vector<std::vector<std::int32_t>> columns(static_cast<std::size_t>(top - lowest->y) + 1);
         for (const glm::ivec2 dot : dots_) columns[static_cast<std::size_t>(top - dot.y)].push_back(2 * dot.x);
         for (std::vector<std::int32_t>& row : columns) std::sort(row.begin(), row.end());
@@ -250,6 +258,7 @@ private:
 }  // namespace
 
 DotGrid text_grid(std::string_view utf8, std::uint32_t rows) {
+    if (utf8.size() > DotGrid::most_dots) throw std::runtime_error("the text is too long");
     const std::string missing = missing_letters({std::string(utf8)});
     if (!missing.empty()) throw std::runtime_error(fmt::format("the lettering font lacks {}", missing));
     DotSetter setter(std::clamp(rows, fewest_letter_rows, most_letter_rows));

@@ -92,6 +92,13 @@ public:
         });
     }
     bool has_wreath() const { return has_wreath_; }
+    /// True if some triangles do not reach the rim.
+    bool has_inside() const {
+        for (std::size_t motif = 0; motif < triangle_motifs_; ++motif) {
+            if (is_inside(motif)) return true;
+        }
+        return false;
+    }
     std::size_t motifs() const { return motifs_.size(); }
     void change(std::size_t motif) {
         is_chosen_[motif] ^= 1;
@@ -393,7 +400,7 @@ GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uin
     constexpr std::size_t most_proposals = 1500;
     SplitMix chance(seed);
     Composition composition(grid, symmetry, random_period(grid.dots().size(), chance));
-    const bool is_large = grid.dots().size() >= fewest_repeated_dots;
+    const bool is_large = grid.dots().size() >= fewest_repeated_dots && composition.has_inside();
     composition.aim_at(random_densities(grid.dots().size(), chance));
     if (is_large) {
         // A star that repeats, and mostly a wreath around it all: the eye finds a figure and a border.

@@ -109,8 +109,9 @@ void draw_flower(const BorderSide& side, glm::dvec2 centre, double radius, Borde
         const glm::dvec2 foot = centre + 0.36 * radius * out;
         fill_petal(petal(foot, 0.64 * radius * out, 0.25 * radius * across, 0.3), earth, ink);
         ink.disc(centre + 0.93 * radius * (tilted.x * out + tilted.y * across), 0.07 * radius, flour);
-        out = half * (out + across);
-        across = glm::dvec2(-out.y, out.x) * (side.along.x * side.inwards.y - side.along.y * side.inwards.x);
+        const glm::dvec2 turned = half * (out + across);
+        across = half * (across - out);
+        out = turned;
     }
     ink.disc(centre, 0.26 * radius, flour);
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace sikku {
@@ -163,9 +164,8 @@ PlaneLattice levelled(const RowPacking& rows) {
     return best;
 }
 
-}  // namespace
-
-PlaneLattice densest_lattice(std::span<const glm::dvec2> hull, double gap) {
+/// The same for a hull whose size is about 1.
+PlaneLattice unit_lattice(std::span<const glm::dvec2> hull, double gap) {
     const DifferenceBody body(hull, gap);
     std::vector<glm::dvec2> directions = {{1, 0}};
     for (int step = -direction_count; step < direction_count; ++step) directions.push_back(direction(step));
@@ -181,12 +181,31 @@ PlaneLattice densest_lattice(std::span<const glm::dvec2> hull, double gap) {
     for (const RowPacking& rows : packings) {
         if (rows.area() > most_area) continue;
         const PlaneLattice lattice = levelled(rows);
+        const bool is_even = slope_of(lattice.across) == 0 && unevenness(lattice) <= 10;
+        if (!is_even && rows.area() > 1.001 * tightest->area()) continue;
         const double cost = unevenness(lattice) + slope_of(lattice.across) + rows.area() / most_area;
         if (cost >= least) continue;
         best = lattice;
         least = cost;
     }
     return best;
+}
+
+}  // namespace
+
+PlaneLattice densest_lattice(std::span<const glm::dvec2> hull, double gap) {
+    glm::dvec2 low = hull[0], high = hull[0];
+    for (const glm::dvec2 point : hull) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    const double size = std::max({high.x - low.x, high.y - low.y, std::fabs(gap), 1e-9});
+    if (!std::isfinite(size)) throw std::runtime_error("the drawing is too large to be packed");
+    const double unit = std::scalbn(1.0, std::ilogb(size));  // a power of two keeps the bits
+    std::vector<glm::dvec2> scaled;
+    for (const glm::dvec2 point : hull) scaled.push_back((point - low) / unit);
+    const PlaneLattice found = unit_lattice(scaled, gap / unit);
+    return {unit * found.across, unit * found.up};
 }
 
 }  // namespace sikku

@@ -1,4 +1,4 @@
-// art/print/packing.h: copies of a convex shape, translated and packed as tightly as a lattice permits.
+// art/print/packing.h: copies of a convex shape, translated and packed in a dense lattice.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -6,7 +6,8 @@
 
 namespace sikku {
 
-/// The two shortest steps between copies, `across` as level as possible and to the right, `up` upwards.
+/// A basis of the lattice of copies: `across` is the most level short step to the right, `up` the shortest step
+/// upwards that completes it.
 struct PlaneLattice {
     glm::dvec2 across{0.0}, up{0.0};
 };
@@ -18,6 +19,7 @@ struct PlaneLattice {
 /// Silverman, Packing and covering the plane with translates of a convex polygon, J. Algorithms 11 (1990). Cost:
 /// about 10 ms.
 /// @param hull  at least one point  @param gap  may be negative: copies overlap
+/// @throws std::runtime_error for drawings so large that lengths overflow
 PlaneLattice densest_lattice(std::span<const glm::dvec2> hull, double gap);
 
 }  // namespace sikku

@@ -387,16 +387,15 @@ const std::array own_rows = {
                .neutral = "none",
                .is_key = true},
               [](S& s, Text t) { s.look.border = t; }},
-    Option<S>{
-        {.name = "repeat",
-         .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "
-                 "wallpaper group p1 to p6m with its cells such as p4m:3x4 (p4m:fill and p4m:5xfill cover the "
-                 "page), packed:3x4 or packed:fill for translated copies as tight as possible, or ring:8; gap in "
-                 "steps or percent (8%)",
-         .value = "GROUP[:COUNT][,gap=GAP]",
-         .group = kolams,
-         .scope = Scope::copies},
-        set_repeat},
+    Option<S>{{.name = "repeat",
+               .help = "repeat the drawing: frieze:5 for a doorstep (also -p11g, -p1m1, -p11m, -p2, -p2mg, -p2mm), a "
+                       "wallpaper group p1 to p6m with its cells such as p4m:3x4 (p4m:fill and p4m:5xfill cover the "
+                       "page), packed:3x4 or packed:fill for translated copies, closely packed, or ring:8; gap in "
+                       "steps or percent (8%)",
+               .value = "GROUP[:COUNT][,gap=GAP]",
+               .group = kolams,
+               .scope = Scope::copies},
+              set_repeat},
     Option<S>{{.name = "title-line",
                .help = "write a line below the drawing, on the left (the pattern's title)",
                .value = "[TEXT]",

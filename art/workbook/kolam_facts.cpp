@@ -146,8 +146,8 @@ std::vector<std::string> notes_of(const KolamFacts& facts) {
     notes.push_back("Lines: " + lines_text(facts));
     notes.push_back("Symmetry: " + symmetry_text(facts.symmetry));
     notes.push_back("Strokes: " + order_text(facts));
-    notes.push_back(fmt::format("Difficulty: {:.0f} (dots, crossings, and four times the strokes of a line)",
-                                facts.difficulty()));
+    notes.push_back(fmt::format(
+        "Difficulty: {:.0f} (dots, plus crossings, plus four times the strokes for each line)", facts.difficulty()));
     return notes;
 }
 

