@@ -210,7 +210,7 @@ std::string no_single_line(const DotGrid& grid, GridSymmetry symmetry, std::stri
     const std::string whose = symmetry == GridSymmetry::none
                                   ? std::string()
                                   : fmt::format(" with the symmetry {}", grid_symmetry_name(symmetry));
-    return fmt::format("there is no single line on {}{}: {}", grid.name(), whose, reason);
+    return fmt::format("no single line is possible on {}{}: {}", grid.name(), whose, reason);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "art/kolam/dot_grid_text.h"
 
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/lettering.h"
 #include "engine/geometry/path.h"
 
@@ -27,25 +28,25 @@ using LetterLine = std::vector<glm::dvec2>;
 /// The strokes of a letter as lines.
 class LetterLines : public PathSink {
 public:
-    void begin_stroke(glm::dvec2 start, const Pen&) override { lines_.push_back({start}); }
+    void begin_stroke(glm::dvec2 start, const Pen&) override { all.push_back({start}); }
     void lines(std::span<const glm::dvec2> ends) override {
-        lines_.back().insert(lines_.back().end(), ends.begin(), ends.end());
+        all.back().insert(all.back().end(), ends.begin(), ends.end());
     }
     void curves(std::span<const glm::dvec2> controls) override {
         constexpr double tolerance = 0.02;  // spacings
         for (std::size_t i = 0; i + 2 < controls.size(); i += 3) {
-            flatten(lines_.back().back(), controls[i], controls[i + 1], controls[i + 2], tolerance,
-                    [this](glm::dvec2 end) { lines_.back().push_back(end); });
+            flatten(all.back().back(), controls[i], controls[i + 1], controls[i + 2], tolerance,
+                    [this](glm::dvec2 end) { all.back().push_back(end); });
         }
     }
     void change_pen(const Pen&) override {}
     void end_stroke(bool closed) override {
-        if (closed) lines_.back().push_back(lines_.back().front());
+        if (closed) all.back().push_back(all.back().front());
     }
     void polygon(std::span<const glm::dvec2>, const Pen&) override {}
     void disc(glm::dvec2, double, const Pen&) override {}
 
-    std::vector<LetterLine> lines_;
+    std::vector<LetterLine> all;
 };
 
 /// Thickness of the bars of a letter, in dots.
@@ -131,12 +132,8 @@ std::vector<Bar> bars_of(const std::vector<LetterLine>& lines, glm::length_t axi
 
 /// Replaces a stroke that is smaller than a bar, such as the dot of an i, with its middle.
 void shrink_dot(LetterLine& line, std::uint32_t thickness) {
-    glm::dvec2 low = line.front(), high = low;
-    for (const glm::dvec2 point : line) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    if (std::max(high.x - low.x, high.y - low.y) < thickness) line = {(low + high) / 2.0};
+    const Box box = box_of(line);
+    if (box.longest() < thickness) line = {(box.low + box.high) / 2.0};
 }
 
 double distance_to_segment(glm::dvec2 at, glm::dvec2 from, glm::dvec2 to) {
@@ -168,12 +165,12 @@ DottedLetter dotted(std::string_view letter, std::uint32_t rows) {
     const std::uint32_t thickness = thickness_of(rows);
     LetterLines strokes;
     write_text(letter, glm::dvec2(0.0), static_cast<double>(rows - thickness), Pen{}, strokes);
-    for (LetterLine& line : strokes.lines_) shrink_dot(line, thickness);
-    const BarHinting across(bars_of(strokes.lines_, 0), thickness), up(bars_of(strokes.lines_, 1), thickness);
+    for (LetterLine& line : strokes.all) shrink_dot(line, thickness);
+    const BarHinting across(bars_of(strokes.all, 0), thickness), up(bars_of(strokes.all, 1), thickness);
     DottedLetter made;
     const double dot_reach = thickness / 2.0 + 0.2;
     const double reach = std::max(0.7, thickness / 2.0 - 0.1);  // connects the dots of diagonals, too
-    for (LetterLine& line : strokes.lines_) {
+    for (LetterLine& line : strokes.all) {
         for (glm::dvec2& point : line) point = {across(point.x), up(point.y)};
         add_dots(line, line.size() == 1 ? dot_reach : reach, made.dots);
     }

@@ -1,5 +1,6 @@
 #include "art/kolam/grid_kolam.h"
 
+#include "art/kolam/interlaced_states.h"
 #include "engine/base/chance.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/json_text.h"
@@ -34,7 +35,6 @@ Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint
     // Three of four kolams have the largest symmetry, and all large ones, where another hides the figure. Kolams
     // without half turns and with few images of a motif look accidental, and are made only where no others can be
     // had.
-    constexpr std::size_t large_grid = 80;  // dots
     const GridSymmetry largest = choice.symmetries.front();
     const auto end =
         std::stable_partition(choice.symmetries.begin(), choice.symmetries.end(), [&](GridSymmetry other) {
@@ -42,7 +42,7 @@ Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint
                    (grid_symmetry_order(other) >= 4 && has_half_turn(other) == has_half_turn(largest));
         });
     const auto large = static_cast<std::size_t>(end - choice.symmetries.begin());
-    if (large > 1 && grid.dots().size() < large_grid && chance.below(4) == 0) {
+    if (large > 1 && grid.dots().size() < fewest_repeated_dots && chance.below(4) == 0) {
         const auto chosen = choice.symmetries.begin() + static_cast<std::ptrdiff_t>(1 + chance.below(large - 1));
         std::rotate(choice.symmetries.begin(), chosen, chosen + 1);
     }

@@ -357,8 +357,6 @@ private:
     std::vector<std::uint32_t> crossed_sides_;  // by dot, as bits
 };
 
-constexpr std::size_t fewest_repeated_dots = 80;
-
 /// Shares of crossed gaps for one to three rings around the centre.
 std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
     std::vector<double> densities(1 + chance.below(dots < 30 ? 2 : 3));

@@ -10,6 +10,8 @@ namespace sikku {
 
 /// Maximum number of dots that are composed.
 constexpr std::size_t most_composed_dots = 300'000;
+/// From here on, many different motifs would hide any figure.
+constexpr std::size_t fewest_repeated_dots = 80;
 
 /// Chooses crossed gaps of a triangular lattice: orbits of triangles, whose three gaps cross together and form
 /// petals, and around a dot a star, and some single gaps. From a random choice, orbits are changed one at a time as

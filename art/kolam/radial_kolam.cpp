@@ -82,7 +82,7 @@ double bend_at(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
 std::array<double, 6> distance_between(const RadialKolam& kolam, std::uint32_t line, std::size_t k) {
     const double from = dot_of(kolam, line, k), to = dot_of(kolam, line, k + 1);
     const double slope = slope_at(kolam, line, k), bend = bend_at(kolam, line, k);
-    // What the first terms lack at the end.
+    // Differences at the end that the first three terms leave.
     const double rest = to - from - slope - bend / 2, slope_rest = slope_at(kolam, line, k + 1) - slope - bend,
                  bend_rest = bend_at(kolam, line, k + 1) - bend;
     return {from,

@@ -1,7 +1,7 @@
 #include "art/print/packing.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/left_of.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -26,12 +26,7 @@ glm::dvec2 direction(int step) {
 
 /// The normals of the sides of a hull that are long enough to touch a neighbour along them.
 std::vector<glm::dvec2> side_normals(std::span<const glm::dvec2> hull) {
-    glm::dvec2 low = hull[0], high = hull[0];
-    for (const glm::dvec2 point : hull) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    const double least = 0.01 * std::max(high.x - low.x, high.y - low.y);
+    const double least = 0.01 * box_of(hull).longest();
     std::vector<glm::dvec2> normals;
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const glm::dvec2 side = hull[(i + 1) % hull.size()] - hull[i];
@@ -194,16 +189,12 @@ PlaneLattice unit_lattice(std::span<const glm::dvec2> hull, double gap) {
 }  // namespace
 
 PlaneLattice densest_lattice(std::span<const glm::dvec2> hull, double gap) {
-    glm::dvec2 low = hull[0], high = hull[0];
-    for (const glm::dvec2 point : hull) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    const double size = std::max({high.x - low.x, high.y - low.y, std::fabs(gap), 1e-9});
+    const Box box = box_of(hull);
+    const double size = std::max({box.longest(), std::fabs(gap), 1e-9});
     if (!std::isfinite(size)) throw std::runtime_error("the drawing is too large to be packed");
     const double unit = std::scalbn(1.0, std::ilogb(size));  // a power of two keeps the bits
     std::vector<glm::dvec2> scaled;
-    for (const glm::dvec2 point : hull) scaled.push_back((point - low) / unit);
+    for (const glm::dvec2 point : hull) scaled.push_back((point - box.low) / unit);
     const PlaneLattice found = unit_lattice(scaled, gap / unit);
     return {unit * found.across, unit * found.up};
 }

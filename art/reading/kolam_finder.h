@@ -11,7 +11,7 @@
 
 namespace sikku {
 
-/// What is sought in a picture.
+/// Restrictions of a search in a picture.
 struct KolamSearch {
     std::optional<DotLattice> lattice = {};  ///< accept only this one
     std::optional<DotGrid> grid = {};        ///< the dots of a kolam that the picture should have

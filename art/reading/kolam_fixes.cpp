@@ -132,7 +132,7 @@ void KolamFixes::change_dot(std::string_view text, std::string_view given, bool 
     const bool is_dot = grid_.dot_at(place).has_value();
     if (is_added && is_dot) refuse_fix(text, "there is a dot already");
     if (is_added && !is_beside(grid_, place)) refuse_fix(text, "no dot is near");
-    if (!is_added && !is_dot) refuse_fix(text, "there is no dot");
+    if (!is_added && !is_dot) refuse_fix(text, "the place is empty");
     if (!is_added && grid_.dots().size() == 1) refuse_fix(text, "it is the only dot");
     std::vector<GridDot> dots = grid_.dots();
     if (is_added) {

@@ -169,7 +169,7 @@ TEST_F(Colouring, RefusesWhatIsNotAnOutline) {
     }
 }
 
-/// What the pattern says about fields, dots and borders does not hold for its outlines.
+/// Outlines ignore the fields, dots and borders of the pattern.
 TEST_F(Colouring, LeavesOutWhatThePatternAdds) {
     const std::string rich = kolam +
                              "fields: chessboard\nweave: yes\nparallel: 3\nhand: 0.5\nborder: lotus\n"

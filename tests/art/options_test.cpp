@@ -147,7 +147,10 @@ struct Exception {
 const std::vector<Exception> exceptions = {
     {"mirror", {"kolam", "tiling", "solid"}, {}, "the drawing is its own mirror image"},
     {"paper", {"tiling", "tree", "solid"}, {}, "these are on white paper in any case"},
-    {"paper", {"kolam"}, {"gcode", "hpgl", "dxf", "obj", "stl"}, "the line can be seen, and there is no ground"},
+    {"paper",
+     {"kolam"},
+     {"gcode", "hpgl", "dxf", "obj", "stl"},
+     "the line is visible, and these formats have no ground"},
     {"plotter", {}, {"plot", "gcode", "hpgl", "dxf"}, "these are plots in any case"},
     {"decorate", {"tiling"}, {"stl"}, "dots lie within tiles of the same height"}};
 

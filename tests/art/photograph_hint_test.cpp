@@ -219,7 +219,7 @@ TEST(PhotographHint, DotsAreAddedAndRemovedByHand) {
     expect_certain_gaps(fixed.kolam, made);
     for (const auto& [fix, why] :
          std::vector<std::pair<std::string, std::string>>{{"dot 1,4", "there is a dot already"},
-                                                          {"no dot 1,1", "there is no dot"},
+                                                          {"no dot 1,1", "the place is empty"},
                                                           {"dot 9,30", "no dot is near"},
                                                           {"dot 3", "expected ROW,GAP: STATE"},
                                                           {"dot -4,2147483647", "no dot is near"},
