@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -42,6 +45,26 @@ inline std::string differences(const std::map<std::string, std::string>& one,
 
 inline std::size_t lines_of(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Waits until `is_true`; false after a minute.
+template <typename Condition>
+bool await(const Condition& is_true) {
+    for (int i = 0; i < 12'000; ++i) {
+        if (is_true()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+/// Whether a file of this name is being written in `folder`.
+inline bool has_temporary(const std::filesystem::path& folder, const std::string& name) {
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().filename().string().starts_with("." + name + ".")) return true;
+    }
+    return false;
 }
 
 inline const std::string square_text = "axiom: F-F-F-F\nderivation length: 2\nF --> F-F+F+FF-F-F+F\n";

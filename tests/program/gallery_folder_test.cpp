@@ -7,9 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <chrono>
 #include <iterator>
-#include <thread>
 
 namespace sikku::gallery_folder_test {
 
@@ -132,24 +130,12 @@ TEST_F(GalleryFolderTest, ScriptsForSlurm) {
     EXPECT_EQ(contents(folder / "home/precious.svg"), "#!/bin/sh\n#SBATCH --job-name=sikku-gallery\n");
 }
 
-/// Waits until a file whose name begins so is in the folder.
-bool await_file(const fs::path& folder, const std::string& start) {
-    for (int i = 0; i < 6000; ++i) {
-        std::error_code error;
-        for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-            if (entry->path().filename().string().starts_with(start)) return true;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
 TEST_F(GalleryFolderTest, LinksThatAppearDuringTheRun) {
     const std::vector<std::string> asked = {"gallery", "hilbert", "-n", "8",   "-f",     "png",
                                             "--size",  "A1",      "-o", "out", "--name", "s/x"};
     {
         Child child(asked, {.folder = folder.path()});
-        ASSERT_TRUE(await_file(folder / "out/s", ".x.png."));
+        ASSERT_TRUE(await([&] { return has_temporary(folder / "out/s", "x.png"); }));
         fs::create_symlink("../../home/precious.svg", folder / "out/s/x.png");
         EXPECT_EQ(child.wait().status, 0);
         EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "out/s/x.png")));
@@ -158,7 +144,7 @@ TEST_F(GalleryFolderTest, LinksThatAppearDuringTheRun) {
     fs::remove_all(folder / "out");
     {
         Child child(asked, {.folder = folder.path()});
-        ASSERT_TRUE(await_file(folder / "out/s", ".x.png."));
+        ASSERT_TRUE(await([&] { return has_temporary(folder / "out/s", "x.png"); }));
         fs::rename(folder / "out/s", folder / "out/t");
         fs::create_directory_symlink("../home", folder / "out/s");
         EXPECT_EQ(child.wait().status, 1);

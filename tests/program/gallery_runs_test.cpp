@@ -6,36 +6,16 @@
 #include <gtest/gtest.h>
 #include <sys/file.h>
 
-#include <chrono>
 #include <csignal>
 #include <list>
 #include <set>
-#include <thread>
 
 namespace sikku::gallery_runs_test {
 
 namespace fs = std::filesystem;
 
-/// Waits until `is_true`; false after a minute.
-template <typename Condition>
-bool await(const Condition& is_true) {
-    for (int i = 0; i < 12'000; ++i) {
-        if (is_true()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return false;
-}
-
 bool holds(const fs::path& file, const std::string& text) {
     return contents(file).find(text) != std::string::npos;
-}
-
-bool has_temporary(const fs::path& folder, const std::string& name) {
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-        if (entry->path().filename().string().starts_with("." + name + ".")) return true;
-    }
-    return false;
 }
 
 class GalleryRunsTest : public GalleryTest {};
