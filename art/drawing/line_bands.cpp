@@ -50,10 +50,11 @@ LineBands::LineBands(const CurvedLines& lines, const CurveMeetings& meetings, co
     : lines_(lines), meetings_(meetings), style_(style) {
     if (style.weave) weave(monitor);
     if (style.parallel.count < 2) return;
-    measure_turns(monitor);
     double sum = 0;
     for (const CurvePiece& piece : lines.pieces) sum += glm::length(piece.curve[3] - piece.curve[0]);
     const double step = lines.pieces.empty() ? 0 : sum / static_cast<double>(lines.pieces.size());
+    measure_tips(step, monitor);
+    measure_turns(monitor);
     // Lines farther apart than this leave room for any band that the tightest turn permits.
     constexpr int widest = 4;
     for (double most = step / 2; most <= widest * step && least_distance_ > most; most *= 2) {
@@ -103,11 +104,42 @@ void LineBands::measure_crossings() {
     }
 }
 
-/// Finds the tightest turn, and the corners that are closest to each other along a line.
+/// Finds tips that have room for parallel lines inside, of lines whose mean piece is `step` long.
+void LineBands::measure_tips(double step, const Monitor& monitor) {
+    constexpr double sharp = 0.1;
+    constexpr double shrink = 0.85;
+    for (const LineTip& tip : find_tips(lines_, meetings_, sharp * step, monitor)) {
+        double most = std::min(step / 2, least_tip_);
+        while (most > sharp * step && !crossing_inside(lines_, tip, most)) most *= shrink;
+        if (most <= sharp * step) continue;
+        least_tip_ = std::min(least_tip_, most);
+        tips_.push_back(tip);
+    }
+}
+
+/// For each eighth of each piece, whether a tip covers it.
+std::vector<bool> LineBands::places_in_tips(std::size_t line) const {
+    std::vector<bool> covered(std::size_t{places_of_piece} * lines_.lines[line].count(), false);
+    for (const LineTip& tip : tips_) {
+        if (tip.line != line) continue;
+        const auto end = static_cast<std::size_t>(std::lround(tip.end * places_of_piece));
+        for (auto i = static_cast<std::size_t>(std::lround(tip.begin * places_of_piece)); i < end; ++i) {
+            covered[i % covered.size()] = true;
+        }
+    }
+    return covered;
+}
+
+/// Finds the tightest turn outside of tips, and the corners that are closest to each other along a line.
 void LineBands::measure_turns(const Monitor& monitor) {
     Pulse pulse(monitor);
-    constexpr int places = 8;
-    for (const CurvedLines::Line& line : lines_.lines) {
+    for (std::size_t number = 0; number < lines_.lines.size(); ++number) {
+        const CurvedLines::Line& line = lines_.lines[number];
+        const std::vector<bool> covered = places_in_tips(number);
+        const auto is_in_tip = [&](std::uint32_t i, int k) {
+            const std::size_t place = std::size_t{i} * places_of_piece + static_cast<std::size_t>(k);
+            return covered[place % covered.size()] || covered[(place + covered.size() - 1) % covered.size()];
+        };
         double run = 0;          // length of straight pieces in one direction
         double turn_before = 0;  // half the turn at its beginning, as a tangent
         const std::uint32_t count = line.count();
@@ -116,8 +148,10 @@ void LineBands::measure_turns(const Monitor& monitor) {
             const CurvePiece& piece = lines_.piece(line, i % count);
             if (!piece.is_straight) {
                 if (i >= count) continue;
-                for (int k = 0; k <= places; ++k) {
-                    const double bend = std::fabs(curvature_of(piece.curve, static_cast<double>(k) / places));
+                for (int k = 0; k <= places_of_piece; ++k) {
+                    if (is_in_tip(i, k)) continue;
+                    const double bend =
+                        std::fabs(curvature_of(piece.curve, static_cast<double>(k) / places_of_piece));
                     if (bend > 0) least_radius_ = std::min(least_radius_, 1 / bend);
                 }
                 run = turn_before = 0;
@@ -159,6 +193,8 @@ void LineBands::measure_distance(const Monitor& monitor, double most) {
     Pulse pulse(monitor);
     constexpr std::size_t most_near = 200;
     constexpr double right_angle = 0.25;  // cosine of the angle that still counts
+    constexpr double right_angle_beside = 0.45;
+    constexpr double parallel = 0.97;  // cosine of the angle up to which lines run side by side
     std::vector<PointTree::Near> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
         tree.nearest(points[i], std::min(most, least_distance_), most_near, found);
@@ -166,11 +202,12 @@ void LineBands::measure_distance(const Monitor& monitor, double most) {
             pulse();
             const double length = std::sqrt(near.square);
             const glm::dvec2 way = points[near.id] - points[i];
-            if (length < 1e-6 || std::fabs(glm::dot(way, tangents[i])) > right_angle * length ||
-                std::fabs(glm::dot(way, tangents[near.id])) > right_angle * length) {
-                continue;
-            }
-            least_distance_ = std::min(least_distance_, length);
+            const double along =
+                std::max(std::fabs(glm::dot(way, tangents[i])), std::fabs(glm::dot(way, tangents[near.id])));
+            const bool is_beside = std::fabs(glm::dot(tangents[i], tangents[near.id])) > parallel;
+            if (length < 1e-6 || along > (is_beside ? right_angle_beside : right_angle) * length) continue;
+            // Points of lines side by side need not lie opposite each other.
+            least_distance_ = std::min(least_distance_, is_beside ? std::sqrt(near.square - along * along) : length);
         }
     }
 }
@@ -187,7 +224,7 @@ BandLook LineBands::look(const Print& print) const {
     if (look.count > 1) {
         const int between = look.count - 1;
         look.spacing = std::min({look.spacing, 2 * tightest * least_radius_ / between, 2 * least_corner_ / between,
-                                 least_distance_ / (look.count + beside)});
+                                 2 * least_tip_ / between, least_distance_ / (look.count + beside)});
         if (style_.weave) look.spacing = std::min(look.spacing, 0.9 * least_run_ / (look.count + gap));
         if (!(look.spacing >= std::min(least_spacing, look.wanted))) {
             throw std::runtime_error("parallel lines do not fit: a line turns too tightly or lies too near another");
@@ -270,12 +307,31 @@ std::vector<std::pair<double, double>> LineBands::sections(std::size_t line, dou
             cuts.emplace_back(cut(line, i, false, offset, look), cut(line, i, true, offset, look));
         }
     }
-    if (cuts.empty()) return {{0.0, count}};
+    if (cuts.empty()) {
+        // Closed lines begin where the strand is drawn.
+        double start = 0;
+        for (const auto& [from, to] : is_closed ? left_out(line, offset) : cuts) {
+            if (from < 0) start = to;
+            if (to > count) start = to - count;
+        }
+        return {{start, start + count}};
+    }
     std::vector<std::pair<double, double>> found;
     if (!is_closed && cuts.front().first > 0) found.emplace_back(0.0, cuts.front().first);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) found.emplace_back(cuts[i].second, cuts[i + 1].first);
     if (!is_closed && cuts.back().second < count) found.emplace_back(cuts.back().second, count);
     if (is_closed) found.emplace_back(cuts.back().second, cuts.front().first + count);
+    return found;
+}
+
+/// The parts that a strand leaves out inside of tips, sorted by position.
+std::vector<std::pair<double, double>> LineBands::left_out(std::size_t line, double offset) const {
+    std::vector<std::pair<double, double>> found;
+    for (const LineTip& tip : tips_) {
+        if (tip.line != line || tip.side * offset <= 0) continue;
+        if (const auto crossing = crossing_inside(lines_, tip, std::fabs(offset))) found.push_back(*crossing);
+    }
+    std::sort(found.begin(), found.end());
     return found;
 }
 
@@ -296,21 +352,37 @@ void LineBands::draw_section(std::size_t line, std::pair<double, double> section
     const CurvedLines::Line& whole = lines_.lines[line];
     const bool is_closed = whole.is_closed && section.second - section.first >= whole.count();
     std::vector<Part> parts;
-    lines_.visit_between(whole, section.first, section.second, [&](const Bezier& curve, const CurvePiece& piece) {
-        parts.push_back({curve, &piece});
-    });
+    const auto add = [&](double from, double to) {
+        lines_.visit_between(whole, from, to, [&](const Bezier& curve, const CurvePiece& piece) {
+            parts.push_back({curve, &piece});
+        });
+    };
+    double from = section.first;
+    const std::vector<std::pair<double, double>> omitted = left_out(line, offset);
+    for (const double round : {-1.0, 0.0, 1.0}) {
+        for (const auto& [begin, end] : omitted) {
+            const double shift = round * whole.count();
+            if (begin + shift < from || end + shift > section.second) continue;
+            add(from, begin + shift);
+            from = end + shift;
+        }
+    }
+    add(from, section.second);
     if (parts.empty()) return;
     const auto moved = [&](const Part& part, double t) {
         return offset == 0 ? point_of(part.curve, t)
                            : point_of(part.curve, t) + offset * left_of(tangent_of(part.curve, t));
     };
-    // The point where the strand passes from one part to the next: one point in a smooth line or a corner of straight
-    // ones.
+    // The point where the strand passes from one part to the next: one point in a smooth line, inside of a tip, or a
+    // corner of straight ones.
     const auto corner = [&](const Part& before, const Part& after, glm::dvec2& at) {
         if (offset == 0) return at = before.curve[3], true;
         const glm::dvec2 in = tangent_of(before.curve, 1);
         const glm::dvec2 out = tangent_of(after.curve, 0);
-        if (glm::length(in - out) < 1e-6) return at = moved(before, 1), true;
+        constexpr double one_point = 1e-8;
+        if (glm::length(in - out) < 1e-6 || glm::length(moved(before, 1) - moved(after, 0)) < one_point) {
+            return at = moved(before, 1), true;
+        }
         const bool is_straight = before.piece->is_straight && after.piece->is_straight;
         return is_straight && mitre(before.curve[3], in, out, offset, at);
     };

@@ -1,6 +1,7 @@
 // art/drawing/line_bands.h: draws lines as bands of parallel lines that pass over and under each other.
 #pragma once
 
+#include "art/drawing/line_tips.h"
 #include "art/kolam/curve_meetings.h"
 #include "art/print/print.h"
 
@@ -28,8 +29,8 @@ struct BandLook {
 /// and a gap, measured to the round ends of its lines.
 class LineBands {
 public:
-    /// Keeps references to the lines and meetings. Parallel lines are limited by the tightest turn, and by the
-    /// least distance of lines beside each other.
+    /// Keeps references to the lines and meetings. Parallel lines are limited by the tightest turn but for pointed
+    /// tips, inside of which they end where they cross, and by the least distance of lines beside each other.
     /// @throws std::runtime_error if the style requests a weave that cannot alternate; Stopped
     LineBands(const CurvedLines& lines, const CurveMeetings& meetings, const Style& style, const Monitor& monitor);
 
@@ -46,11 +47,14 @@ private:
         const CurvePiece* piece;
     };
     void weave(const Monitor& monitor);
+    void measure_tips(double step, const Monitor& monitor);
     void measure_turns(const Monitor& monitor);
+    std::vector<bool> places_in_tips(std::size_t line) const;
     void measure_distance(const Monitor& monitor, double most);
     void measure_crossings();
     std::vector<std::pair<double, double>> sections(std::size_t line, double offset, const BandLook& look) const;
     double cut(std::size_t line, std::size_t pass, bool is_forward, double offset, const BandLook& look) const;
+    std::vector<std::pair<double, double>> left_out(std::size_t line, double offset) const;
     void draw_section(std::size_t line, std::pair<double, double> section, double offset, const BandLook& look,
                       int colour, PathSink& sink) const;
 
@@ -59,6 +63,8 @@ private:
     Style style_;
     CurveDiagram diagram_;
     std::vector<std::size_t> upper_;  ///< for each crossing the mark of the upper strand
+    std::vector<LineTip> tips_;
+    double least_tip_ = std::numeric_limits<double>::max();  ///< farthest parallel inside of every tip
     double least_radius_ = std::numeric_limits<double>::max();
     double least_distance_ = std::numeric_limits<double>::max();  ///< between lines beside each other
     double least_corner_ = std::numeric_limits<double>::max();    ///< farthest parallel with corners in their order

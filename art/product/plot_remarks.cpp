@@ -143,7 +143,9 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
             "'tile colours' gives all tiles one colour: all tiles agree in the property that sets the colour");
     }
     if (report.woven && *report.woven == 0) warnings.emplace_back("'weave' has no effect: the lines do not cross");
-    if (report.parallel && style.parallel.is_spaced && report.parallel->spacing < 0.999 * report.parallel->wanted) {
+    // Without a spacing of the pattern they lie as near to each other as they have to.
+    const double least = style.parallel.is_spaced ? 0.999 : 0.1;
+    if (report.parallel && report.parallel->spacing < least * report.parallel->wanted) {
         warnings.push_back(fmt::format(
             "'parallel': {:.2g} mm from line to line do not fit between the turns and the neighbours of the "
             "lines; they are drawn {:.2g} mm apart and {:.2g} mm wide",

@@ -55,7 +55,7 @@ Bands bands_of(const CurvedLines& lines, double width, std::optional<double> wea
     print.style.weave = weave;
     print.style.parallel = strands;
     print.placement.step = 5;
-    const CurveMeetings meetings = find_meetings(lines, 1'000'000, {});
+    const CurveMeetings meetings = weave ? find_meetings(lines, 1'000'000, {}) : CurveMeetings();
     const LineBands bands(lines, meetings, print.style, {});
     Bands result;
     result.look = bands.look(print);
@@ -146,6 +146,83 @@ TEST(LineBands, SpacingIsLimitedByTurnsAndNeighbours) {
         }
     }
     EXPECT_GT(nearest, apart.look.width);
+}
+
+/// A leaf with a sharp turn at each end, which begins with one of its four curves.
+CurvedLines leaf(std::size_t first, bool is_reversed) {
+    const std::vector<Bezier> curves = {
+        {{{0, 0.02}, {1, 1.2}, {3, 1.2}, {4, 0.02}}},
+        {{{4, 0.02}, {4.01, 0.0082}, {4.01, -0.0082}, {4, -0.02}}},
+        {{{4, -0.02}, {3, -1.2}, {1, -1.2}, {0, -0.02}}},
+        {{{0, -0.02}, {-0.01, -0.0082}, {-0.01, 0.0082}, {0, 0.02}}},
+    };
+    CurvedLines lines;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Bezier curve = curves[(is_reversed ? first + 4 - i : first + i) % 4];
+        if (is_reversed) std::reverse(curve.begin(), curve.end());
+        lines.pieces.push_back({curve, {}, false});
+    }
+    lines.lines.push_back({0, 4, true, 0});
+    return lines;
+}
+
+/// Points inside of a tip are as far from the line as the strand everywhere: nothing doubles back, nothing is
+/// missing.
+TEST(LineBands, StrandsMeetInsideOfTips) {
+    for (std::size_t first = 0; first < 4; ++first) {
+        for (const bool is_reversed : {false, true}) {
+            SCOPED_TRACE(std::to_string(first) + (is_reversed ? " reversed" : ""));
+            const CurvedLines lines = leaf(first, is_reversed);
+            const Bands bands = bands_of(lines, 0.1, {}, {5, 2});
+            EXPECT_EQ(bands.look.spacing, bands.look.wanted) << "the tips do not push the strands together";
+            std::vector<glm::dvec2> middle = {lines.pieces[0].curve[0]};
+            for (const CurvePiece& piece : lines.pieces) {
+                middle.insert(middle.end(), piece.curve.begin() + 1, piece.curve.end());
+            }
+            const auto base = chords(middle, 400);
+            ASSERT_EQ(bands.sink.strokes.size(), 5u);
+            int inside = 0;
+            for (std::size_t i = 0; i < 5; ++i) {
+                const auto& stroke = bands.sink.strokes[i];
+                EXPECT_TRUE(bands.sink.closed[i]);
+                EXPECT_LT(glm::length(stroke.front() - stroke.back()), 1e-8);
+                double low = 1e9;
+                double high = -1e9;
+                const double offset = std::fabs(static_cast<double>(i) - 2) * bands.look.spacing;
+                for (const glm::dvec2 at : chords(stroke, 40)) {
+                    EXPECT_NEAR(distance_to(at, base), offset, 2e-3);
+                    low = std::min(low, at.x);
+                    high = std::max(high, at.x);
+                }
+                EXPECT_NEAR(low + high, 4, 1e-3);
+                // Half a tip has an angle of about 50 degrees.
+                if (offset > 0 && low > 0) {
+                    ++inside;
+                    EXPECT_NEAR(low, offset / 0.763, 0.06);
+                }
+            }
+            EXPECT_EQ(inside, 2);
+        }
+    }
+}
+
+/// The shaped rims of kolams leave room for parallel lines that can be seen, and each strand is one closed line.
+TEST(LineBands, RimsOfKolamsLeaveRoom) {
+    for (const char* name : {"kolam-library/kolam-7-to-1-ed71zr94", "kolam-library/kolam-9-to-1-085zkcfp",
+                             "kolam-library/kolam-11-6-idukku-d30xsr9p"}) {
+        for (const int strands : {2, 3, 5}) {
+            SCOPED_TRACE(std::string(name) + " " + std::to_string(strands));
+            CurvedLines lines = drawn_pattern(name, "0").lines;
+            // The invisible line that sets the dots is open.
+            std::erase_if(lines.lines, [](const CurvedLines::Line& line) { return !line.is_closed; });
+            std::erase_if(lines.pieces, [](const CurvePiece& piece) { return piece.pen.colour != 0; });
+            const Bands bands = bands_of(lines, 0.16, {}, {strands, 2});
+            EXPECT_GT(bands.look.band(), 0.2);
+            EXPECT_EQ(bands.sink.strokes.size(), lines.lines.size() * static_cast<std::size_t>(strands));
+            EXPECT_EQ(std::count(bands.sink.closed.begin(), bands.sink.closed.end(), true),
+                      static_cast<std::ptrdiff_t>(bands.sink.closed.size()));
+        }
+    }
 }
 
 /// Every crossing interrupts its lower line, and what is drawn of different strokes keeps the gap.
