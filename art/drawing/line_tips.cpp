@@ -61,8 +61,7 @@ struct ParallelPoints {
         }
     }
     bool turns_back(const Parallel& parallel, std::size_t first) const {
-        // The last one may be where another tip begins.
-        return std::any_of(positions.begin() + static_cast<std::ptrdiff_t>(first), positions.end() - 1,
+        return std::any_of(positions.begin() + static_cast<std::ptrdiff_t>(first), positions.end(),
                            [&](double position) { return parallel.turns_back(position); });
     }
 };
@@ -109,8 +108,8 @@ glm::dvec2 tangent(const CurvedLines& lines, const CurvedLines::Line& line, doub
     return tangent_of(lines.piece(line, place.piece).curve, place.t);
 }
 
-/// Limits a tip by marks of its line beside it, by the tips before and behind, by six pieces, and by half a round.
-/// Returns false if a mark lies on it.
+/// Limits a tip by marks of its line beside it, halfway to the tips before and behind, by six pieces, and by half a
+/// round. Returns false if a mark lies on it.
 bool limit(LineTip& tip, std::span<const CurveMark> marks, const LineTip& before, const LineTip& behind,
            const CurvedLines::Line& line) {
     constexpr double farthest = 6;
@@ -121,8 +120,8 @@ bool limit(LineTip& tip, std::span<const CurveMark> marks, const LineTip& before
     tip.to = line.is_closed ? middle + reach : std::min(count, middle + reach);
     for (const double round : {-count, 0.0, count}) {
         if (!line.is_closed && round != 0) continue;
-        if (before.end + round <= tip.begin) tip.from = std::max(tip.from, before.end + round);
-        if (behind.begin + round >= tip.end) tip.to = std::min(tip.to, behind.begin + round);
+        if (before.end + round <= tip.begin) tip.from = std::max(tip.from, (before.end + round + tip.begin) / 2);
+        if (behind.begin + round >= tip.end) tip.to = std::min(tip.to, (behind.begin + round + tip.end) / 2);
         auto mark = std::lower_bound(marks.begin(), marks.end(), tip.begin - round,
                                      [](const CurveMark& one, double position) { return one.position < position; });
         if (mark != marks.begin()) tip.from = std::max(tip.from, std::prev(mark)->position + round);

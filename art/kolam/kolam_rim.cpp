@@ -31,8 +31,7 @@ std::span<const RimPoint> rim_points(RimStyle style) {
     static constexpr RimPoint pointed[] = {{0.5, -40}, {0.82, 0, true}, {0.5, 40}};
     static constexpr RimPoint petal[] = {{0.54, -62}, {0.68, -28}, {0.95, 0, true}, {0.68, 28}, {0.54, 62}};
     static constexpr RimPoint horn[] = {{0.54, -48}, {0.85, -12}, {1.1, 28, true}, {0.62, 20}, {0.48, 50}};
-    static constexpr RimPoint crescent[] = {{0.5, -75}, {0.95, -46, true}, {0.6, -18},
-                                            {0.6, 18},  {0.95, 46, true},  {0.5, 75}};
+    static constexpr RimPoint crescent[] = {{0.58, -58}, {1.0, -25, true}, {0.58, 0}, {1.0, 25, true}, {0.58, 58}};
     switch (style) {
         case RimStyle::pointed:
             return pointed;
