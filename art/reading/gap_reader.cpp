@@ -2,6 +2,7 @@
 
 #include "art/kolam/interlaced_states.h"
 #include "art/kolam/rounded_lines.h"
+#include "engine/base/threads.h"
 
 #include <glm/geometric.hpp>
 
@@ -381,10 +382,10 @@ struct GapTemplates::Set {
         const std::vector<Placed> shapes = placed_shapes(shapes_of(lattice, window.height), window);
         // Interlaced dots leave less room.
         const double least_apart = lattice == DotLattice::square ? 1.5 : 1.25;
-        for (std::size_t i = 0; i < half_widths.size(); ++i) {
+        for_each_index(half_widths.size(), [&](std::size_t i) {
             monitor.check();
             widths[i] = templates_of(shapes, least_apart, half_widths[i]);
-        }
+        });
     }
 };
 
@@ -406,19 +407,15 @@ GapReader::GapReader(const GreyPicture& ink, const DotGrid& grid, const LatticeM
         patches.push_back(patch(ink, map, set_.window, lattice_point(grid.lattice(), grid.dots()[gap.from]),
                                 lattice_point(grid.lattice(), grid.dots()[gap.to])));
     }
-    double most = -1e300;
-    for (std::size_t i = 0; i < half_widths.size(); ++i) {
+    std::array<double, half_widths.size()> sums{};
+    for_each_index(half_widths.size(), [&](std::size_t i) {
         monitor.check();
-        double sum = 0;
         for (const std::vector<float>& seen : patches) {
             const GapEvidence found = compare(seen, set_.widths[i]);
-            sum += found.agreement[static_cast<std::size_t>(found.best())];
+            sums[i] += found.agreement[static_cast<std::size_t>(found.best())];
         }
-        if (sum > most) {
-            most = sum;
-            width_ = i;
-        }
-    }
+    });
+    width_ = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
 }
 
 GapEvidence GapReader::read(const LatticeMap& map, GridDot from, GridDot to, glm::dvec2 offset) const {
