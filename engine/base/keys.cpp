@@ -157,7 +157,7 @@ constexpr KeyInfo language[] = {
      "Note that a symbol sounds: a pitch, a note value, a velocity"},
     {"drum SYMBOL", music, "bass drum 1/8 f; bass drum + open hi-hat", "",
      "Drums of General MIDI that a symbol sounds"},
-    {"chord SYMBOL", music, "I 1/2 p; C4 E4 G4; degrees 0 2 4", "", "Chord that a symbol sounds"},
+    {"chord SYMBOL", music, "IV 1/2 p; Am7; C4 E4 G4; degrees 0 2 4", "", "Chord that a symbol sounds"},
     {"rest SYMBOL", music, "1/4; nothing", "", "Rest that a symbol stands for"},
     {"change SYMBOL", music, "louder, softer, p, 90, octave up, octave down, up 2, down 2", "",
      "What a symbol changes for the notes after it, up to the end of its branch"},

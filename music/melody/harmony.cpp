@@ -1,6 +1,7 @@
 #include "music/melody/harmony.h"
 
 #include "engine/base/text.h"
+#include "music/melody/chord_names.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 namespace sikku {
 namespace {
 
-constexpr std::array<std::string_view, 7> numerals = {"I", "II", "III", "IV", "V", "VI", "VII"};
 constexpr std::array<double, 7> usual_cents = {0, 200, 400, 500, 700, 900, 1100};
 constexpr std::size_t most_chords = 256;
 
@@ -33,25 +33,6 @@ std::optional<std::int64_t> degree_at(const Scale& scale, std::int64_t root, dou
     return best;
 }
 
-void mark_tones(Chord& chord, const Scale& scale) {
-    const double period = std::fabs(scale.period);
-    chord.is_tone.assign(scale.size(), 0);
-    for (std::size_t degree = 0; degree < scale.size(); ++degree) {
-        for (const double tone : chord.cents) {
-            const double apart = std::remainder(scale.cents(static_cast<std::int64_t>(degree), false) - tone, period);
-            if (std::fabs(apart) < 50) chord.is_tone[degree] = 1;
-        }
-    }
-}
-
-Chord seventh_on(const Scale& scale, std::int64_t root) {
-    Chord chord;
-    const double base = scale.cents(root, false);
-    chord.cents = {base, base + 400, base + 1000, base + 700};
-    mark_tones(chord, scale);
-    return chord;
-}
-
 }  // namespace
 
 bool Chord::has(std::int64_t degree) const {
@@ -65,6 +46,22 @@ std::int64_t Chord::nearest(std::int64_t degree, std::int64_t low, std::int64_t 
         if (degree + by <= high && has(degree + by)) return degree + by;
     }
     return degree;
+}
+
+void mark_tones(Chord& chord, const Scale& scale) {
+    const double period = std::fabs(scale.period);
+    chord.is_tone.assign(scale.size(), 0);
+    for (std::size_t degree = 0; degree < scale.size(); ++degree) {
+        for (const double tone : chord.cents) {
+            const double apart = std::remainder(scale.cents(static_cast<std::int64_t>(degree), false) - tone, period);
+            if (std::fabs(apart) < 50) chord.is_tone[degree] = 1;
+        }
+    }
+}
+
+std::int64_t degree_of_numeral(const Scale& scale, std::size_t number) {
+    if (scale.size() == 7 || number == 0) return static_cast<std::int64_t>(number);
+    return degree_at(scale, 0, usual_cents[number], 1e9).value_or(0);
 }
 
 Chord triad_on(const Scale& scale, std::int64_t root) {
@@ -99,35 +96,27 @@ std::vector<Chord> triads_of(const Scale& scale) {
     return chords;
 }
 
-std::vector<Chord> read_progression(std::string_view text, const Scale& scale, std::string& problem) {
+std::vector<Chord> read_progression(std::string_view text, const Scale& scale, double tonic, std::string& problem) {
     if (lower_case(text) == "blues") text = "I7-I7-I7-I7-IV7-IV7-I7-I7-V7-IV7-I7-I7";
-    problem = "expected chords from I to VII, one a bar, such as I-IV-V7-I, or blues";
+    problem = "expected chords, one a bar, such as I-IV-V7-I or C-Am-F-G7, or blues";
     std::vector<Chord> chords;
     for (;;) {
         const std::size_t end = std::min(text.find('-'), text.size());
-        std::string_view name = text.substr(0, end);
-        const bool is_seventh = name.ends_with('7');
-        if (is_seventh) name.remove_suffix(1);
-        std::string upper(name);
-        for (char& letter : upper) letter = letter == 'i' ? 'I' : letter == 'v' ? 'V' : letter;
-        const auto* found = std::find(numerals.begin(), numerals.end(), upper);
-        if (found == numerals.end()) {
-            if (!name.empty()) {
-                problem = fmt::format(
-                    "unknown chord '{}'; expected chords from I to VII, one a bar, each perhaps with a 7, such as "
-                    "I-IV-V7-I, or blues; the scale makes them major or minor",
-                    printable(text.substr(0, end)));
-            }
+        const std::string_view name = text.substr(0, end);
+        if (name.empty()) return {};
+        std::optional<Chord> chord = named_chord(name, scale, tonic);
+        if (!chord) {
+            problem = fmt::format(
+                "unknown chord '{}'; expected numerals such as IV, ii7, bVII and V7/V, or names such "
+                "as Am and Cmaj7, one a bar",
+                printable(name));
             return {};
         }
         if (chords.size() == most_chords) {
             problem = fmt::format("more than {} chords", most_chords);
             return {};
         }
-        const auto number = static_cast<std::size_t>(found - numerals.begin());
-        std::int64_t root = static_cast<std::int64_t>(number);
-        if (scale.size() != 7 && number > 0) root = degree_at(scale, 0, usual_cents[number], 1e9).value_or(0);
-        chords.push_back(is_seventh ? seventh_on(scale, root) : triad_on(scale, root));
+        chords.push_back(std::move(*chord));
         if (end == text.size()) return chords;
         text.remove_prefix(end + 1);
     }

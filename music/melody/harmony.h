@@ -3,6 +3,7 @@
 
 #include "music/scale/scale.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,7 +17,7 @@ enum class Harmony { none, drone, triads, bass, progression };
 
 /// A chord as pitches above the tonic.
 struct Chord {
-    std::vector<double> cents;  ///< the root first, the others within a period of it
+    std::vector<double> cents;  ///< the root or the bass first, the others within a period of it
     std::vector<char> is_tone;  ///< for each degree of the scale
     /// The tone of the chord from `low` to `high` that is nearest to `degree`; of two, the lower. `degree` if there
     /// is none.
@@ -31,9 +32,18 @@ Chord triad_on(const Scale& scale, std::int64_t root);
 /// Triads in order of preference: I, IV, V, VI, II, III, VII; in scales without seven notes by degree.
 std::vector<Chord> triads_of(const Scale& scale);
 
-/// Reads `I-IV-V7-I`, or `blues` for twelve bars. A 7 makes a chord a dominant seventh.
+/// The degree that a numeral stands for: its number in scales of seven notes, in others the degree nearest to that of
+/// the major scale.
+/// @param number  0 for I, up to 6
+std::int64_t degree_of_numeral(const Scale& scale, std::size_t number);
+
+/// Marks the degrees of a scale within a quarter tone of a tone of the chord.
+void mark_tones(Chord& chord, const Scale& scale);
+
+/// Reads chords separated by hyphens, as in `I-IV-V7-I` and `C-Am-F-G7`, or `blues` for twelve bars.
+/// @param tonic  MIDI key of the scale's tonic, possibly fractional
 /// @param problem  receives the problem if the result is empty
-std::vector<Chord> read_progression(std::string_view text, const Scale& scale, std::string& problem);
+std::vector<Chord> read_progression(std::string_view text, const Scale& scale, double tonic, std::string& problem);
 
 /// The degree nearest to a just fifth above the tonic, falling.
 std::int64_t fifth_degree(const Scale& scale);

@@ -338,7 +338,7 @@ private:
         if (kind == "progression") {
             std::string problem;
             melody_.harmony = Harmony::progression;
-            melody_.progression = read_progression(rest, melody_.scale, problem);
+            melody_.progression = read_progression(rest, melody_.scale, melody_.tonic, problem);
             if (melody_.progression.empty()) fail(*key, problem);
         } else if (kind == "bass" && !rest.empty()) {
             melody_.harmony = Harmony::bass;
@@ -456,7 +456,7 @@ private:
         }
         if (wanted == "piano") return;  // the first of all, and the default
         // Part of a name is enough: `guitar`, `strings`.
-        if (wanted.size() >= 4 && choose_by_word(*key, wanted, folded)) return;
+        if (wanted.size() >= 3 && choose_by_word(*key, wanted, folded)) return;
         // The nearest name, or the one with the nearest word.
         std::string_view near = nearest(wanted, {folded.begin(), folded.end()});
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
@@ -470,12 +470,14 @@ private:
                        : fmt::format("{}did you mean '{}'?", problem, near));
     }
 
-    /// Selects the first name that contains the text, preferably as a whole word, and reports it.
+    /// Selects the first name that contains the text, preferably as a whole word, and reports it. Three letters have to
+    /// begin a word.
     bool choose_by_word(const Key& key, const std::string& wanted, const std::vector<std::string>& names) {
         for (const bool is_word : {true, false}) {
             const auto matches = [&](const std::string& name) {
                 const std::string padded = ' ' + name + ' ';
-                return padded.find(is_word ? ' ' + wanted + ' ' : wanted) != std::string::npos;
+                const std::string part = (is_word || wanted.size() == 3 ? " " : "") + wanted + (is_word ? " " : "");
+                return padded.find(part) != std::string::npos;
             };
             const auto first = std::find_if(names.begin(), names.end(), matches);
             if (first == names.end()) continue;

@@ -13,14 +13,14 @@ constexpr std::size_t most_stretches = 1'000'000;
 constexpr std::size_t most_number_bytes = std::size_t{1} << 28;
 constexpr std::size_t numbers_in_stretch = 23;
 
-using Span = GridStretch::Span;
+using GridSpan = GridStretch::Span;
 
-void widen(Span& span, const Span& other) {
+void widen(GridSpan& span, const GridSpan& other) {
     span.low = std::min(span.low, other.low);
     span.high = std::max(span.high, other.high);
 }
 
-Span moved(const Span& span, bool mirrored, const Integer& by) {
+GridSpan moved(const GridSpan& span, bool mirrored, const Integer& by) {
     if (mirrored) return {by - span.high, by - span.low};
     return {span.low + by, span.high + by};
 }
@@ -43,7 +43,7 @@ void append(GridStretch& all, const GridStretch& next) {
         // Runs along `axis` are crossed by the other one.
         if (next.crossings[axis]) {
             const std::size_t other = 1 - axis;
-            const Span placed =
+            const GridSpan placed =
                 moved(*next.crossings[axis], other == 0 ? x_mirrored : y_mirrored, all.move[other ^ swapped]);
             if (all.crossings[here]) {
                 widen(*all.crossings[here], placed);
@@ -141,7 +141,7 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
         result.drawn[0] = result.length[0];
         result.steps[0] = 1;
         result.runs[0] = 1;
-        result.crossings[0] = Span{};
+        result.crossings[0] = GridSpan{};
         result.first = result.last = length < 0 ? 2 : 0;
     }
     return result;

@@ -1,6 +1,7 @@
 #include "music/melody/symbol_table.h"
 
 #include "engine/base/text.h"
+#include "music/melody/chord_names.h"
 #include "music/melody/key_values.h"
 #include "music/melody/melody.h"
 #include "music/score/drums.h"
@@ -234,7 +235,10 @@ private:
     }
 
     std::string read_chord(const std::vector<std::string_view>& words, SymbolRow& row) const {
-        if (words.empty()) return "expected a chord: I to VII or V7, notes such as C4 E4 G4, or degrees 0 2 4";
+        if (words.empty()) {
+            return "expected a chord: a numeral such as IV or V7, a name such as Am7, notes such as C4 E4 G4, or "
+                   "degrees 0 2 4";
+        }
         std::string problem;
         std::size_t at = 0;
         if (words[0] == "degrees") {
@@ -243,20 +247,25 @@ private:
             }
         } else {
             while (at < words.size() && read_name(words[at], row, problem)) ++at;
-            if (!problem.empty()) return problem;
+            // A chord of one note is a chord by name, as `C7` is.
+            if (at == 1 && is_chord_and_note(words[0])) {
+                row.pitches.clear();
+                at = 0;
+            } else if (!problem.empty()) {
+                return problem;
+            }
         }
         if (at == 0) {
-            // A numeral may stand for pitches outside the scale, as in sevenths.
-            const bool is_one = words[0].find('-') == std::string_view::npos && words[0] != "blues";
-            const auto chords = is_one ? read_progression(words[0], melody_.scale, problem) : std::vector<Chord>();
-            if (chords.empty()) {
+            // Named chords may contain pitches outside the scale, as sevenths do.
+            const auto chord = named_chord(words[0], melody_.scale, melody_.tonic);
+            if (!chord) {
                 return fmt::format(
-                    "unknown chord '{}'; expected I to VII or V7, notes such as C4 E4 G4, or degrees 0 2 "
-                    "4",
-                    words[0]);
+                    "unknown chord '{}'; expected a numeral such as IV or V7, a name such as Am7, notes "
+                    "such as C4 E4 G4, or degrees 0 2 4",
+                    printable(words[0]));
             }
-            if (melody_.keys) return "chords by numerals cannot be combined with 'keyboard:'";
-            for (const double cents : chords.front().cents) {
+            if (melody_.keys) return "chords by numeral or name cannot be combined with 'keyboard:'";
+            for (const double cents : chord->cents) {
                 row.pitches.push_back(pitch_of_key(melody_, melody_.tonic + cents / 100));
             }
             at = 1;

@@ -2,6 +2,7 @@
 #include "music/melody/mapping.h"
 
 #include "music/melody/melody_fold.h"
+#include "tests/checks.h"
 #include "tests/hilbert.h"
 #include "tests/reference.h"
 
@@ -893,10 +894,10 @@ TEST(Form, SwingKeepsTheBeats) {
     EXPECT_EQ(onsets, (std::vector<std::int64_t>{0, 320, 480, 800}));
 }
 
-std::vector<std::string> chord_names(const std::string& scale, const std::string& progression) {
+std::vector<std::string> chord_names(const std::string& scale, const std::string& progression, double tonic = 60) {
     std::string problem;
     std::vector<std::string> names;
-    for (const Chord& chord : read_progression(progression, *find_scale(scale), problem)) {
+    for (const Chord& chord : read_progression(progression, *find_scale(scale), tonic, problem)) {
         std::string name;
         for (const double cents : chord.cents) name += fmt::format("{}{:.0f}", name.empty() ? "" : " ", cents / 100);
         names.push_back(name);
@@ -917,6 +918,51 @@ TEST(Harmonies, ChordsOfScales) {
     EXPECT_EQ(find_scale("hamsadhwani")->cents(drone_degree(*find_scale("hamsadhwani")), false), 700);
 }
 
+/// Spellings of chords in pitch classes above C, by the tables of any book of harmony.
+TEST(Harmonies, ChordsByName) {
+    const auto classes = [](const std::string& name, const std::string& scale, double tonic) {
+        std::string problem;
+        std::string text;
+        const auto chords = read_progression(name, *find_scale(scale), tonic, problem);
+        if (chords.size() != 1) return problem;
+        std::set<int> sorted;
+        for (const double cents : chords[0].cents) {
+            sorted.insert(static_cast<int>(std::lround(cents / 100 + tonic + 120)) % 12);
+        }
+        for (const int pitch : sorted) text += fmt::format("{}{}", text.empty() ? "" : " ", pitch);
+        return text;
+    };
+    const std::pair<const char*, const char*> names[] = {
+        {"C", "0 4 7"},       {"Cm", "0 3 7"},        {"C7", "0 4 7 10"},      {"Cmaj7", "0 4 7 11"},
+        {"CM7", "0 4 7 11"},  {"CΔ", "0 4 7 11"},     {"Cm7", "0 3 7 10"},     {"Cm7b5", "0 3 6 10"},
+        {"Cø7", "0 3 6 10"},  {"C°7", "0 3 6 9"},     {"Cdim", "0 3 6"},       {"C+", "0 4 8"},
+        {"C6", "0 4 7 9"},    {"Cm6", "0 3 7 9"},     {"Csus4", "0 5 7"},      {"C7sus4", "0 5 7 10"},
+        {"Cadd9", "0 2 4 7"}, {"C9", "0 2 4 7 10"},   {"Cmaj9", "0 2 4 7 11"}, {"Cm9", "0 2 3 7 10"},
+        {"C5", "0 7"},        {"Cmmaj7", "0 3 7 11"}, {"Am", "0 4 9"},         {"F#m7", "1 4 6 9"},
+        {"B♭7", "2 5 8 10"},  {"Ebmaj7", "2 3 7 10"}, {"G7", "2 5 7 11"},      {"D/F#", "2 6 9"},
+        {"C/Bb", "0 4 7 10"}, {"Cb", "3 6 11"},       {"B#", "0 4 7"},
+    };
+    for (const auto& [name, pitches] : names) {
+        for (const double tonic : {60.0, 62.0, 59.0}) EXPECT_EQ(classes(name, "major", tonic), pitches) << name;
+    }
+    const std::pair<const char*, const char*> in_c[] = {
+        {"ii7", "0 2 5 9"},   {"ii", "2 5 9"},        {"Imaj7", "0 4 7 11"}, {"iv", "0 5 8"},
+        {"bVII", "2 5 10"},   {"♭VI", "0 3 8"},       {"V/V", "2 6 9"},      {"V7/V", "0 2 6 9"},
+        {"V7/ii", "1 4 7 9"}, {"vii°7/V", "0 3 6 9"}, {"viiø7", "2 5 9 11"}, {"bII7", "1 5 8 11"},
+        {"III", "4 7 11"},    {"IIImaj", "4 8 11"},   {"i", "0 3 7"},        {"V7/bVI", "1 3 7 10"},
+        {"vi", "0 4 9"},      {"VI", "0 4 9"},        {"#ivdim", "0 6 9"},
+    };
+    for (const auto& [name, pitches] : in_c) EXPECT_EQ(classes(name, "major", 60), pitches) << name;
+    EXPECT_EQ(classes("III", "minor", 60), "3 7 10");
+    EXPECT_EQ(classes("bIII", "minor", 60), "3 7 10") << "accidentals count from the major scale";
+    EXPECT_EQ(classes("V", "minor", 60), "2 7 10") << "the triad of the scale";
+    EXPECT_EQ(classes("V7", "minor", 60), "2 5 7 11");
+    for (const char* bad :
+         {"H", "c", "Cx", "I/V7", "I/G", "C/V", "C/", "Iv", "iI", "IIX", "C77", "bbbI", "♭", "/V", "C/G/E"}) {
+        EXPECT_TRUE(has(classes(bad, "major", 60), "unknown chord")) << bad;
+    }
+}
+
 TEST(Harmonies, StrongBeatsAreTonesOfTheChord) {
     std::string problem;
     for (const Harmony harmony : {Harmony::progression, Harmony::triads}) {
@@ -927,7 +973,8 @@ TEST(Harmonies, StrongBeatsAreTonesOfTheChord) {
         melody.anchor = Anchor::lowest_vertex;
         melody.harmony = harmony;
         melody.progression.clear();
-        if (harmony == Harmony::progression) melody.progression = read_progression("I-IV-V-I", melody.scale, problem);
+        if (harmony == Harmony::progression)
+            melody.progression = read_progression("I-IV-V-I", melody.scale, melody.tonic, problem);
         const Collector found = played(hilbert(5), melody);
         std::map<std::int64_t, std::set<int>> chords;  // pitch classes by bar
         std::map<std::int64_t, int> voices;
@@ -974,7 +1021,7 @@ TEST(Harmonies, FollowTheMelodyWithinItsRange) {
             melody.highest = 74;
             melody.harmony = harmony;
             if (harmony == Harmony::progression) {
-                melody.progression = read_progression("I-IV-V-II", melody.scale, problem);
+                melody.progression = read_progression("I-IV-V-II", melody.scale, melody.tonic, problem);
             }
             Collector found;
             EXPECT_GT(play(hilbert(6), melody, found, {}).moved, 500u);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -86,6 +87,21 @@ TEST(SymbolTable, ChangesHoldToTheEndOfABranch) {
         "note A: C4\nchange L: loud\nchange S: soft\nchange O: octave\nchange U: octave -2\nchange V: octave 1\n";
     EXPECT_EQ(told(notes_of(short_words + "axiom: LASAOAUAVA\n"), 0, true),
               "0:60/240@96 240:60/240@48 480:72/240@48 720:48/240@48 960:60/240@48");
+}
+
+TEST(SymbolTable, ChordsByName) {
+    const auto keys = [](const std::string& chord) {
+        std::vector<double> found;
+        const NoteList list = notes_of("chord T: " + chord + " 1/4\naxiom: T\n");
+        for (const Note& note : list.notes) found.push_back(note.key);
+        std::sort(found.begin(), found.end());
+        return found;
+    };
+    EXPECT_EQ(keys("C7"), (std::vector<double>{60, 64, 67, 70}));
+    EXPECT_EQ(keys("Am"), (std::vector<double>{69, 72, 76}));
+    EXPECT_EQ(keys("C/G"), (std::vector<double>{55, 60, 64}));
+    EXPECT_EQ(keys("C4 C7"), (std::vector<double>{60, 96})) << "notes";
+    EXPECT_EQ(keys("C4"), (std::vector<double>{60})) << "one note";
 }
 
 TEST(SymbolTable, ChordsAreNumeralsNamesOrDegrees) {
@@ -307,7 +323,8 @@ TEST(SymbolTable, ErrorsSayWhatIsExpected) {
     EXPECT_EQ(error_of("note AB: C4\naxiom: AB\n"),
               "'AB' is not one symbol; names of several letters are listed under 'symbols:'");
     EXPECT_EQ(error_of("chord T: VIII\naxiom: T\n"),
-              "unknown chord 'VIII'; expected I to VII or V7, notes such as C4 E4 G4, or degrees 0 2 4");
+              "unknown chord 'VIII'; expected a numeral such as IV or V7, a name such as Am7, notes such as C4 E4 "
+              "G4, or degrees 0 2 4");
     EXPECT_EQ(
         error_of("change L: faster\naxiom: LF\n"),
         "expected loud or soft, louder or softer, a velocity such as mf or 90, octave up or octave down, up 2 or "
