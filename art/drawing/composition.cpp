@@ -3,6 +3,7 @@
 #include "art/print/ornaments.h"
 #include "art/style/contrast.h"
 #include "art/style/white_paper.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/point_tree.h"
 
 #include <fmt/format.h>
@@ -192,11 +193,7 @@ double Composition::room_of_dot(const Print& print) const {
     lines_->read(print, whole_page(print.page), sink);
     double least = unlimited;
     for (const Obstacle& ink : sink.ink) {
-        const glm::dvec2 way = ink.to - ink.from;
-        const double square = glm::dot(way, way);
-        const double share =
-            square > 0 ? std::clamp(glm::dot(dots_.front() - ink.from, way) / square, 0.0, 1.0) : 0.0;
-        least = std::min(least, glm::distance(dots_.front(), ink.from + share * way) - ink.radius);
+        least = std::min(least, distance_to_segment(dots_.front(), ink.from, ink.to) - ink.radius);
     }
     return least > 0 ? least : unlimited;
 }

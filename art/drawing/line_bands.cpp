@@ -1,7 +1,6 @@
 #include "art/drawing/line_bands.h"
 
 #include "engine/geometry/box.h"
-#include "engine/geometry/left_of.h"
 #include "engine/geometry/parallel_curve.h"
 #include "engine/geometry/point_tree.h"
 

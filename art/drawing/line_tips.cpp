@@ -1,7 +1,6 @@
 #include "art/drawing/line_tips.h"
 
 #include "engine/geometry/box.h"
-#include "engine/geometry/left_of.h"
 #include "engine/geometry/parallel_curve.h"
 
 #include <glm/geometric.hpp>

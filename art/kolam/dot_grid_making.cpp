@@ -123,6 +123,66 @@ void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_
     }
 }
 
+/// Changes orbits of gaps one at a time to reduce the number of lines.
+class OrbitJoiner {
+public:
+    /// @param labels  of these states
+    /// @param steps  those along lines that may be made; those that were are subtracted
+    OrbitJoiner(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
+                GapStates& states, LineLabels& labels, std::uint64_t& steps, const Monitor& monitor)
+        : grid_(grid),
+          orbits_(orbits),
+          chance_(chance),
+          states_(states),
+          labels_(labels),
+          steps_(steps),
+          monitor_(monitor),
+          pulse_(monitor) {}
+
+    /// Changes orbits as long as that reduces the number of lines.
+    void improve() {
+        for (bool improved = true; improved && is_open();) {
+            improved = false;
+            for (const std::uint32_t orbit : shuffled(orbits_.size(), chance_)) {
+                pulse_();
+                if (steps_ == 0 || lines_gained(grid_, states_, labels_, orbits_[orbit]) >= 0) continue;
+                change(orbit);
+                improved = true;
+            }
+        }
+    }
+    /// Changes a random orbit and improves, that many times, unless it leads to more lines: where there are few lines
+    /// and long ones, as in frames, no single orbit may reduce their number.
+    void try_others(int count) {
+        for (int i = 0; i < count && is_open(); ++i) {
+            const GapStates before = states_;
+            const std::size_t lines = labels_.starts.size();
+            change(static_cast<std::uint32_t>(chance_.below(orbits_.size())));
+            improve();
+            if (labels_.starts.size() <= lines) continue;
+            states_ = before;
+            label_lines(grid_, states_, labels_, monitor_);
+        }
+    }
+
+private:
+    bool is_open() const { return steps_ > 0 && labels_.starts.size() > 1; }
+    void change(std::uint32_t orbit) {
+        for (const std::uint32_t i : orbits_[orbit]) states_[i] = changed(states_[i]);
+        label_lines(grid_, states_, labels_, monitor_);
+        steps_ -= std::min<std::uint64_t>(steps_, labels_.line.size());
+    }
+
+    const DotGrid& grid_;
+    const std::vector<std::vector<std::uint32_t>>& orbits_;
+    SplitMix& chance_;
+    GapStates& states_;
+    LineLabels& labels_;
+    std::uint64_t& steps_;
+    const Monitor& monitor_;
+    Pulse pulse_;
+};
+
 /// Crosses the orbits of gaps that connect pieces of the drawing, in random order.
 void connect(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, SplitMix& chance, GapStates& states) {
     UnionFind pieces(grid.dots().size());
@@ -217,10 +277,10 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
     std::uint64_t& steps = steps_left ? *steps_left : own_steps;
     if (steps == 0) return std::nullopt;
     const std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, kolam.symmetry));
+    const bool is_framed = grid.lattice() == DotLattice::triangular && grid.dots().size() >= fewest_framed_dots;
     LineLabels labels;
     RandomKolam attempted = kolam;
     SplitMix seeds(kolam.seed);
-    Pulse pulse(monitor);
     for (int attempt = 1; attempt <= attempts && steps > 0; ++attempt, attempted.seed = seeds.next()) {
         monitor.check();
         // Compositions take long; where they do not help, independent gaps may.
@@ -230,17 +290,9 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
         SplitMix chance(attempted.seed);
         join_orbits(grid, members, chance, found.states, labels, monitor);
         label_lines(grid, found.states, labels, monitor);
-        for (bool improved = true; improved && steps > 0 && labels.starts.size() > 1;) {
-            improved = false;
-            for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
-                pulse();
-                if (steps == 0 || lines_gained(grid, found.states, labels, members[orbit]) >= 0) continue;
-                for (const std::uint32_t i : members[orbit]) found.states[i] = changed(found.states[i]);
-                label_lines(grid, found.states, labels, monitor);
-                steps -= std::min<std::uint64_t>(steps, labels.line.size());
-                improved = true;
-            }
-        }
+        OrbitJoiner joiner(grid, members, chance, found.states, labels, steps, monitor);
+        joiner.improve();
+        if (attempted.composed && is_framed) joiner.try_others(20);
         if (labels.starts.size() == 1) {
             for (std::size_t i = 0; i < begun.size(); ++i) found.changed += begun[i] != found.states[i];
             return found;

@@ -42,9 +42,9 @@ struct SingleLine {
 };
 
 /// Finds a single-line kolam. Without a symmetry: random_states(), then make_single_line(). With one, whole orbits
-/// are changed as long as that reduces the number of lines; if several remain, the next attempt starts from another
-/// seed, derived from the first. Returns nullopt if `attempts` attempts or 3 * 10^9 steps along lines do not suffice,
-/// or the dots are not connected.
+/// are changed as long as that reduces the number of lines; if several remain, in framed kolams (interlaced_states())
+/// after up to 20 random changes more, the next attempt starts from another seed, derived from the first. Returns
+/// nullopt if `attempts` attempts or 3 * 10^9 steps along lines do not suffice, or the dots are not connected.
 /// @param steps_left  steps that several calls share, instead of 3 * 10^9
 /// @throws as random_states()
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,

@@ -304,6 +304,18 @@ std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry
     return sets.set_numbers();
 }
 
+std::vector<std::uint32_t> dot_orbits(const DotGrid& grid, GridSymmetry symmetry) {
+    require_symmetry(grid, symmetry);
+    const DotMap map(grid);
+    UnionFind sets(grid.dots().size());
+    for (const Isometry& isometry : group_of(symmetry).generators) {
+        for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+            sets.join(dot, *map.image(grid.dots()[dot], isometry));
+        }
+    }
+    return sets.set_numbers();
+}
+
 std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry) {
     require_symmetry(grid, symmetry);
     const DotMap map(grid);

@@ -56,6 +56,10 @@ std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid);
 /// @throws std::runtime_error if the grid does not have the symmetry
 std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
 
+/// The orbit of each dot, likewise.
+/// @throws std::runtime_error if the grid does not have the symmetry
+std::vector<std::uint32_t> dot_orbits(const DotGrid& grid, GridSymmetry symmetry);
+
 /// Images of a place of the lattice, with or without a dot: at most 12 places, the place itself first.
 /// @throws std::runtime_error if the grid does not have the symmetry
 std::vector<GridDot> place_images(const DotGrid& grid, GridDot place, GridSymmetry symmetry);

@@ -136,13 +136,6 @@ void shrink_dot(LetterLine& line, std::uint32_t thickness) {
     if (box.longest() < thickness) line = {(box.low + box.high) / 2.0};
 }
 
-double distance_to_segment(glm::dvec2 at, glm::dvec2 from, glm::dvec2 to) {
-    const glm::dvec2 along = to - from;
-    const double square = glm::dot(along, along);
-    const double share = square > 0 ? std::clamp(glm::dot(at - from, along) / square, 0.0, 1.0) : 0.0;
-    return glm::distance(at, from + share * along);
-}
-
 /// Dots of a letter: y upwards from the base line, x from its first column.
 struct DottedLetter {
     std::vector<glm::ivec2> dots;

@@ -23,6 +23,12 @@ struct Choice {
     std::vector<GridSymmetry> symmetries;  ///< in the order in which they are tried
 };
 
+/// True if there are so many dots that only the largest symmetry shows a figure.
+bool is_large(const DotGrid& grid) {
+    constexpr std::size_t fewest_aligned_dots = 80;
+    return grid.dots().size() >= (grid.lattice() == DotLattice::square ? fewest_aligned_dots : fewest_framed_dots);
+}
+
 Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint64_t seed) {
     Choice choice{{.seed = seed, .joined = options.joined, .composed = !options.density}, {}};
     SplitMix chance(scrambled(seed));
@@ -42,7 +48,7 @@ Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint
                    (grid_symmetry_order(other) >= 4 && has_half_turn(other) == has_half_turn(largest));
         });
     const auto large = static_cast<std::size_t>(end - choice.symmetries.begin());
-    if (large > 1 && grid.dots().size() < fewest_repeated_dots && chance.below(4) == 0) {
+    if (large > 1 && !is_large(grid) && chance.below(4) == 0) {
         const auto chosen = choice.symmetries.begin() + static_cast<std::ptrdiff_t>(1 + chance.below(large - 1));
         std::rotate(choice.symmetries.begin(), chosen, chosen + 1);
     }
@@ -84,11 +90,20 @@ std::optional<GridKolam> make_by_chance(const DotGrid& grid, const GridKolamOpti
     return GridKolam{.states = random_states(grid, choice.random), .symmetry = choice.random.symmetry};
 }
 
+/// The number of seeds, from 0 on, of which each is to give another kolam: as many as take a fraction of a second.
+std::uint64_t different_seeds(const DotGrid& grid, const GridKolamOptions& options, const GridKolam& kolam) {
+    constexpr std::size_t most_gaps = 150, most_framed_gaps = 250;
+    if (grid.gaps().size() <= most_gaps) return 101;
+    const bool is_framed =
+        grid.lattice() == DotLattice::triangular && is_large(grid) && !options.density && !options.single_line;
+    const bool is_soon_made = grid.gaps().size() <= most_framed_gaps && grid_symmetry_order(kolam.symmetry) >= 4;
+    return is_framed && is_soon_made ? 31 : 0;
+}
+
 /// Replaces a kolam that an earlier seed gives by another, as long as one is found soon: small grids have few.
 void replace_known(const DotGrid& grid, const GridKolamOptions& options, GridKolam& kolam, const Monitor& monitor) {
-    constexpr std::uint64_t most_seeds = 100, most_attempts = 200;
-    constexpr std::size_t most_gaps = 150;
-    if (options.seed > most_seeds || grid.gaps().size() > most_gaps) return;
+    constexpr std::uint64_t most_attempts = 200;
+    if (options.seed >= different_seeds(grid, options, kolam)) return;
     Effort effort{20, 20'000'000};
     std::map<GapStates, std::uint64_t> seeds;  // of canonical states
     const auto find_new = [&](std::uint64_t seed) -> std::optional<GridKolam> {

@@ -1,14 +1,10 @@
 #include "art/kolam/interlaced_states.h"
 
+#include "art/kolam/interlaced_frame.h"
 #include "engine/base/chance.h"
-#include "engine/base/union_find.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <map>
+#include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,421 +12,220 @@
 namespace sikku {
 namespace {
 
-constexpr std::uint32_t sides = 6;
-constexpr std::uint32_t no_dot = UINT32_MAX;
-
-/// Weights of the faults and merits of a composition, set by eye on hundreds of kolams.
-struct Costs {
-    double straight = 0.5;  ///< times the square of the crossings beyond four that a line runs straight through
-    double parallel = 3;    ///< three parallel straight strands
-    double ring = 0.6;      ///< a line around a single dot
-    double many_rings = 3;  ///< each beyond one dot in fourteen
-    double rim_ring = 2;    ///< at the rim
-    double neighbouring_rings = 1;
-    double piece = 2;             ///< each beyond the first
-    double hook = 0.35;           ///< on large grids, a dot inside the rim with one crossed gap
-    double closed_rim = 0.7;      ///< a dot of the rim without a loop
-    double open_triangle = 0.09;  ///< two gaps of three are crossed
-    double star = -0.5;           ///< all six gaps of a dot are crossed
-    double density = 6;           ///< for each gap, times the square of the difference from the share wanted
-};
-constexpr Costs costs;
-
-/// Gaps whose states change together.
-using Motif = std::vector<std::uint32_t>;
-
-class Composition {
+/// Some dots of a grid, as a grid of their own.
+class Middle {
 public:
-    /// @param period  motifs that repeat by this step are one; without it, none are
-    Composition(const DotGrid& grid, GridSymmetry symmetry, std::optional<GridDot> period)
-        : grid_(grid),
-          period_(period),
-          crossings_(grid.gaps().size()),
-          neighbours_(sides * grid.dots().size(), no_dot) {
-        for (const GridGap& gap : grid.gaps()) {
-            neighbours_[sides * gap.from + gap.side] = gap.to;
-            neighbours_[sides * gap.to + (gap.side + sides / 2) % sides] = gap.from;
+    /// @param dots  at least one, ascending
+    Middle(const DotGrid& grid, std::vector<std::uint32_t> dots)
+        : outer_(grid), inner_(DotLattice::triangular, columns(grid, dots)), dots_(std::move(dots)) {}
+    const DotGrid& grid() const { return inner_; }
+    const std::vector<std::uint32_t>& dots() const { return dots_; }
+    /// Copies states of its gaps to the grid that it is the middle of.
+    void copy(const GapStates& from, GapStates& to) const {
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            const GridGap& gap = inner_.gaps()[i];
+            to[static_cast<std::size_t>(outer_.gap(dots_[gap.from], gap.side))] = from[i];
         }
-        find_triangles();
-        find_motifs(symmetry);
-        find_courses();
-        find_distances();
-    }
-
-    std::size_t triangle_motifs() const { return triangle_motifs_; }
-    /// The motifs of triangles around a dot.
-    std::vector<std::size_t> star(std::uint32_t dot) const {
-        std::vector<std::size_t> motifs;
-        for (std::size_t i = 0; i < corners_.size(); ++i) {
-            if (std::find(corners_[i].begin(), corners_[i].end(), dot) != corners_[i].end()) {
-                motifs.push_back(motif_of_triangle_[i]);
-            }
-        }
-        std::sort(motifs.begin(), motifs.end());
-        motifs.erase(std::unique(motifs.begin(), motifs.end()), motifs.end());
-        return motifs;
-    }
-    /// Crosses the gaps between neighbouring dots of the rim, which makes a wreath.
-    void close_rim() {
-        for (std::size_t i = 0; i < crossings_.size(); ++i) {
-            const GridGap& gap = grid_.gaps()[i];
-            if (!is_rim(gap.from) || !is_rim(gap.to)) continue;
-            crossings_[i] = 1;
-            has_wreath_ = true;
-        }
-    }
-    bool is_rim(std::uint32_t dot) const {
-        for (std::uint32_t side = 0; side < sides; ++side) {
-            if (neighbour(dot, side) == no_dot) return true;
-        }
-        return false;
-    }
-    /// True if a motif does not reach the rim.
-    bool is_inside(std::size_t motif) const {
-        return std::none_of(motifs_[motif].begin(), motifs_[motif].end(), [&](std::uint32_t gap) {
-            return is_rim(grid_.gaps()[gap].from) || is_rim(grid_.gaps()[gap].to);
-        });
-    }
-    bool has_wreath() const { return has_wreath_; }
-    /// True if some triangles do not reach the rim.
-    bool has_inside() const {
-        for (std::size_t motif = 0; motif < triangle_motifs_; ++motif) {
-            if (is_inside(motif)) return true;
-        }
-        return false;
-    }
-    std::size_t motifs() const { return motifs_.size(); }
-    void change(std::size_t motif) {
-        is_chosen_[motif] ^= 1;
-        for (const std::uint32_t gap : motifs_[motif]) crossings_[gap] += is_chosen_[motif] ? 1U : UINT32_MAX;
-    }
-    /// Shares of crossed gaps in rings of equal width, from the centre outwards.
-    void aim_at(std::vector<double> densities) { wanted_ = std::move(densities); }
-
-    double cost() {
-        return cost_of_dots() + cost_of_triangles() + cost_of_courses() + cost_of_pieces() + cost_of_density();
-    }
-    GapStates states() const {
-        GapStates states(crossings_.size());
-        for (std::size_t i = 0; i < states.size(); ++i) {
-            states[i] = crossings_[i] > 0 ? GapState::crossed : GapState::turned;
-        }
-        return states;
     }
 
 private:
-    bool is_crossed(std::int32_t gap) const { return gap >= 0 && crossings_[static_cast<std::size_t>(gap)] > 0; }
-    std::uint32_t neighbour(std::uint32_t dot, std::uint32_t side) const {
-        return neighbours_[sides * dot + side % sides];
+    static std::vector<std::vector<std::int32_t>> columns(const DotGrid& grid,
+                                                          const std::vector<std::uint32_t>& dots) {
+        const std::int32_t top = grid.dots().front().y;
+        std::vector<std::vector<std::int32_t>> columns(
+            static_cast<std::size_t>((top - grid.dots().back().y) / 2 + 1));
+        for (const std::uint32_t dot : dots) {
+            const GridDot place = grid.dots()[dot];
+            columns[static_cast<std::size_t>((top - place.y) / 2)].push_back(place.x);
+        }
+        return columns;
     }
 
-    void find_triangles() {
-        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
-            for (std::uint32_t side = 0; side < sides; ++side) {
-                const std::uint32_t a = neighbour(dot, side), b = neighbour(dot, side + 1);
-                if (a == no_dot || b == no_dot || dot > a || dot > b) continue;
-                triangles_.push_back({static_cast<std::uint32_t>(grid_.gap(dot, side)),
-                                      static_cast<std::uint32_t>(grid_.gap(dot, (side + 1) % sides)),
-                                      static_cast<std::uint32_t>(grid_.gap(a, (side + 2) % sides))});
-                corners_.push_back({dot, a, b});
-            }
-        }
-    }
-    /// Orbits of triangles, then orbits of gaps.
-    void find_motifs(GridSymmetry symmetry) {
-        const std::vector<std::uint32_t> orbits = gap_orbits(grid_, symmetry);
-        std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;
-        const auto sorted = [](std::array<std::uint32_t, 3> gaps) {
-            std::sort(gaps.begin(), gaps.end());
-            return gaps;
-        };
-        for (std::uint32_t i = 0; i < triangles_.size(); ++i) numbers[sorted(triangles_[i])] = i;
-        UnionFind images(triangles_.size());
-        for (const std::vector<std::uint32_t>& image : grid_symmetries(grid_)) {
-            bool is_one = true;  // of the symmetries wanted
-            for (std::size_t i = 0; i < orbits.size() && is_one; ++i) is_one = orbits[image[i]] == orbits[i];
-            if (!is_one) continue;
-            for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-                std::array<std::uint32_t, 3> gaps = triangles_[i];
-                for (std::uint32_t& gap : gaps) gap = image[gap];
-                images.join(i, numbers.at(sorted(gaps)));
-            }
-        }
-        if (period_) join_repeats(images);
-        const std::vector<std::uint32_t> classes = images.set_numbers();
-        motif_of_triangle_ = classes;
-        for (std::size_t i = 0; i < classes.size(); ++i) {
-            if (classes[i] == motifs_.size()) motifs_.emplace_back();
-            motifs_[classes[i]].insert(motifs_[classes[i]].end(), triangles_[i].begin(), triangles_[i].end());
-        }
-        triangle_motifs_ = motifs_.size();
-        for (std::uint32_t i = 0; i < orbits.size(); ++i) {
-            if (triangle_motifs_ + orbits[i] == motifs_.size()) motifs_.emplace_back();
-            motifs_[triangle_motifs_ + orbits[i]].push_back(i);
-        }
-        is_chosen_.assign(motifs_.size(), 0);
-    }
-    /// Joins triangles that the period takes to each other. Those around the centre, which are its figure, repeat
-    /// nowhere, and those of the rim only along it.
-    void join_repeats(UnionFind& images) {
-        constexpr double centre_radius = 1.3;  // in spacings
-        const glm::dvec2 centre = centre_of(grid_);
-        enum class Zone : std::uint8_t { figure, field, rim };
-        std::map<GridDot, std::pair<std::uint32_t, Zone>> at;  // by the sum of their corners
-        std::vector<std::pair<GridDot, Zone>> places;
-        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-            GridDot sum;
-            glm::dvec2 middle(0.0);
-            bool touches_rim = false;
-            for (const std::uint32_t dot : corners_[i]) {
-                sum = sum + grid_.dots()[dot];
-                middle += dot_place(grid_, dot) / 3.0;
-                touches_rim = touches_rim || is_rim(dot);
-            }
-            const Zone zone = touches_rim                                    ? Zone::rim
-                              : glm::length(middle - centre) < centre_radius ? Zone::figure
-                                                                             : Zone::field;
-            at[sum] = {i, zone};
-            places.emplace_back(sum, zone);
-        }
-        // By turns of the period, which the lattice has.
-        GridDot step = *period_;
-        for (std::uint32_t turn = 0; turn < sides / 2; ++turn) {
-            for (std::uint32_t i = 0; i < places.size(); ++i) {
-                const auto [sum, zone] = places[i];
-                const auto found = at.find(sum + step + step + step);
-                if (zone != Zone::figure && found != at.end() && found->second.second == zone) {
-                    images.join(i, found->second.first);
-                }
-            }
-            step = {(2 * step.x - 3 * step.y) / 4, (4 * step.x + 2 * step.y) / 4};
-        }
-    }
-    /// The gaps that a line from rim to rim runs straight through where all are crossed.
-    void find_courses() {
-        const GapStates all(grid_.gaps().size(), GapState::crossed);
-        std::vector<char> is_seen(sides * grid_.dots().size());
-        for (std::uint32_t arc = 0; arc < is_seen.size(); ++arc) {
-            for (const bool anticlockwise : {true, false}) {
-                ArcStep step{arc / sides, arc % sides, anticlockwise};
-                if (is_seen[arc] || grid_.gap(step.dot, entry(grid_, step)) >= 0) continue;
-                while (true) {
-                    is_seen[sides * step.dot + step.arc] = 1;
-                    const std::int32_t gap = grid_.gap(step.dot, exit(grid_, step));
-                    if (gap < 0) break;
-                    courses_.push_back(gap);
-                    step = next_step(grid_, all, step);
-                }
-                courses_.push_back(-1);
-            }
-        }
-    }
-    /// Distances of gaps from the centre, 0 to below 1.
-    void find_distances() {
-        const glm::dvec2 centre = centre_of(grid_);
-        std::vector<double> squares;
-        double most = 0.1;
-        for (const GridGap& gap : grid_.gaps()) {
-            const glm::dvec2 from = 0.5 * (dot_place(grid_, gap.from) + dot_place(grid_, gap.to)) - centre;
-            squares.push_back(from.x * from.x + from.y * from.y);
-            most = std::max(most, squares.back());
-        }
-        for (const double square : squares) distances_.push_back(std::sqrt(square / (most * 1.0001)));
-    }
-
-    double cost_of_dots() {
-        const auto count = static_cast<std::uint32_t>(grid_.dots().size());
-        crossed_sides_.assign(count, 0);
-        for (std::uint32_t dot = 0; dot < count; ++dot) {
-            for (std::uint32_t side = 0; side < sides; ++side) {
-                if (is_crossed(grid_.gap(dot, side))) crossed_sides_[dot] |= 1U << side;
-            }
-        }
-        double cost = 0;
-        std::uint32_t rings = 0;
-        for (std::uint32_t dot = 0; dot < count; ++dot) {
-            std::uint32_t near = 0;
-            for (std::uint32_t side = 0; side < sides; ++side) near += neighbour(dot, side) != no_dot;
-            const std::uint32_t crossed = static_cast<std::uint32_t>(std::popcount(crossed_sides_[dot]));
-            const bool is_rim = near < sides;
-            if (crossed == 0) {
-                ++rings;
-                cost += costs.ring + (is_rim ? costs.rim_ring : 0);
-                for (std::uint32_t side = 0; side < sides / 2; ++side) {
-                    const std::uint32_t other = neighbour(dot, side);
-                    if (other != no_dot && crossed_sides_[other] == 0) cost += costs.neighbouring_rings;
-                }
-            } else if (crossed == 1 && !is_rim && period_) {
-                cost += costs.hook;
-            } else if (crossed == sides) {
-                cost += costs.star;
-            } else if (is_rim && !has_wreath_ && near > 2 && crossed == near) {
-                cost += costs.closed_rim;
-            }
-            cost += cost_of_parallels(dot);
-        }
-        return cost + costs.many_rings * std::max(0.0, rings - 0.07 * count);
-    }
-    /// Straight strands on both sides of a dot, parallel to a side.
-    bool has_pair(std::uint32_t dot, std::uint32_t side) const {
-        constexpr std::uint32_t pair = 0b110110;  // for side 0: sides 1, 2, 4, 5
-        const std::uint32_t wanted = ((pair << side) | (pair >> (sides - side))) & 0b111111;
-        return (crossed_sides_[dot] & wanted) == wanted;
-    }
-    double cost_of_parallels(std::uint32_t dot) const {
-        double cost = 0;
-        for (std::uint32_t side = 0; side < sides / 2; ++side) {
-            if (!has_pair(dot, side)) continue;
-            for (const std::uint32_t beside : {side + 1, side + 2}) {
-                const std::uint32_t other = neighbour(dot, beside);
-                if (other != no_dot && has_pair(other, side)) cost += costs.parallel;
-            }
-        }
-        return cost;
-    }
-    double cost_of_triangles() const {
-        double cost = 0;
-        for (const std::array<std::uint32_t, 3>& gaps : triangles_) {
-            int crossed = 0;
-            for (const std::uint32_t gap : gaps) crossed += crossings_[gap] > 0;
-            if (crossed == 2) cost += costs.open_triangle;
-        }
-        return cost;
-    }
-    double cost_of_courses() const {
-        double cost = 0;
-        int run = 0;
-        for (const std::int32_t gap : courses_) {
-            if (is_crossed(gap)) {
-                ++run;
-                continue;
-            }
-            if (run > 4) cost += costs.straight * (run - 4) * (run - 4);
-            run = 0;
-        }
-        return cost;
-    }
-    double cost_of_pieces() const {
-        UnionFind pieces(grid_.dots().size());
-        for (std::size_t i = 0; i < crossings_.size(); ++i) {
-            if (crossings_[i] > 0) pieces.join(grid_.gaps()[i].from, grid_.gaps()[i].to);
-        }
-        std::uint32_t count = 0;
-        for (std::uint32_t dot = 0; dot < crossed_sides_.size(); ++dot) {
-            count += crossed_sides_[dot] != 0 && pieces.find(dot) == dot;
-        }
-        const std::uint32_t wanted = has_wreath_ ? 2 : 1;
-        return count > wanted ? costs.piece * (count - wanted) : 0;
-    }
-    double cost_of_density() const {
-        std::vector<std::pair<double, double>> rings(wanted_.size());  // gaps, crossed ones
-        for (std::size_t i = 0; i < crossings_.size(); ++i) {
-            auto& [gaps, crossed] =
-                rings[static_cast<std::size_t>(distances_[i] * static_cast<double>(rings.size()))];
-            ++gaps;
-            crossed += crossings_[i] > 0;
-        }
-        double cost = 0;
-        for (std::size_t i = 0; i < rings.size(); ++i) {
-            const auto& [gaps, crossed] = rings[i];
-            if (gaps == 0) continue;
-            const double apart = crossed / gaps - wanted_[i];
-            cost += costs.density * gaps * apart * apart;
-        }
-        return cost;
-    }
-
-    const DotGrid& grid_;
-    std::optional<GridDot> period_;
-    std::vector<std::uint32_t> crossings_;                 // by gap: chosen motifs that cross it
-    std::vector<std::uint32_t> neighbours_;                // by dot and side
-    std::vector<std::array<std::uint32_t, 3>> triangles_;  // their gaps
-    std::vector<std::array<std::uint32_t, 3>> corners_;    // their dots
-    std::vector<Motif> motifs_;
-    std::vector<std::uint32_t> motif_of_triangle_;
-    std::size_t triangle_motifs_ = 0;
-    bool has_wreath_ = false;
-    std::vector<char> is_chosen_;
-    std::vector<std::int32_t> courses_;  // -1 after each
-    std::vector<double> distances_;
-    std::vector<double> wanted_;
-    std::vector<std::uint32_t> crossed_sides_;  // by dot, as bits
+    const DotGrid& outer_;
+    DotGrid inner_;
+    std::vector<std::uint32_t> dots_;  // of the outer grid, in the order of the inner one
 };
 
-/// Shares of crossed gaps for one to three rings around the centre.
-std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
-    std::vector<double> densities(1 + chance.below(dots < 30 ? 2 : 3));
-    if (dots >= fewest_repeated_dots) return {0.3 + 0.12 * chance.fraction()};
-    if (densities.size() == 1) return {0.38 + 0.2 * chance.fraction()};
-    const double dense = 0.5 + 0.15 * chance.fraction(), sparse = 0.28 + 0.12 * chance.fraction();
-    const std::size_t first = chance.below(2);
-    for (std::size_t i = 0; i < densities.size(); ++i) densities[i] = i % 2 == first ? dense : sparse;
-    return densities;
+/// Chooses how many layers frame a middle of about the size that is composed well.
+std::uint32_t random_width(const std::vector<std::uint32_t>& layers, SplitMix& chance) {
+    constexpr std::size_t fewest = 19, most = 61;  // as many dots as 5-3 and 9-5
+    constexpr std::size_t most_share = 6;          // of the dots; a smaller middle would drown in its frame
+    struct WeightedWidth {
+        std::uint32_t width;
+        std::size_t weight;  ///< the larger a middle, the more kolams there are of it
+    };
+    std::vector<std::size_t> dots(*std::max_element(layers.begin(), layers.end()) + std::size_t{1});  // by layer
+    for (const std::uint32_t layer : layers) ++dots[layer];
+    std::vector<WeightedWidth> choices;
+    std::uint32_t widest = 0;
+    std::size_t within = layers.size(), sum = 0;
+    for (std::uint32_t width = 0; width < dots.size() && within >= fewest; within -= dots[width++]) {
+        widest = width;
+        if (within > most || (!choices.empty() && most_share * within < layers.size())) continue;
+        choices.push_back({width, within});
+        sum += within;
+    }
+    if (choices.empty()) return widest;
+    std::size_t left = chance.below(sum);
+    std::size_t chosen = 0;
+    while (left >= choices[chosen].weight) left -= choices[chosen++].weight;
+    return choices[chosen].width;
 }
 
-/// Crosses all gaps around a dot inside the rim, and the images of these.
-void begin_with_star(Composition& composition, const DotGrid& grid, SplitMix& chance) {
-    constexpr int attempts = 100;  // half of the dots of a hexagon with 80 dots are inside
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-        const auto dot = static_cast<std::uint32_t>(chance.below(grid.dots().size()));
-        if (composition.is_rim(dot)) continue;
-        const std::vector<std::size_t> motifs = composition.star(dot);
-        const bool is_inside = std::all_of(motifs.begin(), motifs.end(),
-                                           [&](std::size_t motif) { return composition.is_inside(motif); });
-        if (!is_inside) continue;
-        for (const std::size_t motif : motifs) composition.change(motif);
-        return;
+/// The dot nearest to the centroid among those that the symmetry maps onto themselves.
+std::optional<GridDot> fixed_dot(const DotGrid& grid, GridSymmetry symmetry) {
+    const std::vector<std::uint32_t> orbits = dot_orbits(grid, symmetry);
+    std::vector<std::uint32_t> sizes(orbits.size());
+    for (const std::uint32_t orbit : orbits) ++sizes[orbit];
+    const glm::dvec2 centre = centre_of(grid);
+    std::optional<GridDot> found;
+    double least = 0;
+    for (std::uint32_t dot = 0; dot < orbits.size(); ++dot) {
+        if (sizes[orbits[dot]] > 1) continue;
+        const glm::dvec2 way = dot_place(grid, dot) - centre;
+        const double square = way.x * way.x + way.y * way.y;
+        if (found && square >= least) continue;
+        found = grid.dots()[dot];
+        least = square;
+    }
+    return found;
+}
+
+/// Steps from a dot to another.
+std::size_t steps_between(GridDot from, GridDot to) {
+    const std::int32_t rows = std::abs(to.y - from.y) / 2;
+    return static_cast<std::size_t>(std::max(rows, (std::abs(to.x - from.x) + rows) / 2));
+}
+
+/// The dots of the largest hexagon of these dots in the middle of the grid, or all if that would leave many.
+std::vector<std::uint32_t> hexagon_within(const DotGrid& grid, GridSymmetry symmetry,
+                                          const std::vector<std::uint32_t>& dots) {
+    constexpr std::size_t fewest = 37;  // as many as 7-4
+    constexpr double least_share = 0.6;
+    const std::optional<GridDot> centre = fixed_dot(grid, symmetry);
+    if (!centre) return dots;
+    std::vector<std::vector<std::uint32_t>> rings;  // by distance
+    for (const std::uint32_t dot : dots) {
+        const std::size_t ring = steps_between(*centre, grid.dots()[dot]);
+        if (ring >= rings.size()) rings.resize(ring + 1);
+        rings[ring].push_back(dot);
+    }
+    std::vector<std::uint32_t> hexagon;
+    for (std::size_t i = 0; i < rings.size() && rings[i].size() == std::max<std::size_t>(1, 6 * i); ++i) {
+        hexagon.insert(hexagon.end(), rings[i].begin(), rings[i].end());
+    }
+    const double share = static_cast<double>(hexagon.size()) / static_cast<double>(dots.size());
+    if (hexagon.size() < fewest || share < least_share) return dots;
+    std::sort(hexagon.begin(), hexagon.end());
+    return hexagon;
+}
+
+/// The largest symmetry of a hexagon that has mirrors if this one has.
+GridSymmetry of_hexagon(GridSymmetry symmetry) {
+    switch (symmetry) {
+        case GridSymmetry::none:
+            return GridSymmetry::none;
+        case GridSymmetry::c2:
+        case GridSymmetry::c3:
+        case GridSymmetry::c6:
+            return GridSymmetry::c6;
+        default:
+            return GridSymmetry::d6;
     }
 }
 
-/// A step by which motifs of a large grid repeat: many motifs at once have no figure.
-std::optional<GridDot> random_period(std::size_t dots, SplitMix& chance) {
-    if (dots < fewest_repeated_dots) return std::nullopt;
-    // Three spacings along a row, two by two, and four along a row.
-    constexpr std::array<GridDot, 3> periods = {{{6, 0}, {6, 4}, {8, 0}}};
-    return periods[chance.below(dots < 120 ? 2 : 3)];
+struct GapCount {
+    double gaps = 0, crossed = 0;
+    double share() const { return gaps > 0 ? crossed / gaps : 0; }
+};
+
+/// How clearly a ring along a layer stands out, from 0 to 1: its dots are linked to each other, and on one side not
+/// to those of the next layer.
+double clarity(const DotGrid& grid, const GapStates& states) {
+    const std::vector<std::uint32_t> layers = dot_layers(grid);
+    const std::size_t count = *std::max_element(layers.begin(), layers.end()) + std::size_t{1};
+    std::vector<GapCount> along(count), across(count);  // by layer, and to the next one inwards
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const std::uint32_t from = layers[grid.gaps()[i].from], to = layers[grid.gaps()[i].to];
+        GapCount& counted = from == to ? along[from] : across[std::min(from, to)];
+        ++counted.gaps;
+        counted.crossed += states[i] == GapState::crossed;
+    }
+    double clearest = 0;
+    for (std::size_t layer = 0; layer + 2 < count; ++layer) {  // a ring around the centre is too small
+        const double crossed = std::min(across[layer].share(), layer > 0 ? across[layer - 1].share() : 1.0);
+        clearest = std::max(clearest, std::min(along[layer].share(), 1 - crossed));
+    }
+    return clearest;
+}
+
+/// Composes a small kolam with a ring that stands out, if one is found soon.
+GapStates clear_states(const DotGrid& grid, GridSymmetry symmetry, SplitMix& chance) {
+    constexpr std::size_t tries = 16;  // more would cost time and give fewer kolams
+    constexpr int attempts = 4;
+    constexpr double clear = 0.9;
+    constexpr std::size_t fewest_dots = 40;  // smaller ones are clear by themselves
+    GapStates best = composed_states(grid, symmetry, chance.next(), tries);
+    if (grid.dots().size() < fewest_dots) return best;
+    double most = clarity(grid, best);
+    for (int attempt = 1; attempt < attempts && most < clear; ++attempt) {
+        GapStates other = composed_states(grid, symmetry, chance.next(), tries);
+        const double found = clarity(grid, other);
+        if (found <= most) continue;
+        most = found;
+        best = std::move(other);
+    }
+    return best;
+}
+
+/// Links the dots beside a hexagon to each other, and by an orbit of gaps or none to the hexagon.
+void link_beside(const DotGrid& grid, GridSymmetry symmetry, const std::vector<std::uint32_t>& beside,
+                 const std::vector<std::uint32_t>& hexagon, SplitMix& chance, GapStates& states) {
+    enum class Place : std::uint8_t { outside, between, inside };
+    std::vector<Place> places(grid.dots().size(), Place::outside);
+    for (const std::uint32_t dot : beside) places[dot] = Place::between;
+    for (const std::uint32_t dot : hexagon) places[dot] = Place::inside;
+    const std::vector<std::uint32_t> orbits = gap_orbits(grid, symmetry);
+    std::vector<std::uint32_t> found;  // orbits between the two
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto [outer, inner] = std::minmax(places[grid.gaps()[i].from], places[grid.gaps()[i].to]);
+        if (outer != Place::between) continue;
+        if (inner == Place::between) states[i] = GapState::crossed;
+        if (inner == Place::inside) found.push_back(orbits[i]);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    const std::size_t chosen = chance.below(found.size() + 1);
+    if (chosen == found.size()) return;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (orbits[i] == found[chosen]) states[i] = GapState::crossed;
+    }
+}
+
+/// Composes dots within a frame.
+void compose_middle(const DotGrid& grid, GridSymmetry symmetry, const std::vector<std::uint32_t>& dots,
+                    SplitMix& chance, GapStates& states) {
+    const Middle middle(grid, hexagon_within(grid, symmetry, dots));
+    const bool is_all = middle.dots().size() == dots.size();
+    if (!is_all) link_beside(grid, symmetry, dots, middle.dots(), chance, states);
+    middle.copy(clear_states(middle.grid(), is_all ? symmetry : of_hexagon(symmetry), chance), states);
 }
 
 }  // namespace
 
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
-    constexpr double begun_triangles = 0.28;  // share of those chosen at first
-    constexpr std::size_t most_proposals = 1500;
-    SplitMix chance(seed);
-    Composition composition(grid, symmetry, random_period(grid.dots().size(), chance));
-    const bool is_large = grid.dots().size() >= fewest_repeated_dots && composition.has_inside();
-    composition.aim_at(random_densities(grid.dots().size(), chance));
-    if (is_large) {
-        // A star that repeats, and mostly a wreath around it all: the eye finds a figure and a border.
-        if (chance.below(4) > 0) composition.close_rim();
-        begin_with_star(composition, grid, chance);
-    } else {
-        for (std::size_t i = 0; i < composition.triangle_motifs(); ++i) {
-            if (chance.fraction() < begun_triangles) composition.change(i);
-        }
+    if (grid.dots().size() < fewest_framed_dots) return composed_states(grid, symmetry, seed);
+    SplitMix chance(child_place(seed, grid.dots().size()));  // so that a seed gives other figures on other grids
+    GapStates states(grid.gaps().size(), GapState::turned);
+    const std::vector<std::uint32_t> layers = dot_layers(grid);
+    const std::uint32_t width = random_width(layers, chance);
+    if (width > 0) cross_frame(grid, symmetry, layers, width, chance, states);
+    std::vector<std::uint32_t> within;
+    for (std::uint32_t dot = 0; dot < layers.size(); ++dot) {
+        if (layers[dot] >= width) within.push_back(dot);
     }
-    if (composition.motifs() == 0) return composition.states();
-    double cost = composition.cost();
-    const std::size_t proposals = std::min(most_proposals, most_composed_dots / grid.dots().size());
-    std::array<std::size_t, 2> changes;
-    for (std::size_t i = 0; i < proposals; ++i) {
-        const double kind = chance.fraction();
-        const bool is_gap = kind < 0.15 || composition.triangle_motifs() == 0;
-        const std::size_t first = is_gap ? composition.triangle_motifs() : 0;
-        const std::size_t end = is_gap ? composition.motifs() : composition.triangle_motifs();
-        const std::size_t count = !is_gap && kind < 0.3 ? 2 : 1;
-        for (std::size_t k = 0; k < count; ++k) changes[k] = first + chance.below(end - first);
-        // Triangles would hide a wreath.
-        if (composition.has_wreath() && !is_gap && !composition.is_inside(changes[0])) continue;
-        for (std::size_t k = 0; k < count; ++k) composition.change(changes[k]);
-        const double changed = composition.cost();
-        if (changed <= cost) {
-            cost = changed;
-        } else {
-            for (std::size_t k = 0; k < count; ++k) composition.change(changes[k]);
-        }
-    }
-    return composition.states();
+    compose_middle(grid, symmetry, within, chance, states);
+    return states;
 }
 
 }  // namespace sikku

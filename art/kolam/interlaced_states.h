@@ -1,27 +1,22 @@
-// art/kolam/interlaced_states.h: composes kolams on interlaced dots as people draw them.
+// art/kolam/interlaced_states.h: kolams on interlaced dots of any number, as people draw them.
 #pragma once
 
-#include "art/kolam/dot_grid_symmetry.h"
+#include "art/kolam/interlaced_composition.h"
 
 #include <cstddef>
 #include <cstdint>
 
 namespace sikku {
 
-/// Maximum number of dots that are composed.
-constexpr std::size_t most_composed_dots = 300'000;
-/// From here on, many different motifs would hide any figure.
-constexpr std::size_t fewest_repeated_dots = 80;
+/// From here on, the eye would find no figure among so many petals.
+constexpr std::size_t fewest_framed_dots = 70;
 
-/// Chooses crossed gaps of a triangular lattice: orbits of triangles, whose three gaps cross together and form
-/// petals, and around a dot a star, and some single gaps. From a random choice, orbits are changed one at a time as
-/// long as that improves the kolam. Long straight runs, parallel lines, separate pieces, rings around single dots,
-/// and dots of the rim without a loop cost; stars are rewarded; the share of crossed gaps alternates between rings
-/// around the centre. From 80 dots on, where many motifs at once would hide any figure, motifs between the centre and
-/// the rim repeat by a step, and those of the rim along it; the first choice is a star that repeats, mostly within a
-/// wreath along the rim. The seed determines the step, the star, the density, and the number of rings of densities.
-/// Cost: about 20 ms for 169 dots (15-8). Larger grids are improved less, those of over most_composed_dots not at
-/// all.
+/// Chooses crossed gaps of a triangular lattice as composed_states() does. From fewest_framed_dots on, it composes
+/// only a middle of 19 to 61 dots, as far as the grid has one, and crosses calm bands around it (cross_frame()). A
+/// middle of 37 dots or more that is mostly a hexagon, as in a square, is a hexagon with six mirrors, or without
+/// mirrors where the kolam is to have none. Larger middles are composed up to four times, until one of their rings
+/// stands out.
+/// Cost: a few milliseconds, and linear from some thousand dots on.
 /// @throws std::runtime_error if the grid does not have the symmetry
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed);
 

@@ -2,7 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
-#include "engine/geometry/left_of.h"
+#include "engine/geometry/box.h"
 #include "engine/language/unit_vector.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "art/plotter/clear_hatch.h"
 
 #include "art/plotter/shading.h"
+#include "engine/geometry/box.h"
 #include "engine/geometry/simple_polygon.h"
 
 #include <glm/geometric.hpp>
@@ -17,13 +18,6 @@ namespace sikku {
 namespace {
 
 constexpr std::size_t most_meetings = 20'000'000;  // meetings of lines with sides and obstacles: some 500 MB
-
-double distance_to_segment(glm::dvec2 point, glm::dvec2 a, glm::dvec2 b) {
-    const glm::dvec2 way = b - a;
-    const double square = glm::dot(way, way);
-    const double share = square > 0 ? std::clamp(glm::dot(point - a, way) / square, 0.0, 1.0) : 0.0;
-    return glm::distance(point, a + share * way);
-}
 
 double distance_of_segments(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
     const bool crosses = side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;

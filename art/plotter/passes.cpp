@@ -3,7 +3,6 @@
 #include "art/plotter/shading.h"
 #include "engine/geometry/bezier.h"
 #include "engine/geometry/box.h"
-#include "engine/geometry/left_of.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,5 +1,6 @@
 #include "art/print/outline.h"
 
+#include "engine/geometry/box.h"
 #include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
@@ -35,12 +36,6 @@ bool crosses_itself(const std::vector<glm::dvec2>& outline) {
     return false;
 }
 
-double distance_to_side(glm::dvec2 point, glm::dvec2 from, glm::dvec2 to) {
-    const glm::dvec2 along = to - from;
-    const double part = std::clamp(glm::dot(point - from, along) / glm::dot(along, along), 0.0, 1.0);
-    return glm::distance(point, from + along * part);
-}
-
 bool contains(std::span<const glm::dvec2> outline, glm::dvec2 point) {
     bool inside = false;
     for (std::size_t i = 0, k = outline.size() - 1; i < outline.size(); k = i++) {
@@ -64,7 +59,8 @@ std::pair<glm::dvec2, double> roomiest(std::span<const glm::dvec2> outline) {
             if (!contains(outline, point)) continue;
             double distance = std::numeric_limits<double>::max();
             for (std::size_t i = 0; i < outline.size(); ++i) {
-                distance = std::min(distance, distance_to_side(point, outline[i], outline[(i + 1) % outline.size()]));
+                distance =
+                    std::min(distance, distance_to_segment(point, outline[i], outline[(i + 1) % outline.size()]));
             }
             if (distance > best.second * (1 + 1e-9)) best = {point, distance};
         }

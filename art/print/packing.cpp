@@ -1,6 +1,5 @@
 #include "art/print/packing.h"
 #include "engine/geometry/box.h"
-#include "engine/geometry/left_of.h"
 
 #include <glm/geometric.hpp>
 

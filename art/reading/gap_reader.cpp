@@ -1,6 +1,6 @@
 #include "art/reading/gap_reader.h"
 
-#include "art/kolam/interlaced_states.h"
+#include "art/kolam/interlaced_composition.h"
 #include "art/kolam/rounded_lines.h"
 #include "engine/base/threads.h"
 
@@ -87,12 +87,13 @@ Shape drawn_shape(const DotGrid& grid, std::uint32_t number, GapState state, con
 }
 
 /// Rounded lines run through a gap as the gaps around it permit: the strands in the gaps of some kolams.
-void add_rounded_shapes(std::vector<Shape>& shapes) {
+std::vector<Shape> drawn_rounded_shapes() {
+    std::vector<Shape> shapes;
     const DotGrid grid = parse_dot_grid("9-5 idukku");
     const Monitor monitor;
     Pulse pulse(monitor);
     for (const std::uint64_t seed : {2, 4}) {
-        const GapStates states = interlaced_states(grid, GridSymmetry::d6, seed);
+        const GapStates states = composed_states(grid, GridSymmetry::d6, seed);
         const KolamRim rim(grid, states, RimStyle::round);
         std::vector<Curve> lines;
         for (const ArcStep& start : line_starts(grid, states)) {
@@ -121,6 +122,13 @@ void add_rounded_shapes(std::vector<Shape>& shapes) {
             }
         }
     }
+    return shapes;
+}
+
+/// The same for all pictures and sizes of dots, and made once.
+const std::vector<Shape>& rounded_shapes() {
+    static const std::vector<Shape> shapes = drawn_rounded_shapes();
+    return shapes;
 }
 
 std::vector<Shape> shapes_of(DotLattice lattice, double height) {
@@ -160,7 +168,8 @@ std::vector<Shape> shapes_of(DotLattice lattice, double height) {
                 {GapState::joined, {{{-0.4, apart}, {0.4, apart}}, {{-0.4, -apart}, {0.4, -apart}}}, apart});
         }
     }
-    if (lattice == DotLattice::triangular) add_rounded_shapes(shapes);
+    if (lattice == DotLattice::triangular)
+        shapes.insert(shapes.end(), rounded_shapes().begin(), rounded_shapes().end());
     return shapes;
 }
 

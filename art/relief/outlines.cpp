@@ -1,7 +1,6 @@
 #include "art/relief/outlines.h"
 
 #include "engine/geometry/box.h"
-#include "engine/geometry/left_of.h"
 #include "engine/geometry/simple_polygon.h"
 
 #include <glm/geometric.hpp>

@@ -1,9 +1,10 @@
-// engine/geometry/box.h: axis-parallel boxes, and products of vectors in the plane.
+// engine/geometry/box.h: axis-parallel boxes, products of vectors in the plane, and distances from segments.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace sikku {
@@ -49,6 +50,19 @@ inline double scalar_product(glm::dvec2 a, glm::dvec2 b) {
 /// The product of complex numbers: the first vector, turned and scaled by the second.
 inline glm::dvec2 complex_product(glm::dvec2 a, glm::dvec2 b) {
     return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+/// The vector turned anticlockwise by 90 degrees, with y up.
+inline glm::dvec2 left_of(glm::dvec2 vector) {
+    return {-vector.y, vector.x};
+}
+
+/// The distance of a point from the nearest point of a segment, which may have no length.
+inline double distance_to_segment(glm::dvec2 point, glm::dvec2 from, glm::dvec2 to) {
+    const glm::dvec2 along = to - from;
+    const double square = scalar_product(along, along);
+    const double share = square > 0 ? std::clamp(scalar_product(point - from, along) / square, 0.0, 1.0) : 0.0;
+    const glm::dvec2 off = from + share * along - point;
+    return std::sqrt(scalar_product(off, off));
 }
 
 }  // namespace sikku

@@ -1,5 +1,5 @@
 #include "engine/geometry/parallel_curve.h"
-#include "engine/geometry/left_of.h"
+#include "engine/geometry/box.h"
 
 #include <cmath>
 

@@ -66,8 +66,9 @@ TEST_F(KolamGrid, NotationsThatMeanOtherDotsAreNoted) {
 
 /// The files of two seeds are the same, except for the seed, where the program reports it.
 TEST_F(KolamGrid, ThirtySeedsGiveThirtyKolams) {
-    for (const char* grid : {"1-3-5-3-1", "5x5", "7x3 to 3", "7-4", "9-1"}) {
+    for (const char* grid : {"1-3-5-3-1", "5x5", "7x3 to 3", "7-4", "9-1", "9x9 idukku", "13-7"}) {
         for (const bool single : {false, true}) {
+            if (single && parse_dot_grid(grid).dots().size() > 70) continue;
             std::set<std::string> codes;
             for (int seed = 1; seed <= 30; ++seed) {
                 GridKolamOptions options{.seed = static_cast<std::uint64_t>(seed), .single_line = single};
