@@ -89,17 +89,17 @@ bool refine(const Parallel& parallel, double& before, double& behind) {
 
 /// Whether a line turns more sharply than `radius`, to the left (1) or right (-1), at each place.
 std::vector<int> sharp_places(const CurvedLines& lines, const CurvedLines::Line& line, double radius, Pulse& pulse) {
-    std::vector<int> sides;
-    sides.reserve(std::size_t{places_of_piece} * line.count());
+    std::vector<int> turns_at;
+    turns_at.reserve(std::size_t{places_of_piece} * line.count());
     for (std::uint32_t i = 0; i < line.count(); ++i) {
         pulse();
         const CurvePiece& piece = lines.piece(line, i);
         for (int k = 0; k < places_of_piece; ++k) {
             const double bend = piece.is_straight ? 0.0 : curvature_of(piece.curve, (k + 0.5) / places_of_piece);
-            sides.push_back(std::fabs(bend) * radius <= 1 ? 0 : bend > 0 ? 1 : -1);
+            turns_at.push_back(std::fabs(bend) * radius <= 1 ? 0 : bend > 0 ? 1 : -1);
         }
     }
-    return sides;
+    return turns_at;
 }
 
 glm::dvec2 tangent(const CurvedLines& lines, const CurvedLines::Line& line, double position) {
@@ -133,16 +133,17 @@ bool limit(LineTip& tip, std::span<const CurveMark> marks, const LineTip& before
 /// Finds the sharp turns of a line, without limits.
 std::vector<LineTip> sharp_turns(const CurvedLines& lines, std::size_t number, double radius, Pulse& pulse) {
     const CurvedLines::Line& line = lines.lines[number];
-    const std::vector<int> sides = sharp_places(lines, line, radius, pulse);
-    const std::size_t count = sides.size();
+    const std::vector<int> turns_at = sharp_places(lines, line, radius, pulse);
+    const std::size_t count = turns_at.size();
     // Once around closed lines, from a place that is not sharp.
     const std::size_t first =
-        line.is_closed ? static_cast<std::size_t>(std::find(sides.begin(), sides.end(), 0) - sides.begin()) : 0;
+        line.is_closed ? static_cast<std::size_t>(std::find(turns_at.begin(), turns_at.end(), 0) - turns_at.begin())
+                       : 0;
     std::vector<LineTip> turns;
     for (std::size_t i = first; first < count && i < first + count;) {
-        const int side = sides[i % count];
+        const int side = turns_at[i % count];
         std::size_t end = i + 1;
-        while (end < first + count && sides[end % count] == side) ++end;
+        while (end < first + count && turns_at[end % count] == side) ++end;
         const double round = i >= count ? line.count() : 0.0;
         const LineTip turn{number,
                            static_cast<double>(i) / places_of_piece - round,

@@ -277,7 +277,7 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
     std::uint64_t& steps = steps_left ? *steps_left : own_steps;
     if (steps == 0) return std::nullopt;
     const std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, kolam.symmetry));
-    const bool is_framed = grid.lattice() == DotLattice::triangular && grid.dots().size() >= fewest_framed_dots;
+    const bool tries_others = is_framed(grid);
     LineLabels labels;
     RandomKolam attempted = kolam;
     SplitMix seeds(kolam.seed);
@@ -292,7 +292,7 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
         label_lines(grid, found.states, labels, monitor);
         OrbitJoiner joiner(grid, members, chance, found.states, labels, steps, monitor);
         joiner.improve();
-        if (attempted.composed && is_framed) joiner.try_others(20);
+        if (attempted.composed && tries_others) joiner.try_others(20);
         if (labels.starts.size() == 1) {
             for (std::size_t i = 0; i < begun.size(); ++i) found.changed += begun[i] != found.states[i];
             return found;

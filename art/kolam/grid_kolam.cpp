@@ -26,7 +26,7 @@ struct Choice {
 /// True if there are so many dots that only the largest symmetry shows a figure.
 bool is_large(const DotGrid& grid) {
     constexpr std::size_t fewest_aligned_dots = 80;
-    return grid.dots().size() >= (grid.lattice() == DotLattice::square ? fewest_aligned_dots : fewest_framed_dots);
+    return grid.lattice() == DotLattice::square ? grid.dots().size() >= fewest_aligned_dots : is_framed(grid);
 }
 
 Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint64_t seed) {

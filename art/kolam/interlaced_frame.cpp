@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace sikku {
 namespace {
@@ -13,7 +12,6 @@ constexpr std::uint32_t nowhere = UINT32_MAX;  // for dots and layers
 enum class Band : std::uint8_t {
     wreath,    ///< one layer, each dot linked to the next
     scallops,  ///< a wreath, with the dots of the next layer as loops within it
-    fringe,    ///< a wreath, with the dots of the layer before as loops around it
     zigzag,    ///< two layers, linked to each other but not along themselves
     stars      ///< stars between two wreaths
 };
@@ -31,8 +29,8 @@ struct Layer {
 /// Chooses bands.
 class BandChoice {
 public:
-    /// @param loops  kinds of bands two layers wide that suit the rim, at least one
-    BandChoice(std::vector<Band> loops, SplitMix& chance) : loops_(std::move(loops)), chance_(chance) {}
+    /// @param loops  the kind of band two layers wide that suits the rim
+    BandChoice(Band loops, SplitMix& chance) : loops_(loops), chance_(chance) {}
 
     /// Wreaths, and at random places among them one or more bands of another kind, with a wreath at least between any
     /// two.
@@ -56,7 +54,6 @@ public:
     }
     /// Bands around a middle of many dots, which needs an even line around it.
     std::vector<Band> around_many(std::uint32_t width) {
-        if (width == 2 && chance_.below(2) == 0) return {Band::fringe};
         std::vector<Band> bands = any(width - 1);
         bands.push_back(Band::wreath);
         return bands;
@@ -65,14 +62,14 @@ public:
 private:
     Band random_kind(std::uint32_t width) {
         if (width < 2) return Band::wreath;
-        std::vector<Band> kinds = loops_;
+        std::vector<Band> kinds = {loops_};
         if (width >= 4) kinds.push_back(Band::stars);  // stars are lively, and need a third wreath
         kinds.insert(kinds.end(), kinds.begin(), kinds.end());
         if (width <= 3) kinds.push_back(Band::wreath);  // more of them would be tedious
         return kinds[chance_.below(kinds.size())];
     }
 
-    std::vector<Band> loops_;
+    Band loops_;
     SplitMix& chance_;
 };
 
@@ -116,9 +113,6 @@ private:
                 break;
             case Band::scallops:
                 layers.insert(layers.end(), {{true, true}, {false, false}});
-                break;
-            case Band::fringe:
-                layers.insert(layers.end(), {{false, true}, {true, false}});
                 break;
             case Band::zigzag:
                 layers.insert(layers.end(), {{false, true}, {false, false}});
@@ -250,9 +244,8 @@ std::vector<std::uint32_t> dot_layers(const DotGrid& grid) {
 void cross_frame(const DotGrid& grid, GridSymmetry symmetry, const std::vector<std::uint32_t>& layers,
                  std::uint32_t width, SplitMix& chance, GapStates& states) {
     constexpr std::ptrdiff_t many = 40;
-    std::vector<Band> loops = {Band::scallops, Band::fringe};
-    if (!has_sharp_corners(grid, layers)) loops.push_back(Band::zigzag);  // which would lean there
-    BandChoice choice(std::move(loops), chance);
+    // Zigzags would lean at sharp corners.
+    BandChoice choice(has_sharp_corners(grid, layers) ? Band::scallops : Band::zigzag, chance);
     const std::ptrdiff_t within =
         std::count_if(layers.begin(), layers.end(), [&](std::uint32_t layer) { return layer >= width; });
     Frame(grid, layers, width, states)

@@ -14,7 +14,7 @@ namespace sikku {
 std::vector<std::uint32_t> dot_layers(const DotGrid& grid);
 
 /// Crosses gaps of the outermost layers, so that they form bands that follow the rim: wreaths one layer wide, in
-/// which each dot is linked to the next, and between them bands of one other kind: two rows of loops or scallops, or
+/// which each dot is linked to the next, and between them bands of one other kind: zigzags of two rows, scallops, or
 /// stars between two wreaths. No gap between two bands is crossed. Around 40 dots or more, the innermost band has an
 /// even line on its inner side.
 /// @param layers  of all dots, as dot_layers() returns them

@@ -47,9 +47,10 @@ private:
 };
 
 /// Chooses how many layers frame a middle of about the size that is composed well.
-std::uint32_t random_width(const std::vector<std::uint32_t>& layers, SplitMix& chance) {
-    constexpr std::size_t fewest = 19, most = 61;  // as many dots as 5-3 and 9-5
-    constexpr std::size_t most_share = 6;          // of the dots; a smaller middle would drown in its frame
+std::uint32_t random_width(const std::vector<std::uint32_t>& layers, bool is_hexagon, SplitMix& chance) {
+    constexpr std::size_t fewest = 19;                                     // as many dots as 5-3
+    const std::size_t most = is_hexagon && layers.size() < 120 ? 37 : 61;  // 7-4, 9-5
+    constexpr std::size_t most_share = 6;  // of the dots; a smaller middle would drown in its frame
     struct WeightedWidth {
         std::uint32_t width;
         std::size_t weight;  ///< the larger a middle, the more kolams there are of it
@@ -61,7 +62,7 @@ std::uint32_t random_width(const std::vector<std::uint32_t>& layers, SplitMix& c
     std::size_t within = layers.size(), sum = 0;
     for (std::uint32_t width = 0; width < dots.size() && within >= fewest; within -= dots[width++]) {
         widest = width;
-        if (within > most || (!choices.empty() && most_share * within < layers.size())) continue;
+        if (width == 0 || within > most || (!choices.empty() && most_share * within < layers.size())) continue;
         choices.push_back({width, within});
         sum += within;
     }
@@ -100,7 +101,7 @@ std::size_t steps_between(GridDot from, GridDot to) {
 /// The dots of the largest hexagon of these dots in the middle of the grid, or all if that would leave many.
 std::vector<std::uint32_t> hexagon_within(const DotGrid& grid, GridSymmetry symmetry,
                                           const std::vector<std::uint32_t>& dots) {
-    constexpr std::size_t fewest = 37;  // as many as 7-4
+    constexpr std::size_t fewest = 19;  // as many as 5-3
     constexpr double least_share = 0.6;
     const std::optional<GridDot> centre = fixed_dot(grid, symmetry);
     if (!centre) return dots;
@@ -178,7 +179,22 @@ GapStates clear_states(const DotGrid& grid, GridSymmetry symmetry, SplitMix& cha
     return best;
 }
 
-/// Links the dots beside a hexagon to each other, and by an orbit of gaps or none to the hexagon.
+void cross_orbit(const std::vector<std::uint32_t>& orbits, std::uint32_t orbit, GapStates& states) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (orbits[i] == orbit) states[i] = GapState::crossed;
+    }
+}
+
+bool has_crossing(const DotGrid& grid, std::uint32_t dot, const GapStates& states) {
+    for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+        const std::int32_t gap = grid.gap(dot, side);
+        if (gap >= 0 && states[static_cast<std::size_t>(gap)] == GapState::crossed) return true;
+    }
+    return false;
+}
+
+/// Links the dots beside a hexagon to each other, and by an orbit of gaps or none to the hexagon; those that
+/// would be alone, always.
 void link_beside(const DotGrid& grid, GridSymmetry symmetry, const std::vector<std::uint32_t>& beside,
                  const std::vector<std::uint32_t>& hexagon, SplitMix& chance, GapStates& states) {
     enum class Place : std::uint8_t { outside, between, inside };
@@ -196,9 +212,17 @@ void link_beside(const DotGrid& grid, GridSymmetry symmetry, const std::vector<s
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     const std::size_t chosen = chance.below(found.size() + 1);
-    if (chosen == found.size()) return;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        if (orbits[i] == found[chosen]) states[i] = GapState::crossed;
+    if (chosen < found.size()) cross_orbit(orbits, found[chosen], states);
+    // Dots without neighbours among them would be rings beside the figure.
+    for (std::uint32_t dot = 0; dot < places.size(); ++dot) {
+        if (places[dot] != Place::between || has_crossing(grid, dot, states)) continue;
+        std::vector<std::uint32_t> own;  // its orbits
+        for (std::size_t i = 0; i < states.size(); ++i) {
+            const GridGap& gap = grid.gaps()[i];
+            const std::uint32_t other = gap.from == dot ? gap.to : gap.to == dot ? gap.from : dot;
+            if (other != dot && places[other] == Place::inside) own.push_back(orbits[i]);
+        }
+        if (!own.empty()) cross_orbit(orbits, own[chance.below(own.size())], states);
     }
 }
 
@@ -213,12 +237,19 @@ void compose_middle(const DotGrid& grid, GridSymmetry symmetry, const std::vecto
 
 }  // namespace
 
+bool is_framed(const DotGrid& grid) {
+    constexpr std::size_t fewest = 60, fewest_beside_hexagons = 44;
+    const std::size_t dots = grid.dots().size();
+    if (grid.lattice() != DotLattice::triangular || dots < fewest_beside_hexagons) return false;
+    return dots >= fewest || !has_symmetry(grid, GridSymmetry::c3);
+}
+
 GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
-    if (grid.dots().size() < fewest_framed_dots) return composed_states(grid, symmetry, seed);
+    if (!is_framed(grid)) return composed_states(grid, symmetry, seed);
     SplitMix chance(child_place(seed, grid.dots().size()));  // so that a seed gives other figures on other grids
     GapStates states(grid.gaps().size(), GapState::turned);
     const std::vector<std::uint32_t> layers = dot_layers(grid);
-    const std::uint32_t width = random_width(layers, chance);
+    const std::uint32_t width = random_width(layers, has_symmetry(grid, GridSymmetry::c3), chance);
     if (width > 0) cross_frame(grid, symmetry, layers, width, chance, states);
     std::vector<std::uint32_t> within;
     for (std::uint32_t dot = 0; dot < layers.size(); ++dot) {
