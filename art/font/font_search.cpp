@@ -61,6 +61,13 @@ bool is_synthetic(const FontPattern& found) {
     return is_emboldened == FcTrue || FcPatternGetMatrix(found.get(), FC_MATRIX, 0, &matrix) == FcResultMatch;
 }
 
+/// Sets a language that is not requested, which would be that of the environment.
+void set_english(const FontPattern& query, const char* property) {
+    FcValue value{};
+    if (FcPatternGet(query.get(), property, 0, &value) == FcResultMatch) return;
+    FcPatternAddString(query.get(), property, reinterpret_cast<const FcChar8*>("en"));
+}
+
 bool is_as_wanted(const FontPattern& wanted, const FontPattern& found) {
     return !is_synthetic(found) && has_requested_name(wanted, found, FC_FAMILY) &&
            has_requested_name(wanted, found, FC_STYLE) && has_requested_number(wanted, found, FC_WEIGHT) &&
@@ -76,6 +83,8 @@ FoundFont find_font(const std::string& pattern) {
     }
     const FontPattern query(FcPatternDuplicate(wanted.get()), FcPatternDestroy);
     if (!query) throw std::bad_alloc();
+    set_english(query, FC_LANG);
+    set_english(query, FC_NAMELANG);
     FcConfigSubstitute(nullptr, query.get(), FcMatchPattern);
     FcDefaultSubstitute(query.get());
     FcResult result = FcResultNoMatch;
