@@ -3,6 +3,7 @@
 #pragma once
 
 #include "art/vector/vector_writer.h"
+#include "engine/geometry/contours.h"
 
 namespace sikku {
 
