@@ -1,5 +1,6 @@
 #include "art/sheets.h"
 
+#include "art/font/letters.h"
 #include "art/image/image_file.h"
 #include "art/kolam/dot_grid_pattern.h"
 #include "art/prints.h"
@@ -10,13 +11,13 @@
 #include "art/style/length.h"
 #include "art/writer/picture.h"
 #include "engine/base/text.h"
-#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 namespace sikku {
@@ -162,8 +163,25 @@ std::vector<std::string> kolam_caption(const Document& document, const std::stri
 struct Shared {
     SheetSettings sheet;
     DrawSettings print;
-    OptionValues cells;  ///< options of each drawing
+    OptionValues cells;  ///< options of each drawing, without the font
+    std::string font;    ///< font of all texts; empty: single strokes
 };
+
+/// Takes the font out of options.
+std::string take_font(OptionValues& values) {
+    std::string font;
+    for (const OptionValue& value : values) {
+        if (value.name == "font") font = value.text;
+    }
+    std::erase_if(values, [](const OptionValue& value) { return value.name == "font"; });
+    return font;
+}
+
+bool has_option(const OptionValues& values, std::initializer_list<std::string_view> names) {
+    return std::any_of(values.begin(), values.end(), [&](const OptionValue& value) {
+        return std::find(names.begin(), names.end(), value.name) != names.end();
+    });
+}
 
 /// @param folder  of the file that describes a plotter; null: it is not read
 Shared read_shared(OptionValues values, const std::filesystem::path* folder = nullptr) {
@@ -173,6 +191,7 @@ Shared read_shared(OptionValues values, const std::filesystem::path* folder = nu
     OptionValues wide;
     for (OptionValue& value : values) (is_sheet_wide(value.name) ? wide : shared.cells).push_back(value);
     check_names(prints().options(), shared.cells);
+    shared.font = take_font(shared.cells);
     shared.print = read_draw_settings(wide, folder);
     shared.sheet.dpi = shared.print.paper.dpi;
     apply_options(std::span<const Option<SheetSettings>>(sheet_rows), own, shared.sheet);
@@ -200,6 +219,7 @@ public:
         check_draw_settings(print, format_);
         for (const SheetItem& item : items) add_named_cell(item, folder);
         set_options(items);
+        set_font(folder);
     }
 
     Cost forecast() const override { return sheet_cost(cells_, options_); }
@@ -240,8 +260,8 @@ private:
             const DrawReport& report = layout.reports[i];
             has_fields = has_fields || report.fields > 0;
             const bool fills_page = cell.repeat && cell.repeat->fills;
-            const std::string missing = missing_letters({cell.title_line.value_or(""), cell.edition});
-            if (!missing.empty()) warn(letters_warning(missing), cell.title);
+            const std::string missing = Letters(cell.font).missing({cell.title_line.value_or(""), cell.edition});
+            if (!missing.empty()) warn(missing, cell.title);
             if (layout.windows[i].clips && !fills_page) warn("larger than its place and cut off", cell.title);
             for (const std::string& text :
                  drawing_warnings(report, cell.style, settings_[i], layout.plot.has_value()))
@@ -251,7 +271,7 @@ private:
                 warn(text, cell.title);
             }
         }
-        warn_of_letters(layout.missing_letters, made);
+        warn_of_letters(layout.letters_warning, made);
         for (const auto& [text, titles] : warnings) made.warn(fmt::format("{}: {}", titles, text));
         if (layout.plot && shared_.print.plot.hatch && layout.plot->fills == 0 && !has_fields) {
             made.warn_of_unused("hatch", "these drawings have no fills");
@@ -289,6 +309,9 @@ private:
         });
         values.insert(values.end(), assigned.options.begin(), assigned.options.end());
         values.push_back({"dpi", fmt::format("{}", shared_.print.paper.dpi)});
+        if (!shared_.font.empty() && !has_option(values, {"font"}) && has_option(values, {"title-line", "edition"})) {
+            values.push_back({"font", shared_.font});
+        }
         const DrawSettings settings = read_draw_settings(values);
         check_draw_settings(settings, format_);
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
@@ -357,6 +380,17 @@ private:
         options_.made = fmt::format("sikku {}, sheet of {}", SIKKU_VERSION, counted(items.size(), "drawing"));
         set_ground();
         static_cast<PlotSetup&>(options_) = plot_setup(print, format_);
+    }
+
+    void set_font(const std::filesystem::path& folder) {
+        const bool is_used =
+            !options_.title.empty() || std::any_of(cells_.begin(), cells_.end(), [](const auto& cell) {
+                return cell.title_line || !cell.edition.empty() || !cell.caption.empty();
+            });
+        if (!shared_.font.empty() && !is_used) {
+            refuse_option("font", "", "needs 'titles', 'heading', 'title-line' or 'edition'");
+        }
+        options_.font = load_font(shared_.font, folder);
     }
 
     /// One ground under all drawings if they share it; texts stand out from it.

@@ -12,7 +12,7 @@ slim=$PWD/build/slim-openimageio
 packaging/slim_openimageio.sh "$slim"
 # The same sources as in the build, against the slim library.
 pictures=$PWD/build/portable
-cmake --preset release -B "$pictures" -DSIKKU_TESTS=OFF -DSIKKU_PROGRAM=OFF -DCMAKE_PREFIX_PATH="$slim" -DCMAKE_SKIP_RPATH=ON \
+cmake --preset release -B "$pictures" -DSIKKU_TESTS=OFF -DSIKKU_PROGRAM=OFF -DSIKKU_FONTS=OFF -DCMAKE_PREFIX_PATH="$slim" -DCMAKE_SKIP_RPATH=ON \
     > build/portable.log 2>&1 || { cat build/portable.log >&2; exit 1; }
 cmake --build "$pictures" -j "$(nproc)" --target sikku_image sikku_decoder > build/portable.log 2>&1 ||
     { tail -n 40 build/portable.log >&2; exit 1; }
@@ -30,7 +30,7 @@ for file in sikku_image.so sikku_decoder; do
     install -s -m 755 "$(find "$pictures" -path "*/sikku/$file")" "$modules/$file"
 done
 SIKKU_INSTEAD=$slim/lib packaging/bundle.sh "$modules/libraries" "$staged/bin/sikku" "$modules/sikku_image.so" \
-    "$modules/sikku_decoder" > "$work/libraries"
+    "$modules/sikku_font.so" "$modules/sikku_decoder" > "$work/libraries"
 cp "$page" "$staged/share/sikku"
 licences=$staged/share/doc/sikku/licences
 mkdir -p "$licences"

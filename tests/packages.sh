@@ -2,10 +2,10 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libheif-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev
-    libasound2-dev)
+    libasound2-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev)
 # For tests: the framework, independent readers of the program's outputs, the linters, and the Python module.
 test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
-    ghostscript libtiff-tools libimage-exiftool-perl
+    ghostscript libtiff-tools libimage-exiftool-perl libharfbuzz-bin fonts-lohit-taml fonts-noto-core
     midicsv python3-mido python3-ezdxf clang-format clang-tidy
     pybind11-dev python3-dev python3-numpy python3-pytest python3-setuptools python3-wheel python3-venv mypy)
 # For the studio: the compiler to WebAssembly, a library for what its C++ library lacks, a compressor for the page, and

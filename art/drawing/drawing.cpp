@@ -83,9 +83,11 @@ DrawingReport Drawing::place(Print& print) {
     const Page page = print.page;
     // Corners that a cut has widened are cut off at the width of the cut.
     print.page.margin += border_space(page) + options_.kerf;
-    print.page.height -= foot_space(page);
+    const TextSpace text = text_space(page);
+    print.page.height -= text.total();
     DrawingReport report = place_print(print, placed, style().stroke, placement);
     print.page = page;
+    print.placement.to_page[2].y += text.above;
     if (options_.stretch != glm::dvec2(1.0)) {
         const glm::dvec2 middle = glm::dvec2(page.width, page.height) / 2.0;
         glm::dmat3x2& to_page = print.placement.to_page;

@@ -28,6 +28,12 @@ Window whole_page(const Page& page);
 /// Converts a window of the page, widened by `around` millimetres, into the coordinates of the drawing.
 Box seen_box(const Print& print, const Window& window, double around);
 
+/// Heights in millimetres, within the margins.
+struct TextSpace {
+    double above = 0, below = 0;
+    double total() const { return above + below; }
+};
+
 /// A drawing that is placed once and then read any number of times, with the same strokes each time. Implementations
 /// read the word (WordDrawing), draw only the visible parts (SeenDrawing), add dots and colours to another drawing
 /// (Composition), or frame it (FramedDrawing); make_drawing() combines them.
@@ -53,8 +59,8 @@ public:
     /// Width of the border on a page of that size, in millimetres on each side within the margins; 0 without a
     /// border.
     virtual double border_space(const Page&) const { return 0; }
-    /// Height of a line of text below the drawing and its border, in millimetres, within the margins; 0 without one.
-    virtual double foot_space(const Page&) const { return 0; }
+    /// Space for lines of text above and below the drawing and its border. @throws SettingError if they are too high
+    virtual TextSpace text_space(const Page&) const { return {}; }
     /// Bounds of all points of a drawing in space, without the width of pens; available after reading.
     virtual std::optional<SpaceBounds> bounds() const { return std::nullopt; }
     /// Distance between the nearest dots that are drawn, in steps; 0 if there are fewer than two.
@@ -114,7 +120,7 @@ public:
     double scale() const override { return inner_->scale(); }
     Balance balance() const override { return inner_->balance(); }
     double border_space(const Page& page) const override { return inner_->border_space(page); }
-    double foot_space(const Page& page) const override { return inner_->foot_space(page); }
+    TextSpace text_space(const Page& page) const override { return inner_->text_space(page); }
     double dot_distance() const override { return inner_->dot_distance(); }
     std::vector<int> hatched_colours() const override { return inner_->hatched_colours(); }
     void report(DrawingReport& report) const override { inner_->report(report); }

@@ -7,6 +7,7 @@
 #include "art/style/style.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 
 namespace sikku {
 
+class Font;
 class Grammar;
 class LessonMemo;
 class MapFrames;
@@ -43,6 +45,17 @@ struct Speck {
     double radius = 0;
 };
 
+/// Size, weight and place of a title line.
+struct TitleLook {
+    enum class Side : std::uint8_t { left, centre, right };
+
+    std::optional<double> size;  ///< height of capitals in millimetres; absent: by the size of the page
+    std::optional<double> stem;  ///< width of single strokes in millimetres, instead of `weight`
+    double weight = 0.085;       ///< the same as a share of the height of capitals
+    bool is_above = false;       ///< above the drawing, else below
+    Side side = Side::left;
+};
+
 /// Options of a drawing that users choose.
 struct DrawingSettings {
     PlacementOptions placement;
@@ -52,8 +65,10 @@ struct DrawingSettings {
     bool colours_strokes = false;       ///< draw each stroke in the next colour of the palette
     std::optional<Repeat> repeat{};     ///< copies of the drawing
     bool composes = false;              ///< place it by its shape and mass: see PlacementOptions::balance
-    std::optional<std::string> title_line{};  ///< text below the drawing on the left
-    std::string edition{};                    ///< text below the drawing on the right, such as 3/50; empty: none
+    std::optional<std::string> title_line{};  ///< text above or below the drawing
+    TitleLook title_look{};
+    std::string edition{};               ///< text below the drawing on the right, such as 3/50; empty: none
+    std::shared_ptr<const Font> font{};  ///< font of both texts; null: single strokes
     double kerf = 0;  ///< millimetres; the border of united edges of tiles moves outwards by half of it
     /// A colouring page, in a style from prepare_colouring(), whose closed regions have at least this area in mm².
     std::optional<double> colouring{};

@@ -51,7 +51,7 @@ public:
     LessonDrawing(std::unique_ptr<HandDrawing> drawing, const DrawingOptions& options, const Reading& reading);
 
     Balance balance() const override { return {}; }
-    double foot_space(const Page&) const override { return 0; }
+    TextSpace text_space(const Page&) const override { return {}; }
     std::vector<int> hatched_colours() const override { return {}; }
     using Drawing::read;
     void read(const Print& print, const Window& window, PathSink& sink) const override;

@@ -8,7 +8,6 @@
 #include "art/prints.h"
 #include "engine/base/text.h"
 #include "engine/base/threads.h"
-#include "engine/geometry/lettering.h"
 
 #include <fmt/format.h>
 
@@ -71,8 +70,8 @@ public:
                 for (const std::string& file : sheet_files(sheet)) {
                     make(file, sheet.size, order, result,
                          [&](const std::filesystem::path& path, FinishedJob& finished) {
-                             const std::string missing = draw_gallery_sheet(jobs_, sheet, path, monitor_);
-                             if (!missing.empty()) finished.warnings.push_back(letters_warning(missing));
+                             std::string missing = draw_gallery_sheet(jobs_, sheet, path, monitor_);
+                             if (!missing.empty()) finished.warnings.push_back(std::move(missing));
                          });
                 }
             }

@@ -263,7 +263,7 @@ std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const
     if (is_white(jobs, cells)) options.ground = white_paper;
     options.monitor = monitor;
     options.watch = [monitor](std::uint64_t) { monitor.check(); };
-    return draw_sheet(cells, options, file).missing_letters;
+    return draw_sheet(cells, options, file).letters_warning;
 }
 
 double gallery_sheet_memory(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,

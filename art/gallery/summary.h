@@ -34,7 +34,7 @@ void write_gallery_index(const std::vector<const GalleryJob*>& jobs, const std::
 
 /// Draws the prints among `jobs`, one for each name, on one sheet; the file's extension selects the format. Where
 /// patterns have several derivation lengths, each has rows of its own.
-/// @return the list of characters in its texts that the lettering font lacks
+/// @return a warning of characters in its texts that the lettering lacks; empty if it has all
 /// @throws GalleryError if no job is a print, and everything that draw_sheet() throws
 std::string draw_gallery_sheet(const std::vector<const GalleryJob*>& jobs, const SheetRequest& request,
                                const std::filesystem::path& file, const Monitor& monitor);

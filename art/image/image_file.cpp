@@ -1,11 +1,10 @@
 #include "art/image/image_file.h"
 
 #include "art/image/image_module.h"
-#include "art/image/module_folders.h"
 #include "art/image/png_writer.h"
+#include "art/module/module.h"
 #include "engine/base/threads.h"
 
-#include <dlfcn.h>
 #include <sys/mman.h>
 
 #include <algorithm>
@@ -37,36 +36,15 @@ void require_resources(int threads) {
     ::munmap(reserved, address_space);
 }
 
-/// Loads the module that comes with the running program, else the installed one. Never unloaded: OpenImageIO keeps
-/// threads of its own.
+/// Never unloaded: OpenImageIO keeps threads of its own.
 /// @param threads  threads for pictures (0: one for each core), as known to the first caller
 const ImageModule& image_module(int threads = 0) {
     static const ImageModule& loaded = [threads]() -> const ImageModule& {
         require_resources(threads);
-        std::string reasons;
-        const auto load = [&](const std::filesystem::path& file) -> const ImageModule* {
-            const std::string name = file.string();
-            void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
-            if (!library) {
-                const char* reason = dlerror();
-                reasons += std::string("\n  ") + (reason ? reason : "unknown error");
-                return nullptr;
-            }
-            void* symbol = dlsym(library, image_module_symbol);
-            const ImageModule* found = symbol ? reinterpret_cast<const ImageModule* (*)()>(symbol)() : nullptr;
-            if (found && found->version == image_module_version(SIKKU_VERSION)) return found;
-            dlclose(library);
-            reasons += "\n  " + name + ": made for another version of sikku";
-            return nullptr;
-        };
-        for (const std::filesystem::path& folder : module_folders()) {
-            if (const ImageModule* found = load(folder / "sikku_image.so")) return *found;
-        }
-        if (const std::string refused = refused_data(); reasons.empty() && !refused.empty()) reasons = ' ' + refused;
-        throw std::runtime_error(
+        return *static_cast<const ImageModule*>(load_module(
+            "sikku_image", image_module_version(SIKKU_VERSION),
             "TIFF, JPEG, EXR and CMYK profiles need the OpenImageIO module, which could not be loaded (on Debian 12, "
-            "install libopenimageio2.4 and liblcms2-2; PNG does not need it):" +
-            reasons);
+            "install libopenimageio2.4 and liblcms2-2; PNG does not need it)"));
     }();
     return loaded;
 }

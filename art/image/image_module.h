@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/image/image_file.h"
+#include "art/module/module.h"
 
 #include <string_view>
 
@@ -14,16 +15,8 @@ struct ImageModule {
     void (*check_cmyk_profile)(const std::filesystem::path& file);
     std::unique_ptr<InkProfile> (*open_inks)(const std::filesystem::path& file);
 };
-/// A number that changes with the program's version and with the sizes of the structures that both sides share
-/// (FNV-1a).
 constexpr std::uint64_t image_module_version(std::string_view program) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3; };
-    for (const char byte : program) add(static_cast<unsigned char>(byte));
-    for (const std::size_t size : {sizeof(ImageSpec), sizeof(DecodedPicture), sizeof(ImageModule)}) add(size);
-    return hash;
+    return module_version(program, {sizeof(ImageSpec), sizeof(DecodedPicture), sizeof(ImageModule)});
 }
-/// The only symbol, of type `const ImageModule* ()`, with C linkage.
-constexpr const char* image_module_symbol = "sikku_image_module";
 
 }  // namespace sikku

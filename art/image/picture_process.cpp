@@ -1,7 +1,7 @@
 // art/image/picture_process.cpp: read_picture(), which decodes pictures in a separate process.
 #include "art/image/decoder_answer.h"
 #include "art/image/image_file.h"
-#include "art/image/module_folders.h"
+#include "art/module/module.h"
 #include "engine/base/child_process.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/input_file.h"

@@ -7,6 +7,7 @@
 #include "art/plotter/plot_route.h"
 #include "engine/base/option.h"
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/contours.h"
 
 #include <fmt/format.h>
 
@@ -429,8 +430,9 @@ void PlotPlan::area(std::span<const glm::dvec2> outline, const Pen& pen) {
     if (outline.size() < 4 || print_.style.fill_colour(pen).alpha == 0) return;
     Gathered& into = outlines(pen);
     ++report_.fills;
-    into.add(Gathered::Kind::start, outline.first(1));
-    into.add(Gathered::Kind::curves, outline.subspan(1, (outline.size() - 1) / 3 * 3));
+    each_contour(
+        outline, [&](glm::dvec2 at) { into.add(Gathered::Kind::start, std::span(&at, 1)); },
+        [&](std::span<const glm::dvec2> curve) { into.add(Gathered::Kind::curves, curve); });
     if (outline.back() != outline.front()) into.add(Gathered::Kind::lines, outline.first(1));
     if (!options_.hatch) return;
     std::vector<glm::dvec2> vertices = {outline.front()};

@@ -1,6 +1,7 @@
 #include "art/product/draw_settings.h"
 
 #include "art/drawing/colouring_drawing.h"
+#include "art/font/font.h"
 #include "art/print/tiles.h"
 #include "art/relief/relief_options.h"
 #include "art/style/length.h"
@@ -194,6 +195,49 @@ void set_tile(DrawSettings& settings, const std::string& text) {
     if (comma == std::string::npos) return;
     settings.paper.tile->margin = length("tile", text.substr(comma + 1), settings.paper.dpi);
     if (settings.paper.tile->margin < 0) refuse_option("tile", text, "expected a margin of 0 or more");
+}
+
+/// Parses `thin`, `regular`, `bold` or the width of a stroke.
+void set_title_weight(DrawSettings& settings, const std::string& text) {
+    TitleLook& look = settings.look.title_look;
+    constexpr std::array<std::pair<std::string_view, double>, 3> weights = {
+        {{"thin", 0.05}, {"regular", TitleLook{}.weight}, {"bold", 0.14}}};
+    for (const auto& [name, weight] : weights) {
+        if (text != name) continue;
+        look.weight = weight;
+        return look.stem.reset();
+    }
+    const auto stem = parse_length(text, settings.paper.dpi);
+    if (!stem || !(*stem >= 0.01 && *stem <= longest)) {
+        refuse_option("title-weight", text, "expected thin, regular, bold or a width of at least 0.01mm");
+    }
+    look.stem = *stem;
+}
+
+/// Parses `above` or `below`, and `left`, `centre` or `right`, in either order; each may be missing.
+void set_title_place(DrawSettings& settings, const std::string& text) {
+    TitleLook& look = settings.look.title_look;
+    std::optional<bool> is_above;
+    std::optional<TitleLook::Side> side;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        const bool is_side = word == "left" || word == "centre" || word == "right";
+        if ((is_side && side) || (!is_side && (is_above || (word != "above" && word != "below")))) {
+            refuse_option("title-place", text,
+                          "expected above or below, and left, centre or right, such as above,centre");
+        }
+        if (is_side) {
+            side = word == "left"     ? TitleLook::Side::left
+                   : word == "centre" ? TitleLook::Side::centre
+                                      : TitleLook::Side::right;
+        } else {
+            is_above = word == "above";
+        }
+        begin = end + 1;
+    }
+    look.is_above = is_above.value_or(false);
+    look.side = side.value_or(TitleLook::Side::left);
 }
 
 void use_profile(DrawSettings& settings, PlotterProfile profile) {
@@ -408,6 +452,41 @@ const std::array own_rows = {
                .group = kolams,
                .scope = Scope::extras},
               [](S& s, Text t) { s.look.edition = t; }},
+    Option<S>{
+        {.name = "font",
+         .help = "write title line and edition, and on sheets headings and captions, in the outlines of an installed "
+                 "font, such as 'Noto Serif:bold', or of a .ttf or .otf file (single strokes)",
+         .value = "NAME|FILE",
+         .group = kolams,
+         .scope = Scope::extras,
+         .names_file = is_font_file},
+        [](S& s, Text t) {
+            if (t.empty()) refuse_option("font", t, "expected the name of an installed font, or a file");
+            s.look.font_name = t;
+        }},
+    Option<S>{{.name = "title-size",
+               .help = "height of the capitals of the title line (1.25 % of the page's shorter side)",
+               .value = "LENGTH",
+               .group = kolams,
+               .scope = Scope::extras},
+              [](S& s, Text t) {
+                  s.look.title_look.size = length_between("title-size", t, s.paper.dpi, 0.5, longest,
+                                                          "expected a height of at least 0.5mm and at most 10 m");
+              }},
+    Option<S>{{.name = "title-weight",
+               .help = "width of the single strokes of the title line (regular, which is 8.5 % of its height)",
+               .value = "LENGTH|thin|regular|bold",
+               .group = kolams,
+               .scope = Scope::extras,
+               .neutral = "regular"},
+              set_title_weight},
+    Option<S>{{.name = "title-place",
+               .help = "place of the title line: above or below the drawing, left, centre or right (below,left)",
+               .value = "PLACE[,PLACE]",
+               .group = kolams,
+               .scope = Scope::extras,
+               .neutral = "below,left"},
+              set_title_place},
     Option<S>{{.name = "colour-by",
                .help = "draw each line in its own colour",
                .value = "strand",
@@ -960,6 +1039,15 @@ DrawingOptions drawing_options(const DrawSettings& settings, const Document& doc
     if (title && title->empty()) title = std::filesystem::path(document.source().name()).stem().string();
     if (title && title->empty()) title.reset();
     return options;
+}
+
+std::shared_ptr<const Font> load_font(const std::string& name, const std::filesystem::path& folder) {
+    if (name.empty()) return nullptr;
+    try {
+        return open_font(name, folder);
+    } catch (const std::runtime_error& error) {
+        refuse_option("font", name, error.what());
+    }
 }
 
 bool is_relief(const DrawSettings& settings, PrintFormat format) {

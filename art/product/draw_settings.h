@@ -51,6 +51,7 @@ struct LookSettings : DrawingSettings {
     std::string light;                  ///< value for `light:`; empty: the pattern's
     std::optional<std::string> dots;    ///< value for `dots:`; empty: default size and colour
     std::optional<std::string> border;  ///< value for `border:`
+    std::string font_name;              ///< font of the texts around the drawing; empty: single strokes
 };
 
 /// Several derivation lengths, and what moves.
@@ -110,9 +111,13 @@ DrawSettings read_draw_settings(const OptionValues& values, const std::filesyste
 /// SettingError, PatternError
 Style read_print_style(const Document& document, const DrawSettings& settings);
 
-/// The options of the drawing, on its own page or in the cell of a sheet. The patterns of a border are not loaded:
-/// see load_border().
+/// The options of the drawing, on its own page or in the cell of a sheet. The patterns of a border and the font are
+/// not loaded: see load_border() and load_font().
 DrawingOptions drawing_options(const DrawSettings& settings, const Document& document);
+
+/// Opens the font of a name that is not empty, for texts around drawings. @param folder  of a file that it names
+/// @throws SettingError
+std::shared_ptr<const Font> load_font(const std::string& name, const std::filesystem::path& folder);
 
 /// The sheets that the print is cut into; `tile` must be set.
 std::shared_ptr<const TileOptions> tile_options(const DrawSettings& settings);

@@ -21,6 +21,7 @@ SheetOptions row_options(const Print& print, const DrawOptions& drawing) {
     static_cast<PictureOptions&>(sheet) = drawing;
     sheet.format = drawing.format;
     sheet.title = print.title;
+    sheet.font = drawing.font;
     // Captions are short, and are read from the same distance as the drawings.
     sheet.letters = std::clamp(std::min(print.page.width, print.page.height) * 0.016, 2.0, 12.0);
     sheet.inset = 0.055;
@@ -37,7 +38,7 @@ void make_row(const std::vector<SheetCell>& cells, SheetOptions sheet, const Dra
     sheet.monitor = options.monitor;
     sheet.watch = options.watch;
     const SheetLayout layout = draw_sheet(cells, sheet, name, destination);
-    warn_of_letters(layout.missing_letters, made);
+    warn_of_letters(layout.letters_warning, made);
     std::vector<FaintInk> faint;
     for (const DrawReport& drawn : layout.reports) faint.insert(faint.end(), drawn.faint.begin(), drawn.faint.end());
     warn_of_faint_inks(faint, made);

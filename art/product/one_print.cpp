@@ -1,13 +1,14 @@
 // art/product/one_print.cpp: one drawing on a page: prints, plots, swatches, tiled prints and reliefs.
+#include "art/font/letters.h"
 #include "art/image/image_file.h"
 #include "art/product/plot_remarks.h"
 #include "art/product/print_work.h"
 #include "art/relief/relief_options.h"
 #include "art/writer/draw.h"
 #include "art/writer/print_cost.h"
+#include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "engine/derivation/forecast.h"
-#include "engine/geometry/lettering.h"
 #include "engine/map/map_measurement.h"
 
 #include <fmt/format.h>
@@ -117,12 +118,22 @@ private:
     }
 
     void report_letters(const DrawOptions& options, Made& made) const {
-        std::vector<std::string> texts = {options.title_line.value_or(""), options.edition,
-                                          report.sheets > 1 ? print().title : ""};
+        std::vector<std::string> texts = {report.sheets > 1 ? print().title : ""};
+        std::vector<std::string> around = {options.title_line.value_or(""), options.edition};
+        if (options.font) {
+            report_font(options.font, around, made);
+        } else {
+            texts.insert(texts.begin(), around.begin(), around.end());
+        }
         for (const LabelText& label : grammar().labels()) {
             for (const LabelText::Part& part : label.parts) texts.push_back(part.text);
         }
-        warn_of_letters(missing_letters(texts), made);
+        warn_of_letters(Letters().missing(texts), made);
+    }
+
+    static void report_font(std::shared_ptr<const Font> font, const std::vector<std::string>& texts, Made& made) {
+        made.fact("font: " + printable(font->name(), 80));
+        warn_of_letters(Letters(std::move(font)).missing(texts), made);
     }
 
     void report_copies(Made& made) const {

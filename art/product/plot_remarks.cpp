@@ -41,9 +41,8 @@ void report_wide_strokes(const std::vector<PenTally>& pens, Made& made) {
 
 }  // namespace
 
-void warn_of_letters(const std::string& missing, Made& made) {
-    if (missing.empty()) return;
-    made.warn(letters_warning(missing));
+void warn_of_letters(std::string warning, Made& made) {
+    if (!warning.empty()) made.warn(std::move(warning));
 }
 
 std::string regions_text(const RegionReport& regions) {
@@ -135,6 +134,13 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
         warnings.emplace_back(
             "'powders' has no effect: powders colour fields and tiles; set 'fields', for example to kind, or 'tile "
             "colours'");
+    }
+    if (report.cuts_text) {
+        warnings.emplace_back(
+            settings.look.title_line
+                ? "the title line is too long for its place and is shortened; a smaller 'title-size' "
+                  "or a larger page shows more of it"
+                : "the edition is too long for its place and is shortened");
     }
     if (report.lacks_worms) {
         warnings.emplace_back("no tiles form worms: only rhombs do, three around a vertex");

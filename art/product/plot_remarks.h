@@ -18,8 +18,8 @@ namespace sikku {
 /// @param tiles  number of filled polygons
 void warn_of_no_tiles(std::uint64_t tiles, const DrawSettings& settings, Made& made);
 
-/// Warns that a text has characters that the lettering font lacks. @param missing  list of them; empty: none
-void warn_of_letters(const std::string& missing, Made& made);
+/// Warns that a text has characters that the lettering lacks. @param warning  of Letters::missing(); empty: none
+void warn_of_letters(std::string warning, Made& made);
 
 /// A fact about the regions of a colouring page.
 std::string regions_text(const RegionReport& regions);

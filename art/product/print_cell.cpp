@@ -11,6 +11,7 @@ SheetCell print_cell(const Document& document, const DrawSettings& settings, con
     cell.grammar = document.shared_grammar();
     cell.style = read_print_style(document, settings);
     load_border(cell.style, document, settings, folder, cell);
+    cell.font = load_font(settings.look.font_name, folder);
     cell.title = document.text("title");
     return cell;
 }

@@ -34,6 +34,7 @@ PrintWork::PrintWork(PrintRequest request)
     drop_floor();
     load_border(print_.style, document_, settings_, folder_, drawing_,
                 [this](const std::string& name, const std::string& text) { files_.emplace_back(name, text); });
+    drawing_.font = load_font(settings_.look.font_name, folder_);
     for (const auto& surface : request.document.grammar().surfaces()) {
         if (surface->source) files_.emplace_back(surface->source->name(), surface->source->text());
     }

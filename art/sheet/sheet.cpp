@@ -32,7 +32,7 @@ namespace {
 void SheetMaker::write_texts(double top, double bottom, PathSink& sink) const {
     for (const TextLine& line : plan_.texts) {
         if (line.at.y + line.height < top || line.at.y - 2 * line.height > bottom) continue;
-        write_text(line.text, {line.at.x, -line.at.y}, line.height, line.pen, sink);
+        letters_.write(line.text, {line.at.x, -line.at.y}, line.height, line.pen, sink);
     }
 }
 
@@ -227,7 +227,7 @@ SheetLayout draw_sheet(const std::vector<SheetCell>& cells, const SheetOptions& 
         }
         output.commit();
         layout.reports = sheet.reports();
-        layout.missing_letters = sheet.missing();
+        layout.letters_warning = sheet.missing();
     });
     return layout;
 }

@@ -40,7 +40,8 @@ struct SheetOptions : WriterOptions, PictureOptions, PlotSetup {
     Colour pale_ink{0x66, 0x5f, 0x56, 255};                        ///< colour of their less important parts
     std::string title;                                             ///< title above all cells; empty: none
     std::string subtitle;                                          ///< line under the title
-    std::string footer;         ///< line in the bottom margin, in the middle; empty: none
+    std::shared_ptr<const Font> font{};  ///< font of all these texts and of captions; null: single strokes
+    std::string footer;                  ///< line in the bottom margin, in the middle; empty: none
     int columns = 0;            ///< 0: the number for which the drawings are largest; rows under a heading may break
     std::optional<double> gap;  ///< millimetres between cells, exactly; absent: about a tenth of their width
     double inset = 0.08;        ///< space between a cell's border and its drawing, as part of the cell
@@ -66,7 +67,7 @@ struct SheetLayout {
     double letters = 0.0;         ///< height of a caption's capitals
     std::optional<PlotReport> plot;
     std::uint64_t polygons = 0;       ///< number of filled polygons that can be named
-    std::string missing_letters;      ///< list of characters in its texts that the lettering font lacks
+    std::string letters_warning;      ///< warning of characters in its texts that the lettering lacks
     std::vector<DrawReport> reports;  ///< findings of the drawings, in their order; without places and plots
 };
 

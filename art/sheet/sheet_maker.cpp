@@ -34,7 +34,7 @@ Pen text_pen(double width, bool pale) {
 }  // namespace
 
 SheetMaker::SheetMaker(const std::vector<SheetCell>& cells, const SheetOptions& options)
-    : cells_(cells), options_(options) {
+    : cells_(cells), options_(options), letters_(options.font) {
     if (cells.empty()) throw SettingError("", "", "a sheet needs at least one drawing");
     if (options_.format != PrintFormat::pdf) {
         // Only PDF has a separate box for the bleed.
@@ -74,7 +74,7 @@ std::vector<DrawReport> SheetMaker::reports() const {
 std::string SheetMaker::missing() const {
     std::vector<std::string> texts;
     for (const TextLine& line : plan_.texts) texts.push_back(line.text);
-    return missing_letters(texts);
+    return letters_.missing(texts);
 }
 
 /// Measures the drawings in parallel.
@@ -155,7 +155,8 @@ double SheetMaker::caption_height(double width, double letters) const {
         std::size_t lines = 0;
         for (std::size_t i = 0; i < cell.caption.size() && lines < options_.caption_lines; ++i) {
             const double size = i == 0 ? letters : small_letters * letters;
-            const auto parts = wrapped(cell.caption[i], size, width, i == 0 ? 2 : options_.caption_lines - lines);
+            const auto parts =
+                letters_.wrapped(cell.caption[i], size, width, i == 0 ? 2 : options_.caption_lines - lines);
             lines += parts.size();
             height += static_cast<double>(parts.size()) * size * line_pitch;
         }
@@ -225,7 +226,7 @@ double SheetMaker::drawn_step(const Subject& subject, double width, double heigh
     Page page{width, height, options_.inset * std::min(width, height)};
     const double border = subject.drawing->border_space(page);
     if (border > 0) page.margin = border + border_margin * std::min(width, height);
-    page.height -= subject.drawing->foot_space(page);
+    page.height -= subject.drawing->text_space(page).total();
     const double ink_steps = style.stroke.in_steps ? widest / 2 : 0;
     const double ink_millimetres = style.stroke.in_steps ? 0 : widest / 2 * factor;
     PlacementOptions fitted = subject.drawing->placement();
@@ -264,7 +265,7 @@ void SheetMaker::write_caption(const SheetCell& cell, const Window& window, doub
     for (std::size_t i = 0; i < cell.caption.size() && lines < options_.caption_lines; ++i) {
         const double height = i == 0 ? letters : small_letters * letters;
         for (std::string& line :
-             wrapped(cell.caption[i], height, window.width, i == 0 ? 2 : options_.caption_lines - lines)) {
+             letters_.wrapped(cell.caption[i], height, window.width, i == 0 ? 2 : options_.caption_lines - lines)) {
             y += height * line_pitch;
             const double left = aligned(line, height, window.left, window.width);
             plan_.texts.push_back({std::move(line), {left, y}, height, text_pen(stem * height, i > 0)});
@@ -353,10 +354,11 @@ void SheetMaker::lay_out(const Grid& grid, const Measures& m) {
     for (std::size_t row = 0; row < grid.rows.size(); ++row) {
         if (grid.headed[row]) {
             const double height = m.letters * 1.35;
-            plan_.texts.push_back({shortened(cells_[next].heading, height, page.width - page.margin - m.first.x),
-                                   {m.first.x, top + height},
-                                   height,
-                                   text_pen(title_stem * 1.3 * height, false)});
+            plan_.texts.push_back(
+                {letters_.shortened(cells_[next].heading, height, page.width - page.margin - m.first.x),
+                 {m.first.x, top + height},
+                 height,
+                 text_pen(title_stem * 1.3 * height, false)});
             top += m.heading;
         }
         // Rows under a heading begin below it, others stand in the middle.
@@ -382,7 +384,7 @@ void SheetMaker::write_title(double left) {
     if (!options_.title.empty()) {
         const double room = page.width - 2 * page.margin;
         double height = std::clamp(shorter * 0.032, 2.0, 40.0);
-        height = std::min(height, height * room / text_width(options_.title, height));
+        height = std::min(height, height * room / letters_.width(options_.title, height));
         const auto begin = [&](const std::string& text, double size) {
             return options_.is_centred ? aligned(text, size, page.margin, room) : left;
         };
@@ -391,7 +393,7 @@ void SheetMaker::write_title(double left) {
                                height,
                                text_pen(title_stem * height, false)});
         const double small = height * 0.36;
-        std::string subtitle = shortened(options_.subtitle, small, room);
+        std::string subtitle = letters_.shortened(options_.subtitle, small, room);
         const double subtitle_left = begin(subtitle, small);
         plan_.texts.push_back({std::move(subtitle),
                                {subtitle_left, page.margin + height + small * 2.4},
@@ -406,7 +408,7 @@ void SheetMaker::write_footer() {
     constexpr double most_letters = 3.0, share = 0.3;
     const Page& page = options_.page;
     const double height = std::min(most_letters, share * page.margin);
-    const double left = (page.width - text_width(options_.footer, height)) / 2;
+    const double left = (page.width - letters_.width(options_.footer, height)) / 2;
     plan_.texts.push_back({options_.footer,
                            {left, page.height - 0.5 * page.margin + height / 2},
                            height,
@@ -455,9 +457,10 @@ void SheetMaker::place_drawings() {
         print.page = {width, height, 0.0};
         PlacementOptions placement = subjects_[i].drawing->placement();
         placement.step = options_.same_scale ? least[subjects_[i].row] / units[i] : steps[i];
-        print.page.height -= subjects_[i].drawing->foot_space(print.page);
+        const TextSpace text = subjects_[i].drawing->text_space(print.page);
+        print.page.height -= text.total();
         print.placement = place(subjects_[i].extent.box, print.page, placement, 0.0, 0.0);
-        print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top);
+        print.placement.to_page[2] += glm::dvec2(cell.window.left, cell.window.top + text.above);
         print.page = options_.page;
         const double widest = subjects_[i].extent.widest;
         double pen = widest * (print.style.stroke.in_steps ? *placement.step : factor);

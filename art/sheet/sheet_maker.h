@@ -3,10 +3,10 @@
 
 #include "art/drawing/drawing.h"
 #include "art/drawing/drawing_cost.h"
+#include "art/font/letters.h"
 #include "art/raster/raster.h"
 #include "art/sheet/sheet.h"
 #include "art/sheet/sheet_pixels.h"
-#include "engine/geometry/lettering.h"
 
 #include <cstddef>
 #include <memory>
@@ -28,7 +28,7 @@ public:
     const SheetLayout& arrange();
     /// Findings of the drawings. Call after writing.
     std::vector<DrawReport> reports() const;
-    /// Characters in its texts that the lettering font lacks.
+    /// A warning of characters in its texts that the lettering lacks; empty if it has all.
     std::string missing() const;
     void write_vectors(PrintWriter& writer) const;
     /// Moves the sheet that was arranged to another place on its page, in millimetres.
@@ -116,7 +116,7 @@ private:
     void write_caption(const SheetCell& cell, const Window& window, double letters);
     /// The beginning of a line of text within a place of that width.
     double aligned(const std::string& text, double height, double left, double width) const {
-        return options_.is_centred ? left + (width - text_width(text, height)) / 2 : left;
+        return options_.is_centred ? left + (width - letters_.width(text, height)) / 2 : left;
     }
     void write_texts(double top, double bottom, PathSink& sink) const;
     std::vector<Strip> strips(PixelSize size, Colour ground) const;
@@ -124,6 +124,7 @@ private:
 
     const std::vector<SheetCell>& cells_;
     SheetOptions options_;
+    Letters letters_;
     Print print_;
     std::vector<Subject> subjects_;
     double usual_shape_ = 1.0;  ///< height by width of the drawings

@@ -19,7 +19,7 @@ using SheetPage = std::vector<PlacedSheet>;
 
 /// Draws pages into a PDF, which appears whole or not at all. Page, title, inks and monitor are those of `document`.
 /// Memory: that of the drawings of two pages. @throws as draw_sheet()
-/// @returns characters in the texts that the lettering font lacks
+/// @returns a warning of characters in the texts that the lettering lacks; empty if it has all
 std::string draw_pages(const std::vector<SheetPage>& pages, const SheetOptions& document,
                        const std::filesystem::path& file, Destination& destination = file_system());
 

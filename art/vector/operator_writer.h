@@ -3,6 +3,7 @@
 #pragma once
 
 #include "art/vector/vector_writer.h"
+#include "engine/geometry/contours.h"
 
 namespace sikku {
 
@@ -96,18 +97,15 @@ private:
         Layer& layer = layer_in({LayerKind::polygons, 0}, colour);
         begin_polygon(layer, {}, colour);
         const MicrometrePlacement place = place_;
-        put(layer, place(outline.front()), 'm');
-        outline = outline.subspan(1);
-        while (outline.size() >= 3) {
-            const auto block = outline.first(std::min(outline.size() / 3, this->block_points) * 3);
-            outline = outline.subspan(block.size());
-            char* out = layer.text.room(block.size() / 3 * curve_room);
-            for (std::size_t i = 0; i + 2 < block.size(); i += 3) {
-                out = put_curve(out, place(block[i]), place(block[i + 1]), place(block[i + 2]));
-            }
-            layer.text.filled_to(out);
-            this->flush(layer);
-        }
+        std::size_t curves = 0;
+        each_contour(
+            outline, [&](glm::dvec2 at) { put(layer, place(at), 'm'); },
+            [&](std::span<const glm::dvec2> curve) {
+                char* const out = layer.text.room(curve_room);
+                layer.text.filled_to(put_curve(out, place(curve[0]), place(curve[1]), place(curve[2])));
+                if (++curves % this->block_points == 0) this->flush(layer);
+            });
+        this->flush(layer);
         layer.text.append("f\n");
     }
 

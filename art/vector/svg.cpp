@@ -4,6 +4,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "engine/geometry/bezier.h"
+#include "engine/geometry/contours.h"
 #include "engine/geometry/polygon_classes.h"
 
 #include <fmt/format.h>
@@ -328,14 +329,20 @@ private:
         const bool appears = print_.animation && part_->style.hand > 0;
         char* out = layer.text.room(outline.size() / 3 * curve_room + line_room + 32);
         const MicrometrePlacement place = place_;
-        const Micrometres start = place(outline.front());
-        out = put_text(out, "<path d=\"M");
-        out = put_number(out, start.x);
-        out = put_next(out, start.y);
-        PathData path(start);
-        for (std::size_t i = 1; i + 2 < outline.size(); i += 3) {
-            path.curve(out, place(outline[i]), place(outline[i + 1]), place(outline[i + 2]));
-        }
+        out = put_text(out, "<path d=\"");
+        std::optional<PathData> path;
+        each_contour(
+            outline,
+            [&](glm::dvec2 at) {
+                const Micrometres start = place(at);
+                out = put_text(out, path ? "zM" : "M");
+                out = put_number(out, start.x);
+                out = put_next(out, start.y);
+                path.emplace(start);
+            },
+            [&](std::span<const glm::dvec2> curve) {
+                path->curve(out, place(curve[0]), place(curve[1]), place(curve[2]));
+            });
         out = put_text(out, appears ? "z\"" : "z\"/>\n");
         layer.text.filled_to(out);
         if (appears) {

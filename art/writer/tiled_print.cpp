@@ -228,7 +228,7 @@ DrawReport place_whole(Drawing& drawing, Print& print) {
     for (int i = 0; i < 20; ++i) {
         const double around = 2 * (print.page.margin + drawing.border_space(print.page));
         print.page.width = report.size.x + around;
-        print.page.height = report.size.y + around;
+        print.page.height = report.size.y + around + drawing.text_space(print.page).total();
     }
     return drawing.place(print);
 }

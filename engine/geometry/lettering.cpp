@@ -415,6 +415,16 @@ void write_stroke(const LetterStroke& stroke, glm::dvec2 start, double scale, co
     sink.end_stroke(stroke.is_closed);
 }
 
+/// The first character of a text as messages name it.
+std::string name_of(std::string_view text) {
+    const auto [code, bytes] = first_character(text);
+    if (code == 0xFFFD && bytes == 1)
+        return fmt::format("the byte {:#04x}", static_cast<unsigned char>(text.front()));
+    const bool is_control = code < 0x20 || code == 0x7F || (code >= 0x80 && code < 0xA0);
+    const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(code));
+    return is_control ? number : fmt::format("{} ({})", text.substr(0, bytes), number);
+}
+
 /// Number of bytes of the longest beginning that is at most `units` wide.
 std::size_t fitting(std::string_view text, double units) {
     double width = 0;
@@ -452,28 +462,29 @@ bool has_letters(std::string_view utf8) {
     return all;
 }
 
-std::string missing_letters(const std::vector<std::string>& texts) {
+std::string list_of_characters(const std::vector<std::string_view>& characters) {
     constexpr std::size_t most = 12;
-    std::vector<std::string> missing;
+    std::vector<std::string> names;
+    for (const std::string_view character : characters) {
+        std::string name = name_of(character);
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    }
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > most) list += fmt::format(" and {} more", names.size() - most);
+    return list;
+}
+
+std::string missing_letters(const std::vector<std::string>& texts) {
+    std::vector<std::string_view> missing;
     for (const std::string& whole : texts) {
         std::string_view text = whole;
         each_glyph(text, [&](const Glyph&, std::size_t taken, bool known) {
-            const auto [code, bytes] = first_character(text);
-            const std::string name =
-                code == 0xFFFD && bytes == 1
-                    ? fmt::format("the byte {:#04x}", static_cast<unsigned char>(text.front()))
-                : code < 0x20 || code == 0x7F || (code >= 0x80 && code < 0xA0)
-                    ? fmt::format("U+{:04X}", static_cast<unsigned>(code))
-                    : fmt::format("{} (U+{:04X})", text.substr(0, bytes), static_cast<unsigned>(code));
-            if (!known && std::find(missing.begin(), missing.end(), name) == missing.end()) missing.push_back(name);
+            if (!known) missing.push_back(text);
             text.remove_prefix(taken);
         });
     }
-    if (missing.empty()) return "";
-    std::string list;
-    for (std::size_t i = 0; i < std::min(missing.size(), most); ++i) list += (i > 0 ? ", " : "") + missing[i];
-    if (missing.size() > most) list += fmt::format(" and {} more", missing.size() - most);
-    return list;
+    return list_of_characters(missing);
 }
 
 std::string letters_warning(const std::string& missing) {
@@ -498,12 +509,11 @@ std::string shortened(std::string_view utf8, double height, double width) {
     return std::string(trimmed(utf8.substr(0, fitting(utf8, room)))).append(ellipsis);
 }
 
-std::vector<std::string> wrapped(std::string_view utf8, double height, double width, std::size_t most) {
-    const double units = width / (height / capital);
+std::vector<std::string> wrapped(std::string_view utf8, std::size_t most, const TextCuts& cuts) {
     std::vector<std::string> lines;
     std::string_view rest = trimmed(utf8);
     while (lines.size() + 1 < most) {
-        std::size_t end = fitting(rest, units);
+        std::size_t end = cuts.fitting(rest);
         if (end == rest.size()) break;
         if (rest[end] != ' ') {
             const std::size_t space = rest.rfind(' ', end);
@@ -518,8 +528,15 @@ std::vector<std::string> wrapped(std::string_view utf8, double height, double wi
         lines.emplace_back(trimmed(rest.substr(0, end)));
         rest = trimmed(rest.substr(end));
     }
-    lines.push_back(shortened(rest, height, width));
+    lines.push_back(cuts.shortened(rest));
     return lines;
+}
+
+std::vector<std::string> wrapped(std::string_view utf8, double height, double width, std::size_t most) {
+    const double units = width / (height / capital);
+    return wrapped(utf8, most,
+                   {[&](std::string_view text) { return fitting(text, units); },
+                    [&](std::string_view text) { return shortened(text, height, width); }});
 }
 
 }  // namespace sikku

@@ -4,6 +4,7 @@
 #include "engine/geometry/path.h"
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ bool has_letters(std::string_view utf8);
 /// is missing.
 std::string missing_letters(const std::vector<std::string>& texts);
 
+/// Lists the first characters of texts in the same way, for other fonts.
+std::string list_of_characters(const std::vector<std::string_view>& characters);
+
 /// Returns a warning about missing characters. @param missing  a list of them that is not empty
 std::string letters_warning(const std::string& missing);
 
@@ -45,5 +49,13 @@ std::string shortened(std::string_view utf8, double height, double width);
 /// Breaks a text into at most `most` lines (at least one) of at most that width: at spaces; a word longer than a line
 /// breaks after a hyphen, or else between any characters. The rest is shortened in the last line.
 std::vector<std::string> wrapped(std::string_view utf8, double height, double width, std::size_t most);
+
+/// Where lines of a text end, for other fonts.
+struct TextCuts {
+    std::function<std::size_t(std::string_view)> fitting;    ///< bytes of the longest beginning that fits
+    std::function<std::string(std::string_view)> shortened;  ///< the text, or as much of it as fits with `…`
+};
+/// Breaks a text likewise.
+std::vector<std::string> wrapped(std::string_view utf8, std::size_t most, const TextCuts& cuts);
 
 }  // namespace sikku

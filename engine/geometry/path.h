@@ -40,8 +40,8 @@ public:
     virtual void polygon(std::span<const glm::dvec2> vertices, const Pen& pen) = 0;
     /// A filled area bounded by Béziers: the point where its outline begins, then three control points for each
     /// curve, at least one curve; a straight line closes it if the last curve ends elsewhere. It may cross itself
-    /// (non-zero winding rule). By default it is passed on as a polygon that deviates by at most 1/1000 of the larger
-    /// side of its bounding box.
+    /// (non-zero winding rule). Further contours follow after bridges: see engine/geometry/contours.h. By default it
+    /// is passed on as a polygon that deviates by at most 1/1000 of the larger side of its bounding box.
     virtual void area(std::span<const glm::dvec2> outline, const Pen& pen);
     /// A filled disc. `radius` in turtle steps; 0 is a dot (`@.`), which the style sizes by the pen.
     virtual void disc(glm::dvec2 centre, double radius, const Pen& pen) = 0;

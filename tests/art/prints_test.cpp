@@ -84,6 +84,71 @@ TEST(Prints, NothingStandsAroundAPartOfADrawing) {
     EXPECT_TRUE(has(refusal({{"window", "0,0,9,9"}, {"edition", "3/50"}}), "would cross the text"));
 }
 
+/// The box of the letters of a title in micrometres of the page, without its pen, by the width of which it is found.
+Box box_of_title(const char* stem, const OptionValues& more) {
+    OptionValues values = {{"n", "1"}, {"size", "100x150mm"}, {"title-line", "HHH"}};
+    values.insert(values.end(), more.begin(), more.end());
+    const auto document = svg("snake-kolam", values);
+    Box box;
+    for (const auto& path : document.select_nodes((std::string("//path[@stroke-width='") + stem + "']").c_str())) {
+        std::istringstream data(path.node().attribute("d").value());
+        // Letters of H are strokes of straight lines: M x y, then v and h.
+        char command = 0;
+        glm::dvec2 at{0.0};
+        while (data >> command) {
+            double first = 0, second = 0;
+            data >> first;
+            if (command == 'M') data >> second;
+            at = command == 'M' ? glm::dvec2(first, second)
+                                : at + (command == 'h' ? glm::dvec2(first, 0) : glm::dvec2(0, first));
+            box.add(at);
+        }
+    }
+    return box;
+}
+
+TEST(Prints, ATitleHasItsSizeAndItsPlace) {
+    const Box usual = box_of_title("106.25", {});
+    EXPECT_NEAR(usual.high.y - usual.low.y, 1250, 2);
+    EXPECT_NEAR(usual.high.y, 140'000, 60);
+    const Box large = box_of_title("510", {{"title-size", "6mm"}});
+    EXPECT_NEAR(large.high.y - large.low.y, 6000, 2);
+    EXPECT_NEAR(large.low.x, 10'000 + (usual.low.x - 10'000) * 6 / 1.25, 2);
+    const Box middle = box_of_title("510", {{"title-size", "6mm"}, {"title-place", "centre"}});
+    EXPECT_NEAR((middle.low.x + middle.high.x) / 2, 50'000, 2);
+    EXPECT_NEAR(middle.high.y, large.high.y, 1);
+    const Box above = box_of_title("510", {{"title-size", "6mm"}, {"title-place", "right,above"}});
+    EXPECT_NEAR(above.low.y, 10'000, 2);
+    EXPECT_NEAR(above.high.x, 100'000 - large.low.x, 2);
+    // Descenders stay on the page.
+    EXPECT_LT(box_of_title("1700", {{"title-size", "20mm"}, {"margin", "2mm"}}).high.y, 150'000 - 0.4 * 20'000 + 1);
+}
+
+TEST(Prints, TitlesAreRefusedOrReportedIfTheyDoNotFit) {
+    const Document snake = load("snake-kolam");
+    const auto refusal = [&](const OptionValues& values) { return error_of([&] { draw(snake, "svg", values); }); };
+    const std::string title = "title-line";
+    EXPECT_TRUE(has(refusal({{"font", "Noto Serif"}}), "needs 'title-line' or 'edition'"));
+    for (const char* option : {"title-size", "title-weight", "title-place"}) {
+        const char* value = option == std::string("title-place") ? "above" : "1mm";
+        EXPECT_TRUE(has(refusal({{option, value}, {"edition", "3"}}), "needs 'title-line'")) << option;
+    }
+    EXPECT_TRUE(has(refusal({{title, ""}, {"title-size", "200mm"}}), "too high for a page or cell"));
+    EXPECT_TRUE(has(refusal({{title, ""}, {"title-weight", "5mm"}}), "expected at most a fourth"));
+    for (const char* place : {"", "up", "left,right", "above,above", "above,left,centre", "left,"}) {
+        EXPECT_TRUE(has(refusal({{title, ""}, {"title-place", place}}), "expected above or below")) << place;
+    }
+    for (const char* weight : {"", "heavy", "0", "-1mm"}) {
+        EXPECT_TRUE(has(refusal({{title, ""}, {"title-weight", weight}}), "expected thin")) << weight;
+    }
+    EXPECT_NE(refusal({{title, ""}, {"font", "No such font at all"}}), "");
+    MemoryDestination memory;
+    const Made made =
+        prints().plan(snake, "svg", {{title, std::string(10'000, 'k')}}, {})->make(memory, "print.svg", {}, 1);
+    ASSERT_EQ(made.remarks.size(), 1u);
+    EXPECT_TRUE(has(made.remarks.front().text, "the title line is too long for its place"));
+}
+
 TEST(Prints, ABorderIsALayerOfItsOwnWithinTheMargins) {
     const auto plain = svg("snake-kolam", {{"n", "2"}});
     const auto framed = svg("snake-kolam", {{"n", "2"}, {"border", "kaavi"}});

@@ -11,7 +11,7 @@ cd "$(dirname "$0")/../.."
 seconds=${FUZZ_SECONDS:-60}
 
 targets=(pattern_fuzz derivation_fuzz import_fuzz surface_fuzz scl_fuzz kbm_fuzz gallery_toml_fuzz gallery_jsonl_fuzz show_fuzz
-    midi_fuzz icc_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz photograph_fuzz)
+    midi_fuzz icc_fuzz font_fuzz link_fuzz grid_fuzz reading_fuzz svg_fuzz photograph_fuzz)
 # One target for $seconds. What it finds is written to build/fuzz/; mend it and add the file to tests/corpus.
 fuzz() {
     local target=$1 corpus=build/fuzz/corpus-$1 timeout=10 seeds
@@ -20,6 +20,7 @@ fuzz() {
         show_fuzz) seeds=(tests/corpus/show tests/corpus/midi) ;;
         midi_fuzz) seeds=(tests/corpus/midi) ;;
         icc_fuzz) seeds=(tests/corpus/icc) ;;
+        font_fuzz) seeds=(-max_len=100000 /usr/share/fonts/truetype/lohit-tamil) ;; # in fonts-lohit-taml
         link_fuzz) seeds=(tests/corpus/link) ;;
         grid_fuzz) seeds=(tests/corpus/grids) ;;
         reading_fuzz) seeds=(tests/corpus/reading) ;;

@@ -86,9 +86,12 @@ const std::vector<Room>& rooms() {
         {"art/plotter", "engine/* art/style art/print", ""},
         {"art/space", "engine/* art/style art/print art/raster", ""},
         {"art/relief", "engine/* art/style art/print art/kolam art/plotter art/space", ""},
-        {"art/image", "engine/*", "oiio lcms posix zlib"},
+        {"art/module", "engine/*", "posix"},
+        {"art/font", "engine/* art/module", "harfbuzz fribidi fontconfig"},
+        {"art/image", "engine/* art/module", "oiio lcms posix zlib"},
         {"art/decoder", "art/image", "oiio heif posix zlib"},
-        {"art/drawing", "engine/* art/style art/print art/kolam art/hand art/raster art/plotter art/space", ""},
+        {"art/drawing", "engine/* art/style art/print art/kolam art/hand art/raster art/plotter art/space art/font",
+         ""},
         {"art/tiles", "engine/* art/style art/print art/plotter art/drawing", ""},
         {"art/deep", "engine/* art/style art/print art/raster art/drawing art/tiles", ""},
         {"art/writer",
@@ -98,9 +101,11 @@ const std::vector<Room>& rooms() {
         {"art/motion", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", ""},
         {"art/cutting",
          "engine/* art/style art/print art/vector art/plotter art/image art/drawing art/tiles art/writer", ""},
-        {"art/sheet", "engine/* art/style art/print art/vector art/raster art/image art/drawing art/writer", ""},
+        {"art/sheet", "engine/* art/style art/print art/vector art/raster art/font art/image art/drawing art/writer",
+         ""},
         {"art/product",
-         "engine engine/* art/style art/print art/raster art/plotter art/relief art/image art/drawing art/writer "
+         "engine engine/* art/style art/print art/raster art/plotter art/relief art/font art/image art/drawing "
+         "art/writer "
          "art/motion art/sheet",
          ""},
         {"art", "engine engine/* art/*", ""},
@@ -122,7 +127,7 @@ const std::vector<Room>& rooms() {
          "pybind11 posix"},
         {"studio", "engine engine/* art art/* music music/*", "json"},
         {"studio/tests", "studio", ""},
-        {"studio/wasm", "engine/* art/image studio", "zlib emscripten"},
+        {"studio/wasm", "engine/* art/font art/image studio", "zlib emscripten"},
     };
     return table;
 }
@@ -137,17 +142,31 @@ bool allows(const std::string& rooms, const std::string& room) {
 
 /// The library that a header in angle brackets belongs to; empty for the standard library.
 std::string library_of(const std::string& name) {
-    static const std::map<std::string, std::string> folders = {
-        {"alsa", "alsa"},   {"boost", "boost"},   {"fmt", "fmt"},          {"glm", "glm"},
-        {"oneapi", "tbb"},  {"tbb", "tbb"},       {"OpenImageIO", "oiio"}, {"CLI", "cli11"},
-        {"toml++", "toml"}, {"nlohmann", "json"}, {"sys", "posix"},        {"fast_float", "fast_float"},
-        {"embedded", ""},   {"libheif", "heif"},  {"linux", "posix"},      {"pybind11", "pybind11"}};
+    static const std::map<std::string, std::string> folders = {{"alsa", "alsa"},
+                                                               {"boost", "boost"},
+                                                               {"fmt", "fmt"},
+                                                               {"glm", "glm"},
+                                                               {"oneapi", "tbb"},
+                                                               {"tbb", "tbb"},
+                                                               {"OpenImageIO", "oiio"},
+                                                               {"CLI", "cli11"},
+                                                               {"toml++", "toml"},
+                                                               {"nlohmann", "json"},
+                                                               {"sys", "posix"},
+                                                               {"fast_float", "fast_float"},
+                                                               {"embedded", ""},
+                                                               {"libheif", "heif"},
+                                                               {"linux", "posix"},
+                                                               {"pybind11", "pybind11"},
+                                                               {"fontconfig", "fontconfig"}};
     static const std::map<std::string, std::string> files = {
-        {"zlib.h", "zlib"},     {"lcms2.h", "lcms"},           {"fcntl.h", "posix"},       {"unistd.h", "posix"},
-        {"dlfcn.h", "posix"},   {"pugixml.hpp", "pugixml"},    {"link.h", "posix"},        {"signal.h", "posix"},
-        {"spawn.h", "posix"},   {"sched.h", "posix"},          {"poll.h", "posix"},        {"termios.h", "posix"},
-        {"immintrin.h", ""},    {"emmintrin.h", ""},           {"lcms2_plugin.h", "lcms"}, {"dirent.h", "posix"},
-        {"pthread.h", "posix"}, {"emscripten.h", "emscripten"}};
+        {"zlib.h", "zlib"},    {"lcms2.h", "lcms"},     {"fcntl.h", "posix"},
+        {"unistd.h", "posix"}, {"dlfcn.h", "posix"},    {"pugixml.hpp", "pugixml"},
+        {"link.h", "posix"},   {"signal.h", "posix"},   {"spawn.h", "posix"},
+        {"sched.h", "posix"},  {"poll.h", "posix"},     {"termios.h", "posix"},
+        {"immintrin.h", ""},   {"emmintrin.h", ""},     {"lcms2_plugin.h", "lcms"},
+        {"dirent.h", "posix"}, {"pthread.h", "posix"},  {"emscripten.h", "emscripten"},
+        {"hb.h", "harfbuzz"},  {"hb-ot.h", "harfbuzz"}, {"fribidi.h", "fribidi"}};
     if (const auto file = files.find(name); file != files.end()) return file->second;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return name.find('.') == std::string::npos ? "" : name;
@@ -224,6 +243,17 @@ TEST(Arrows, OpenImageIoStaysInsideTheModuleAndTheDecoder) {
         }
     }
     EXPECT_EQ(users, (std::set<std::string>{"art/decoder/picture_reader.cpp", "art/image/image_module.cpp"}));
+}
+
+TEST(Arrows, LibrariesOfFontsStayInsideTheModule) {
+    std::set<std::string> users;
+    for (const char* folder : {"engine", "art", "music", "cli", "python", "studio"}) {
+        for (const auto& [file, name, quoted] : includes_of(folder)) {
+            if (name.starts_with("hb") || name == "fribidi.h" || name.starts_with("fontconfig/")) users.insert(file);
+        }
+    }
+    EXPECT_EQ(users, (std::set<std::string>{"art/font/font_search.cpp", "art/font/font_shaping.cpp",
+                                            "art/font/text_runs.cpp", "art/font/text_runs.h"}));
 }
 
 /// Two types of one name in a namespace break the one-definition rule as soon as both are used in templates such as

@@ -172,6 +172,12 @@ TEST(Show, RecipesMakeTheSameBytesAgain) {
     check("draw", framed + " --size A6 --border none", "svg");
     check("draw", framed + " --set border=rope --border lotus --size A6 --title-line 'x --seed 5 --generations 3'",
           "svg");
+    check("draw",
+          framed + " --size A6 --title-line 'Kolam' --title-size 6mm --title-weight 0.3mm --title-place above,right",
+          "pdf");
+    if (std::filesystem::exists("/usr/share/fonts/truetype/noto/NotoSerif-Bold.ttf")) {
+        check("draw", framed + " --size A6 --title-line 'Kolam' --font 'Noto Serif:bold'", "svg");
+    }
     check("draw", framed + " --profile marlin --gcode-start $'G0 X1\\nM3 \\'a\\''", "gcode");
     for (const char* format : {"hpgl", "dxf"}) check("draw", "bag-of-candies --rotate 30", format);
     check("draw", "hat", "obj");

@@ -106,6 +106,34 @@ TEST_F(SheetProgram, BordersAndLinesOfTextComeFromThePattern) {
     EXPECT_EQ(run({"draw", "b.lsys", "-o", "b.svg", "--border", "pipe.lsys"}, here_).status, 2);
 }
 
+TEST_F(SheetProgram, AFontAppliesToAllTextsOfASheet) {
+    if (!std::filesystem::exists("/usr/share/fonts/truetype/noto/NotoSerif-Bold.ttf")) {
+        GTEST_SKIP() << "fonts-noto-core is not installed";
+    }
+    folder_.write("l.lsys", "title: Law\naxiom: F+F\nground: none\nstroke: 1mm navy\n");
+    const auto sheet = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"sheet", "l.lsys", "-o", "s.svg"});
+        return run(more, here_);
+    };
+    const auto areas = [&](const std::vector<std::string>& more) {
+        const Outcome outcome = sheet(more);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        const std::string text = contents(folder_ / "s.svg");
+        std::size_t count = 0;
+        for (std::size_t at = 0; (at = text.find("z\"/>", at)) != std::string::npos; ++at) ++count;
+        return count;
+    };
+    const std::vector<std::string> font = {"--font", "Noto Serif"};
+    EXPECT_EQ(areas({"--titles", "title", font[0], font[1]}), 3u);
+    EXPECT_EQ(areas({"--titles", "title", "--heading", "Two words", font[0], font[1]}), 11u);
+    EXPECT_EQ(areas({"--title-line=Oak", font[0], font[1]}), 3u);
+    EXPECT_EQ(areas({"--titles", "title"}), 0u);
+    const Outcome refused = sheet(font);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(has(refused.errors, "--font: needs 'titles', 'heading', --title-line or --edition"))
+        << refused.errors;
+}
+
 TEST_F(SheetProgram, ReportsWhatDrawReportsOnceWithTheNamesOfTheDrawings) {
     folder_.write("line.lsys", "title: Line\naxiom: FF\n");
     const Outcome dots = sheet({"line.lsys", "snake-kolam", "line.lsys@title=Second", "--dots", "-o", "x.svg"});

@@ -52,7 +52,7 @@ fi
 compiled() {
     local folder=$build/$1
     shift
-    cmake -S . -B "$folder" -G Ninja -DSIKKU_TESTS=OFF -DSIKKU_PICTURES=OFF -DCMAKE_UNITY_BUILD=ON \
+    cmake -S . -B "$folder" -G Ninja -DSIKKU_TESTS=OFF -DSIKKU_PICTURES=OFF -DSIKKU_FONTS=OFF -DCMAKE_UNITY_BUILD=ON \
         -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@" > "$folder.log" 2>&1 || { tail -n 30 "$folder.log"; fail "$folder: not configured"; }
     cmake --build "$folder" -j "$(nproc)" --target sikku > "$folder.log" 2>&1 ||
         { tail -n 30 "$folder.log"; fail "$folder: not built"; }

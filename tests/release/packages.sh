@@ -35,7 +35,10 @@ if in_root "$root" sikku draw hilbert -o /tmp/first.tif 2> "$work/message"; then
 grep -q -i 'openimageio' "$work/message" || { cat "$work/message"; fail "the message does not name OpenImageIO"; }
 [ ! -e "$root/tmp/first.tif" ] || fail "a refused picture is there"
 
-for package in libopenimageio2.4 libheif1 liblcms2-2 sikku-studio; do
+if in_root "$root" sikku draw hilbert --title-line=x --font Nonesuch -o /tmp/none.svg 2> "$work/message"; then fail "a font without HarfBuzz"; fi
+grep -q libharfbuzz0b "$work/message" || { cat "$work/message"; fail "the message does not name HarfBuzz"; }
+
+for package in libopenimageio2.4 libheif1 liblcms2-2 libharfbuzz0b libfribidi0 libfontconfig1 sikku-studio; do
     dpkg-deb -f "$dist"/sikku_*.deb Recommends | grep -q "$package" || fail "sikku does not recommend $package"
 done
 

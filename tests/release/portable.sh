@@ -66,6 +66,7 @@ broken() {
 }
 broken share/sikku/patterns '/opt/a folder/share/sikku/patterns contains no patterns' draw hilbert -o /tmp/x.svg
 broken lib/sikku/sikku_image.so sikku_image draw hilbert -o /tmp/x.tif
+broken lib/sikku/sikku_font.so sikku_font draw hilbert --title-line=x --font Nonesuch -o /tmp/x.svg
 broken lib/sikku/sikku_decoder sikku_decoder kolam --read /tmp/kolam.png -o /tmp/x.lsys
 broken share/sikku/sikku-studio.html studio studio -o /tmp/x.html
 echo "portable archive: $size MB unpacked; runs with only the C library, also after it was moved"
