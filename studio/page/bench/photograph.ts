@@ -7,7 +7,7 @@ import { openPattern } from "../opening";
 import type { ReadPhotograph } from "../protocol";
 import { dotFixes } from "./dot_fixes";
 import type { DotGrid, Place } from "./dot_grid";
-import { first_look, withLook } from "./kolam_text";
+import { first_look, readKolam, withLook } from "./kolam_text";
 
 /// What the board shows of it.
 export interface Underlay {
@@ -144,7 +144,8 @@ export async function readPhotograph(studio: Studio, file: File, reading: Readin
         const { found, picture } = await requestReading(studio, file, reading);
         latest = new Photograph(file, reading.part ?? 1, found, picture);
         const name = `${file.name.replace(/\.\w+$/, "")}.lsys`;
-        openPattern(studio, { name, text: withLook(found.text, first_look) }, "bench");
+        const text = withLook(found.text, first_look);
+        openPattern(studio, { name, text }, readKolam(text) ? "bench" : "map"); // the bench takes up to 1000 gaps
         const doubts = found.doubtful.length;
         const doubtful = doubts === 0 ? "no gap is doubtful" : `${counted(doubts, "gap")} ${doubts === 1 ? "is" : "are"} doubtful`;
         studio.say(`${file.name}: ${found.summary}; ${doubtful}.`, doubts > 0 ? "warning" : "fact");
