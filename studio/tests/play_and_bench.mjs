@@ -176,7 +176,7 @@ async function bench() {
     assert.match(await states(), /^89 gaps crossed, 1 turned back\.$/);
     await page.keyboard.press("c");
     assert.match(await states(), /^90 gaps crossed\.$/);
-    assert.equal(await page.locator(".bench-lock:visible").count(), 10);
+    assert.equal(await page.locator("[aria-label='Symmetry'] .bench-lock:visible").count(), 10);
     await page.click('[aria-label="Sixth of a turn"]');
     await page.click("button:has-text('Join all')");
     assert.match(await states(), /^90 gaps joined\.$/);
