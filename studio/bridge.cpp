@@ -249,6 +249,7 @@ Json answer(const Json& request, const std::string& file, const Monitor& monitor
     if (what == "scale") return answer_scale(request, file);
     if (what == "dots") return answer_dots(request);
     if (what == "grid") return answer_grid(request, monitor);
+    if (what == "read") return answer_read(request, file, monitor, bytes);
     if (what == "command") return answer_command(request);
     if (what == "link") return answer_link(request);
     if (what == "read_link") return answer_read_link(request);

@@ -90,17 +90,18 @@ Json symmetries_of(const DotGrid& grid) {
     return all;
 }
 
-/// The lines as the control points of their splines, in the units of GridDot: on straight dots the midpoints of the
-/// sides of dots that they pass.
-Json strands(const DotGrid& grid, const GapStates& states, const Monitor& monitor) {
+/// The lines as the control points of their splines, in the units of GridDot: on straight dots with a round rim the
+/// midpoints of the sides of dots that they pass.
+Json strands(const DotGrid& grid, const GapStates& states, RimStyle style, const Monitor& monitor) {
     Json all = Json::array();
     Pulse pulse(monitor);
-    const KolamRim rim(grid, states, RimStyle::round);
+    const KolamRim rim(grid, states, style);
+    const bool is_square = grid.lattice() == DotLattice::square;
     for (const ArcStep& start : line_starts(grid, states, monitor)) {
         Json points = Json::array();
-        if (grid.lattice() == DotLattice::triangular) {
+        if (!is_square || rim.shaped() > 0) {
             for (const glm::dvec2 place : rounded_line(grid, states, start, rim, pulse)) {
-                points.push_back({2 * place.x, 4 / std::numbers::sqrt3 * place.y});
+                points.push_back({2 * place.x, (is_square ? 2 : 4 / std::numbers::sqrt3) * place.y});
             }
             all.push_back(std::move(points));
             continue;
@@ -184,15 +185,18 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     options.description =
         fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), summary_of(states), counted(lines, "line"));
     options.coloured = flag_of(request, "coloured");
+    options.rim = parse_rim_style(text_of(request, "rim", "round"));
     options.monitor = monitor;
 
-    answer["text"] = kolam_pattern(grid, states, options).text;
+    const KolamPattern pattern = kolam_pattern(grid, states, options);
+    answer["text"] = pattern.text;
+    answer["shaped"] = pattern.shaped;
     answer["grid"] = grid.text();
     answer["gaps"] = gap_states_text(grid, states);
     answer["lines"] = lines;
     answer["changed"] = changed;
     if (flag_of(request, "strands")) {
-        answer["strands"] = strands(grid, states, monitor);
+        answer["strands"] = strands(grid, states, options.rim, monitor);
         answer["line_orbits"] = line_orbits(grid, states, monitor);
     }
     return answer;

@@ -144,6 +144,7 @@ private:
         text_ += kolam_head(options_);
         if (states_.size() > most_listed_gaps) return;
         text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states_));
+        if (options_.rim != RimStyle::round) text_ += fmt::format("// rim: {}\n", rim_style_name(options_.rim));
     }
     bool is_single() const { return starts_.size() == 1; }
     /// The class of each line, which determines its colour.

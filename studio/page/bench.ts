@@ -5,8 +5,10 @@ import { certificateText } from "./bench/certificate";
 import { makeGrid, parseStates, statesText, crossed, joined, turned, type DotGrid, type GridSymmetry, type Place } from "./bench/dot_grid";
 import { changeText, gapText, neighbour, placeText, statesTold } from "./bench/gap_names";
 import { Kolam, type Change } from "./bench/kolam";
-import { readKolam, withEditsOf, withLook } from "./bench/kolam_text";
-import { first_chances, Side, type Chances, type Look } from "./bench/side";
+import { doubtsText, gapPlaces } from "./bench/doubts";
+import { first_look, type Look, readKolam, usual_rows, withEditsOf, withLook, type Word, wordGrid, wordTitle } from "./bench/kolam_text";
+import { forgetPhotograph, latestPhotograph, type Photograph, readPhotograph, requestReading, type Underlay, type View } from "./bench/photograph";
+import { first_chances, Side, type Chances } from "./bench/side";
 import { singleLineNear } from "./bench/symmetry";
 import { makeTools, type Tool } from "./bench/tools";
 import type { MakePanel, Panel, Studio } from "./context";
@@ -21,7 +23,16 @@ type GridRequest = Extract<Request, { do: "grid" }>;
 type DotsRequest = Extract<Request, { do: "dots" }>;
 
 const typing_pause = 250; // milliseconds after which a typed grid is checked
-const letters: Record<string, number> = { t: turned, c: crossed, j: joined };
+const state_keys: Record<string, number> = { t: turned, c: crossed, j: joined };
+
+/// Looks that patterns set by keys.
+const look_keys: [keyof Look, keys: string[]][] = [["ground", ["ground", "paper"]], ["hand", ["hand"]], ["isFilled", ["fields"]], ["hasDots", ["dots"]]];
+
+/// The word of a notation such as `text 18:MEERA`.
+function wordOf(notation: string): Word | null {
+    const found = /^\s*text\s*(\d+)?\s*:\s*(.*\S)\s*$/i.exec(notation);
+    return found && { letters: found[2], rows: Number(found[1] ?? usual_rows) };
+}
 
 class BenchPanel implements Panel {
     readonly name = "bench";
@@ -29,7 +40,8 @@ class BenchPanel implements Panel {
     readonly element = element("div", { class: "bench" });
 
     private readonly kolam = new Kolam();
-    private look: Look = { isColoured: true, isFilled: false, hasDots: true };
+    private look: Look = first_look;
+    private word: Word | null = null; // that the grid was made of
     private chances = first_chances;
     private tool: Tool = "next";
 
@@ -42,6 +54,8 @@ class BenchPanel implements Panel {
     private isShown = false;
     private frame = 0;
     private typing = 0; // timer
+    private laid: { photograph: Photograph | null; grid: DotGrid | null; view?: View; made: Underlay | null } =
+        { photograph: null, grid: null, made: null };
     private around: { grid: DotGrid | null; places: Place[] } = { grid: null, places: [] };
     private made = ""; // the text of this kolam as written by the libraries
     private text = ""; // the same with the edits of the user
@@ -68,6 +82,16 @@ class BenchPanel implements Panel {
         setAll: (change) => this.change(this.kolam.states.map(change)),
         chances: (chances) => void this.random(chances),
         look: (look) => this.setLook(look),
+        word: (word) => void this.setWord(word),
+        photograph: (file) => void readPhotograph(this.studio, file),
+        nextKolam: () => this.readNextKolam(),
+        view: (view) => this.setView(view),
+        forget: () => {
+            forgetPhotograph();
+            this.update();
+        },
+        nextDoubt: () => this.selectDoubt(),
+        settle: (all) => this.settle(all),
     });
 
     constructor(private readonly studio: Studio) {
@@ -147,8 +171,13 @@ class BenchPanel implements Panel {
             if (!grid || !states || mine !== this.asked) return; // the comments were edited
             if (grid.text !== this.kolam.grid.text) this.cursor = -1;
             this.kolam.set(grid, states);
+            const { isFilled, hasDots, rim, ground, hand, word } = found;
+            const places = found.doubts.length > 0 ? gapPlaces(grid) : [];
+            this.kolam.doubts = new Set(found.doubts.map((place) => places.indexOf(place)).filter((gap) => gap >= 0));
+            this.kolam.setRim(rim);
             const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
-            this.look = { isColoured, isFilled: found.isFilled, hasDots: found.hasDots };
+            this.look = { isColoured, isFilled, hasDots, rim, ground, hand };
+            this.word = word;
             this.made = "";
             this.text = text;
             this.update();
@@ -204,6 +233,22 @@ class BenchPanel implements Panel {
 
     private setLook(look: Look): void {
         this.look = look;
+        this.kolam.setRim(look.rim);
+        this.commit();
+    }
+
+    /// Writes a word in dots.
+    private async setWord(word: Word): Promise<void> {
+        if (wordTitle(word) === "") return;
+        const refuse = (message: string): void => this.side.refuse(`${capital(message)}; fewer rows make fewer gaps`);
+        const grid = await this.gridOf({ do: "dots", grid: wordGrid(word) }, refuse);
+        if (grid) this.takeGrid(grid, word);
+    }
+
+    private takeGrid(grid: DotGrid, word: Word | null): void {
+        this.word = word;
+        this.kolam.setGrid(grid, false);
+        this.cursor = -1;
         this.commit();
     }
 
@@ -226,10 +271,7 @@ class BenchPanel implements Panel {
     private async setGrid(text: string): Promise<void> {
         clearTimeout(this.typing);
         const grid = await this.gridOf({ do: "dots", grid: text }, (message) => this.side.refuse(capital(message)));
-        if (!grid) return;
-        this.kolam.setGrid(grid, false);
-        this.cursor = -1;
-        this.commit();
+        if (grid) this.takeGrid(grid, wordOf(text));
     }
 
     /// Adds or removes the dot at the selected place, and its images under the symmetry.
@@ -244,12 +286,36 @@ class BenchPanel implements Panel {
             const request: DotsRequest = { do: "dots", grid: grid.text, symmetry: symmetry.name, ...change };
             const edited = await this.gridOf(request, (message) => this.studio.say(sentence(message), "warning"));
             if (!edited) return;
+            const { photograph } = this;
+            photograph?.follow(grid, edited);
             this.kolam.setGrid(edited, true);
             const { x, level } = { x: place.x + edited.moved.x, level: place.level + edited.moved.level };
             this.cursor = placesAround(edited).findIndex((each) => each.x === x && each.level === level);
             this.commit();
             if (this.isKeyboard) this.announce();
+            if (photograph && !isDot) await this.readNewGaps(photograph, grid);
         });
+    }
+
+    /// Reads the gaps around added dots from the photograph.
+    private async readNewGaps(photograph: Photograph, before: DotGrid): Promise<void> {
+        const { grid } = this.kolam;
+        const { x, level } = grid.moved;
+        const old = new Set(before.gaps.map((gap) => `${gap.x + x} ${gap.level + level}`));
+        try {
+            const reading = { part: photograph.part, fixes: photograph.fixes(grid) };
+            const { found } = await requestReading(this.studio, photograph.file, reading);
+            const read = parseStates(grid, found.gaps);
+            if (found.grid !== grid.text || grid !== this.kolam.grid || !read) return;
+            const fresh = [...grid.gaps.keys()].filter((gap) => !old.has(`${grid.gaps[gap].x} ${grid.gaps[gap].level}`));
+            const states = this.kolam.states.slice();
+            for (const gap of fresh) states[gap] = read[gap];
+            this.kolam.setStates(states);
+            this.kolam.doubts = new Set([...this.kolam.doubts, ...fresh.filter((gap) => found.doubtful.includes(gap))]);
+            this.commit();
+        } catch (error) {
+            if (error instanceof RequestFailed) this.studio.say(sentence(error.message), "warning");
+        }
     }
 
     private async random(chances: Chances): Promise<void> {
@@ -300,7 +366,9 @@ class BenchPanel implements Panel {
     }
 
     private request(more: Partial<GridRequest>): GridRequest {
-        return { do: "grid", grid: this.kolam.grid.text, coloured: this.look.isColoured, ...more };
+        const { isColoured: coloured, rim } = this.look;
+        const title = this.word ? { title: wordTitle(this.word) } : {};
+        return { do: "grid", grid: this.kolam.grid.text, coloured, rim, ...title, ...more };
     }
 
     /// Asks the libraries for the gaps, and keeps the symmetry. Returns the obstacle if there is one, otherwise null.
@@ -340,17 +408,67 @@ class BenchPanel implements Panel {
 
     private store(bare: string, merge: string): void {
         const { store } = this.studio;
-        const made = withLook(bare, this.look);
+        const { kolam, look } = this;
+        const made = withLook(bare, look, this.word) + doubtsText(kolam.grid, kolam.doubts);
         const { pattern } = store.work;
         const isOurs = pattern.text === this.text || readKolam(pattern.text) !== null;
         this.text = isOurs ? withEditsOf(pattern.text, this.made, made) : made;
         this.made = made;
         const fresh = { name: "kolam.lsys", variant: "", settings: [] };
-        // Only some kolams have productions.
-        const settings = withOption(pattern.settings, "derivation length", null);
+        // Only some kolams have productions. Keys that the bench has changed are no longer replaced by values.
+        const before = readKolam(pattern.text);
+        const changed = before ? look_keys.filter(([name]) => before[name] !== look[name]).map(([, key]) => key) : [];
+        const settings = ["derivation length", ...changed.flat()].reduce(
+            (rest, name) => withOption(rest, name, null),
+            pattern.settings,
+        );
         store.change({ pattern: { ...pattern, ...(isOurs ? { settings } : fresh), text: this.text }, place: null }, merge);
         if (!isOurs) this.studio.say("The kolam has replaced the pattern. Undo restores it.");
         void this.examine();
+    }
+
+    // --- photograph ---------------------------------------------------------------------------------------------
+
+    /// The photograph that the dots lie on.
+    private get photograph(): Photograph | null {
+        const latest = latestPhotograph();
+        return latest?.shows(this.kolam.grid.text) ? latest : null;
+    }
+
+    private setView(view: View): void {
+        if (!this.photograph) return;
+        this.photograph.view = view;
+        this.update();
+    }
+
+    private readNextKolam(): void {
+        const { photograph } = this;
+        if (!photograph) return;
+        void readPhotograph(this.studio, photograph.file, { part: (photograph.part % photograph.found.readable) + 1 });
+    }
+
+    /// Selects the next doubtful gap, in the order of gaps.
+    private selectDoubt(): void {
+        const { doubts } = this.kolam;
+        if (doubts.size === 0) return;
+        if (this.tool === "dots") this.setTool("next");
+        const sorted = [...doubts].sort((a, b) => a - b);
+        this.cursor = sorted.find((gap) => gap > this.cursor) ?? sorted[0];
+        this.isKeyboard = true;
+        this.isDone = false;
+        this.announce();
+    }
+
+    /// The selected doubtful gap, or all of them, are right.
+    private settle(all: boolean): void {
+        const { kolam, cursor } = this;
+        if (!all && !kolam.doubts.has(cursor)) {
+            this.selectDoubt();
+            return;
+        }
+        kolam.settle(all ? [...kolam.doubts] : kolam.orbits[cursor]);
+        this.commit();
+        if (kolam.doubts.size > 0) this.selectDoubt();
     }
 
     /// Requests the certificate from the libraries, which examine the curve, not the grid.
@@ -406,7 +524,14 @@ class BenchPanel implements Panel {
         const { targets } = this;
         if (event.ctrlKey || event.metaKey || event.altKey || targets.length === 0) return;
         const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-        const state = this.tool === "dots" ? undefined : letters[event.key.toLowerCase()];
+        const state = this.tool === "dots" ? undefined : state_keys[event.key.toLowerCase()];
+        const doubt = this.tool === "dots" || this.kolam.doubts.size === 0 ? "" : event.key.toLowerCase();
+        if (doubt === "n" || doubt === "r") {
+            event.preventDefault();
+            if (doubt === "n") this.selectDoubt();
+            else this.settle(false);
+            return;
+        }
         const isChange = event.key === " " || event.key === "Enter" || state !== undefined;
         if (!way && !isChange) return;
         event.preventDefault();
@@ -453,13 +578,24 @@ class BenchPanel implements Panel {
         const isGap = cursor >= 0 && !places;
         const after = isGap && !this.isDone && !isKeyboard ? this.kolam.after(cursor, this.gapChange) : null;
         const orbit = isGap ? orbits[cursor] : [];
-        return { grid, states, strands, lineOrbits, ...this.look, cursor, orbit, after, places, isFocused: isKeyboard };
+        const { look, kolam: { doubts } } = this;
+        const underlay = this.underlay();
+        return { grid, states, strands, lineOrbits, look, doubts, underlay, cursor, orbit, after, places, isFocused: isKeyboard };
+    }
+
+    /// Made once for each state of the photograph, because the board compares it.
+    private underlay(): Underlay | null {
+        const { photograph, laid, kolam: { grid } } = this;
+        if (laid.photograph !== photograph || laid.grid !== grid || laid.view !== photograph?.view) {
+            this.laid = { photograph, grid, view: photograph?.view, made: photograph?.underlay(grid) ?? null };
+        }
+        return this.laid.made;
     }
 
     private update(): void {
         const { kolam } = this;
         const { grid, count } = kolam;
-        this.side.update(kolam, this.chances, this.look);
+        this.side.update({ kolam, chances: this.chances, look: this.look, word: this.word, photograph: this.photograph });
         this.tools.update(this.tool);
         this.canvas.setAttribute(
             "aria-label",

@@ -1,5 +1,6 @@
 // Files from outside: patterns, collections of Fractint, files of cpfg, scales and key maps, and prints that contain
 // their pattern.
+import { isPicture, readPhotograph } from "./bench/photograph";
 import { RequestFailed, type Studio } from "./context";
 import { openDialog } from "./dialog";
 import { button, byId, element } from "./elements";
@@ -37,6 +38,7 @@ async function openFile(studio: Studio, file: File, all: File[]): Promise<void> 
         if (/\.(scl|kbm)$/i.test(file.name)) await openScale(studio, file.name, bytes);
         else if (/\.(l|frm|map)$/i.test(file.name)) await openCollection(studio, file.name, bytes, all);
         else if (/\.(lsys|txt)$/i.test(file.name)) openText(studio, file.name, bytes);
+        else if (isPicture(file)) await openPicture(studio, file, bytes);
         else await openPrint(studio, file.name, bytes);
     } catch (error) {
         const message = error instanceof RequestFailed ? error.message : String(error);
@@ -61,6 +63,16 @@ async function openScale(studio: Studio, name: string, bytes: Uint8Array): Promi
 async function openPrint(studio: Studio, name: string, bytes: Uint8Array): Promise<void> {
     const { json } = await studio.engine.request<Shown>({ do: "show", name }, { bytes });
     openPattern(studio, { name: name.replace(/\.\w+$/, ".lsys"), text: json.text, ...valuesOf(json.made) });
+}
+
+/// Prints contain their pattern; other pictures are photographs.
+async function openPicture(studio: Studio, file: File, bytes: Uint8Array): Promise<void> {
+    try {
+        await openPrint(studio, file.name, bytes);
+    } catch (error) {
+        if (!(error instanceof RequestFailed)) throw error;
+        await readPhotograph(studio, file);
+    }
 }
 
 // The values that a print was made with, as options of the program: "sikku 0.2.0, -n 3 --set 'stroke=0.5mm red'".
@@ -132,7 +144,7 @@ export function acceptDrops(studio: Studio): void {
     const veil = element(
         "div",
         { class: "drop-veil", hidden: true, "aria-hidden": "true" },
-        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, or a print made by Sikku"),
+        element("p", {}, "Drop a pattern, a Fractint or cpfg file, a scale, a print made by Sikku, or a photograph of a kolam"),
     );
     document.body.append(veil);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;

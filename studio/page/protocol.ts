@@ -11,7 +11,7 @@ export interface PatternRequest {
 
 export type Options = [string, string][]; // names as in `help`; flags have the value "true"
 
-/// Requests. All except `patterns`, `help`, `show`, `import`, `link`, `dots` and `grid` concern a pattern.
+/// Requests. All except `patterns`, `help`, `show`, `import`, `link`, `dots`, `grid` and `read` concern a pattern.
 export type Request =
     | { do: "patterns" }
     | { do: "help" }
@@ -41,7 +41,10 @@ export type Request =
     /// A kolam on a grid, as a pattern: of the gaps given as digits, or by chance. `single_line` joins its lines into
     /// one; with a symmetry by looking for another kolam.
     | { do: "grid"; grid: string; gaps?: string; symmetry?: SymmetryName; density?: number; joined?: number; seed?: string;
-        composed?: boolean; single_line?: boolean; coloured?: boolean; title?: string; strands?: boolean }
+        composed?: boolean; single_line?: boolean; coloured?: boolean; title?: string; rim?: RimName; strands?: boolean }
+    /// The kolam of a photograph, whose bytes are RGBA pixels from the top: the kolam number `part` (1), or the one on
+    /// this grid. `fixes` as in `sikku kolam --fix`. `source` names the file.
+    | { do: "read"; width: number; height: number; source: string; part?: string; grid?: string; fixes?: string[] }
     /// Write a work as a link, and read one. `Shared` is the contents of a link.
     | { do: "link"; shared: Shared }
     | { do: "read_link"; link: string }
@@ -154,6 +157,7 @@ export interface Shown { text: string; made: string } // made: the recipe, as in
 export type SymmetryName =
     | "none" | "C2" | "C3" | "C4" | "C6" | "mirror-x" | "mirror-y" | "diagonal" | "mirrors" | "diagonals"
     | "D3" | "D3-y" | "D4" | "D6";
+export type RimName = "round" | "pointed" | "petal" | "horn" | "crescent";
 export interface Dots {
     grid: string; // canonical notation
     lattice: "square" | "triangular";
@@ -176,10 +180,25 @@ export interface Grid {
     gaps: string; // a digit for each gap: 0 turned back, 1 crossed, 2 joined
     lines: number;
     changed: number; // by single_line
+    shaped: number; // loops at the rim that are not round
     obstacle?: string; // the reason why no single line on this grid has this symmetry, or that none was found
     /// With `strands`: lines as closed polygons of points in the coordinates of Dots.
     strands?: [number, number][][];
     line_orbits?: number[]; // lines that the kolam's symmetries take to each other have the same number, and colour
+}
+/// With the bytes of the photograph seen from straight above, RGBA from the top.
+export interface ReadPhotograph {
+    text: string; // of the pattern file
+    summary: string; // `9 dots, 12 of 12 gaps crossed, 3 lines, symmetry D4`
+    grid: string; // canonical notation
+    gaps: string; // as in Grid
+    doubtful: number[]; // gaps by index
+    repaired: number[]; // changed by symmetry, or by fixes
+    notes: string[];
+    open_ends: [number, number][]; // places beside the grid that lines lead to, in the coordinates of Dots
+    missing: [number, number][]; // places that may have a dot that was not seen
+    readable: number; // kolams in the photograph that can be read
+    picture: { width: number; height: number; box: [x0: number, y0: number, x1: number, y1: number] }; // half spacings, y up
 }
 export interface Link { link: string } // the fragment, without `#`
 export interface ReadLink {

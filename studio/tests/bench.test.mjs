@@ -8,7 +8,11 @@ const { makeGrid, statesText, parseStates, followLines, lineOrbits, countLines, 
     await load("bench/dot_grid");
 const { roundedStrands } = await load("bench/rounded_lines");
 const { symmetrised, isSymmetric, singleLineNear, symmetry_labels } = await load("bench/symmetry");
-const { readKolam, withEditsOf, withLook } = await load("bench/kolam_text");
+const { readKolam, withEditsOf, withLook, first_look, wordGrid, wordTitle } = await load("bench/kolam_text");
+const { Rim, rim_names, rimIcon } = await load("bench/rims");
+const { doubtsText, gapPlaces, readDoubts } = await load("bench/doubts");
+const { dotFixes } = await load("bench/dot_fixes");
+const { ground_names } = await load("bench/grounds");
 const { Kolam } = await load("bench/kolam");
 const { gapText, changeText, placeText, statesTold, neighbour } = await load("bench/gap_names");
 const { placesAround } = await load("bench/board");
@@ -70,6 +74,118 @@ test("lines, strands and digits are those of the libraries, on every kind of gri
     }
 });
 
+test("shaped rims are those of the libraries, on every kind of grid", () => {
+    let shaped = 0;
+    for (const shape of shapes) {
+        const grid = gridOf(shape);
+        for (const [seed, rim] of rim_names.entries()) {
+            const states = seed === 2 ? new Uint8Array(grid.gaps.length).fill(crossed) : random(grid, 7 * shape.length + seed, 0.8);
+            const answer = ask({ do: "grid", grid: shape, gaps: statesText(states), rim, strands: true });
+            const made = new Rim(grid, states, rim);
+            assert.equal(made.shaped, answer.shaped, `${shape} ${rim}`);
+            shaped += made.shaped;
+            const drawn = answer.strands.map((points) => points.flatMap(([x, level]) => [x, level * grid.rise]));
+            const controls = roundedStrands(grid, states, followLines(grid, states), made);
+            assert.deepEqual(controls.map((each) => each.length), drawn.map((each) => each.length), `${shape} ${rim}`);
+            const apart = drawn.flatMap((each, line) => each.map((value, i) => Math.abs(value - controls[line][i])));
+            assert.ok(Math.max(...apart) < 1e-8, `${shape} ${rim}: ${Math.max(...apart)}`);
+        }
+    }
+    assert.ok(shaped > 100, String(shaped));
+    assert.equal(new Set(rim_names.map(rimIcon)).size, rim_names.length);
+});
+
+test("a rim stays while gaps and dots change, and is written into the text", () => {
+    const kolam = kolamOn("1-3-5-3-1");
+    kolam.setRim("horn");
+    assert.equal(kolam.shaped, 4);
+    const text = (rim) => ask({ do: "grid", grid: "1-3-5-3-1", gaps: statesText(kolam.states), rim }).text;
+    assert.match(text("horn"), /^\/\/ rim: horn$/m);
+    assert.equal(readKolam(text("horn")).rim, "horn");
+    assert.equal(readKolam(text("round")).rim, "round");
+    assert.doesNotMatch(text("round"), /rim/);
+    kolam.setStates(kolam.after(0, "next"));
+    kolam.setGrid(gridOf("3-5-7-5-3"), false);
+    assert.equal(kolam.rim, "horn");
+    const library = "source: sikku kolam --grid '9 to 1 ner' --rim petal --seed 2\n// grid: 1\n// gaps: \n";
+    assert.equal(readKolam(library).rim, "petal");
+    assert.match(ask({ do: "grid", grid: "3x3", rim: "square" }).error.message, /expected round, pointed/);
+});
+
+test("words in dots: Latin and Tamil, lines, heights and refusals", () => {
+    for (const word of [{ letters: "MEERA", rows: 12 }, { letters: "மீரா", rows: 10 }, { letters: "OM/SRI", rows: 7 }]) {
+        const grid = gridOf(wordGrid(word));
+        assert.ok(grid.gaps.length > 30 && !grid.isTriangular);
+        const states = random(grid, 3);
+        const { text } = ask({ do: "grid", grid: grid.text, gaps: statesText(states), title: wordTitle(word) });
+        const made = withLook(text, first_look, word);
+        const found = readKolam(made);
+        assert.deepEqual(found.word, word);
+        assert.equal(found.grid, grid.text);
+        assert.deepEqual(parseStates(grid, found.gaps), states);
+        assert.match(made, new RegExp(`^title: ${wordTitle(word)}$`, "m"));
+        assert.ok(!ask({ do: "open", pattern: { name: "word.lsys", text: made } }).error);
+    }
+    assert.equal(readKolam(withLook(ask({ do: "grid", grid: "3x3" }).text, first_look)).word, null);
+    assert.ok(ask({ do: "dots", grid: wordGrid({ letters: "A", rows: 4 }) }).error);
+    assert.match(ask({ do: "dots", grid: wordGrid({ letters: "MEERA", rows: 60 }) }).error.message, /up to 1000 gaps/);
+});
+
+test("grounds and the hand become keys that the libraries read, and are read again", () => {
+    const bare = ask({ do: "grid", grid: "3x3" }).text;
+    for (const ground of ground_names) {
+        const look = { ...first_look, ground, hand: 0.35 };
+        const text = withLook(bare, look);
+        const { hand, ...found } = readKolam(text);
+        assert.deepEqual([found.ground, hand], [ground, 0.35]);
+        const opened = ask({ do: "open", pattern: { name: "k.lsys", text } });
+        assert.deepEqual(opened.warnings, [], ground);
+        // Another choice replaces the line, whether the text before is known or not.
+        for (const other of ground_names) {
+            for (const made of [text, ""]) {
+                const next = withEditsOf(text, made, withLook(bare, { ...first_look, ground: other }));
+                assert.deepEqual([readKolam(next).ground, readKolam(next).hand], [other, 0], `${ground} ${other}`);
+                assert.equal(next.match(/^ground:/gm).length, 1);
+            }
+        }
+    }
+    // A colour that the user wrote stays on plain earth, and a floor replaces it.
+    const navy = bare.replace("ground: #7d3324", "ground: navy");
+    assert.match(withEditsOf(navy, bare, withLook(bare, first_look)), /^ground: navy$/m);
+    assert.match(withEditsOf(navy, bare, withLook(bare, { ...first_look, ground: "slate" })), /^ground: slate$/m);
+});
+
+test("doubtful gaps are those of the comment, and leave it when they are settled or change", () => {
+    for (const shape of ["5x5", "7-4 idukku", "oooo/o..o/oooo"]) {
+        const kolam = kolamOn(shape);
+        const places = gapPlaces(kolam.grid);
+        assert.equal(new Set(places).size, kolam.grid.gaps.length);
+        kolam.doubts = new Set([0, 3, 5]);
+        const text = doubtsText(kolam.grid, kolam.doubts);
+        assert.deepEqual(readDoubts(`axiom: F\n${text}`), [places[0], places[3], places[5]]);
+        kolam.setStates(kolam.after(3, "next"));
+        assert.deepEqual([...kolam.doubts], [0, 5]);
+        kolam.settle([5]);
+        assert.deepEqual([...kolam.doubts], [0]);
+        kolam.settle([0]);
+        assert.equal(doubtsText(kolam.grid, kolam.doubts), "");
+    }
+    const grid = gridOf("15x15");
+    const all = new Set(grid.gaps.keys());
+    assert.equal(readDoubts(doubtsText(grid, all)).length, 200); // as many as the program lists
+    assert.deepEqual(readDoubts("// doubtful gaps, as row,gap:\n// 1,2 3,4\n\nF\n"), ["1,2", "3,4"]);
+    assert.deepEqual(readDoubts("axiom: F\n"), []);
+});
+
+test("doubts keep their gaps when dots are added", () => {
+    const kolam = kolamOn("3x3");
+    kolam.doubts = new Set([4]);
+    const { x, level } = kolam.grid.gaps[4];
+    kolam.setGrid(gridOf("3x3", { add: [[4, 0]] }), true);
+    const [gap] = kolam.doubts;
+    assert.deepEqual([kolam.doubts.size, kolam.grid.gaps[gap].x, kolam.grid.gaps[gap].level], [1, x - 1, level]);
+});
+
 test("neighbours of interlaced dots are one spacing away, as those of straight ones", () => {
     for (const shape of shapes) {
         const { dots, gaps, rise } = gridOf(shape);
@@ -94,6 +210,87 @@ test("the bench offers only grids that it takes", () => {
     assert.ok(texts.length > 20);
     for (const text of texts) assert.ok(gridOf(text).gaps.length > 0, text);
     assert.equal(new Set(texts.map((text) => gridOf(text).text)).size, texts.length);
+});
+
+/// The pixels of a kolam with its dots, as a browser decodes them.
+function photographed(grid, gaps, side = 700) {
+    const { text } = ask({ do: "grid", grid, gaps });
+    const pattern = { name: "photo.lsys", text: withLook(text, first_look) };
+    const options = [["size", "100x100mm"]];
+    const { json, bytes } = ask.whole({ do: "pixels", width: side, height: side, options, pattern });
+    return { width: json.width, height: json.height, pixels: Uint8Array.from(bytes) };
+}
+
+test("the kolam of a photograph is read, with the picture as its grid is drawn", () => {
+    for (const shape of ["5x5", "7-4 idukku"]) {
+        const grid = gridOf(shape);
+        const states = Uint8Array.from(random(grid, 5, 0.7), (state) => (state === joined ? turned : state));
+        const { width, height, pixels } = photographed(grid.text, statesText(states));
+        const request = { do: "read", width, height, source: "photo.png" };
+        const { json: found, bytes } = ask.whole(request, pixels);
+        assert.equal(found.grid, grid.text);
+        assert.deepEqual(parseStates(grid, found.gaps), states);
+        assert.deepEqual([found.doubtful, found.missing, found.readable], [[], [], 1]);
+        assert.match(found.text, /^description: .*; read from photo\.png$/m);
+        assert.equal(readKolam(found.text).grid, grid.text);
+        const { picture } = found;
+        assert.equal(bytes.length, 4 * picture.width * picture.height);
+        const [x0, y0, x1, y1] = picture.box;
+        // Where a dot is drawn, the picture shows rice flour, and earth in the corner of its field.
+        const reach = Math.round(picture.width / 80); // interlaced patterns draw dots in the middles of fields
+        const brightness = (x, y) => {
+            const column = Math.floor(((x - x0) / (x1 - x0)) * picture.width);
+            const row = Math.floor(((y1 - y) / (y1 - y0)) * picture.height);
+            let most = 0;
+            for (let dy = -reach; dy <= reach; ++dy) {
+                for (let dx = -reach; dx <= reach; ++dx) {
+                    const at = 4 * ((row + dy) * picture.width + column + dx);
+                    most = Math.max(most, bytes[at] + bytes[at + 1] + bytes[at + 2]);
+                }
+            }
+            return most;
+        };
+        for (const { x, level } of grid.dots) assert.ok(brightness(x, level * grid.rise) > 600, `${shape}: ${x} ${level}`);
+        assert.ok(brightness(grid.dots[0].x, grid.dots[0].level * grid.rise + 3) < 300);
+        if (grid.isTriangular) continue; // reading them again takes longer
+        const fixed = ask({ ...request, fixes: ["1,1: join"] }, pixels);
+        assert.equal(parseStates(grid, fixed.gaps)[0], joined);
+        assert.match(ask({ ...request, grid: "9x9" }, pixels).error.message, /expected 81 dots/);
+    }
+});
+
+test("dots added by hand are named as the program names them", () => {
+    const dots = gridOf("3x3").dots;
+    assert.deepEqual(dotFixes(dots, dots), []);
+    assert.deepEqual(dotFixes(dots, [...dots, { x: 0, level: 4 }, { x: -4, level: 0 }, { x: 4, level: 4 }]),
+        ["dot 0,2", "dot 3,0", "dot 1,5"]);
+    assert.deepEqual(dotFixes(dots, dots.slice(1)), ["no dot 1,1"]);
+    for (const [shape, change] of [
+        ["5x5", { add: [[0, 6]] }], ["5-3 idukku", { add: [[-6, 0]] }],
+    ]) {
+        const grid = gridOf(shape);
+        const wanted = gridOf(shape, change);
+        const moved = wanted.dots.map(({ x, level }) => ({ x: x - wanted.moved.x, level: level - wanted.moved.level }));
+        const { gaps } = ask({ do: "grid", grid: wanted.text, composed: true, seed: "3" });
+        const { width, height, pixels } = photographed(wanted.text, gaps);
+        const removed = dotFixes(wanted.dots, grid.dots.map(({ x, level }) => ({ x: x + wanted.moved.x, level: level + wanted.moved.level })));
+        const smaller = ask({ do: "read", width, height, source: "x", fixes: removed }, pixels);
+        assert.equal(smaller.grid, grid.text);
+        const again = ask({ do: "read", width, height, source: "x", fixes: [...removed, ...dotFixes(grid.dots, moved)] }, pixels);
+        assert.equal(again.grid, wanted.text);
+        assert.equal(parseStates(wanted, again.gaps).length, wanted.gaps.length);
+    }
+});
+
+test("pictures without a kolam and wrong pixels are refused", () => {
+    const read = (more, bytes) => ask({ do: "read", width: 100, height: 80, source: "x", ...more }, bytes).error;
+    const blank = new Uint8Array(4 * 100 * 80).fill(200);
+    assert.match(read({}, blank).message, /no kolam found/);
+    for (const more of [{ width: 0 }, { height: 1e9 }, { width: 99 }, { width: 0.5 }, { fixes: [1] }]) {
+        assert.equal(read(more, blank).kind, "request", JSON.stringify(more));
+    }
+    assert.ok(read({ part: "7" }, blank) && read({ grid: "x" }, blank) && read({ fixes: ["?"] }, blank));
+    assert.ok(ask({ do: "read", width: 4, height: 4, source: "x" }, new Uint8Array(64)).error);
 });
 
 test("orbits: every gap of one changes together, and the drawing keeps its symmetry", () => {
@@ -314,8 +511,8 @@ test("a pattern's text is read again, on every kind of grid", () => {
         assert.deepEqual(parseStates(gridOf(found.grid), found.gaps), states);
         assert.equal(found.isColoured, countLines(grid, states) > 1);
         assert.equal(found.hasDots, false);
-        assert.equal(readKolam(withLook(text, { hasDots: true, isFilled: false })).hasDots, true);
-        const filled = withLook(text, { hasDots: false, isFilled: true });
+        assert.equal(readKolam(withLook(text, { ...first_look, hasDots: true })).hasDots, true);
+        const filled = withLook(text, { ...first_look, hasDots: false, isFilled: true });
         assert.deepEqual([readKolam(filled).hasDots, readKolam(filled).isFilled], [false, true]);
     }
     const text = ask({ do: "grid", grid: "oooo/o..o/oooo" }).text;
@@ -339,7 +536,7 @@ test("what was edited in a pattern stays", () => {
     const bare = ask({ do: "grid", grid: "1-3-1", gaps: "1011" }).text;
     const navy = bare.replace("#7d3324", "navy");
     assert.notEqual(navy, bare);
-    assert.equal(withEditsOf(withLook(navy, { hasDots: true, isFilled: true }), "", bare), navy);
+    assert.equal(withEditsOf(withLook(navy, { ...first_look, isFilled: true }), "", bare), navy);
     const edited = navy + "tempo: 90\n";
     assert.equal(withEditsOf(edited, bare, bare), edited);
     assert.equal(withEditsOf(edited, "", bare), edited);

@@ -170,6 +170,19 @@ for (const grid of ["7x7", "1-3-5-7-5-3-1", "3x5", "2-4-3", "7-4 idukku", "oo./o
 for (const seed of ["1", "2", "3"]) {
     await compare({ do: "grid", grid: "9-5 idukku", symmetry: "D6", composed: true, coloured: true, strands: true, seed });
 }
+for (const rim of ["pointed", "petal", "horn", "crescent"]) {
+    for (const grid of ["1-3-5-7-5-3-1", "7-4 idukku"]) await compare({ do: "grid", grid, rim, composed: true, seed: "4", strands: true });
+}
+// Photographs, as the pixels of drawn kolams.
+for (const grid of ["5x5", "5-3 idukku", "oo./ooo/.oo"]) {
+    const { text } = JSON.parse(web(JSON.stringify({ do: "grid", grid, composed: true, seed: "2" })).json);
+    const pattern = { name: "photo.lsys", text: `${text}dots: 0.2 step #fffaf0\n` };
+    const drawn = { do: "pixels", width: 420, height: 420, options: [["size", "70x70mm"], ["rotate", "7"]], pattern };
+    const pixels = Buffer.from(web(JSON.stringify(drawn)).bytes);
+    await compare({ do: "read", width: 420, height: 420, source: "photo.png" }, pixels);
+    await compare({ do: "read", width: 420, height: 420, source: "photo.png", fixes: ["1,1: turn"] }, pixels);
+}
+await compare({ do: "read", width: 20, height: 20, source: "photo.png" }, Buffer.alloc(1600, 80));
 const imports = join(root, "tests/corpus/import");
 for (const name of readdirSync(imports, { recursive: true })) {
     if (/\.(l|frm)$/.test(name)) await compare({ do: "import", name: basename(name) }, readFileSync(join(imports, name)));

@@ -176,7 +176,7 @@ async function bench() {
     assert.match(await states(), /^89 gaps crossed, 1 turned back\.$/);
     await page.keyboard.press("c");
     assert.match(await states(), /^90 gaps crossed\.$/);
-    assert.equal(await page.locator(".bench-lock:visible").count(), 10);
+    assert.equal(await page.locator("[aria-label='Symmetry'] .bench-lock:visible").count(), 10);
     await page.click('[aria-label="Sixth of a turn"]');
     await page.click("button:has-text('Join all')");
     assert.match(await states(), /^90 gaps joined\.$/);
@@ -213,11 +213,110 @@ async function bench() {
     console.log(`${await text(".bench-count")}: ${await text("#message")}`);
 }
 
+const benchText = () => page.evaluate(() => document.querySelector(".cm-content").cmTile?.view.state.doc.toString()
+    ?? [...document.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\n"));
+const untilText = (part) => until((wanted) => document.querySelector(".cm-content").textContent.includes(wanted), part);
+
+// Rims, words, grounds and the hand: all of them become the text, and can be undone.
+async function looks() {
+    await page.fill("#bench-grid", "9 to 1 ner pulli");
+    await page.keyboard.press("Enter");
+    await untilText("// grid: 1-3-5-7-9-7-5-3-1");
+    await page.click("button:has-text('Cross all')");
+    await page.waitForTimeout(1200);
+    await page.click('[aria-label="Horns"]');
+    await untilText("// rim: horn");
+    const rim = () => text(".bench-rim[aria-checked='true']").then(() => page.getAttribute(".bench-rim[aria-checked='true']", "aria-label"));
+    await page.keyboard.press("ArrowRight");
+    await untilText("// rim: crescent");
+    assert.equal(await rim(), "Crescents");
+    await page.keyboard.press("ArrowLeft");
+    await untilText("// rim: horn");
+    await page.waitForTimeout(1200);
+    await page.keyboard.press("Control+z");
+    await until(() => !document.querySelector(".cm-content").textContent.includes("// rim:"));
+    assert.equal(await rim(), "Round");
+
+    await page.click('[aria-label="Slate"]');
+    await untilText("ground: slate");
+    await page.click('[aria-label="White paper"]');
+    await untilText("paper: white");
+    assert.ok(!(await benchText()).includes("slate"));
+    await page.waitForTimeout(1200);
+    await page.focus("#bench-hand");
+    for (let i = 0; i < 30; ++i) await page.keyboard.press("ArrowRight");
+    await untilText("hand: 0.3");
+    await page.waitForTimeout(1200);
+    await page.click('[aria-label="Plain earth"]');
+    await until(() => !document.querySelector(".cm-content").textContent.includes("paper: white"));
+    await page.keyboard.press("Control+z");
+    await untilText("paper: white");
+    await page.click('[aria-label="Plain earth"]');
+    await page.waitForTimeout(1200);
+
+    await page.fill("#bench-word", "OM");
+    await page.keyboard.press("Enter");
+    await untilText("// letters: 12 OM");
+    await untilText("title: OM");
+    await page.fill("#bench-word-rows", "9");
+    await page.keyboard.press("Enter");
+    await untilText("// letters: 9 OM");
+    const before = await text(".bench-states");
+    await page.waitForTimeout(1200);
+    await page.locator(".bench-board").focus();
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("t");
+    await until((was) => document.querySelector(".bench-states").textContent !== was, before);
+    await untilText("// letters: 9 OM");
+    await page.waitForTimeout(1200);
+    await page.fill("#bench-word", "MEERA MEERA MEERA");
+    await page.fill("#bench-word-rows", "40");
+    await page.keyboard.press("Enter");
+    await until(() => /up to 1000 gaps/.test(document.querySelector(".bench-problem").textContent));
+}
+
+// The board itself is the photograph.
+async function photograph() {
+    await page.fill("#bench-grid", "5x5");
+    await page.keyboard.press("Enter");
+    await untilText("// grid: 5x5");
+    await page.click("button:has-text('Random kolam')");
+    await page.waitForTimeout(1500);
+    const gaps = /gaps:([\d ]+)/.exec(await benchText())[1].replaceAll(" ", "");
+    const picture = await page.evaluate(() => document.querySelector(".bench-board").toDataURL("image/png"));
+    const buffer = Buffer.from(picture.slice(picture.indexOf(",") + 1), "base64");
+    await page.setInputFiles("#bench-photograph", { name: "doorstep.png", mimeType: "image/png", buffer });
+    await page.waitForSelector(".bench-view >> visible=true", { timeout: 60000 });
+    await untilText("read from doorstep.png");
+    assert.equal(/gaps:([\d ]+)/.exec(await benchText())[1].replaceAll(" ", ""), gaps);
+    await page.click(".bench-view:has-text('Kolam')");
+    await page.keyboard.press("ArrowLeft");
+    assert.equal(await page.getAttribute(".bench-view:has-text('Both')", "aria-checked"), "true");
+    console.log(await text("#message"));
+
+    await page.setInputFiles("#bench-photograph", { name: "no.png", mimeType: "image/png", buffer: Buffer.from("no picture") });
+    await until(() => /^no\.png: This browser cannot decode it/.test(document.querySelector("#message").textContent));
+
+    // A pattern that the program has read marks its doubtful gaps.
+    await write(`${await benchText()}\n// doubtful gaps, as row,gap:\n// 1,1 2,3\n`);
+    await until(() => /^2 gaps .* are doubtful/.test(document.querySelector(".bench-doubts").textContent));
+    await page.locator(".bench-board").focus();
+    await page.keyboard.press("n");
+    await page.keyboard.press("r");
+    await until(() => /^1 gap .* is doubtful/.test(document.querySelector(".bench-doubts").textContent));
+    await until(() => document.querySelector(".cm-content").textContent.match(/row,gap:[^a-z]*/)[0].match(/\d,\d/g).length === 1);
+    await page.click("button:has-text('All are right')");
+    await until(() => !document.querySelector(".cm-content").textContent.includes("doubtful"));
+    assert.equal(await page.locator("button:has-text('All are right')").isVisible(), false);
+}
+
 try {
     await page.goto(addressOf(process.argv[2]));
     await page.waitForSelector("#tab-play");
     await play();
     await bench();
+    await looks();
+    await photograph();
     assert.deepEqual(errors, []);
 } finally {
     await browser.close();

@@ -261,6 +261,51 @@ TEST(Bridge, MakesKolamsOfThreeStates) {
     EXPECT_EQ(kind_of_failure({{"do", "grid"}, {"grid", "2x2"}, {"gaps", "103"}}), "other");
 }
 
+TEST(Bridge, ShapesRims) {
+    const auto made = [](const char* rim) {
+        return asked(
+            {{"do", "grid"}, {"grid", "1-3-5-3-1"}, {"gaps", "1111111111111111"}, {"rim", rim}, {"strands", true}});
+    };
+    EXPECT_EQ(made("round")["shaped"], 0);
+    EXPECT_FALSE(has(made("round")["text"].get<std::string>(), "// rim"));
+    EXPECT_EQ(made("petal")["shaped"], 4);
+    EXPECT_TRUE(has(made("petal")["text"].get<std::string>(), "\n// rim: petal\n"));
+    EXPECT_NE(made("petal")["strands"], made("round")["strands"]);
+    EXPECT_TRUE(has(made("spiky")["error"]["message"].get<std::string>(), "'spiky': expected round"));
+}
+
+TEST(Bridge, ReadsKolamsFromPixels) {
+    const Json kolam = asked({{"do", "grid"}, {"grid", "4x5"}, {"composed", true}, {"seed", "3"}});
+    const Json drawn = pattern(kolam["text"].get<std::string>() + "dots: 0.25 step #fffaf0\n");
+    const Json picture = {{"do", "pixels"},
+                          {"width", 500},
+                          {"height", 500},
+                          {"options", pairs({{"size", "80x80mm"}})},
+                          {"pattern", drawn}};
+    const std::string pixels = request(picture.dump(), {}).bytes;
+    Json question = {{"do", "read"}, {"width", 500}, {"height", 500}, {"source", "a.jpg"}};
+    const Reply reply = request(question.dump(), pixels);
+    const Json found = Json::parse(reply.json);
+    EXPECT_EQ(found["grid"], "4x5");
+    EXPECT_EQ(found["gaps"], kolam["gaps"]);
+    EXPECT_TRUE(has(found["text"].get<std::string>(), "; read from a.jpg\n"));
+    const Json& straight = found["picture"];
+    EXPECT_EQ(reply.bytes.size(), 4 * straight["width"].get<std::size_t>() * straight["height"].get<std::size_t>());
+    EXPECT_EQ(straight["box"], Json::parse("[-8.0,-7.0,8.0,7.0]"));
+
+    question["fixes"] = {"1,1: join"};
+    EXPECT_EQ(asked(question, pixels)["gaps"].get<std::string>()[0], '2');
+    question["fixes"] = {"dot"};
+    EXPECT_TRUE(asked(question, pixels).contains("error"));
+    question.erase("fixes");
+    question["part"] = "2";
+    EXPECT_TRUE(asked(question, pixels).contains("error"));
+    question["height"] = 499;
+    EXPECT_EQ(kind_of_failure(question, pixels), "request");
+    const Json blank = {{"do", "read"}, {"width", 30}, {"height", 30}, {"source", "x"}};
+    EXPECT_EQ(kind_of_failure(blank, std::string(3600, 'x')), "other");
+}
+
 TEST(Bridge, FilesWithoutPatternsAreRefused) {
     EXPECT_EQ(kind_of_failure({{"do", "show"}, {"name", "x.png"}}, "no picture"), "other");
     EXPECT_EQ(asked({{"do", "show"}, {"name", "x.svg"}}, "<svg></svg>")["error"]["message"],

@@ -1,18 +1,23 @@
-// The board: rice powder on red earth. The gap under the pointer previews the effect of a click; while dots are edited,
-// rings show where dots can be placed.
+// The board: rice powder on red earth or another ground, or on a photograph. The gap under the pointer previews the
+// effect of a click; while dots are edited, rings show where dots can be placed.
 import { element } from "../elements";
 import { Surface } from "../play/surface";
 import { makeChance } from "../sound/chance";
 import type { DotGrid, Place } from "./dot_grid";
 import { followLines } from "./dot_grid";
+import { type GroundLook, type GroundName, grounds } from "./grounds";
+import type { Look } from "./kolam_text";
+import type { Underlay } from "./photograph";
 import { roundedStrands } from "./rounded_lines";
 import { traceSegments, traceStrand } from "./strand_path";
 
-const line_colours = ["#fffaf0", "#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
-const earth = "#7d3324";
+/// After the ink of the ground.
+const line_colours = ["#f2b632", "#7fc8a9", "#e77f67", "#8fb8de", "#d6a2e8", "#c5d86d", "#f7b2ad"];
 /// As in the pattern: 0.16 of a step, which is the diagonal of a unit square, or half a spacing of interlaced dots.
 const lineWidth = ({ isTriangular }: DotGrid): number => 0.16 * (isTriangular ? 1 : Math.SQRT2);
 const margin = 1.55; // around the outermost dots
+const rim_margin = 2.4; // with a shaped rim
+const side_margin = 14; // pixels that stay free on the left and on the right
 const bar_height = 46; // pixels that stay free above and below, for tools and texts
 
 export interface Scene {
@@ -20,9 +25,9 @@ export interface Scene {
     states: Uint8Array;
     strands: number[][]; // control points of the lines
     lineOrbits: number[]; // lines with the same number have the same colour
-    isColoured: boolean;
-    isFilled: boolean;
-    hasDots: boolean;
+    look: Look;
+    doubts: ReadonlySet<number>; // gaps
+    underlay: Underlay | null; // the photograph
     cursor: number; // gap or place selected by pointer or keyboard, -1: none
     orbit: number[]; // gaps that change with it
     after: Uint8Array | null; // the states after the change, if it is previewed
@@ -50,9 +55,8 @@ export function placesAround({ dots, isTriangular }: DotGrid): Place[] {
 export class Board {
     private readonly surface: Surface;
     private scale = 1; // pixels per unit, which is half the dot spacing
-    private readonly grain = grainTile(7, 26, 34);
-    private readonly powders: HTMLCanvasElement[] = []; // by colour
-    private ground: HTMLCanvasElement | null = null;
+    private readonly powders = new Map<string, HTMLCanvasElement>(); // by colour
+    private ground: { name: GroundName; canvas: HTMLCanvasElement } | null = null;
     private still: CanvasRenderingContext2D; // all but the preview
     private shown: unknown[] = []; // what `still` shows
 
@@ -72,12 +76,12 @@ export class Board {
         this.shown = [];
     }
 
-    private place({ grid, places }: Scene): void {
-        const around = places ? margin + 1.2 : margin;
+    private place({ grid, look, places }: Scene): void {
+        const around = (places ? 1.2 : 0) + (look.rim === "round" ? margin : rim_margin);
         const across = grid.dots.reduce((most, { x }) => Math.max(most, Math.abs(x)), 0) + around;
         const up = (grid.rows.length - 1) * grid.rise + around;
         const { width, height } = this.surface;
-        this.scale = Math.min(width / (2 * across), (height - 2 * bar_height) / (2 * up), 56);
+        this.scale = Math.min((width - 2 * side_margin) / (2 * across), (height - 2 * bar_height) / (2 * up), 56);
     }
 
     /// The gap nearest to a point of the canvas, or the place for a dot; -1 outside the grid.
@@ -110,7 +114,7 @@ export class Board {
     draw(scene: Scene): void {
         if (this.surface.fit()) this.renew();
         this.place(scene);
-        const shown = [scene.strands, scene.isColoured, scene.isFilled, scene.hasDots, scene.places];
+        const shown = [scene.strands, ...Object.values(scene.look), scene.places, scene.doubts, scene.underlay];
         if (shown.some((each, i) => each !== this.shown[i])) this.drawStill(scene);
         this.shown = shown;
         const { context } = this.surface;
@@ -124,35 +128,66 @@ export class Board {
 
     private drawStill(scene: Scene): void {
         const { still } = this;
-        this.ground ??= this.makeGround();
+        const { look, places, underlay } = scene;
+        if (this.ground?.name !== look.ground) this.ground = { name: look.ground, canvas: this.makeGround(look.ground) };
         still.setTransform(1, 0, 0, 1, 0, 0);
-        still.drawImage(this.ground, 0, 0);
+        still.drawImage(this.ground.canvas, 0, 0);
         this.toScene(still);
-        if (scene.isFilled) this.drawFields(still, scene);
-        if (scene.places) this.drawPlaces(still, scene);
-        if (scene.hasDots || scene.places) this.drawDots(still, scene);
-        still.globalAlpha = scene.places ? 0.36 : 1; // while dots are edited
-        this.drawLines(still, scene);
+        if (underlay) drawUnderlay(still, underlay);
+        if (look.isFilled && !underlay) this.drawFields(still, scene);
+        if (places) this.drawPlaces(still, scene);
+        if (places || (look.hasDots && !underlay)) this.drawDots(still, scene);
+        still.globalAlpha = places ? 0.36 : 1; // while dots are edited
+        if (!underlay) this.drawLines(still, scene);
+        else if (underlay.hasLines) this.traceLines(still, scene);
         still.globalAlpha = 1;
+        if (!places) this.drawDoubts(still, scene);
+        if (underlay) this.drawMissing(still, scene, underlay);
     }
 
-    /// Earth: uneven, darker towards the edges.
-    private makeGround(): HTMLCanvasElement {
+    /// Earth or another ground: uneven, darker towards the edges. Paper is plain.
+    private makeGround(name: GroundName): HTMLCanvasElement {
         const { width, height } = this.surface.canvas;
         const canvas = element("canvas", { width, height });
         const context = canvas.getContext("2d")!;
-        context.fillStyle = earth;
+        const { colour, grain, tone } = grounds[name];
+        context.fillStyle = colour;
         context.fillRect(0, 0, width, height);
+        if (grain === 0) return canvas;
         const reach = Math.hypot(width, height) * 0.6;
         const light = context.createRadialGradient(width * 0.42, height * 0.36, 0, width / 2, height / 2, reach);
-        light.addColorStop(0, "rgb(196 104 70 / 26%)");
-        light.addColorStop(0.55, "rgb(125 51 36 / 0%)");
-        light.addColorStop(1, "rgb(48 14 8 / 42%)");
+        light.addColorStop(0, `rgb(${tone.join(" ")} / 17%)`);
+        light.addColorStop(0.55, `rgb(${tone.join(" ")} / 0%)`);
+        light.addColorStop(1, "rgb(30 12 8 / 42%)");
         context.fillStyle = light;
         context.fillRect(0, 0, width, height);
-        context.fillStyle = context.createPattern(this.grain, "repeat")!;
+        context.fillStyle = context.createPattern(grainTile(7, 26 * grain, 34 * grain, tone), "repeat")!;
         context.fillRect(0, 0, width, height);
         return canvas;
+    }
+
+    /// Dashed rings around gaps that the photograph does not show clearly.
+    private drawDoubts(context: CanvasRenderingContext2D, { grid, doubts }: Scene): void {
+        for (const gap of doubts) {
+            const { x, y } = grid.gaps[gap];
+            drawDashedRing(context, x, y, grid.isTriangular ? 0.52 : 0.74, "#ffb02e");
+        }
+    }
+
+    /// Rings where a dot may be that was not seen.
+    private drawMissing(context: CanvasRenderingContext2D, { grid }: Scene, { missing }: Underlay): void {
+        for (const { x, level } of missing) drawDashedRing(context, x, level * grid.rise, 0.3, "#ff6a5c");
+    }
+
+    /// Thin lines, which can be told from those of a photograph.
+    private traceLines(context: CanvasRenderingContext2D, scene: Scene): void {
+        const width = lineWidth(scene.grid);
+        context.lineJoin = "round";
+        for (const [share, colour] of [[0.62, "rgb(6 30 40 / 70%)"], [0.36, "#37e0e6"]] as const) {
+            context.lineWidth = width * share;
+            context.strokeStyle = colour;
+            for (const path of this.paths(scene)) context.stroke(path);
+        }
     }
 
     private drawFields(context: CanvasRenderingContext2D, { strands }: Scene): void {
@@ -163,8 +198,8 @@ export class Board {
     }
 
     /// Rings where dots can be placed.
-    private drawPlaces(context: CanvasRenderingContext2D, { grid, places }: Scene): void {
-        context.strokeStyle = "rgb(253 243 226 / 42%)";
+    private drawPlaces(context: CanvasRenderingContext2D, { grid, look, places }: Scene): void {
+        context.strokeStyle = look.ground === "white" ? "rgb(125 51 36 / 50%)" : "rgb(253 243 226 / 42%)";
         context.lineWidth = 0.05;
         context.beginPath();
         for (const { x, level } of places!) {
@@ -175,18 +210,18 @@ export class Board {
         context.stroke();
     }
 
-    private drawPlace(context: CanvasRenderingContext2D, { grid, isFocused }: Scene, { x, level }: Place): void {
+    private drawPlace(context: CanvasRenderingContext2D, { grid, look, isFocused }: Scene, { x, level }: Place): void {
         const y = level * grid.rise;
-        context.strokeStyle = "#ffd58a";
+        context.strokeStyle = grounds[look.ground].mark;
         context.lineWidth = isFocused ? 0.12 : 0.08;
         context.beginPath();
         context.arc(x, y, 0.46, 0, 2 * Math.PI);
         context.stroke();
     }
 
-    private drawDots(context: CanvasRenderingContext2D, { grid, places }: Scene): void {
+    private drawDots(context: CanvasRenderingContext2D, { grid, look, places }: Scene): void {
         const chance = makeChance(5);
-        context.fillStyle = "#f6ecd9";
+        context.fillStyle = look.ground === "white" ? grounds.white.ink : "#f6ecd9";
         const size = (grid.isTriangular ? 0.8 : 1) * (places ? 1.5 : 1);
         for (const { x, level } of grid.dots) {
             const y = level * grid.rise;
@@ -213,18 +248,20 @@ export class Board {
         const paths = this.paths(scene);
         const line_width = lineWidth(scene.grid);
         context.lineJoin = "round";
-        // The shadow of the powder on the earth.
-        context.save();
-        context.translate(0.025, -0.045);
-        context.strokeStyle = "rgb(40 10 4 / 34%)";
-        context.lineWidth = line_width * 1.1;
-        for (const path of paths) context.stroke(path);
-        context.restore();
+        const ground = grounds[scene.look.ground];
+        if (ground.grain > 0) {
+            // The shadow of the powder on the earth.
+            context.save();
+            context.translate(0.025, -0.045);
+            context.strokeStyle = "rgb(40 10 4 / 34%)";
+            context.lineWidth = line_width * 1.1;
+            for (const path of paths) context.stroke(path);
+            context.restore();
+        }
+        const colours = scene.look.isColoured ? [ground.ink, ...line_colours] : [ground.ink];
         const scale = 1 / (this.scale * this.surface.ratio);
         paths.forEach((path, index) => {
-            const colour = scene.isColoured ? scene.lineOrbits[index] % line_colours.length : 0;
-            const tile = (this.powders[colour] ??= powderTile(line_colours[colour]));
-            const powder = context.createPattern(tile, "repeat")!;
+            const powder = context.createPattern(this.powder(colours[scene.lineOrbits[index] % colours.length]), "repeat")!;
             powder.setTransform(new DOMMatrix([scale, 0, 0, scale, 0, 0]));
             context.strokeStyle = powder;
             context.lineWidth = line_width * 0.96;
@@ -240,12 +277,19 @@ export class Board {
         });
     }
 
+    private powder(colour: string): HTMLCanvasElement {
+        let made = this.powders.get(colour);
+        if (!made) this.powders.set(colour, (made = powderTile(colour)));
+        return made;
+    }
+
     private drawGap(context: CanvasRenderingContext2D, scene: Scene): void {
         const { grid, cursor } = scene;
         if (scene.after) this.drawPreview(context, scene, scene.after);
         if (!scene.isFocused) return;
         const { x, y } = grid.gaps[cursor];
-        for (const [width, colour] of [[0.16, "rgb(40 12 6 / 80%)"], [0.08, "#ffe9c4"]] as const) {
+        const ring = scene.look.ground === "white" && !scene.underlay ? "#ffffff" : "#ffe9c4";
+        for (const [width, colour] of [[0.16, "rgb(40 12 6 / 80%)"], [0.08, ring]] as const) {
             context.lineWidth = width;
             context.strokeStyle = colour;
             context.beginPath();
@@ -256,28 +300,31 @@ export class Board {
 
     /// The pieces that a click would draw, on a patch of earth.
     private drawPreview(context: CanvasRenderingContext2D, scene: Scene, after: Uint8Array): void {
-        const { grid, cursor, orbit } = scene;
+        const { grid, cursor, orbit, underlay } = scene;
+        const ground = grounds[scene.look.ground];
+        const cover = underlay ? 0.6 : 1;
         const line_width = lineWidth(grid);
         const reach = grid.isTriangular ? 0.7 : 0.95;
         const places = new Set(orbit.map((gap) => `${grid.gaps[gap].x} ${grid.gaps[gap].y}`));
         for (const gap of orbit) {
             const { x, y } = grid.gaps[gap];
             const patch = context.createRadialGradient(x, y, 0.2, x, y, reach);
-            const strong = gap === cursor ? "rgb(98 36 24 / 94%)" : "rgb(98 36 24 / 78%)";
-            patch.addColorStop(0, strong);
-            patch.addColorStop(0.45, strong);
-            patch.addColorStop(1, "rgb(98 36 24 / 0%)");
+            const colour = patchOf(ground, cover * (gap === cursor ? 94 : 78));
+            patch.addColorStop(0, colour);
+            patch.addColorStop(0.45, colour);
+            patch.addColorStop(1, patchOf(ground, 0));
             context.fillStyle = patch;
             context.beginPath();
             context.arc(x, y, reach, 0, 2 * Math.PI);
             context.fill();
         }
-        context.strokeStyle = "#ffd58a";
+        context.strokeStyle = underlay ? lamp : ground.mark;
         context.lineWidth = line_width * 0.82;
         context.lineCap = "round";
         context.setLineDash([0.02, line_width * 1.3]);
         context.beginPath();
         const lines = followLines(grid, after);
+        // Pieces at gaps are the same with every rim.
         roundedStrands(grid, after, lines).forEach((controls, line) => {
             const strand = lines.strands[line];
             for (let i = 0; i < strand.length / 2; ++i) {
@@ -299,12 +346,42 @@ function tile(size: number, value: (chance: () => number) => [number, number, nu
     return canvas;
 }
 
-/// Grains of earth, light and dark.
-function grainTile(seed: number, dark: number, light: number): HTMLCanvasElement {
+const lamp = "#ffd58a";
+
+/// A patch that hides the lines below a preview: the ground in shadow, or paper. @param share  percent
+function patchOf({ colour, grain }: GroundLook, share: number): string {
+    const shade = grain === 0 ? 1 : 0.78;
+    const [r, g, b] = [1, 3, 5].map((at) => Math.round(shade * parseInt(colour.slice(at, at + 2), 16)));
+    return `rgb(${r} ${g} ${b} / ${share}%)`;
+}
+
+function drawUnderlay(context: CanvasRenderingContext2D, { picture, box, shift }: Underlay): void {
+    const [x0, y0, x1, y1] = box;
+    context.save();
+    context.scale(1, -1); // pictures are upright with y down
+    context.imageSmoothingQuality = "high";
+    context.drawImage(picture, x0 + shift.x, -(y1 + shift.y), x1 - x0, y1 - y0);
+    context.restore();
+}
+
+function drawDashedRing(context: CanvasRenderingContext2D, x: number, y: number, radius: number, colour: string): void {
+    for (const [width, stroke] of [[0.17, "rgb(40 12 6 / 75%)"], [0.09, colour]] as const) {
+        context.lineWidth = width;
+        context.strokeStyle = stroke;
+        context.setLineDash(width > 0.1 ? [] : [0.24, 0.14]);
+        context.beginPath();
+        context.arc(x, y, radius, 0, 2 * Math.PI);
+        context.stroke();
+    }
+    context.setLineDash([]);
+}
+
+/// Grains of a ground, light and dark.
+function grainTile(seed: number, dark: number, light: number, tone: GroundLook["tone"]): HTMLCanvasElement {
     return tile(240 + seed, (chance) => {
         const grain = chance();
         if (grain < 0.5) return [30, 8, 4, dark * chance()];
-        return grain > 0.9 ? [255, 196, 150, light * chance()] : [0, 0, 0, 0];
+        return grain > 0.9 ? [...tone, light * chance()] : [0, 0, 0, 0];
     });
 }
 

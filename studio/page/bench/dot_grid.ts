@@ -117,6 +117,18 @@ export interface Lines {
     lineOfArc: Int32Array; // by sides * dot + arc
 }
 
+/// A step of a line along an arc of a dot.
+export interface Step {
+    dot: number;
+    arc: number;
+    isAnticlockwise: boolean;
+}
+/// The sides of the dot where a step begins and ends.
+export const entryOf = ({ sides }: DotGrid, { arc, isAnticlockwise }: Step): number =>
+    isAnticlockwise ? arc : (arc + 1) % sides;
+export const exitOf = ({ sides }: DotGrid, { arc, isAnticlockwise }: Step): number =>
+    isAnticlockwise ? (arc + 1) % sides : arc;
+
 /// Calls `visit` for each step of a line: along arc `arc` of a dot, from an arc on that it passes anticlockwise.
 export function walkLine(
     { gaps, gapAt, sides }: DotGrid,

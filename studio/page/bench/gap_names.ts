@@ -10,10 +10,10 @@ function dotName({ dots, rows }: DotGrid, dot: number): string {
     return `row ${row + 1} dot ${dot - before + 1}`;
 }
 
-/// `Gap between row 2 dot 3 and row 2 dot 4: crossed; 3 lines`
-export function gapText({ grid, states, count }: Kolam, gap: number): string {
+/// `Gap between row 2 dot 3 and row 2 dot 4: crossed, doubtful; 3 lines`
+export function gapText({ grid, states, count, doubts }: Kolam, gap: number): string {
     const { from, to } = grid.gaps[gap];
-    const state = state_names[states[gap]];
+    const state = state_names[states[gap]] + (doubts.has(gap) ? ", doubtful" : "");
     return `Gap between ${dotName(grid, from)} and ${dotName(grid, to)}: ${state}; ${counted(count, "line")}`;
 }
 

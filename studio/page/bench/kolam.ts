@@ -1,7 +1,8 @@
 // The kolam on the bench: a grid, the states of its gaps, and the symmetry that changes preserve.
-import type { SymmetryName } from "../protocol";
+import type { RimName, SymmetryName } from "../protocol";
 import type { DotGrid, GridSymmetry, Lines, Place } from "./dot_grid";
 import { agrees, countLines, crossed, followLines, joined, lineOrbits, no_grid, turned } from "./dot_grid";
+import { Rim } from "./rims";
 import { roundedStrands } from "./rounded_lines";
 import { isSymmetric, symmetrised } from "./symmetry";
 
@@ -17,6 +18,9 @@ export class Kolam {
     states = new Uint8Array(0);
     lines: Lines = followLines(no_grid, this.states);
     drawn: number[][] = []; // the control points of the lines
+    rim: RimName = "round";
+    shaped = 0; // loops at the rim that have its shape
+    doubts: ReadonlySet<number> = new Set(); // gaps that a photograph does not show clearly
     lineOrbits: number[] = []; // see lineOrbits()
     symmetry: GridSymmetry = no_grid.symmetries[0];
     /// The user has chosen the symmetry; otherwise it follows the drawing.
@@ -39,7 +43,7 @@ export class Kolam {
     }
 
     /// Sets another grid with the states of its gaps. A chosen symmetry stays if the grid has it, any other if the
-    /// drawing has it.
+    /// drawing has it. No gap is doubtful.
     set(grid: DotGrid, states: Uint8Array): void {
         const { name } = this.symmetry;
         this.grid = grid;
@@ -47,14 +51,37 @@ export class Kolam {
         this.isChosen &&= same !== undefined;
         const stays = same && (this.isChosen || isSymmetric(same.orbits, states));
         this.symmetry = stays ? same : grid.symmetries[grid.symmetries.length - 1];
+        this.doubts = new Set();
         this.setStates(states);
     }
 
+    /// Gaps that change are no longer doubtful.
     setStates(states: Uint8Array): void {
+        const before = this.states;
+        if (this.doubts.size > 0) this.settle([...this.doubts].filter((gap) => before[gap] !== states[gap]));
         this.states = Uint8Array.from(states);
         this.lines = followLines(this.grid, this.states);
-        this.drawn = roundedStrands(this.grid, this.states, this.lines);
+        this.shape();
         this.lineOrbits = lineOrbits(this.grid, this.states, this.lines);
+    }
+
+    setRim(rim: RimName): void {
+        if (rim === this.rim) return;
+        this.rim = rim;
+        this.shape();
+    }
+
+    private shape(): void {
+        const rim = new Rim(this.grid, this.states, this.rim);
+        this.shaped = rim.shaped;
+        this.drawn = roundedStrands(this.grid, this.states, this.lines, rim);
+    }
+
+    /// Removes the doubts about some gaps.
+    settle(gaps: Iterable<number>): void {
+        const doubts = new Set(this.doubts);
+        for (const gap of gaps) doubts.delete(gap);
+        this.doubts = doubts;
     }
 
     stateAfter(gap: number, change: Change): number {
@@ -93,16 +120,14 @@ export class Kolam {
         if (!agrees(old, grid, shift) && old.dots.length > 0) {
             shift = { x: grid.dots[0].x - old.dots[0].x, level: grid.dots[0].level - old.dots[0].level };
         }
-        const known = new Map<string, number>();
+        const known = new Map<string, number>(); // gaps of the old grid
         if (agrees(old, grid, shift)) {
-            old.gaps.forEach((gap, i) =>
-                known.set(`${gap.x + shift.x} ${gap.level + shift.level}`, this.states[i]),
-            );
+            old.gaps.forEach((gap, i) => known.set(`${gap.x + shift.x} ${gap.level + shift.level}`, i));
         }
-        this.set(
-            grid,
-            Uint8Array.from(grid.gaps, (gap) => known.get(`${gap.x} ${gap.level}`) ?? crossed),
-        );
+        const { states, doubts } = this;
+        const before = grid.gaps.map((gap) => known.get(`${gap.x} ${gap.level}`) ?? -1);
+        this.set(grid, Uint8Array.from(before, (gap) => states[gap] ?? crossed));
+        this.doubts = new Set([...before.keys()].filter((gap) => doubts.has(before[gap])));
         this.setStates(symmetrised(this.orbits, this.states));
     }
 

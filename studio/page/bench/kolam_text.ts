@@ -1,20 +1,67 @@
 // Reads the kolam of the bench from the text of a pattern, and keeps what the user edited there.
 
+import type { RimName } from "../protocol";
+import { readDoubts } from "./doubts";
+import { type GroundName, groundOf, grounds, isGroundLine } from "./grounds";
+import { rim_names } from "./rims";
+
 const dots_line = "dots: 0.2 step #fffaf0";
 const fields_line = "fields: chessboard";
 
-/// The text with keys for the dots and the filled fields that are wanted.
-export function withLook(text: string, look: { hasDots: boolean; isFilled: boolean }): string {
-    const lines = [...(look.hasDots ? [dots_line] : []), ...(look.isFilled ? [fields_line] : [])];
-    return lines.length > 0 ? [text.trimEnd(), ...lines, ""].join("\n") : text;
+export interface Look {
+    isColoured: boolean;
+    isFilled: boolean;
+    hasDots: boolean;
+    rim: RimName;
+    ground: GroundName;
+    hand: number; // 0 to 1
+}
+export const first_look: Look = {
+    isColoured: true,
+    isFilled: false,
+    hasDots: true,
+    rim: "round",
+    ground: "earth",
+    hand: 0,
+};
+
+/// A word written in dots.
+export interface Word {
+    letters: string; // `/` begins a new line
+    rows: number; // of dots, of a capital letter
+}
+export const usual_rows = 12;
+/// The notation of its grid.
+export const wordGrid = ({ letters, rows }: Word): string => `text ${rows}:${letters}`;
+export const wordTitle = ({ letters }: Word): string => letters.replaceAll("/", " ").trim();
+
+/// Keys by which the looks are read again. The colours and the rim are written by the libraries.
+function lookLines({ hasDots, isFilled, hand, ground }: Look): string[] {
+    return [
+        ...(hasDots ? [dots_line] : []),
+        ...(isFilled ? [fields_line] : []),
+        ...(hand > 0 ? [`hand: ${hand}`] : []),
+        ...(ground === "white" ? [grounds.white.line] : []),
+    ];
 }
 
-export interface ReadKolam {
+/// The text of the libraries with keys for the look that is wanted, and a comment that names the word of the grid.
+export function withLook(text: string, look: Look, word: Word | null = null): string {
+    const lines = lookLines(look);
+    let made = lines.length > 0 ? [text.trimEnd(), ...lines, ""].join("\n") : text;
+    if (look.ground !== "white" && look.ground !== "earth") made = made.replace(/^ground: .*$/m, grounds[look.ground].line);
+    // A backslash at the end would continue the comment.
+    if (word && !word.letters.includes("\\")) {
+        made = made.replace(/^\/\/ gaps:.*$/m, (line) => `${line}\n// letters: ${word.rows} ${word.letters}`);
+    }
+    return made;
+}
+
+export interface ReadKolam extends Look {
     grid: string; // its notation
     gaps: string; // digits
-    isColoured: boolean;
-    hasDots: boolean;
-    isFilled: boolean;
+    word: Word | null;
+    doubts: string[]; // places of gaps, see gapPlaces()
 }
 
 /// The grid and the states of its gaps, if the libraries made the text.
@@ -22,9 +69,24 @@ export function readKolam(text: string): ReadKolam | null {
     const found = comments(text) ?? olderComments(text);
     if (!found) return null;
     const palette = /^palette:(.*)$/m.exec(text)?.[1].trim().split(/\s+/) ?? [];
-    const hasDots = /^dots:(?!\s*none)/m.test(text);
-    const isFilled = /^fields:\s*chessboard\s*$/m.test(text);
-    return { ...found, isColoured: palette.length > 2, hasDots, isFilled };
+    const letters = /^\/\/ letters: (\d+) (.+)$/m.exec(text);
+    return {
+        ...found,
+        isColoured: palette.length > 2,
+        hasDots: /^dots:(?!\s*none)/m.test(text),
+        isFilled: /^fields:\s*chessboard\s*$/m.test(text),
+        rim: rimOf(text),
+        ground: groundOf(text),
+        hand: Math.min(1, Number(/^hand:\s*(\d*\.?\d+)\s*$/m.exec(text)?.[1] ?? 0)),
+        word: letters && { rows: Number(letters[1]), letters: letters[2] },
+        doubts: readDoubts(text),
+    };
+}
+
+/// The rim that the libraries name, or the command in patterns of the kolam library.
+function rimOf(text: string): RimName {
+    const name = /^\/\/ rim: (\w+)$/m.exec(text)?.[1] ?? /^source: sikku kolam .*--rim (\w+)/m.exec(text)?.[1];
+    return rim_names.find((each) => each === name) ?? "round";
 }
 
 type Comments = Pick<ReadKolam, "grid" | "gaps">;
@@ -44,7 +106,7 @@ function olderComments(text: string): Comments | null {
     return title && crossings && { grid: title[1].replaceAll("-", ","), gaps: crossings[1] };
 }
 
-/// Keys that the bench writes; all others belong to the user.
+/// Keys that the libraries write; all others belong to the user.
 const own_keys = new Set(["title", "description", "derivation length", "angle factor", "heading", "axiom"]);
 
 function otherKeys(text: string): Map<string, string> {
@@ -56,6 +118,10 @@ function otherKeys(text: string): Map<string, string> {
     return found;
 }
 
+/// True for a line that the bench writes. Another line for the hand belongs to the bench, too, which reads its value.
+const isOurs = (line: string): boolean =>
+    line === dots_line || line === fields_line || isGroundLine(line) || /^hand:\s*\d*\.?\d+\s*$/.test(line);
+
 /// The new text with the lines that the user edited in the old one. `made`: the old text as written by the libraries;
 /// empty if unknown.
 export function withEditsOf(old: string, made: string, fresh: string): string {
@@ -64,7 +130,8 @@ export function withEditsOf(old: string, made: string, fresh: string): string {
     let text = fresh;
     for (const [key, line] of otherKeys(old)) {
         const own = now.get(key);
-        if (line === was.get(key) || line === own || line === dots_line || line === fields_line) continue;
+        if (line === was.get(key) || line === own || isOurs(line)) continue;
+        if (key === "ground" && own !== grounds.earth.line) continue; // a floor was chosen
         if (key === "palette" && was.get(key) !== own) continue; // the number of lines has changed
         text = own === undefined ? `${text.trimEnd()}\n${line}\n` : text.replace(own, () => line);
     }

@@ -1,13 +1,17 @@
 // The controls beside the board.
 import { button, checkbox, element, field, icon, labelled, slideTo } from "../elements";
 import { capital, counted } from "../numbers_shown";
-import type { SymmetryName } from "../protocol";
+import type { RimName, SymmetryName } from "../protocol";
 import type { DotGrid } from "./dot_grid";
 import { crossed, joined, turned } from "./dot_grid";
 import { statesTold } from "./gap_names";
+import { type GroundName, ground_names, grounds } from "./grounds";
 import type { Kolam } from "./kolam";
+import { first_look, type Look, usual_rows, type Word, wordGrid } from "./kolam_text";
+import type { Photograph, View } from "./photograph";
 import { presets } from "./presets";
 import { RadioGroup } from "./radio_group";
+import { rim_labels, rim_names, rimIcon } from "./rims";
 import { symmetry_labels } from "./symmetry";
 
 const symmetry_order: SymmetryName[] = [
@@ -36,11 +40,6 @@ const keys_text =
     + "Drag to change several gaps. On the board the arrow keys select a gap, the space key changes it, and C, T and J "
     + "cross, turn back and join.";
 
-export interface Look {
-    isColoured: boolean;
-    isFilled: boolean;
-    hasDots: boolean;
-}
 export interface Chances {
     density: number; // of crossed gaps
     joined: number; // of the others
@@ -58,7 +57,24 @@ export interface SideActs {
     setAll(change: (state: number) => number): void;
     chances(chances: Chances): void;
     look(look: Look): void;
+    word(word: Word): void; // to write in dots
+    photograph(file: File): void; // to read
+    nextKolam(): void; // of the photograph
+    view(view: View): void;
+    forget(): void; // the photograph
+    nextDoubt(): void; // selects it
+    settle(all: boolean): void; // the selected doubtful gap is right, or all are
 }
+
+export interface Shown {
+    kolam: Kolam;
+    chances: Chances;
+    look: Look;
+    word: Word | null;
+    photograph: Photograph | null;
+}
+
+type Toggle = "isColoured" | "isFilled" | "hasDots";
 
 export class Side {
     readonly element = element("aside", { class: "bench-side", "aria-label": "Kolam" });
@@ -82,21 +98,62 @@ export class Side {
     private readonly joined = shareSlider("joined");
     private readonly composed = checkbox((composed) => this.acts.chances({ ...this.chances, composed }));
     private readonly seed = element("input", { type: "text", id: "bench-seed", inputmode: "numeric", class: "number" });
-    private readonly boxes = new Map<keyof Look, HTMLInputElement>();
+    private readonly boxes = new Map<Toggle, HTMLInputElement>();
+    private readonly letters = element("input", {
+        type: "text",
+        id: "bench-word",
+        spellcheck: "false",
+        autocomplete: "off",
+        placeholder: "MEERA, மீரா",
+    });
+    private readonly letterRows = element("input", { type: "number", id: "bench-word-rows", class: "number", min: 5, max: 200, step: 1 });
+    private readonly rims: RadioGroup<RimName>;
+    private readonly rimName = element("p", { class: "bench-lock-name" });
+    private readonly grounds: RadioGroup<GroundName>;
+    private readonly groundName = element("p", { class: "bench-lock-name" });
+    private readonly hand = shareSlider("hand");
+    private readonly doubts = element("p", { class: "bench-doubts", role: "status" });
+    private readonly doubtControls: HTMLElement;
+    private readonly photographName = element("p", { class: "bench-lock-name" });
+    private readonly photographControls: HTMLElement;
+    private views: RadioGroup<View> | null = null;
+    private readonly nextKolam = button("", () => this.acts.nextKolam());
     private counted: unknown = null; // the lines counted last
     private chances = first_chances;
-    private look: Look = { isColoured: true, isFilled: false, hasDots: true };
+    private look: Look = first_look;
 
     constructor(private readonly acts: SideActs) {
         const makeLock = (name: SymmetryName) =>
             element("button", { type: "button", class: "bench-lock", "aria-label": symmetry_labels[name], hidden: true },
                 icon(symmetry_icons[name]));
+        const makeRim = (name: RimName) =>
+            element("button", { type: "button", class: "bench-lock bench-rim", "aria-label": rim_labels[name], title: rim_labels[name] },
+                icon(rimIcon(name)));
+        const chooseRim = (rim: RimName) => acts.look({ ...this.look, rim });
+        this.rims = new RadioGroup({ class: "bench-locks", "aria-label": "Rim" }, rim_names, makeRim, chooseRim);
+        const makeGround = (name: GroundName) => {
+            const { label, colour } = grounds[name];
+            const made = element("button", { type: "button", class: "bench-lock bench-ground", "aria-label": label, title: label });
+            made.style.setProperty("--ground", colour);
+            return made;
+        };
+        const chooseGround = (ground: GroundName) => acts.look({ ...this.look, ground });
+        this.grounds = new RadioGroup({ class: "bench-locks", "aria-label": "Ground" }, ground_names, makeGround, chooseGround);
+        this.doubtControls = this.section("Doubtful gaps", this.doubts, element("div", { class: "toolbar" },
+            button("Next gap", () => acts.nextDoubt(), { kind: "primary" }),
+            button("It is right", () => acts.settle(false)),
+            button("All are right", () => acts.settle(true)),
+        ));
+        this.photographControls = this.makePhotographControls();
         const locks = { class: "bench-locks", "aria-label": "Symmetry" };
         this.locks = new RadioGroup(locks, symmetry_order, makeLock, (name) => acts.symmetry(name));
         this.element.append(
             element("div", { class: "bench-facts" }, this.count, this.states, this.certificate),
+            this.doubtControls,
             this.section("Grid of dots", ...this.gridControls()),
+            this.section("Photograph", ...this.photographSection()),
             this.section("Symmetry", this.locks.element, this.lockName),
+            this.section("Rim", this.rims.element, this.rimName),
             this.section("Gaps", ...this.gapControls()),
             this.section(
                 "Look",
@@ -104,6 +161,7 @@ export class Side {
                 this.toggle("Fill alternate fields", "isFilled"),
                 this.toggle("Dots", "hasDots"),
             ),
+            this.section("Ground and hand", this.grounds.element, this.groundName, ...this.handControls()),
             element("p", { class: "bench-keys", id: "bench-keys" }, keys_text),
         );
     }
@@ -161,7 +219,52 @@ export class Side {
                 stepper("Rows", this.rows, (by) => acts.resize(by, 0)),
                 stepper("Columns", this.columns, (by) => acts.resize(0, by)),
             ),
+            this.wordControls(),
         ];
+    }
+
+    private wordControls(): HTMLElement {
+        const write = () => this.acts.word({ letters: this.letters.value.trim(), rows: this.letterRows.valueAsNumber || usual_rows });
+        this.letters.addEventListener("change", write);
+        this.letterRows.addEventListener("change", write);
+        this.letterRows.value = String(usual_rows);
+        return element("div", { class: "bench-pair" }, field("Word in dots", this.letters), field("Rows of dots", this.letterRows));
+    }
+
+    private handControls(): HTMLElement[] {
+        const { input } = this.hand;
+        input.addEventListener("input", () => this.acts.look({ ...this.look, hand: input.valueAsNumber / 100 }));
+        return [
+            element("div", { class: "bench-random" }, shareRow("By hand", this.hand)),
+            element("p", { class: "bench-lock-name" }, "Picture and prints show the texture of floors, and lines as a hand strews them."),
+        ];
+    }
+
+    private photographSection(): HTMLElement[] {
+        const { acts } = this;
+        const input = element("input", { type: "file", accept: "image/*", hidden: true, id: "bench-photograph" });
+        input.addEventListener("change", () => {
+            if (input.files?.[0]) acts.photograph(input.files[0]);
+            input.value = "";
+        });
+        return [
+            element("div", { class: "toolbar" }, button("Read a photograph…", () => input.click()), this.nextKolam, input),
+            this.photographName,
+            this.photographControls,
+        ];
+    }
+
+    private makePhotographControls(): HTMLElement {
+        const { acts } = this;
+        const views = [["photograph", "Photograph"], ["both", "Both"], ["kolam", "Kolam"]] as const;
+        const group = new RadioGroup<View>(
+            { class: "bench-views", "aria-label": "Shown on the board" },
+            views.map(([view]) => view),
+            (view) => element("button", { type: "button", class: "bench-view" }, views.find(([each]) => each === view)![1]),
+            (view) => acts.view(view),
+        );
+        this.views = group;
+        return element("div", { class: "toolbar" }, group.element, button("Remove", () => acts.forget(), { kind: "quiet" }));
     }
 
     private gapControls(): HTMLElement[] {
@@ -202,7 +305,7 @@ export class Side {
         ];
     }
 
-    private toggle(label: string, name: keyof Look): HTMLElement {
+    private toggle(label: string, name: Toggle): HTMLElement {
         const box = checkbox((isChecked) => this.acts.look({ ...this.look, [name]: isChecked }));
         this.boxes.set(name, box);
         return labelled(box, label);
@@ -225,7 +328,7 @@ export class Side {
         this.problem.hidden = true;
     }
 
-    update(kolam: Kolam, chances: Chances, look: Look): void {
+    update({ kolam, chances, look, word, photograph }: Shown): void {
         Object.assign(this, { chances, look });
         const { grid, count } = kolam;
         if (kolam.lines !== this.counted) {
@@ -239,7 +342,10 @@ export class Side {
         this.rows.textContent = String(grid.rows.length);
         this.columns.textContent = String(Math.max(0, ...grid.rows));
         for (const stepper of this.steppers) stepper.disabled = !grid.isSolid;
-        this.gridField.value = grid.text;
+        this.gridField.value = word ? wordGrid(word) : grid.text;
+        // Not while they are typed.
+        if (document.activeElement !== this.letters) this.letters.value = word?.letters ?? "";
+        if (word && document.activeElement !== this.letterRows) this.letterRows.value = String(word.rows);
         this.describe(grid);
         for (const [name, lock] of this.locks.buttons) {
             const found = kolam.symmetryNamed(name);
@@ -254,7 +360,35 @@ export class Side {
         this.composed.checked = chances.composed;
         this.seed.value = String(chances.seed);
         for (const [name, box] of this.boxes) box.checked = look[name];
+        this.rims.update(look.rim);
+        this.rimName.textContent = rimText(kolam, look.rim);
+        this.grounds.update(look.ground);
+        this.groundName.textContent = grounds[look.ground].label;
+        showShare(this.hand, look.hand, "by hand");
+        this.showDoubts(kolam.doubts.size);
+        this.showPhotograph(photograph);
     }
+
+    private showDoubts(count: number): void {
+        this.doubtControls.hidden = count === 0;
+        this.doubts.textContent = count === 0 ? "" : `${counted(count, "gap")} of the photograph ${count === 1 ? "is" : "are"} doubtful, with dashed rings on the board. A click corrects a gap; N selects the next one, R accepts it.`;
+    }
+
+    private showPhotograph(photograph: Photograph | null): void {
+        const readable = photograph?.found.readable ?? 1;
+        this.nextKolam.hidden = readable < 2;
+        this.nextKolam.textContent = `Next of ${readable} kolams`;
+        this.photographName.textContent = photograph?.file.name
+            ?? "Reads the kolam of a picture. You can also drop the picture on the page.";
+        this.photographControls.hidden = !photograph;
+        if (photograph) this.views!.update(photograph.view);
+    }
+}
+
+/// `Horns on 8 loops`
+function rimText({ shaped }: Kolam, rim: RimName): string {
+    if (rim === "round") return rim_labels.round;
+    return shaped > 0 ? `${rim_labels[rim]}, on ${counted(shaped, "loop")}` : `${rim_labels[rim]}: no loop at the rim has room`;
 }
 
 interface ShareSlider {
