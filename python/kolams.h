@@ -14,7 +14,7 @@ namespace sikku {
 /// @throws SettingError, std::runtime_error
 pybind11::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::optional<std::string>& symmetry,
                            std::optional<double> density, double joined, const std::optional<std::string>& crossings,
-                           bool is_single_line, int attempts, bool is_coloured, bool draws_dots,
+                           std::uint32_t period, bool is_single_line, int attempts, bool is_coloured, bool draws_dots,
                            const std::string& rim);
 
 /// The text of the pattern of a radial kolam. @throws SettingError

@@ -63,10 +63,28 @@ FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, std::optional<Borde
     style_.palette.push_back(ink);
 }
 
+const DrawnExtent& FramedDrawing::seen() {
+    const DrawnExtent& seen = inner_->seen();
+    const Box& box = options_.frame ? options_.frame->box : seen.box;
+    if (!box.empty()) size_ = box.size();
+    return seen;
+}
+
+/// The border in the weight that suits the lines, if these are as wide as the drawing is large. Copies that fill the
+/// page cannot determine it, because the border determines their size.
+Border FramedDrawing::border_on(const Page& page) const {
+    Border border = *border_;
+    const double line = drawn_.pen_width({});
+    const bool is_filled = options_.repeat && options_.repeat->fills;
+    if (!drawn_.stroke.in_steps || is_filled || !(line > 0 && size_.x > 0 && size_.y > 0)) return border;
+    border.weight = border_weight(page, line * options_.placement.step.value_or(step_within_border(page, size_)));
+    return border;
+}
+
 double FramedDrawing::border_space(const Page& page) const {
     Page framed = page;
     framed.height -= foot_space(page);
-    return border_ ? border_room(border_->kind, framed) : 0;
+    return border_ ? border_room(border_on(framed), framed) : 0;
 }
 
 double FramedDrawing::foot_space(const Page& page) const {
@@ -78,7 +96,7 @@ Window FramedDrawing::inside(const Window& window) const {
     if (!options_.repeat || !options_.repeat->fills) return window;
     const double foot = foot_space({window.width, window.height, window.margin});
     const Page framed{window.width, window.height - foot, window.margin};
-    const double room = window.margin + (border_ ? border_depth(border_->kind, framed) : 0);
+    const double room = window.margin + (border_ ? border_depth(border_on(framed), framed) : 0);
     return {.left = window.left + room,
             .top = window.top + room,
             .width = window.width - 2 * room,
@@ -97,7 +115,8 @@ void FramedDrawing::read(const Print& print, const Window& window, PathSink& sin
     if (border_) {
         Window framed = window;
         framed.height -= foot_space({window.width, window.height, window.margin});
-        draw_border(*border_, print, framed, border_colour_, sink);
+        const Border border = border_on({framed.width, framed.height, framed.margin});
+        draw_border(border, print, framed, border_colour_, sink);
     }
     if (has_text(options_)) read_text(print, window, sink);
 }

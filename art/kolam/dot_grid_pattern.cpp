@@ -6,6 +6,7 @@
 #include "art/print/ornaments.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
 #include "engine/language/pattern.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -117,6 +119,18 @@ std::uint32_t turned_by(const std::vector<std::uint8_t>& turns, std::size_t coun
 }
 
 constexpr double steps_per_spacing = 2;  // of rounded lines
+constexpr double stroke_steps = 0.16;
+
+/// The box of a closed uniform cubic B-spline: of its knots and the middles between them.
+Box box_of_spline(std::span<const glm::dvec2> controls) {
+    Box box;
+    const auto at = [&](std::size_t i) { return controls[i % controls.size()]; };
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+        box.add((at(i) + 4.0 * at(i + 1) + at(i + 2)) / 6.0);
+        box.add((at(i) + 23.0 * at(i + 1) + 23.0 * at(i + 2) + at(i + 3)) / 48.0);
+    }
+    return box;
+}
 
 class PatternWriter {
 public:
@@ -134,6 +148,8 @@ public:
         pattern_.shaped = rim_.shaped();
         write_head();
         is_rounded_ ? write_rounded() : write_on_lattice();
+        pattern_.line = stroke_steps / (is_rounded_ ? steps_per_spacing : std::numbers::sqrt2);
+        pattern_.size = box_.size() + pattern_.line;
         write_style();
     }
 
@@ -179,8 +195,10 @@ private:
             text_ += '\n';
         }
         constexpr double half = std::numbers::sqrt2 / 4;
+        constexpr double reach = 1.0 / 3;  // of a line that turns back at the rim, whose control point is 1/2 away
         for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
             pulse_();
+            box_.add(dot_place(grid_, dot), reach);
             const HalfSteps way = place_of_dot(grid_, dot) - origin_;
             pattern_.dots.emplace_back(half * static_cast<double>(way.first - way.second),
                                        half * static_cast<double>(way.first + way.second));
@@ -250,6 +268,9 @@ private:
 
     std::vector<glm::dvec2> controls_of(const ArcStep& start) {
         std::vector<glm::dvec2> controls = rounded_line(grid_, states_, start, rim_, pulse_);
+        const Box line = box_of_spline(controls);
+        box_.add(line.low);
+        box_.add(line.high);
         for (glm::dvec2& control : controls) control *= steps_per_spacing;
         return controls;
     }
@@ -335,7 +356,7 @@ private:
 
     void write_style() {
         text_ += "\nground: #7d3324\nline: spline\n";
-        text_ += fmt::format("stroke: 0.16 step {}\n", rice);
+        text_ += fmt::format("stroke: {} step {}\n", stroke_steps, rice);
         if (is_rounded_ || !is_single() || options_.dot_symbols) {
             text_ += fmt::format("palette: {} transparent\n", line_colours_ > 1 ? kolam_colours : rice);
         }
@@ -351,6 +372,7 @@ private:
     std::size_t line_colours_;
     std::string pen_up_;
     KolamPattern pattern_;
+    Box box_;  // of the lines without their width, in spacings
     std::string& text_ = pattern_.text;
     HalfSteps origin_;
     HalfSteps at_;
@@ -364,7 +386,8 @@ KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const K
 
 std::string kolam_head(const KolamPatternOptions& options) {
     std::string head;
-    for (const auto& [key, value] : {std::pair("title", &options.title), {"description", &options.description}}) {
+    for (const auto& [key, value] :
+         {std::pair("title", &options.title), {"source", &options.source}, {"description", &options.description}}) {
         const std::string line = pattern_line(*value);
         if (!line.empty()) head += fmt::format("{}: {}\n", key, line);
     }

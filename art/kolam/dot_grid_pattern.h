@@ -29,6 +29,7 @@ std::string_view rim_style_name(RimStyle style);
 struct KolamPatternOptions {
     std::string title = {};        ///< any text; pattern_line() makes it one line
     std::string description = {};  ///< likewise
+    std::string source = {};       ///< likewise: the command that makes the pattern
     bool coloured = false;         ///< one of eight colours for each class of lines that are images of each other
     bool dot_symbols = false;      ///< draws the dots, too, as `@.`
     RimStyle rim = RimStyle::round;
@@ -40,6 +41,10 @@ struct KolamPattern {
     std::vector<glm::dvec2> dots;  ///< their positions in turtle steps, in the order of DotGrid::dots()
     std::size_t lines = 0;
     std::size_t shaped = 0;  ///< loops at the rim that are not round
+    /// Width and height of the drawing with its lines' width, in spacings of the dots; within a hundredth where lines
+    /// are rounded.
+    glm::dvec2 size{0.0};
+    double line = 0.0;  ///< width of the lines, in spacings
 };
 
 /// Writes a kolam as a pattern with `line: spline`. Each line is one closed stroke; the first starts at 0 0. A single
@@ -54,7 +59,7 @@ struct KolamPattern {
 /// @throws std::runtime_error if the text is too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 
-/// The keys `title` and `description` of a pattern; empty ones are left out.
+/// The keys `title`, `source` and `description` of a pattern; empty ones are left out.
 std::string kolam_head(const KolamPatternOptions& options);
 
 /// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps), or empty.

@@ -42,9 +42,11 @@ using Motif = std::vector<std::uint32_t>;
 class Composition {
 public:
     /// @param period  motifs that repeat by this step are one; without it, none are
-    Composition(const DotGrid& grid, GridSymmetry symmetry, std::optional<GridDot> period)
+    /// @param columns  above 0: motifs that repeat by this number of columns are one, and no others
+    Composition(const DotGrid& grid, GridSymmetry symmetry, std::optional<GridDot> period, std::uint32_t columns)
         : grid_(grid),
           period_(period),
+          columns_(columns),
           crossings_(grid.gaps().size()),
           neighbours_(sides * grid.dots().size(), no_dot) {
         for (const GridGap& gap : grid.gaps()) {
@@ -156,7 +158,11 @@ private:
                 images.join(i, numbers.at(sorted(gaps)));
             }
         }
-        if (period_) join_repeats(images);
+        if (columns_ > 0) {
+            join_columns(images);
+        } else if (period_) {
+            join_repeats(images);
+        }
         const std::vector<std::uint32_t> classes = images.set_numbers();
         motif_of_triangle_ = classes;
         for (std::size_t i = 0; i < classes.size(); ++i) {
@@ -164,11 +170,26 @@ private:
             motifs_[classes[i]].insert(motifs_[classes[i]].end(), triangles_[i].begin(), triangles_[i].end());
         }
         triangle_motifs_ = motifs_.size();
-        for (std::uint32_t i = 0; i < orbits.size(); ++i) {
-            if (triangle_motifs_ + orbits[i] == motifs_.size()) motifs_.emplace_back();
-            motifs_[triangle_motifs_ + orbits[i]].push_back(i);
+        const std::vector<std::uint32_t> repeated = columns_ > 0 ? gap_orbits(grid_, symmetry, columns_) : orbits;
+        for (std::uint32_t i = 0; i < repeated.size(); ++i) {
+            if (triangle_motifs_ + repeated[i] == motifs_.size()) motifs_.emplace_back();
+            motifs_[triangle_motifs_ + repeated[i]].push_back(i);
         }
         is_chosen_.assign(motifs_.size(), 0);
+    }
+    GridDot sum_of_corners(std::uint32_t triangle) const {
+        GridDot sum;
+        for (const std::uint32_t dot : corners_[triangle]) sum = sum + grid_.dots()[dot];
+        return sum;
+    }
+    void join_columns(UnionFind& images) {
+        std::map<GridDot, std::uint32_t> at;
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) at[sum_of_corners(i)] = i;
+        const GridDot step{6 * static_cast<std::int32_t>(columns_), 0};
+        for (const auto& [sum, i] : at) {
+            const auto found = at.find(sum + step);
+            if (found != at.end()) images.join(i, found->second);
+        }
     }
     /// Joins triangles that the period takes to each other. Those around the centre, which are its figure, repeat
     /// nowhere, and those of the rim only along it.
@@ -179,11 +200,10 @@ private:
         std::map<GridDot, std::pair<std::uint32_t, Zone>> at;  // by the sum of their corners
         std::vector<std::pair<GridDot, Zone>> places;
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-            GridDot sum;
+            const GridDot sum = sum_of_corners(i);
             glm::dvec2 middle(0.0);
             bool touches_rim = false;
             for (const std::uint32_t dot : corners_[i]) {
-                sum = sum + grid_.dots()[dot];
                 middle += dot_place(grid_, dot) / 3.0;
                 touches_rim = touches_rim || is_rim(dot);
             }
@@ -342,6 +362,7 @@ private:
 
     const DotGrid& grid_;
     std::optional<GridDot> period_;
+    std::uint32_t columns_;
     std::vector<std::uint32_t> crossings_;                 // by gap: chosen motifs that cross it
     std::vector<std::uint32_t> neighbours_;                // by dot and side
     std::vector<std::array<std::uint32_t, 3>> triangles_;  // their gaps
@@ -393,11 +414,11 @@ std::optional<GridDot> random_period(std::size_t dots, SplitMix& chance) {
 
 }  // namespace
 
-GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
+GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::uint32_t period) {
     constexpr double begun_triangles = 0.28;  // share of those chosen at first
     constexpr std::size_t most_proposals = 1500;
     SplitMix chance(seed);
-    Composition composition(grid, symmetry, random_period(grid.dots().size(), chance));
+    Composition composition(grid, symmetry, random_period(grid.dots().size(), chance), period);
     const bool is_large = grid.dots().size() >= fewest_repeated_dots && composition.has_inside();
     composition.aim_at(random_densities(grid.dots().size(), chance));
     if (is_large) {

@@ -22,7 +22,8 @@ constexpr std::size_t fewest_repeated_dots = 80;
 /// wreath along the rim. The seed determines the step, the star, the density, and the number of rings of densities.
 /// Cost: about 20 ms for 169 dots (15-8). Larger grids are improved less, those of over most_composed_dots not at
 /// all.
+/// @param period  columns after which the gaps of a row repeat, except at its ends; 0: they do not
 /// @throws std::runtime_error if the grid does not have the symmetry
-GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed);
+GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::uint32_t period = 0);
 
 }  // namespace sikku

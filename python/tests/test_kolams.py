@@ -17,6 +17,7 @@ from conftest import SOURCE, Run
         ["--grid", "1-3-5-3-1", "--symmetry", "C4", "--single-line", "--seed", "3"],
         ["--grid", "15-8 idukku pulli", "--density", "0.5", "--joined", "0.2", "--colours"],
         ["--grid", "3x3", "--crossings", "all", "--single-line", "--dots"],
+        ["--grid", "3x21", "--period", "4", "--single-line", "--seed", "3"],
     ],
 )
 def test_kolams_are_those_of_the_program(arguments: list[str], run: Run, tmp_path: Path) -> None:
@@ -31,6 +32,7 @@ def test_kolams_are_those_of_the_program(arguments: list[str], run: Run, tmp_pat
         density=0.5 if "--density" in values else None,
         joined=0.2 if "--joined" in values else 0.0,
         crossings="all" if "--crossings" in given else None,
+        period=4 if "--period 4" in given else 0,
         single_line="--single-line" in given,
         colours="--colours" in given,
         dots="--dots" in given,

@@ -75,7 +75,7 @@ TEST(Borders, LieInTheirBand) {
     for (const Page& page : pages) {
         for (const BorderKind kind : kinds) {
             SCOPED_TRACE(static_cast<int>(kind));
-            const double depth = border_depth(kind, page);
+            const double depth = border_depth({kind}, page);
             const Points points = drawn(kind, page);
             EXPECT_GT(points.all.size(), 20u);
             for (const glm::dvec2 point : points.all) {
@@ -84,7 +84,7 @@ TEST(Borders, LieInTheirBand) {
                 EXPECT_GE(inset, -1e-9);
                 EXPECT_LE(inset, depth + 1e-9);
             }
-            EXPECT_GT(border_room(kind, page), depth);
+            EXPECT_GT(border_room({kind}, page), depth);
         }
     }
 }

@@ -106,6 +106,7 @@ def make_kolam(
     density: Optional[float],
     joined: float,
     crossings: Optional[str],
+    period: int,
     single_line: bool,
     attempts: int,
     colours: bool,
