@@ -61,8 +61,11 @@ void check_output(const KolamGridOptions& options) {
                         "expected NAME.lsys",
                         options.output));
     }
-    const char* look = options.colours ? "--colours" : options.dots ? "--dots" : "--rim";
-    if (options.colours || options.dots || rim_of(options) != RimStyle::round) {
+    const char* look = options.colours   ? "--colours"
+                       : options.dots    ? "--dots"
+                       : options.centred ? "--centred"
+                                         : "--rim";
+    if (options.colours || options.dots || options.centred || rim_of(options) != RimStyle::round) {
         throw UsageError(
             fmt::format("{}: -o {} holds dots and gaps, not a drawing; expected NAME.lsys", look, options.output));
     }
@@ -82,9 +85,16 @@ KolamPatternOptions look_of(const KolamGridOptions& options) {
     KolamPatternOptions look;
     look.coloured = options.colours;
     look.dot_symbols = options.dots;
+    look.centred_dots = options.centred;
     look.rim = rim_of(options);
     look.monitor = stop_monitor();
     return look;
+}
+
+/// Refuses centred dots on interlaced rows.
+void check_centred(const KolamGridOptions& options, DotLattice lattice) {
+    if (!options.centred || lattice == DotLattice::square) return;
+    throw UsageError("--centred: interlaced dots have no fields between four dots; expected straight rows");
 }
 
 /// Writes the kolam in the format of the output, and reports it.
@@ -93,12 +103,13 @@ KolamPatternOptions look_of(const KolamGridOptions& options) {
 template <typename MakePattern>
 void write_kolam(const KolamGridOptions& options, const DotGrid& grid, const GridKolam& made,
                  const KolamPatternOptions& look, const std::string& more, bool quiet, MakePattern&& pattern) {
-    bool has_rim = true;
+    bool has_rim = true, has_centres = true;
     if (const auto other = text_for(options.output, grid, made.states)) {
         write_file(options.output, *other);
     } else {
         const KolamPattern& drawn = pattern();
         has_rim = look.rim == RimStyle::round || drawn.shaped > 0;
+        has_centres = !look.centred_dots || drawn.centred > 0;
         write_file(options.output, drawn.text);
     }
     const std::string title = options.is_fill() ? "" : dot_grid_title(text_of(options.grid));
@@ -117,6 +128,11 @@ void write_kolam(const KolamGridOptions& options, const DotGrid& grid, const Gri
     if (!has_rim) {
         tell_unless(quiet, "sikku: warning: --rim has no effect: no loop at the rim has enough room\n");
     }
+    if (!has_centres) {
+        tell_unless(quiet,
+                    "sikku: warning: --centred has no effect: no field lies between four crossed gaps; try "
+                    "--density 0.9\n");
+    }
     if (made.same_seed) {
         tell_unless(
             quiet,
@@ -129,6 +145,7 @@ void write_kolam(const KolamGridOptions& options, const DotGrid& grid, const Gri
 void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::optional<GridSymmetry> symmetry,
                   bool quiet) {
     check_output(options);
+    check_centred(options, grid.lattice());
     GridKolamOptions request = request_of(options, symmetry);
     if (options.crossings) {
         request.gaps = of_option("--crossings", [&] { return parse_gap_states(grid, text_of(*options.crossings)); });
@@ -174,6 +191,7 @@ std::string command_of(const KolamGridOptions& options) {
     add("rim", options.rim == KolamGridOptions().rim ? "" : options.rim);
     add_flag("colours", options.colours);
     add_flag("dots", options.dots);
+    add_flag("centred", options.centred);
     add_number("seed", options.seed, true);
     return command;
 }
@@ -247,6 +265,7 @@ void fill_page(const KolamGridOptions& options, bool quiet) {
     }
     if (options.enumerate) throw UsageError("--enumerate needs the numbers of rows and columns");
     FilledPage filled = page_of(options);
+    check_centred(options, filled.fill.given.lattice);
     std::optional<GridSymmetry> symmetry;
     if (options.symmetry) symmetry = of_option("--symmetry", [&] { return parse_grid_symmetry(*options.symmetry); });
     KolamPatternOptions look = look_of(options);
@@ -361,13 +380,18 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
     auto* colours = group.flag("--colours", options.colours,
                                "colour the lines; lines that are images of each other share a colour");
     auto* dots = group.flag("--dots", options.dots, "draw the dots in the pattern");
+    auto* centred = group.flag("--centred", options.centred,
+                               "set a dot, too, in each field between four dots whose four gaps are crossed; needs "
+                               "straight rows");
+    centred->needs(grid);
     auto* rim = group.add("--rim", options.rim, "STYLE",
                           "shape of the loops at the rim: round, pointed, petal, horn or crescent (round)");
     rim->needs(grid);
     auto* enumerate = group.flag("--enumerate", options.enumerate,
                                  "count and list all single-line kolams; with --symmetry, only symmetric ones");
     enumerate->needs(grid);
-    for (CLI::Option* option : {crossings, density, period, single, colours, dots, rim}) enumerate->excludes(option);
+    for (CLI::Option* option : {crossings, density, period, single, colours, dots, centred, rim})
+        enumerate->excludes(option);
     group.add("--limit", options.limit, "N", "maximum number of kolams that --enumerate lists, up to 10000000 (100)")
         ->needs(enumerate)
         ->check(whole_number(0, 10'000'000));

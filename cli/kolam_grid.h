@@ -29,6 +29,7 @@ struct KolamGridOptions {
     bool landscape = false;
     bool colours = false;
     bool dots = false;
+    bool centred = false;  ///< dots in closed fields between four dots
     std::string rim = "round";
     bool enumerate = false;
     std::size_t limit = 100;  ///< maximum number of kolams that an enumeration lists

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -138,6 +139,7 @@ public:
         : grid_(grid),
           states_(states),
           options_(options),
+          centres_(options.centred_dots ? crossed_cells(grid, states) : std::vector<GridDot>()),
           rim_(grid, states, options.rim),
           is_rounded_(grid.lattice() == DotLattice::triangular || rim_.shaped() > 0),
           pulse_(options.monitor),
@@ -146,6 +148,7 @@ public:
           pen_up_(fmt::format(";({})", line_colours_)) {
         pattern_.lines = starts_.size();
         pattern_.shaped = rim_.shaped();
+        pattern_.centred = centres_.size();
         write_head();
         is_rounded_ ? write_rounded() : write_on_lattice();
         pattern_.line = stroke_steps / (is_rounded_ ? steps_per_spacing : std::numbers::sqrt2);
@@ -161,6 +164,10 @@ private:
         if (states_.size() > most_listed_gaps) return;
         text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states_));
     }
+    /// Faces show where dots are, except centred ones.
+    bool marks_dots() const { return options_.dot_symbols || !centres_.empty(); }
+    /// A dot, transparent if it is only marked.
+    std::string dot_symbol() const { return fmt::format("[;({})@.]", options_.dot_symbols ? 0 : line_colours_); }
     bool is_single() const { return starts_.size() == 1; }
     /// The class of each line, which determines its colour.
     std::vector<std::uint32_t> classes() const {
@@ -191,7 +198,7 @@ private:
             for (std::size_t i = 0; i < starts_.size(); ++i) {
                 write_branch(word, orbits[i], starts_[i], turns_of(grid_, states_, starts_[i], pulse_));
             }
-            if (options_.dot_symbols) write_dots(word);
+            if (marks_dots()) write_dots(word);
             text_ += '\n';
         }
         constexpr double half = std::numbers::sqrt2 / 4;
@@ -219,7 +226,7 @@ private:
         } else {
             write_steps(word, turns, turns.size());
         }
-        if (options_.dot_symbols) {
+        if (marks_dots()) {
             if (!repeats) word.turn(turns.back());
             word.turn(4 - heading(grid_, start));
             // The stroke has to end before the turtle leaves it.
@@ -255,13 +262,16 @@ private:
         }
     }
     void write_dots(WordWriter& word) {
-        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+        const std::string symbol = dot_symbol();
+        const auto write = [&](GridDot dot) {
             pulse_();
-            const HalfSteps place = place_of_dot(grid_, dot);
+            const HalfSteps place = half_steps(grid_, dot, dot);
             word.move(place - at_);
             at_ = place;
-            word.put("[;(0)@.]");
-        }
+            word.put(symbol);
+        };
+        std::for_each(grid_.dots().begin(), grid_.dots().end(), write);
+        std::for_each(centres_.begin(), centres_.end(), write);
     }
 
     // --- rounded ---
@@ -344,20 +354,22 @@ private:
     /// Marks dots with a transparent pen if they are not drawn, since faces between rounded lines do not show where
     /// they are.
     void mark_dots(TurtleWalk& walk) {
-        const std::string symbol = fmt::format("[;({})@.]", options_.dot_symbols ? 0 : line_colours_);
+        const std::string symbol = dot_symbol();
         walk.put(pen_up_);
-        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
-            walk.move(steps_per_spacing * dot_place(grid_, dot), 'f');
+        const auto mark = [&](GridDot dot) {
+            walk.move(steps_per_spacing * lattice_point(grid_.lattice(), dot), 'f');
             walk.put(symbol);
             check_length();
-        }
+        };
+        std::for_each(grid_.dots().begin(), grid_.dots().end(), mark);
+        std::for_each(centres_.begin(), centres_.end(), mark);
         text_ += '\n';
     }
 
     void write_style() {
         text_ += "\nground: #7d3324\nline: spline\n";
         text_ += fmt::format("stroke: {} step {}\n", stroke_steps, rice);
-        if (is_rounded_ || !is_single() || options_.dot_symbols) {
+        if (is_rounded_ || !is_single() || marks_dots()) {
             text_ += fmt::format("palette: {} transparent\n", line_colours_ > 1 ? kolam_colours : rice);
         }
     }
@@ -365,6 +377,7 @@ private:
     const DotGrid& grid_;
     const GapStates& states_;
     const KolamPatternOptions& options_;
+    std::vector<GridDot> centres_;
     KolamRim rim_;
     bool is_rounded_;
     Pulse pulse_;
@@ -379,6 +392,23 @@ private:
 };
 
 }  // namespace
+
+std::vector<GridDot> crossed_cells(const DotGrid& grid, const GapStates& states) {
+    std::vector<GridDot> cells;
+    if (grid.lattice() != DotLattice::square) return cells;
+    const auto is_crossed = [&](std::uint32_t dot, std::uint32_t side) {
+        const std::int32_t gap = grid.gap(dot, side);
+        return gap >= 0 && states[static_cast<std::size_t>(gap)] == GapState::crossed;
+    };
+    constexpr std::uint32_t right = 0, down = 3;
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+        if (!is_crossed(dot, right) || !is_crossed(dot, down)) continue;
+        const std::uint32_t beside = *grid.dot_at(grid.dots()[dot] + grid.step(right));
+        const std::uint32_t below = *grid.dot_at(grid.dots()[dot] + grid.step(down));
+        if (is_crossed(beside, down) && is_crossed(below, right)) cells.push_back(grid.dots()[dot] + GridDot{1, -1});
+    }
+    return cells;
+}
 
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
     return PatternWriter(grid, states, options).pattern();

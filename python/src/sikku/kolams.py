@@ -39,6 +39,7 @@ def make_kolam(
     attempts: int = 1000,
     colours: bool = False,
     dots: bool = False,
+    centred: bool = False,
     rim: str = "round",
 ) -> Kolam:
     """Makes a kolam on a grid of dots, as `sikku kolam --grid`; the same on every machine.
@@ -56,6 +57,7 @@ def make_kolam(
     attempts: attempts to find a single line with a symmetry or a period.
     colours: colour the lines; lines that are images of each other share a colour.
     dots: draw the dots.
+    centred: set a dot, too, in each field between four dots whose four gaps are crossed.
     rim: shape of the loops at the rim: round, pointed, petal, horn or crescent.
 
     Raises SettingError, and Error if no single line was found.
@@ -74,6 +76,7 @@ def make_kolam(
         _count("attempts", attempts, 1, 2**31 - 1),
         colours,
         dots,
+        centred,
         rim,
     )
     return Kolam(load(f"kolam on {grid}", text=text), json.loads(facts))

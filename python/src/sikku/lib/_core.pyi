@@ -111,6 +111,7 @@ def make_kolam(
     attempts: int,
     colours: bool,
     dots: bool,
+    centred: bool,
     rim: str,
 ) -> tuple[str, str]: ...
 def make_radial_kolam(size: str, order: str, colours: bool, dots: bool) -> str: ...
