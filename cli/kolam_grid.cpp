@@ -309,6 +309,19 @@ void enumerate(const KolamGridOptions& options, const DotGrid& grid, GridSymmetr
     write_file(options.output, text);
 }
 
+void add_page_options(const OptionGroup& group, KolamGridOptions& options, CLI::Option* grid) {
+    for (const auto& [name, value, type, help] :
+         {std::tuple("--size", &options.size, "SIZE",
+                     "page that --grid 7xfill, fillx22 or fill is to fill, as in `sikku draw` (A4)"),
+          {"--margin", &options.margin, "LENGTH", "margin of that page (10mm)"},
+          {"--dot-spacing", &options.spacing, "LENGTH",
+           "approximate distance between dots of --grid fill on the page"},
+          {"--border", &options.border, "NAME", "leave room for this border of `sikku draw`"}}) {
+        group.add(name, *value, type, help)->needs(grid);
+    }
+    group.flag("--landscape", options.landscape, "landscape page")->needs(grid);
+}
+
 }  // namespace
 
 bool KolamGridOptions::is_fill() const {
@@ -359,16 +372,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
              "attempts to find a single line with a symmetry or a period, 1 to 1000000 (1000)")
         ->needs(single)
         ->check(whole_number(1, 1'000'000));
-    for (const auto& [name, value, type, help] :
-         {std::tuple("--size", &options.size, "SIZE",
-                     "page that --grid 7xfill, fillx22 or fill is to fill, as in `sikku draw` (A4)"),
-          {"--margin", &options.margin, "LENGTH", "margin of that page (10mm)"},
-          {"--dot-spacing", &options.spacing, "LENGTH",
-           "approximate distance between dots of --grid fill on the page"},
-          {"--border", &options.border, "NAME", "leave room for this border of `sikku draw`"}}) {
-        group.add(name, *value, type, help)->needs(grid);
-    }
-    group.flag("--landscape", options.landscape, "landscape page")->needs(grid);
+    add_page_options(group, options, grid);
     auto* radial = group.add("--radial", options.radial, "ARMSxDOTS",
                              "make a radial kolam (Hridaya kamalam) instead: arms and dots on each, such as 8x5; its "
                              "lines go through the dots, from arm to arm");
