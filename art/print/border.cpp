@@ -216,9 +216,11 @@ double step_within_border(const Page& page, glm::dvec2 size) {
 }
 
 double border_weight(const Page& page, double line) {
-    constexpr double usual = 0.16;  // width of a line relative to the thickness
+    constexpr double fine = 0.1, bold = 0.25;  // widths of lines relative to the thickness
     constexpr double least = 0.8, most = 1.25;
-    return std::clamp(std::sqrt(line / thickness(page) / usual), least, most);
+    const double width = line / thickness(page);
+    const double usual = std::clamp(width, fine, bold);
+    return std::clamp(std::sqrt(width / usual), least, most);
 }
 
 double border_depth(const Border& border, const Page& page) {

@@ -94,8 +94,9 @@ TEST(Borders, LieInTheirBand) {
 
 TEST(Borders, WeighMoreAroundBoldLines) {
     for (const Page& page : pages) {
-        const double usual = 0.16 * std::min(page.width, page.height) / 24;
+        const double usual = 0.25 * std::min(page.width, page.height) / 24;
         EXPECT_NEAR(border_weight(page, usual), 1, 1e-12);
+        EXPECT_EQ(border_weight(page, 0.5 * usual), 1);
         EXPECT_NEAR(border_weight(page, 1.21 * usual), 1.1, 1e-12);
         EXPECT_EQ(border_weight(page, 0), 0.8);
         EXPECT_EQ(border_weight(page, 100 * usual), 1.25);
