@@ -28,8 +28,8 @@ struct Border {
 /// @param size  width and height of the drawing, in steps
 double step_within_border(const Page& page, glm::dvec2 size);
 /// Factor of a border's size that fits it to the lines of a drawing: borders around unusually bold lines are larger,
-/// those around unusually fine lines smaller, by the square root of the line's width relative to the page. From 0.8 to
-/// 1.25.
+/// those around unusually fine lines smaller, by the square root of the line's width relative to the page. From 0.8
+/// to 1.25.
 /// @param line  millimetres
 double border_weight(const Page& page, double line);
 
