@@ -72,6 +72,7 @@ void add_kolam(CLI::App& app, bool& quiet) {
         "  sikku kolam snake-kolam\n"
         "  sikku kolam --grid 7x7 --symmetry C4 --single-line --seed 3 -o mine.lsys\n"
         "  sikku kolam --grid '15-8 idukku pulli' -o interlaced.lsys\n"
+        "  sikku kolam --grid 5xfill --size 120x40cm --period 4 --single-line -o doorstep.lsys\n"
         "  sikku kolam --radial 8x5 --dots -o hridaya.lsys\n"
         "  sikku kolam --grid 3x3 --enumerate\n"
         "  sikku kolam --read photo.jpg -o mine.lsys --overlay found.png\n"

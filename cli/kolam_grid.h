@@ -22,16 +22,22 @@ struct KolamGridOptions {
     std::optional<double> density;         ///< share of crossed gaps; absent: the seed chooses
     double joined = 0.0;                   ///< share of joined gaps among the others
     std::optional<std::string> crossings;  ///< instead of chance; `@FILE` reads them from a file
+    std::uint32_t period = 0;              ///< columns after which the gaps repeat; 0: they do not
     bool single_line = false;
-    int attempts = 1000;  ///< for a single line with a symmetry
+    int attempts = 1000;                                            ///< for a single line with a symmetry
+    std::string size = {}, margin = {}, spacing = {}, border = {};  ///< of the page that the grid fills
+    bool landscape = false;
     bool colours = false;
     bool dots = false;
+    bool centred = false;  ///< dots in closed fields between four dots
     std::string rim = "round";
     bool enumerate = false;
     std::size_t limit = 100;  ///< maximum number of kolams that an enumeration lists
     int threads = 0;          ///< threads of an enumeration
     bool as_json = false;     ///< report it as JSON, on standard output
     std::string output;       ///< empty: standard output
+
+    bool is_fill() const;  ///< a page determines the grid @throws UsageError
 };
 
 /// Adds `--grid` and the options that depend on it; the command adds `-o`, `--json` and `-j`.

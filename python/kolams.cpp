@@ -41,17 +41,22 @@ void check_share(const char* option, double share) {
 
 py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::optional<std::string>& symmetry,
                      std::optional<double> density, double joined, const std::optional<std::string>& crossings,
-                     bool is_single_line, int attempts, bool is_coloured, bool draws_dots, const std::string& rim) {
+                     std::uint32_t period, bool is_single_line, int attempts, bool is_coloured, bool draws_dots,
+                     bool is_centred, const std::string& rim) {
     if (density) check_share("density", *density);
     check_share("joined", joined);
     if (attempts < 1) refuse_option("attempts", std::to_string(attempts), "expected a whole number from 1");
-    if (crossings && (symmetry || density || joined > 0)) {
-        refuse_option("crossings", "", "excludes symmetry, density and joined");
+    if (crossings && (symmetry || density || joined > 0 || period > 0)) {
+        refuse_option("crossings", "", "excludes symmetry, density, joined and period");
     }
     const auto [text, facts] = long_call([&](const Monitor& monitor) {
         const DotGrid grid = of_option("grid", dots, [&] { return parse_dot_grid(dots); });
-        GridKolamOptions options{
-            .seed = seed, .density = density, .joined = joined, .single_line = is_single_line, .attempts = attempts};
+        GridKolamOptions options{.seed = seed,
+                                 .density = density,
+                                 .joined = joined,
+                                 .period = period,
+                                 .single_line = is_single_line,
+                                 .attempts = attempts};
         if (symmetry) {
             options.symmetry = of_option("symmetry", *symmetry, [&] {
                 const GridSymmetry wanted = parse_grid_symmetry(*symmetry);
@@ -62,12 +67,16 @@ py::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::opt
         if (crossings) {
             options.gaps = of_option("crossings", *crossings, [&] { return parse_gap_states(grid, *crossings); });
         }
+        if (is_centred && grid.lattice() != DotLattice::square) {
+            refuse_option("centred", "", "interlaced dots have no fields between four dots; expected straight rows");
+        }
         const RimStyle style = of_option("rim", rim, [&] { return parse_rim_style(rim); });
         const GridKolam made = make_grid_kolam(grid, options, monitor);
         KolamPatternOptions pattern = describe_grid_kolam(grid, options, made);
         if (const std::string title = dot_grid_title(dots); !title.empty()) pattern.title = title;
         pattern.coloured = is_coloured;
         pattern.dot_symbols = draws_dots;
+        pattern.centred_dots = is_centred;
         pattern.rim = style;
         pattern.monitor = monitor;
         return std::pair(kolam_pattern(grid, made.states, pattern).text, grid_kolam_json(grid, made));

@@ -14,8 +14,8 @@ namespace sikku {
 /// @throws SettingError, std::runtime_error
 pybind11::tuple make_kolam(const std::string& dots, std::uint64_t seed, const std::optional<std::string>& symmetry,
                            std::optional<double> density, double joined, const std::optional<std::string>& crossings,
-                           bool is_single_line, int attempts, bool is_coloured, bool draws_dots,
-                           const std::string& rim);
+                           std::uint32_t period, bool is_single_line, int attempts, bool is_coloured, bool draws_dots,
+                           bool is_centred, const std::string& rim);
 
 /// The text of the pattern of a radial kolam. @throws SettingError
 pybind11::str make_radial_kolam(const std::string& size, const std::string& order, bool is_coloured, bool draws_dots);

@@ -82,6 +82,24 @@ FramedDrawing::FramedDrawing(std::unique_ptr<Drawing> inner, std::optional<Borde
     style_.palette.push_back(ink);
 }
 
+const DrawnExtent& FramedDrawing::seen() {
+    const DrawnExtent& seen = inner_->seen();
+    const Box& box = options_.frame ? options_.frame->box : seen.box;
+    if (!box.empty()) size_ = box.size();
+    return seen;
+}
+
+/// The border in the weight that suits the lines, if these are as wide as the drawing is large. Copies that fill the
+/// page cannot determine it, because the border determines their size.
+Border FramedDrawing::border_on(const Page& page) const {
+    Border border = *border_;
+    const double line = drawn_.pen_width({});
+    const bool is_filled = options_.repeat && options_.repeat->fills;
+    if (!drawn_.stroke.in_steps || is_filled || !(line > 0 && size_.x > 0 && size_.y > 0)) return border;
+    border.weight = border_weight(page, line * options_.placement.step.value_or(step_within_border(page, size_)));
+    return border;
+}
+
 double FramedDrawing::title_height(const Page& page) const {
     return options_.title_line ? options_.title_look.size.value_or(letters_of(page)) : 0;
 }
@@ -132,14 +150,15 @@ Page FramedDrawing::without_text(const Page& page) const {
 }
 
 double FramedDrawing::border_space(const Page& page) const {
-    return border_ ? border_room(border_->kind, without_text(page)) : 0;
+    const Page framed = without_text(page);
+    return border_ ? border_room(border_on(framed), framed) : 0;
 }
 
 /// The part of a window that copies may fill.
 Window FramedDrawing::inside(const Window& window) const {
     if (!options_.repeat || !options_.repeat->fills) return window;
     const Page framed = without_text(page_of(window));
-    const double room = window.margin + (border_ ? border_depth(border_->kind, framed) : 0);
+    const double room = window.margin + (border_ ? border_depth(border_on(framed), framed) : 0);
     return {.left = window.left + room,
             .top = window.top + text_space(page_of(window)).above + room,
             .width = window.width - 2 * room,
@@ -157,9 +176,10 @@ void FramedDrawing::read(const Print& print, const Window& window, PathSink& sin
     }
     if (border_) {
         Window framed = window;
+        const Page page = without_text(page_of(window));
         framed.top += text_space(page_of(window)).above;
-        framed.height = without_text(page_of(window)).height;
-        draw_border(*border_, print, framed, border_colour_, sink);
+        framed.height = page.height;
+        draw_border(border_on(page), print, framed, border_colour_, sink);
     }
     if (has_text(options_)) read_text(print, window, sink);
 }

@@ -23,6 +23,7 @@ public:
     FramedDrawing(std::unique_ptr<Drawing> inner, std::optional<Border> border, const DrawingOptions& options,
                   const Reading& reading);
 
+    const DrawnExtent& seen() override;
     double border_space(const Page& page) const override;
     TextSpace text_space(const Page& page) const override;
     using Drawing::read;
@@ -48,6 +49,7 @@ private:
     Line title_line(double room, const Page& page) const;
     std::vector<Line> lines_of(const Window& window) const;
     Page without_text(const Page& page) const;
+    Border border_on(const Page& page) const;
     Window inside(const Window& window) const;
     void read_text(const Print& print, const Window& window, PathSink& sink) const;
 
@@ -55,6 +57,7 @@ private:
     double depth_ = 0;   ///< of the texts below the drawing, as part of the height of capitals
     double ascent_ = 0;  ///< of a title above it
     std::optional<Border> border_;
+    glm::dvec2 size_{0.0};  ///< of the drawing, in steps; known once it was seen
     int border_colour_ = 0;
     int text_colour_ = 0;
     mutable std::atomic<bool> is_cut_ = false;  ///< the title or the edition was too long

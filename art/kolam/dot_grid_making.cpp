@@ -195,12 +195,75 @@ void connect(const DotGrid& grid, const std::vector<std::uint32_t>& orbits, Spli
     }
     const std::vector<std::vector<std::uint32_t>> members = members_of(orbits);
     for (const std::uint32_t orbit : shuffled(members.size(), chance)) {
-        if (!connects(members[orbit].front())) continue;  // then none of its images does
+        if (std::none_of(members[orbit].begin(), members[orbit].end(), connects)) continue;
         for (const std::uint32_t i : members[orbit]) {
             states[i] = GapState::crossed;
             join(i);
         }
     }
+}
+
+/// Crosses all gaps of the orbits that have a crossed one: where triangles are cut off at the ends of rows, their
+/// gaps are not.
+void repeat_crossings(const std::vector<std::uint32_t>& orbits, GapStates& states) {
+    std::vector<char> is_crossed(orbits.size());
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+        if (states[i] == GapState::crossed) is_crossed[orbits[i]] = 1;
+    }
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+        if (is_crossed[orbits[i]] != 0) states[i] = GapState::crossed;
+    }
+}
+
+bool ends_row(const DotGrid& grid, std::uint32_t dot) {
+    return grid.gap(dot, 0) < 0 || grid.gap(dot, grid.sides() / 2) < 0;
+}
+
+/// The number of lines that pass no dot at the end of a row.
+std::size_t count_inner_lines(const DotGrid& grid, const LineLabels& labels) {
+    std::vector<char> reaches(labels.starts.size());
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+        if (!ends_row(grid, dot)) continue;
+        for (std::uint32_t arc = 0; arc < grid.sides(); ++arc) reaches[labels.line[grid.sides() * dot + arc]] = 1;
+    }
+    return static_cast<std::size_t>(std::count(reaches.begin(), reaches.end(), 0));
+}
+
+/// Changes orbits of gaps as long as that lets more lines reach the ends of rows. Returns true if all do.
+bool reach_ends(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
+                GapStates& states, std::uint64_t& steps, const Monitor& monitor) {
+    LineLabels labels;
+    const auto change = [&](const std::vector<std::uint32_t>& gaps) {
+        for (const std::uint32_t i : gaps) states[i] = changed(states[i]);
+        label_lines(grid, states, labels, monitor);
+        steps -= std::min<std::uint64_t>(steps, labels.line.size());
+        return count_inner_lines(grid, labels);
+    };
+    std::size_t inner = change({});
+    for (bool is_better = true; is_better && inner > 0;) {
+        is_better = false;
+        for (const std::uint32_t orbit : shuffled(orbits.size(), chance)) {
+            if (inner == 0 || steps == 0) break;
+            const std::size_t left = change(orbits[orbit]);
+            if (left >= inner) {
+                change(orbits[orbit]);
+                continue;
+            }
+            inner = left;
+            is_better = true;
+        }
+    }
+    return inner == 0;
+}
+
+/// The orbits of gaps at dots that end rows.
+std::vector<std::vector<std::uint32_t>> end_orbits(const DotGrid& grid, GridSymmetry symmetry) {
+    std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, symmetry));
+    const auto is_end = [&](std::uint32_t i) {
+        return ends_row(grid, grid.gaps()[i].from) || ends_row(grid, grid.gaps()[i].to);
+    };
+    std::erase_if(members, [&](const auto& orbit) { return std::none_of(orbit.begin(), orbit.end(), is_end); });
+    return members;
 }
 
 }  // namespace
@@ -211,10 +274,12 @@ GapStates random_states(const DotGrid& grid, const RandomKolam& kolam) {
             throw std::runtime_error("the shares of crossed and joined gaps must be between 0 and 1");
         }
     }
-    const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry);
+    const std::vector<std::uint32_t> orbits = gap_orbits(grid, kolam.symmetry, kolam.period);
     const bool is_interlaced =
         kolam.composed && grid.lattice() == DotLattice::triangular && grid.dots().size() <= most_composed_dots;
-    GapStates states = is_interlaced ? interlaced_states(grid, kolam.symmetry, kolam.seed) : GapStates(orbits.size());
+    GapStates states =
+        is_interlaced ? interlaced_states(grid, kolam.symmetry, kolam.seed, kolam.period) : GapStates(orbits.size());
+    if (is_interlaced && kolam.period > 0) repeat_crossings(orbits, states);
     SplitMix chance(kolam.seed);
     std::vector<GapState> drawn;
     for (std::size_t i = 0; i < orbits.size(); ++i) {
@@ -268,7 +333,7 @@ std::size_t make_single_line(const DotGrid& grid, GapStates& states, std::uint64
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts,
                                            const Monitor& monitor, std::uint64_t* steps_left) {
     if (grid.groups() > 1) return std::nullopt;
-    if (kolam.symmetry == GridSymmetry::none) {
+    if (kolam.symmetry == GridSymmetry::none && kolam.period == 0) {
         SingleLine found{random_states(grid, kolam), 0, 1};
         found.changed = make_single_line(grid, found.states, kolam.seed, monitor);
         return found;
@@ -276,8 +341,11 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
     std::uint64_t own_steps = 3'000'000'000;
     std::uint64_t& steps = steps_left ? *steps_left : own_steps;
     if (steps == 0) return std::nullopt;
-    const std::vector<std::vector<std::uint32_t>> members = members_of(gap_orbits(grid, kolam.symmetry));
-    const bool tries_others = is_framed(grid);
+    const std::vector<std::vector<std::uint32_t>> repeated =
+        members_of(gap_orbits(grid, kolam.symmetry, kolam.period));
+    const std::vector<std::vector<std::uint32_t>> members =
+        kolam.period > 0 ? end_orbits(grid, kolam.symmetry) : repeated;
+    const bool tries_others = is_framed(grid) && kolam.period == 0;
     LineLabels labels;
     RandomKolam attempted = kolam;
     SplitMix seeds(kolam.seed);
@@ -288,6 +356,7 @@ std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKola
         const GapStates begun = random_states(grid, attempted);
         SingleLine found{begun, 0, attempt};
         SplitMix chance(attempted.seed);
+        if (kolam.period > 0 && !reach_ends(grid, repeated, chance, found.states, steps, monitor)) continue;
         join_orbits(grid, members, chance, found.states, labels, monitor);
         label_lines(grid, found.states, labels, monitor);
         OrbitJoiner joiner(grid, members, chance, found.states, labels, steps, monitor);

@@ -15,6 +15,7 @@ struct RandomKolam {
     double density = 0.7;  ///< share of crossed gaps, 0 to 1
     double joined = 0.0;   ///< share of joined gaps among the others, 0 to 1
     GridSymmetry symmetry = GridSymmetry::none;
+    std::uint32_t period = 0;  ///< columns after which the gaps of a row repeat; 0: they do not
     /// In the square lattice, crosses further gaps, with their images, until lines around neighbouring dots connect
     /// all dots of a group, without rings around single dots or separate pieces. In the triangular lattice, crosses
     /// those of interlaced_states() instead, whatever the density; single lines with a symmetry only in the first 20
@@ -43,8 +44,11 @@ struct SingleLine {
 
 /// Finds a single-line kolam. Without a symmetry: random_states(), then make_single_line(). With one, whole orbits
 /// are changed as long as that reduces the number of lines; if several remain, in framed kolams (interlaced_states())
-/// after up to 20 random changes more, the next attempt starts from another seed, derived from the first. Returns
-/// nullopt if `attempts` attempts or 3 * 10^9 steps along lines do not suffice, or the dots are not connected.
+/// after up to 20 random changes more, the next attempt starts from another seed, derived from the first. With a
+/// period, orbits of the repeated gaps are changed until every line reaches an end of a row; then only gaps at dots
+/// that end rows, which need not repeat, are changed to join the lines. Without a symmetry that always succeeds: the
+/// gaps around an end connect all lines that reach it. Returns nullopt if `attempts` attempts or 3 * 10^9 steps along
+/// lines do not suffice, or the dots are not connected.
 /// @param steps_left  steps that several calls share, instead of 3 * 10^9
 /// @throws as random_states()
 std::optional<SingleLine> find_single_line(const DotGrid& grid, const RandomKolam& kolam, int attempts = 1000,

@@ -1,6 +1,7 @@
 // art/kolam/dot_grid_notation.cpp: reads the notations of grids of dots.
 #include "art/kolam/dot_grid.h"
 #include "art/kolam/dot_grid_text.h"
+#include "art/kolam/dot_rectangle.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 
@@ -25,6 +26,10 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view text, std::string_view reason) {
     throw std::runtime_error(fmt::format("'{}': {}", printable(text, 80), reason));
+}
+
+[[noreturn]] void refuse_fill(std::string_view text) {
+    refuse(text, "expected fill, ROWSxfill or fillxCOLUMNS, and 'idukku' for interlaced dots");
 }
 
 std::string replaced(std::string_view text, std::string_view from, char to) {
@@ -158,6 +163,8 @@ std::optional<TextInDots> parse_text_in_dots(std::string_view given) {
 
 enum class Sort : std::uint8_t { unknown, straight, interlaced };
 
+constexpr std::string_view fill_word = "fill";
+
 /// A number of dots, and a number of rows after an `x`, 0 without one.
 struct Item {
     std::uint32_t dots = 0;
@@ -171,6 +178,11 @@ public:
     explicit NotationReader(std::string_view given) : given_(given), text_(lower_case(given)) {
         for (const char* dash : {"–", "—", "−"}) text_ = replaced(text_, dash, '-');
         text_ = replaced(text_, "×", 'x');
+    }
+    /// Accepts the word `fill` as a number of dots or rows, 0.
+    NotationReader& with_fill() {
+        has_fill_ = true;
+        return *this;
     }
 
     std::pair<std::vector<Item>, Sort> read() {
@@ -202,6 +214,8 @@ private:
         if (is_one_of({"x", "by"})) {
             if (items_.empty() || separator_ != 0 || is_times_ || items_.back().rows != 0) refuse(given_);
             is_times_ = true;
+        } else if (word == fill_word && has_fill_) {
+            put_number(0);
         } else if (word == "to") {
             separate('t');
         } else if (is_one_of({"ner", "neer", "straight", "square", "parallel"})) {
@@ -231,6 +245,9 @@ private:
         if (error == std::errc::result_out_of_range) number = std::numeric_limits<std::uint32_t>::max();
         at_ += static_cast<std::size_t>(rest - begin);
         if (number == 0) refuse(given_);
+        put_number(number);
+    }
+    void put_number(std::uint32_t number) {
         if (is_times_) {
             items_.back().rows = number;
             is_times_ = false;
@@ -248,6 +265,7 @@ private:
     Sort sort_ = Sort::unknown;
     char separator_ = 0;
     bool is_times_ = false;
+    bool has_fill_ = false;
 };
 
 class Notation {
@@ -364,8 +382,29 @@ DotGrid parse_dot_grid(std::string_view given) {
     if (const auto text = parse_text_in_dots(given)) return text_grid(text->letters, text->rows);
     const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
     if (is_shape(text)) return parse_shape(text);
+    if (parse_fill(given))
+        refuse(given, "only a page determines the dots of this grid; expected its numbers of dots");
     auto [items, sort] = NotationReader(given).read();
     return Notation(given, std::move(items), sort).grid();
+}
+
+std::optional<DotRectangle> parse_fill(std::string_view given) {
+    const std::size_t at = lower_case(given).find(fill_word);
+    if (at == std::string_view::npos || parse_text_in_dots(given)) return std::nullopt;
+    // `7xfill` is one word otherwise.
+    const std::string spaced =
+        fmt::format("{} {} {}", given.substr(0, at), fill_word, given.substr(at + fill_word.size()));
+    const auto [items, sort] = [&] {
+        try {
+            return NotationReader(spaced).with_fill().read();
+        } catch (const std::runtime_error&) {
+            refuse_fill(given);
+        }
+    }();
+    const Item& sides = items.front();
+    if (items.size() != 1 || (sides.dots != 0 && sides.rows != 0)) refuse_fill(given);
+    return DotRectangle{sort == Sort::interlaced ? DotLattice::triangular : DotLattice::square, sides.dots,
+                        sides.rows};
 }
 
 std::string dot_grid_title(std::string_view given) {

@@ -6,14 +6,17 @@
 #include "art/print/ornaments.h"
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
 #include "engine/language/pattern.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -117,6 +120,18 @@ std::uint32_t turned_by(const std::vector<std::uint8_t>& turns, std::size_t coun
 }
 
 constexpr double steps_per_spacing = 2;  // of rounded lines
+constexpr double stroke_steps = 0.16;
+
+/// The box of a closed uniform cubic B-spline: of its knots and the middles between them.
+Box box_of_spline(std::span<const glm::dvec2> controls) {
+    Box box;
+    const auto at = [&](std::size_t i) { return controls[i % controls.size()]; };
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+        box.add((at(i) + 4.0 * at(i + 1) + at(i + 2)) / 6.0);
+        box.add((at(i) + 23.0 * at(i + 1) + 23.0 * at(i + 2) + at(i + 3)) / 48.0);
+    }
+    return box;
+}
 
 class PatternWriter {
 public:
@@ -124,6 +139,7 @@ public:
         : grid_(grid),
           states_(states),
           options_(options),
+          centres_(options.centred_dots ? crossed_cells(grid, states) : std::vector<GridDot>()),
           rim_(grid, states, options.rim),
           is_rounded_(grid.lattice() == DotLattice::triangular || rim_.shaped() > 0),
           pulse_(options.monitor),
@@ -132,8 +148,11 @@ public:
           pen_up_(fmt::format(";({})", line_colours_)) {
         pattern_.lines = starts_.size();
         pattern_.shaped = rim_.shaped();
+        pattern_.centred = centres_.size();
         write_head();
         is_rounded_ ? write_rounded() : write_on_lattice();
+        pattern_.line = stroke_steps / (is_rounded_ ? steps_per_spacing : std::numbers::sqrt2);
+        pattern_.size = box_.size() + pattern_.line;
         write_style();
     }
 
@@ -146,6 +165,10 @@ private:
         text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states_));
         if (options_.rim != RimStyle::round) text_ += fmt::format("// rim: {}\n", rim_style_name(options_.rim));
     }
+    /// Faces show where dots are, except centred ones.
+    bool marks_dots() const { return options_.dot_symbols || !centres_.empty(); }
+    /// A dot, transparent if it is only marked.
+    std::string dot_symbol() const { return fmt::format("[;({})@.]", options_.dot_symbols ? 0 : line_colours_); }
     bool is_single() const { return starts_.size() == 1; }
     /// The class of each line, which determines its colour.
     std::vector<std::uint32_t> classes() const {
@@ -176,12 +199,14 @@ private:
             for (std::size_t i = 0; i < starts_.size(); ++i) {
                 write_branch(word, orbits[i], starts_[i], turns_of(grid_, states_, starts_[i], pulse_));
             }
-            if (options_.dot_symbols) write_dots(word);
+            if (marks_dots()) write_dots(word);
             text_ += '\n';
         }
         constexpr double half = std::numbers::sqrt2 / 4;
+        constexpr double reach = 1.0 / 3;  // of a line that turns back at the rim, whose control point is 1/2 away
         for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
             pulse_();
+            box_.add(dot_place(grid_, dot), reach);
             const HalfSteps way = place_of_dot(grid_, dot) - origin_;
             pattern_.dots.emplace_back(half * static_cast<double>(way.first - way.second),
                                        half * static_cast<double>(way.first + way.second));
@@ -202,7 +227,7 @@ private:
         } else {
             write_steps(word, turns, turns.size());
         }
-        if (options_.dot_symbols) {
+        if (marks_dots()) {
             if (!repeats) word.turn(turns.back());
             word.turn(4 - heading(grid_, start));
             // The stroke has to end before the turtle leaves it.
@@ -238,19 +263,25 @@ private:
         }
     }
     void write_dots(WordWriter& word) {
-        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
+        const std::string symbol = dot_symbol();
+        const auto write = [&](GridDot dot) {
             pulse_();
-            const HalfSteps place = place_of_dot(grid_, dot);
+            const HalfSteps place = half_steps(grid_, dot, dot);
             word.move(place - at_);
             at_ = place;
-            word.put("[;(0)@.]");
-        }
+            word.put(symbol);
+        };
+        std::for_each(grid_.dots().begin(), grid_.dots().end(), write);
+        std::for_each(centres_.begin(), centres_.end(), write);
     }
 
     // --- rounded ---
 
     std::vector<glm::dvec2> controls_of(const ArcStep& start) {
         std::vector<glm::dvec2> controls = rounded_line(grid_, states_, start, rim_, pulse_);
+        const Box line = box_of_spline(controls);
+        box_.add(line.low);
+        box_.add(line.high);
         for (glm::dvec2& control : controls) control *= steps_per_spacing;
         return controls;
     }
@@ -324,20 +355,22 @@ private:
     /// Marks dots with a transparent pen if they are not drawn, since faces between rounded lines do not show where
     /// they are.
     void mark_dots(TurtleWalk& walk) {
-        const std::string symbol = fmt::format("[;({})@.]", options_.dot_symbols ? 0 : line_colours_);
+        const std::string symbol = dot_symbol();
         walk.put(pen_up_);
-        for (std::uint32_t dot = 0; dot < grid_.dots().size(); ++dot) {
-            walk.move(steps_per_spacing * dot_place(grid_, dot), 'f');
+        const auto mark = [&](GridDot dot) {
+            walk.move(steps_per_spacing * lattice_point(grid_.lattice(), dot), 'f');
             walk.put(symbol);
             check_length();
-        }
+        };
+        std::for_each(grid_.dots().begin(), grid_.dots().end(), mark);
+        std::for_each(centres_.begin(), centres_.end(), mark);
         text_ += '\n';
     }
 
     void write_style() {
         text_ += "\nground: #7d3324\nline: spline\n";
-        text_ += fmt::format("stroke: 0.16 step {}\n", rice);
-        if (is_rounded_ || !is_single() || options_.dot_symbols) {
+        text_ += fmt::format("stroke: {} step {}\n", stroke_steps, rice);
+        if (is_rounded_ || !is_single() || marks_dots()) {
             text_ += fmt::format("palette: {} transparent\n", line_colours_ > 1 ? kolam_colours : rice);
         }
     }
@@ -345,6 +378,7 @@ private:
     const DotGrid& grid_;
     const GapStates& states_;
     const KolamPatternOptions& options_;
+    std::vector<GridDot> centres_;
     KolamRim rim_;
     bool is_rounded_;
     Pulse pulse_;
@@ -352,6 +386,7 @@ private:
     std::size_t line_colours_;
     std::string pen_up_;
     KolamPattern pattern_;
+    Box box_;  // of the lines without their width, in spacings
     std::string& text_ = pattern_.text;
     HalfSteps origin_;
     HalfSteps at_;
@@ -359,13 +394,31 @@ private:
 
 }  // namespace
 
+std::vector<GridDot> crossed_cells(const DotGrid& grid, const GapStates& states) {
+    std::vector<GridDot> cells;
+    if (grid.lattice() != DotLattice::square) return cells;
+    const auto is_crossed = [&](std::uint32_t dot, std::uint32_t side) {
+        const std::int32_t gap = grid.gap(dot, side);
+        return gap >= 0 && states[static_cast<std::size_t>(gap)] == GapState::crossed;
+    };
+    constexpr std::uint32_t right = 0, down = 3;
+    for (std::uint32_t dot = 0; dot < grid.dots().size(); ++dot) {
+        if (!is_crossed(dot, right) || !is_crossed(dot, down)) continue;
+        const std::uint32_t beside = *grid.dot_at(grid.dots()[dot] + grid.step(right));
+        const std::uint32_t below = *grid.dot_at(grid.dots()[dot] + grid.step(down));
+        if (is_crossed(beside, down) && is_crossed(below, right)) cells.push_back(grid.dots()[dot] + GridDot{1, -1});
+    }
+    return cells;
+}
+
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options) {
     return PatternWriter(grid, states, options).pattern();
 }
 
 std::string kolam_head(const KolamPatternOptions& options) {
     std::string head;
-    for (const auto& [key, value] : {std::pair("title", &options.title), {"description", &options.description}}) {
+    for (const auto& [key, value] :
+         {std::pair("title", &options.title), {"source", &options.source}, {"description", &options.description}}) {
         const std::string line = pattern_line(*value);
         if (!line.empty()) head += fmt::format("{}: {}\n", key, line);
     }

@@ -293,13 +293,19 @@ std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid) {
     return found;
 }
 
-std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry) {
+std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry, std::uint32_t period) {
     require_symmetry(grid, symmetry);
     const DotMap map(grid);
     UnionFind sets(grid.gaps().size());
     for (const Isometry& isometry : group_of(symmetry).generators) {
         const std::vector<std::uint32_t> images = map.gaps(isometry);
         for (std::uint32_t i = 0; i < images.size(); ++i) sets.join(i, images[i]);
+    }
+    for (std::uint32_t i = 0; i < grid.gaps().size() && period > 0; ++i) {
+        const GridGap& gap = grid.gaps()[i];
+        const auto next = grid.dot_at(grid.dots()[gap.from] + GridDot{2 * static_cast<std::int32_t>(period), 0});
+        const std::int32_t image = next ? grid.gap(*next, gap.side) : -1;
+        if (image >= 0) sets.join(i, static_cast<std::uint32_t>(image));
     }
     return sets.set_numbers();
 }

@@ -53,8 +53,9 @@ std::vector<std::vector<std::uint32_t>> grid_symmetries(const DotGrid& grid);
 std::vector<std::vector<std::uint32_t>> arc_symmetries(const DotGrid& grid);
 
 /// The orbit of each gap under the symmetry; orbits are numbered from 0 in the order of their first gaps.
+/// @param period  columns after which the gaps of a row repeat: these share an orbit; 0: they do not repeat
 /// @throws std::runtime_error if the grid does not have the symmetry
-std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry);
+std::vector<std::uint32_t> gap_orbits(const DotGrid& grid, GridSymmetry symmetry, std::uint32_t period = 0);
 
 /// The orbit of each dot, likewise.
 /// @throws std::runtime_error if the grid does not have the symmetry

@@ -30,6 +30,16 @@ bool sees_all(glm::dvec2 point, std::span<const glm::dvec2> outline, double roun
     }
     return true;
 }
+std::vector<glm::dvec2> outline_of(const PlanarGraph& graph, const Faces& faces, std::uint32_t cycle) {
+    std::vector<glm::dvec2> outline;
+    const std::uint32_t first = faces.half_of(cycle);
+    std::uint32_t half = first;
+    do {
+        outline.push_back(graph.places[graph.tail(half)]);
+        half = graph.next(half);
+    } while (half != first);
+    return outline;
+}
 /// A point of the face in one of its corners.
 bool find_place(const Faces& faces, std::uint32_t cycle, std::span<const glm::dvec2> outline, double inward,
                 glm::dvec2& place) {
@@ -237,6 +247,21 @@ std::vector<KolamDot> own_dots(const PlanarGraph& graph, const Strokes& strokes,
     return dots;
 }
 
+void enclose_in_fields(const PlanarGraph& graph, const Faces& faces, std::vector<KolamDot>& dots) {
+    // Corners of fields lie below centred dots, where rounding would decide.
+    constexpr glm::dvec2 beside(1e-4, 0);
+    std::vector<std::uint32_t> face_of, dots_in(faces.cycles());
+    for (const KolamDot& dot : dots) {
+        face_of.push_back(dot.is_on_line ? none : faces.at(dot.at + beside));
+        if (face_of.back() != none) ++dots_in[face_of.back()];
+    }
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+        const std::uint32_t face = face_of[i];
+        if (face == none || dots[i].is_enclosed || dots_in[face] != 1 || faces.has_holes(face)) continue;
+        dots[i].is_enclosed = sees_all(dots[i].at, outline_of(graph, faces, face), graph.rounding);
+    }
+}
+
 std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, const Strokes& strokes,
                                const Lines& lines, const KolamOptions& options) {
     std::vector<KolamDot> dots;
@@ -244,14 +269,8 @@ std::vector<KolamDot> set_dots(const PlanarGraph& graph, const Faces& faces, con
     std::vector<glm::dvec2> outline;
     for (std::uint32_t cycle = 0; cycle < faces.cycles(); ++cycle) {
         pulse();
-        const std::uint32_t first = faces.half_of(cycle);
         if (!faces.is_odd(cycle) || faces.is_outer(cycle)) continue;
-        outline.clear();
-        std::uint32_t half = first;
-        do {
-            outline.push_back(graph.places[graph.tail(half)]);
-            half = graph.next(half);
-        } while (half != first);
+        outline = outline_of(graph, faces, cycle);
         KolamDot mark{centroid(outline), true, false};
         mark.is_alone = !faces.has_holes(cycle) && sees_all(mark.at, outline, graph.rounding);
         if (!mark.is_alone && faces.at(mark.at) != cycle) {

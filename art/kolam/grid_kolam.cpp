@@ -1,5 +1,6 @@
 #include "art/kolam/grid_kolam.h"
 
+#include "art/kolam/dot_rectangle.h"
 #include "art/kolam/interlaced_states.h"
 #include "engine/base/chance.h"
 #include "engine/base/diagnostic.h"
@@ -30,7 +31,8 @@ bool is_large(const DotGrid& grid) {
 }
 
 Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint64_t seed) {
-    Choice choice{{.seed = seed, .joined = options.joined, .composed = !options.density}, {}};
+    Choice choice{{.seed = seed, .joined = options.joined, .period = options.period, .composed = !options.density},
+                  {}};
     SplitMix chance(scrambled(seed));
     choice.random.density = options.density.value_or(choice.random.density + 0.2 * (chance.fraction() - 0.5));
     if (options.symmetry) {
@@ -55,6 +57,18 @@ Choice choice_of(const DotGrid& grid, const GridKolamOptions& options, std::uint
     return choice;
 }
 
+/// Names the nearest rectangles on which a single line can have the symmetry, if the grid is one.
+std::string possible_sizes(const DotGrid& grid, GridSymmetry symmetry, bool joined) {
+    const auto rectangle = rectangle_of(grid);
+    if (!rectangle) return "";
+    const std::vector<DotRectangle> others = nearest_rectangles(*rectangle, [&](const DotGrid& other) {
+        return has_symmetry(other, symmetry) && !single_line_obstacle(other, symmetry, joined);
+    });
+    if (others.empty()) return "";
+    return fmt::format("; possible on {}{}", name_of(others.front()),
+                       others.size() > 1 ? " and " + name_of(others.back()) : "");
+}
+
 /// Steps along lines and attempts for single lines.
 struct Effort {
     int attempts;
@@ -67,7 +81,7 @@ std::optional<GridKolam> make_single(const DotGrid& grid, const Choice& choice, 
     for (const GridSymmetry symmetry : choice.symmetries) {
         random.symmetry = symmetry;
         if (const auto obstacle = single_line_obstacle(grid, symmetry, random.joined > 0)) {
-            throw std::runtime_error(*obstacle);
+            throw std::runtime_error(*obstacle + possible_sizes(grid, symmetry, random.joined > 0));
         }
         // If no symmetry is requested, the next one is tried sooner.
         const int attempts = choice.symmetries.size() == 1 ? effort.attempts : std::min(effort.attempts, 100);
@@ -136,13 +150,27 @@ GridKolam make_by_seed(const DotGrid& grid, const GridKolamOptions& options, con
     Effort effort{options.attempts, options.symmetry ? 3'000'000'000U : 100'000'000U};
     auto made = make_by_chance(grid, options, options.seed, effort, monitor);
     if (!made) {
-        throw std::runtime_error(fmt::format(
-            "no single line with the symmetry {} was found in {}; try another 'seed' or 'density', or "
-            "more 'attempts'",
-            grid_symmetry_name(options.symmetry.value_or(GridSymmetry::none)), counted(options.attempts, "attempt")));
+        const std::string period =
+            options.period > 0 ? fmt::format(" and a period of {}", counted(options.period, "column")) : "";
+        throw std::runtime_error(
+            fmt::format("no single line with the symmetry {}{} was found in {}; try another 'seed' or 'density', or "
+                        "more 'attempts'",
+                        grid_symmetry_name(options.symmetry.value_or(GridSymmetry::none)), period,
+                        counted(options.attempts, "attempt")));
     }
     replace_known(grid, options, *made, monitor);
     return std::move(*made);
+}
+
+/// Refuses periods that nothing repeats.
+void check_period(const DotGrid& grid, std::uint32_t period) {
+    const auto [first, last] =
+        std::minmax_element(grid.dots().begin(), grid.dots().end(), [](GridDot a, GridDot b) { return a.x < b.x; });
+    const std::uint32_t columns = static_cast<std::uint32_t>(last->x - first->x) / 2 + 1;
+    if (period < columns) return;
+    throw std::runtime_error(
+        fmt::format("a period of {} on {}, which has {}: nothing repeats; expected fewer than {}",
+                    counted(period, "column"), grid.name(), counted(columns, "column"), columns));
 }
 
 GridKolam choose_gaps(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor) {
@@ -168,6 +196,7 @@ std::optional<std::size_t> second_count(const DotGrid& grid, const GapStates& st
 }  // namespace
 
 GridKolam make_grid_kolam(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor) {
+    if (options.period > 0) check_period(grid, options.period);
     GridKolam kolam = choose_gaps(grid, options, monitor);
     kolam.lines = count_lines(grid, kolam.states, monitor);
     kolam.nullity = second_count(grid, kolam.states, monitor);
@@ -189,6 +218,7 @@ KolamPatternOptions describe_grid_kolam(const DotGrid& grid, const GridKolamOpti
     pattern.description += fmt::format("; seed {}", options.seed);
     if (options.density) pattern.description += fmt::format(", density {}", *options.density);
     if (options.joined > 0) pattern.description += fmt::format(", joined {}", options.joined);
+    if (options.period > 0) pattern.description += fmt::format(", period {}", counted(options.period, "column"));
     if (kolam.symmetry != GridSymmetry::none) {
         pattern.description += fmt::format(", symmetry {}", grid_symmetry_name(kolam.symmetry));
     }

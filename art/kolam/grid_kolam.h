@@ -18,8 +18,9 @@ struct GridKolamOptions {
     std::optional<double> density = {};  ///< share of crossed gaps; absent: composed, with a density of 0.6 to 0.8
     double joined = 0.0;                 ///< share of joined gaps among the others
     std::optional<GapStates> gaps = {};  ///< instead of chance
+    std::uint32_t period = 0;            ///< columns after which the gaps of a row repeat; 0: they do not
     bool single_line = false;
-    int attempts = 1000;  ///< to find a single line with a symmetry
+    int attempts = 1000;  ///< to find a single line with a symmetry or a period
 };
 
 /// A kolam, and how it was found.
@@ -36,8 +37,8 @@ struct GridKolam {
 
 /// Makes a kolam; the same on every machine. Seeds from 0 to 100 of grids with up to 150 gaps give different kolams,
 /// not counting images under symmetries of the grid, as long as some are found. Cost: at most seconds.
-/// @throws std::runtime_error if the grid does not have the symmetry, no single line can have it, or none was found;
-/// Stopped
+/// @throws std::runtime_error if the grid does not have the symmetry, no single line can have it, or none was found,
+/// or the grid does not have more columns than the period; Stopped
 GridKolam make_grid_kolam(const DotGrid& grid, const GridKolamOptions& options, const Monitor& monitor);
 
 /// Title and description for kolam_pattern(): dots, gaps, lines, and how to make it again.

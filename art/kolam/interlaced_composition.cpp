@@ -37,8 +37,12 @@ using Motif = std::vector<std::uint32_t>;
 
 class Composition {
 public:
-    Composition(const DotGrid& grid, GridSymmetry symmetry)
-        : grid_(grid), crossings_(grid.gaps().size()), neighbours_(sides * grid.dots().size(), no_dot) {
+    /// @param columns  above 0: motifs that repeat by this number of columns are one
+    Composition(const DotGrid& grid, GridSymmetry symmetry, std::uint32_t columns)
+        : grid_(grid),
+          columns_(columns),
+          crossings_(grid.gaps().size()),
+          neighbours_(sides * grid.dots().size(), no_dot) {
         for (const GridGap& gap : grid.gaps()) {
             neighbours_[sides * gap.from + gap.side] = gap.to;
             neighbours_[sides * gap.to + (gap.side + sides / 2) % sides] = gap.from;
@@ -83,6 +87,7 @@ private:
                 triangles_.push_back({static_cast<std::uint32_t>(grid_.gap(dot, side)),
                                       static_cast<std::uint32_t>(grid_.gap(dot, (side + 1) % sides)),
                                       static_cast<std::uint32_t>(grid_.gap(a, (side + 2) % sides))});
+                corners_.push_back(grid_.dots()[dot] + grid_.dots()[a] + grid_.dots()[b]);
             }
         }
     }
@@ -106,17 +111,28 @@ private:
                 images.join(i, numbers.at(sorted(gaps)));
             }
         }
+        if (columns_ > 0) join_columns(images);
         const std::vector<std::uint32_t> classes = images.set_numbers();
         for (std::size_t i = 0; i < classes.size(); ++i) {
             if (classes[i] == motifs_.size()) motifs_.emplace_back();
             motifs_[classes[i]].insert(motifs_[classes[i]].end(), triangles_[i].begin(), triangles_[i].end());
         }
         triangle_motifs_ = motifs_.size();
-        for (std::uint32_t i = 0; i < orbits.size(); ++i) {
-            if (triangle_motifs_ + orbits[i] == motifs_.size()) motifs_.emplace_back();
-            motifs_[triangle_motifs_ + orbits[i]].push_back(i);
+        const std::vector<std::uint32_t> repeated = columns_ > 0 ? gap_orbits(grid_, symmetry, columns_) : orbits;
+        for (std::uint32_t i = 0; i < repeated.size(); ++i) {
+            if (triangle_motifs_ + repeated[i] == motifs_.size()) motifs_.emplace_back();
+            motifs_[triangle_motifs_ + repeated[i]].push_back(i);
         }
         is_chosen_.assign(motifs_.size(), 0);
+    }
+    void join_columns(UnionFind& images) {
+        std::map<GridDot, std::uint32_t> at;
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) at[corners_[i]] = i;
+        const GridDot step{6 * static_cast<std::int32_t>(columns_), 0};  // of three corners
+        for (const auto& [sum, i] : at) {
+            const auto found = at.find(sum + step);
+            if (found != at.end()) images.join(i, found->second);
+        }
     }
     /// The gaps that a line from rim to rim runs straight through where all are crossed.
     void find_courses() {
@@ -250,9 +266,11 @@ private:
     }
 
     const DotGrid& grid_;
+    std::uint32_t columns_;
     std::vector<std::uint32_t> crossings_;                 // by gap: chosen motifs that cross it
     std::vector<std::uint32_t> neighbours_;                // by dot and side
     std::vector<std::array<std::uint32_t, 3>> triangles_;  // their gaps
+    std::vector<GridDot> corners_;                         // by triangle: the sum of its corners
     std::vector<Motif> motifs_;
     std::size_t triangle_motifs_ = 0;
     std::vector<char> is_chosen_;
@@ -274,11 +292,12 @@ std::vector<double> random_densities(std::size_t dots, SplitMix& chance) {
 
 }  // namespace
 
-GapStates composed_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::size_t tries) {
+GapStates composed_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::size_t tries,
+                          std::uint32_t period) {
     constexpr double begun_triangles = 0.28;  // share of those chosen at first
     constexpr std::size_t most_proposals = 1500;
     SplitMix chance(seed);
-    Composition composition(grid, symmetry);
+    Composition composition(grid, symmetry, period);
     composition.aim_at(random_densities(grid.dots().size(), chance));
     for (std::size_t i = 0; i < composition.triangle_motifs(); ++i) {
         if (chance.fraction() < begun_triangles) composition.change(i);

@@ -19,7 +19,9 @@ constexpr std::size_t most_composed_dots = 300'000;
 /// Cost: about 4 ms for 61 dots (9-5). Grids of over 200 dots are improved less, those of over most_composed_dots not
 /// at all.
 /// @param tries  number of times that each orbit is changed on average, up to 1500 changes in all
+/// @param period  columns after which the gaps of a row repeat, except at its ends; 0: they do not
 /// @throws std::runtime_error if the grid does not have the symmetry
-GapStates composed_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::size_t tries = 1500);
+GapStates composed_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::size_t tries = 1500,
+                          std::uint32_t period = 0);
 
 }  // namespace sikku

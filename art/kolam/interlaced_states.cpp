@@ -244,8 +244,9 @@ bool is_framed(const DotGrid& grid) {
     return dots >= fewest || !has_symmetry(grid, GridSymmetry::c3);
 }
 
-GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed) {
-    if (!is_framed(grid)) return composed_states(grid, symmetry, seed);
+GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::uint32_t period) {
+    constexpr std::size_t tries = 1500;
+    if (period > 0 || !is_framed(grid)) return composed_states(grid, symmetry, seed, tries, period);
     SplitMix chance(child_place(seed, grid.dots().size()));  // so that a seed gives other figures on other grids
     GapStates states(grid.gaps().size(), GapState::turned);
     const std::vector<std::uint32_t> layers = dot_layers(grid);

@@ -17,7 +17,9 @@ bool is_framed(const DotGrid& grid);
 /// mostly a hexagon, as in a square, is a hexagon with six mirrors, or without mirrors where the kolam is to have
 /// none. Larger middles are composed up to four times, until one of their rings stands out.
 /// Cost: a few milliseconds, and linear from some thousand dots on.
+/// @param period  columns after which the gaps of a row repeat, except at its ends; 0: they do not, else there is no
+/// frame
 /// @throws std::runtime_error if the grid does not have the symmetry
-GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed);
+GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uint64_t seed, std::uint32_t period = 0);
 
 }  // namespace sikku

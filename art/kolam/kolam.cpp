@@ -71,7 +71,10 @@ KolamExamination examine(const Plane& plane, const Strokes& strokes, const Kolam
 
     result.dots = set_dots(graph, faces, strokes, lines, options);
     result.has_own_dots = has_dots_elsewhere(strokes.discs, result.dots);
-    if (result.has_own_dots) result.dots = own_dots(graph, strokes, lines, options);
+    if (result.has_own_dots) {
+        result.dots = own_dots(graph, strokes, lines, options);
+        if (result.open_lines == 0) enclose_in_fields(graph, faces, result.dots);
+    }
     return result;
 }
 

@@ -38,7 +38,7 @@ struct KolamDot {
 /// at its centroid or, where that lies outside of it, elsewhere inside. So every loop has its dot, and the gaps
 /// between loops have none. Open lines do not enclose faces. A pattern that draws or marks three dots or more (`@.`),
 /// and one of them elsewhere, has its own dots: a line has to run around or through each, as lines of radial kolams
-/// do.
+/// do, or closed lines enclose a field in which it is alone, as those around centred dots.
 ///
 /// A spline is examined by its control polygon, which the curve follows. The curve passes through a crossing where
 /// both strands continue straight, and keeps strands apart that turn back (touchings). The curve itself decides

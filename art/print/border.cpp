@@ -210,12 +210,25 @@ void draw_pattern(const Border& border, std::span<const BorderSide, 4> sides, do
 
 }  // namespace
 
-double border_depth(BorderKind kind, const Page& page) {
-    return row_of(kind).depth * thickness(page);
+double step_within_border(const Page& page, glm::dvec2 size) {
+    constexpr double filled = 0.85;  // share of the page
+    return filled * std::min(page.width / size.x, page.height / size.y);
 }
 
-double border_room(BorderKind kind, const Page& page) {
-    return border_depth(kind, page) + (kind == BorderKind::kaavi ? 0.6 : 0.8) * thickness(page);
+double border_weight(const Page& page, double line) {
+    constexpr double fine = 0.1, bold = 0.25;  // widths of lines relative to the thickness
+    constexpr double least = 0.8, most = 1.25;
+    const double width = line / thickness(page);
+    const double usual = std::clamp(width, fine, bold);
+    return std::clamp(std::sqrt(width / usual), least, most);
+}
+
+double border_depth(const Border& border, const Page& page) {
+    return row_of(border.kind).depth * thickness(page) * border.weight;
+}
+
+double border_room(const Border& border, const Page& page) {
+    return border_depth(border, page) + (border.kind == BorderKind::kaavi ? 0.6 : 0.8) * thickness(page);
 }
 
 std::vector<Colour> border_colours(const Border& border, const std::optional<Colour>& ground) {
@@ -261,7 +274,7 @@ BorderRepeats border_repeats(double across, double down, double length) {
 }
 
 void draw_border(const Border& border, const Print& print, const Window& window, int colour, PathSink& sink) {
-    const double depth = border_depth(border.kind, {window.width, window.height, window.margin});
+    const double depth = border_depth(border, {window.width, window.height, window.margin});
     if (border.kind == BorderKind::kaavi) return draw_kaavi(print, window, depth, colour, sink);
     const auto sides = border_sides(window);
     // A cell may be too small for any frame.

@@ -21,12 +21,22 @@ struct Border {
     BorderKind kind = BorderKind::kaavi;
     std::shared_ptr<const BorderMotif> repeat{};  ///< motif of BorderKind::pattern, upright at the top edge
     std::shared_ptr<const BorderMotif> corner{};  ///< motif of the top left corner; null: a dot in a ring
+    double weight = 1.0;                          ///< border_weight() of the drawing
 };
 
-/// Depth of the border inwards from the margin, in millimetres; it grows with the page's shorter side.
-double border_depth(BorderKind kind, const Page& page);
+/// Approximate length of a step, in millimetres, of a drawing that fills a page within a border.
+/// @param size  width and height of the drawing, in steps
+double step_within_border(const Page& page, glm::dvec2 size);
+/// Factor of a border's size that fits it to the lines of a drawing: borders around unusually bold lines are larger,
+/// those around unusually fine lines smaller, by the square root of the line's width relative to the page. From 0.8
+/// to 1.25.
+/// @param line  millimetres
+double border_weight(const Page& page, double line);
+
+/// Depth of the border inwards from the margin, in millimetres; it grows with the page's shorter side and the weight.
+double border_depth(const Border& border, const Page& page);
 /// Depth of the border and of the space between it and the drawing.
-double border_room(BorderKind kind, const Page& page);
+double border_room(const Border& border, const Page& page);
 /// Colours of draw_border(): those of a traditional border are rice flour and red earth (*kaavi*), in tones that
 /// stand out from the ground, or, on light ground, dark and light red earth; those of a pattern come from its style,
 /// except where its lines would vanish on the ground: they become rice flour or dark red earth.

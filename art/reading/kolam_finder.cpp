@@ -373,7 +373,7 @@ bool has_ink_within(const KolamPart& frame, const std::vector<KolamPart>& parts,
     }
     const double level = std::fabs(line_level(ink, found));
     const double step = std::max(1.0, found.spacing / 12);
-    const double most = 4 * found.spacing * found.spacing / (step * step);
+    const double most = 3 * found.spacing * found.spacing / (step * step);
     double inked = 0;
     for (double y = area.box().low.y; y <= area.box().high.y; y += step) {
         monitor.check();

@@ -17,6 +17,8 @@ from conftest import SOURCE, Run
         ["--grid", "1-3-5-3-1", "--symmetry", "C4", "--single-line", "--seed", "3"],
         ["--grid", "15-8 idukku pulli", "--density", "0.5", "--joined", "0.2", "--colours"],
         ["--grid", "3x3", "--crossings", "all", "--single-line", "--dots"],
+        ["--grid", "5x5", "--crossings", "all", "--centred"],
+        ["--grid", "3x21", "--period", "4", "--single-line", "--seed", "3"],
     ],
 )
 def test_kolams_are_those_of_the_program(arguments: list[str], run: Run, tmp_path: Path) -> None:
@@ -31,9 +33,11 @@ def test_kolams_are_those_of_the_program(arguments: list[str], run: Run, tmp_pat
         density=0.5 if "--density" in values else None,
         joined=0.2 if "--joined" in values else 0.0,
         crossings="all" if "--crossings" in given else None,
+        period=4 if "--period 4" in given else 0,
         single_line="--single-line" in given,
         colours="--colours" in given,
         dots="--dots" in given,
+        centred="--centred" in given,
     )
     assert made.pattern.text == file.read_text()
     assert made.facts == json.loads(result.stdout)
@@ -88,6 +92,9 @@ def test_errors_of_kolams(tmp_path: Path) -> None:
         {"grid": "5x5", "crossings": "012"},
         {"grid": "5x5", "crossings": "all", "symmetry": "C4"},
         {"grid": "5x5", "seed": 1.5},
+        {"grid": "5x5", "period": -1},
+        {"grid": "7xfill"},
+        {"grid": "7-4", "centred": True},
     ):
         with pytest.raises(sikku.SettingError):
             sikku.make_kolam(**arguments)  # type: ignore[arg-type]

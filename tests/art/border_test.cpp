@@ -1,7 +1,9 @@
 // Borders: closed, symmetric, within their band, in whole repeats.
 #include "art/print/border.h"
 
+#include "art/kolam/dot_grid_pattern.h"
 #include "art/prints.h"
+#include "engine/language/document.h"
 #include "tests/checks.h"
 #include "tests/files.h"
 
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -75,7 +78,7 @@ TEST(Borders, LieInTheirBand) {
     for (const Page& page : pages) {
         for (const BorderKind kind : kinds) {
             SCOPED_TRACE(static_cast<int>(kind));
-            const double depth = border_depth(kind, page);
+            const double depth = border_depth({kind}, page);
             const Points points = drawn(kind, page);
             EXPECT_GT(points.all.size(), 20u);
             for (const glm::dvec2 point : points.all) {
@@ -84,9 +87,35 @@ TEST(Borders, LieInTheirBand) {
                 EXPECT_GE(inset, -1e-9);
                 EXPECT_LE(inset, depth + 1e-9);
             }
-            EXPECT_GT(border_room(kind, page), depth);
+            EXPECT_GT(border_room({kind}, page), depth);
         }
     }
+}
+
+TEST(Borders, WeighMoreAroundBoldLines) {
+    for (const Page& page : pages) {
+        const double usual = 0.25 * std::min(page.width, page.height) / 24;
+        EXPECT_NEAR(border_weight(page, usual), 1, 1e-12);
+        EXPECT_EQ(border_weight(page, 0.5 * usual), 1);
+        EXPECT_NEAR(border_weight(page, 1.21 * usual), 1.1, 1e-12);
+        EXPECT_EQ(border_weight(page, 0), 0.8);
+        EXPECT_EQ(border_weight(page, 100 * usual), 1.25);
+    }
+    // The line of red earth in prints, by the groups of the SVG.
+    const auto width_of = [](const std::string& stroke, const char* grid) {
+        const DotGrid dots = parse_dot_grid(grid);
+        std::string text = kolam_pattern(dots, parse_gap_states(dots, "all")).text;
+        text.replace(text.find("0.16 step"), 9, stroke);
+        const std::string svg = draw(parse("kolam", text), "svg", {{"border", "kaavi"}, {"size", "A3"}});
+        std::smatch found;
+        const std::regex group("stroke=\"#(?!fffaf0)[0-9a-f]{6}\" stroke-width=\"([0-9.]+)\"");
+        return std::regex_search(svg, found, group) ? std::stod(found[1].str()) : 0.0;
+    };
+    const double usual = width_of("0.3mm", "5x5");
+    EXPECT_GT(usual, 0);
+    EXPECT_NEAR(width_of("0.3mm", "31x31"), usual, 1);
+    EXPECT_NEAR(width_of("0.16 step", "3x3"), 1.25 * usual, 1);
+    EXPECT_NEAR(width_of("0.16 step", "41x41"), 0.8 * usual, 1);
 }
 
 /// Half a turn of the page changes nothing.

@@ -955,6 +955,60 @@ TEST(DotGridPattern, ColoursAndDotsAreDrawn) {
     }
 }
 
+/// Fields between four crossed gaps, by the rows of digits: gaps within a row, then those to the next row.
+std::size_t crossed_fields(const std::string& digits, std::size_t rows, std::size_t columns) {
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at < digits.size();) {
+        const std::size_t end = std::min(digits.find(' ', at), digits.size());
+        words.push_back(digits.substr(at, end - at));
+        at = end + 1;
+    }
+    std::size_t count = 0;
+    for (std::size_t r = 0; r + 1 < rows; ++r) {
+        for (std::size_t c = 0; c + 1 < columns; ++c) {
+            count += words[2 * r][c] == '1' && words[2 * r + 1][c] == '1' && words[2 * r + 1][c + 1] == '1' &&
+                     words[2 * r + 2][c] == '1';
+        }
+    }
+    return count;
+}
+
+TEST(DotGridPattern, CentredDotsAreEncircled) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const DotGrid grid = parse_dot_grid("5x6");
+        GapStates states = random_states(grid, {.seed = seed, .density = 0.85});
+        if (seed % 2 == 0) make_single_line(grid, states, seed);
+        const KolamPattern pattern = kolam_pattern(
+            grid, states, {.centred_dots = true, .rim = seed % 3 == 0 ? RimStyle::petal : RimStyle::round});
+        EXPECT_EQ(pattern.centred, crossed_fields(gap_states_text(grid, states), 5, 6));
+        const Style style = drawn(pattern.text).style;
+        const KolamExamination found =
+            examine_kolam(reference::grammar_of(pattern.text),
+                          {.spline = true, .draws = [&](const Pen& pen) { return style.draws(pen); }});
+        EXPECT_EQ(found.dots.size(), 30 + pattern.centred) << seed;
+        EXPECT_EQ(found.has_own_dots, pattern.centred > 0);
+        EXPECT_TRUE(found.is_kolam()) << seed << ' ' << found.faults().front();
+    }
+}
+
+TEST(DotGridPattern, DotsBesideLinesAreLoose) {
+    const DotGrid grid = parse_dot_grid("2x3");
+    const std::string text = kolam_pattern(grid, parse_gap_states(grid, "all"), {.centred_dots = true}).text;
+    const auto loose = [](const std::string& pattern) {
+        const Style style = drawn(pattern).style;
+        return examine_kolam(reference::grammar_of(pattern),
+                             {.spline = true, .draws = [&](const Pen& pen) { return style.draws(pen); }})
+            .loose_dots();
+    };
+    EXPECT_EQ(loose(text), 0u);
+    std::string moved = text;
+    const std::size_t last = moved.rfind("[;(1)@.]");
+    ASSERT_NE(last, std::string::npos);
+    // Outside of all lines, and two in one field.
+    EXPECT_EQ(loose(moved.replace(last, 8, "[;(1)f(20)@.]")), 1u);
+    EXPECT_EQ(loose(std::string(text).replace(last, 8, "[;(1)@.f(0.1)@.]")), 2u);
+}
+
 TEST(DotGridPattern, TellsItsCrossings) {
     const DotGrid grid = parse_dot_grid("4x4");
     const GapStates crossings = random_states(grid, {.seed = 12});

@@ -42,6 +42,35 @@ TEST_F(KolamGrid, MakesEveryKindOfGrid) {
     EXPECT_TRUE(has(kolam({"shape.lsys"}).output, "a single line (anthathi), 20 dots"));
 }
 
+TEST_F(KolamGrid, FillsAPageAndStatesItsCommand) {
+    const Outcome made = kolam({"--grid", "5xfill", "--size", "120x40cm", "--border", "rope", "--period", "4",
+                                "--single-line", "--seed", "2", "-o", "a.lsys"});
+    ASSERT_EQ(made.status, 0) << made.errors;
+    EXPECT_TRUE(has(made.errors, "5x18: 90 dots"));
+    const std::string text = contents(folder_ / "a.lsys");
+    EXPECT_TRUE(has(text,
+                    "source: sikku kolam --grid 5xfill --size 120x40cm --border rope --period 4 --single-line "
+                    "--seed 2\n"));
+    EXPECT_TRUE(has(kolam({"a.lsys"}).output, "a single line (anthathi), 90 dots, all encircled"));
+    EXPECT_EQ(kolam({"--grid", "fill idukku", "--dot-spacing", "2cm", "--landscape", "-o", "b.kolam.json"}).status,
+              1);
+    const Outcome interlaced =
+        kolam({"--grid", "fill idukku", "--dot-spacing", "2cm", "--landscape", "-o", "b.lsys", "--json"});
+    EXPECT_EQ(interlaced.status, 0) << interlaced.errors;
+    EXPECT_TRUE(has(contents(folder_ / "b.lsys"), "--grid 'fill idukku' --landscape --dot-spacing 2cm --seed 0\n"));
+    const Outcome other = kolam({"--grid", "4xfill", "--size", "120x40cm", "--single-line", "--symmetry", "C2"});
+    EXPECT_TRUE(has(other.errors, "note: another grid fits better, but no single line is possible on 4x12"));
+}
+
+TEST_F(KolamGrid, SetsCentredDots) {
+    const Outcome made = kolam({"--grid", "...o.../.ooooo./.ooooo./ooo.ooo/.ooooo./.ooooo./...o...", "--crossings",
+                                "all", "--centred", "-o", "mixed.lsys"});
+    ASSERT_EQ(made.status, 0) << made.errors;
+    EXPECT_TRUE(has(kolam({"mixed.lsys"}).output, "40 dots, all encircled"));
+    EXPECT_TRUE(
+        has(kolam({"--grid", "3x3", "--crossings", "none", "--centred"}).errors, "warning: --centred has no effect"));
+}
+
 TEST_F(KolamGrid, ExtensionsMayBeCapitals) {
     const auto made = [&](const char* name) {
         EXPECT_EQ(kolam({"--grid", "5x5", "--single-line", "--seed", "2", "-o", name}).status, 0);
@@ -209,6 +238,23 @@ TEST_F(KolamGrid, RefusesWithTheReason) {
                             {{"--grid", "•o/oä"}, 2, "line 2, column 2: 'ä' is not a place"},
                             {{"--grid", "@mask.txt"}, 2, "line 3, column 4: 'x' is not a place"},
                             {{"--grid", "../_."}, 2, "the shape has no dots"},
+                            {{"--grid", "7x7", "--size", "A3"}, 2, "--size needs a --grid that fills the page"},
+                            {{"--size", "A3"}, 2, "--size needs --grid"},
+                            {{"--grid", "fill"}, 2, "--grid fill needs --dot-spacing"},
+                            {{"--grid", "7xfill", "--dot-spacing", "1cm"}, 2, "--dot-spacing needs --grid fill"},
+                            {{"--grid", "7xfill", "--size", "x"}, 2, "--size x: expected A0 to A10"},
+                            {{"--grid", "7xfill", "--margin", "200mm"}, 2, "leave nothing of a page"},
+                            {{"--grid", "7xfill", "--size", "A7", "--margin", "33mm", "--border", "padi"},
+                             2,
+                             "--border leaves no room on this page"},
+                            {{"--grid", "7xfill", "--crossings", "all"}, 2, "--crossings states the gaps"},
+                            {{"--grid", "7xfill", "--enumerate"}, 2, "--enumerate needs the numbers"},
+                            {{"--grid", "fillxfill"}, 2, "expected fill, ROWSxfill or fillxCOLUMNS"},
+                            {{"--grid", "3x9", "--period", "9"}, 1, "nothing repeats; expected fewer than 9"},
+                            {{"--grid", "3x9", "--period", "0"}, 2, "expected a whole number from 1"},
+                            {{"--grid", "3x3", "--period", "2", "--enumerate"}, 2, "cannot be combined with"},
+                            {{"--grid", "7-4", "--centred"}, 2, "expected straight rows"},
+                            {{"--grid", "3x3", "--centred", "-o", "x.csv"}, 2, "--centred: -o x.csv holds dots"},
                             {{"snake-kolam", "--dots"}, 2, "need --grid or --radial"}}) {
         const Outcome refused = kolam(bad.arguments);
         EXPECT_EQ(refused.status, bad.status) << bad.message << refused.errors;

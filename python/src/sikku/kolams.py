@@ -34,10 +34,12 @@ def make_kolam(
     density: Optional[float] = None,
     joined: float = 0.0,
     crossings: Optional[str] = None,
+    period: int = 0,
     single_line: bool = False,
     attempts: int = 1000,
     colours: bool = False,
     dots: bool = False,
+    centred: bool = False,
     rim: str = "round",
 ) -> Kolam:
     """Makes a kolam on a grid of dots, as `sikku kolam --grid`; the same on every machine.
@@ -50,10 +52,12 @@ def make_kolam(
         connected; interlaced dots get petals and stars instead.
     joined: share of the other gaps in which lines run past both dots.
     crossings: the states of the gaps instead of chance: all, none, or a digit for each gap.
+    period: columns after which crossings repeat, as in a frieze; 0: they do not.
     single_line: make a single line.
-    attempts: attempts to find a single line with a symmetry.
+    attempts: attempts to find a single line with a symmetry or a period.
     colours: colour the lines; lines that are images of each other share a colour.
     dots: draw the dots.
+    centred: set a dot, too, in each field between four dots whose four gaps are crossed.
     rim: shape of the loops at the rim: round, pointed, petal, horn or crescent.
 
     Raises SettingError, and Error if no single line was found.
@@ -67,10 +71,12 @@ def make_kolam(
         density,
         joined,
         crossings,
+        _count("period", period, 0, 1_000_000),
         single_line,
         _count("attempts", attempts, 1, 2**31 - 1),
         colours,
         dots,
+        centred,
         rim,
     )
     return Kolam(load(f"kolam on {grid}", text=text), json.loads(facts))

@@ -106,10 +106,12 @@ def make_kolam(
     density: Optional[float],
     joined: float,
     crossings: Optional[str],
+    period: int,
     single_line: bool,
     attempts: int,
     colours: bool,
     dots: bool,
+    centred: bool,
     rim: str,
 ) -> tuple[str, str]: ...
 def make_radial_kolam(size: str, order: str, colours: bool, dots: bool) -> str: ...
