@@ -106,7 +106,7 @@ std::optional<GridKolam> make_by_chance(const DotGrid& grid, const GridKolamOpti
 
 /// The number of seeds, from 0 on, of which each is to give another kolam: as many as take a fraction of a second.
 std::uint64_t different_seeds(const DotGrid& grid, const GridKolamOptions& options, const GridKolam& kolam) {
-    constexpr std::size_t most_gaps = 150, most_framed_gaps = 250;
+    constexpr std::size_t most_gaps = 150, most_framed_gaps = 350;
     if (grid.gaps().size() <= most_gaps) return 101;
     const bool is_framed =
         grid.lattice() == DotLattice::triangular && is_large(grid) && !options.density && !options.single_line;

@@ -47,10 +47,9 @@ private:
 };
 
 /// Chooses how many layers frame a middle of about the size that is composed well.
-std::uint32_t random_width(const std::vector<std::uint32_t>& layers, bool is_hexagon, SplitMix& chance) {
-    constexpr std::size_t fewest = 19;                                     // as many dots as 5-3
-    const std::size_t most = is_hexagon && layers.size() < 120 ? 37 : 61;  // 7-4, 9-5
-    constexpr std::size_t most_share = 6;  // of the dots; a smaller middle would drown in its frame
+std::uint32_t random_width(const std::vector<std::uint32_t>& layers, SplitMix& chance) {
+    constexpr std::size_t fewest = 19, most = 61;  // as many dots as 5-3 and 9-5
+    constexpr std::size_t most_share = 6;          // of the dots; a smaller middle would drown in its frame
     struct WeightedWidth {
         std::uint32_t width;
         std::size_t weight;  ///< the larger a middle, the more kolams there are of it
@@ -238,7 +237,7 @@ void compose_middle(const DotGrid& grid, GridSymmetry symmetry, const std::vecto
 }  // namespace
 
 bool is_framed(const DotGrid& grid) {
-    constexpr std::size_t fewest = 60, fewest_beside_hexagons = 44;
+    constexpr std::size_t fewest = 70, fewest_beside_hexagons = 44;
     const std::size_t dots = grid.dots().size();
     if (grid.lattice() != DotLattice::triangular || dots < fewest_beside_hexagons) return false;
     return dots >= fewest || !has_symmetry(grid, GridSymmetry::c3);
@@ -250,7 +249,7 @@ GapStates interlaced_states(const DotGrid& grid, GridSymmetry symmetry, std::uin
     SplitMix chance(child_place(seed, grid.dots().size()));  // so that a seed gives other figures on other grids
     GapStates states(grid.gaps().size(), GapState::turned);
     const std::vector<std::uint32_t> layers = dot_layers(grid);
-    const std::uint32_t width = random_width(layers, has_symmetry(grid, GridSymmetry::c3), chance);
+    const std::uint32_t width = random_width(layers, chance);
     if (width > 0) cross_frame(grid, symmetry, layers, width, chance, states);
     std::vector<std::uint32_t> within;
     for (std::uint32_t dot = 0; dot < layers.size(); ++dot) {
