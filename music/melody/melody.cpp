@@ -470,8 +470,8 @@ private:
                        : fmt::format("{}did you mean '{}'?", problem, near));
     }
 
-    /// Selects the first name that contains the text, preferably as a whole word, and reports it. Three letters have to
-    /// begin a word.
+    /// Selects the first name that contains the text, preferably as a whole word, and reports it. Three letters have
+    /// to begin a word.
     bool choose_by_word(const Key& key, const std::string& wanted, const std::vector<std::string>& names) {
         for (const bool is_word : {true, false}) {
             const auto matches = [&](const std::string& name) {
