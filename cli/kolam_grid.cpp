@@ -6,6 +6,7 @@
 #include "art/kolam/page_kolam.h"
 #include "art/kolam/radial_kolam.h"
 #include "art/print/border.h"
+#include "art/product/border_files.h"
 #include "art/product/draw_settings.h"
 #include "art/reading/kolam_file.h"
 #include "cli/command.h"
@@ -230,13 +231,18 @@ FilledPage page_of(const KolamGridOptions& options) {
     const bool grows_both = filled.fill.given.rows == 0 && filled.fill.given.columns == 0;
     if (grows_both != settings.look.dot_spacing.has_value()) {
         throw UsageError(grows_both ? "--grid fill needs --dot-spacing"
-                                    : "--dot-spacing needs --grid fill: here the number of dots determines it");
+                                    : "--dot-spacing needs --grid fill; a number of dots determines the spacing");
     }
     filled.fill.spacing = settings.look.dot_spacing;
     if (!options.border.empty() && options.border != "none") {
         const auto border = parse_border(options.border);
-        if (!border) throw UsageError("--border: expected the name of a border, or PATTERN or PATTERN,CORNER");
+        if (!border) throw UsageError("--border: not a border; expected a name, PATTERN or PATTERN,CORNER");
         filled.border = Border{.kind = border->kind};
+        // A pattern takes as much room as any other, but has to exist.
+        Style style;
+        style.border = border;
+        DrawingOptions loaded;
+        load_border(style, parse("-", "axiom: F\n"), settings, std::filesystem::current_path(), loaded);
     }
     return filled;
 }
@@ -260,8 +266,7 @@ PageKolam make_within(FilledPage& filled, const GridKolamOptions& options, const
 void fill_page(const KolamGridOptions& options, bool quiet) {
     check_output(options);
     if (options.crossings) {
-        throw UsageError(
-            "--crossings states the gaps of a certain grid; expected --density for one that fills a page");
+        throw UsageError("--crossings needs a grid of fixed size; expected --density for a grid that fills a page");
     }
     if (options.enumerate) throw UsageError("--enumerate needs the numbers of rows and columns");
     FilledPage filled = page_of(options);
@@ -385,7 +390,7 @@ void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {
                                "colour the lines; lines that are images of each other share a colour");
     auto* dots = group.flag("--dots", options.dots, "draw the dots in the pattern");
     auto* centred = group.flag("--centred", options.centred,
-                               "set a dot, too, in each field between four dots whose four gaps are crossed; needs "
+                               "also set a dot in each field between four dots whose four gaps are crossed; needs "
                                "straight rows");
     centred->needs(grid);
     auto* rim = group.add("--rim", options.rim, "STYLE",

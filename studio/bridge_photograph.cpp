@@ -30,7 +30,7 @@ PictureDecoder decoder_of(const Json& request, const std::string& file) {
     const int width = side_of(request, "width"), height = side_of(request, "height");
     const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
     if (file.size() != row_bytes * static_cast<std::size_t>(height)) {
-        throw BadRequest(fmt::format("{} bytes are not {} x {} pixels of 4 bytes", file.size(), width, height));
+        throw BadRequest(fmt::format("{} bytes; expected {} x {} pixels of 4 bytes", file.size(), width, height));
     }
     return [=, &file](int longest_side) {
         Averager averager(width, height, {.channels = 4, .alpha = 3, .is_colour_times_alpha = false}, longest_side);

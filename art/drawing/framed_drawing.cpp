@@ -139,8 +139,9 @@ TextSpace FramedDrawing::text_space(const Page& page) const {
     const double below = std::max(is_above ? 0 : title, options_.edition.empty() ? 0 : letters_of(page));
     if (below > 0) space.below = foot_lift(page) + space_of(below, page);
     if (options_.title_look.size && space.total() > most_of_page * (page.height - 2 * page.margin)) {
-        refuse_option("title-size", fmt::format("{:g}mm", title),
-                      fmt::format("too high for a page or cell of {:.4g} x {:.4g} mm", page.width, page.height));
+        refuse_option(
+            "title-size", fmt::format("{:g}mm", title),
+            fmt::format("too high for a page or cell of {:.4g} x {:.4g} mm; expected less", page.width, page.height));
     }
     return space;
 }

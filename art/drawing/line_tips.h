@@ -29,7 +29,7 @@ struct LineTip {
 std::vector<LineTip> find_tips(const CurvedLines& lines, const CurveMeetings& meetings, double radius,
                                const Monitor& monitor);
 
-/// The positions before and behind a tip where a line crosses itself that runs `distance` inside; none if there are
+/// The positions before and behind a tip where the parallel line `distance` inside crosses itself; none if there are
 /// no such positions up to the nearest crossings. Errors of positions: below 1e-9 pieces.
 std::optional<std::pair<double, double>> crossing_inside(const CurvedLines& lines, const LineTip& tip,
                                                          double distance);

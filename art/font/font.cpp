@@ -32,7 +32,8 @@ FoundFont installed_font(const std::string& name) {
 
 std::string bytes_of(const std::filesystem::path& file) {
     const InputFile input(file);
-    if (input.size() > most_font_bytes) throw std::runtime_error("the file of the font is larger than 64 MB");
+    if (input.size() > most_font_bytes)
+        throw std::runtime_error("the font file is too large; expected at most 64 MB");
     return input.read(0, input.size());
 }
 

@@ -174,7 +174,8 @@ public:
         const unsigned index = static_cast<unsigned>(found.index) & 0xFFFF;
         const unsigned instance = static_cast<unsigned>(found.index) >> 16;
         const Face face(hb_face_create(blob.get(), index));
-        if (hb_face_get_glyph_count(face.get()) == 0) throw std::runtime_error("the file is not an OpenType font");
+        if (hb_face_get_glyph_count(face.get()) == 0)
+            throw std::runtime_error("not a font; expected an OpenType font");
         require_whole(bytes_, index);
         if (!has_outlines(face.get())) throw std::runtime_error("the font has no outlines, only bitmaps");
         unit_ = 1.0 / hb_face_get_upem(face.get());
@@ -191,7 +192,7 @@ public:
 
     ShapedText shape(std::u32string_view line) const override {
         if (line.size() > most_font_letters) {
-            throw std::runtime_error("a line of text in a font has at most 10,000 characters");
+            throw std::runtime_error("a line of text is too long; expected at most 10,000 characters");
         }
         const std::vector<hb_codepoint_t> codes(line.begin(), line.end());
         ShapedText text;

@@ -127,7 +127,7 @@ void join_orbits(const DotGrid& grid, const std::vector<std::vector<std::uint32_
 class OrbitJoiner {
 public:
     /// @param labels  of these states
-    /// @param steps  those along lines that may be made; those that were are subtracted
+    /// @param steps  remaining number of steps along lines; steps made are subtracted
     OrbitJoiner(const DotGrid& grid, const std::vector<std::vector<std::uint32_t>>& orbits, SplitMix& chance,
                 GapStates& states, LineLabels& labels, std::uint64_t& steps, const Monitor& monitor)
         : grid_(grid),

@@ -382,8 +382,7 @@ DotGrid parse_dot_grid(std::string_view given) {
     if (const auto text = parse_text_in_dots(given)) return text_grid(text->letters, text->rows);
     const std::string text = replaced(replaced(given, "•", 'o'), "●", 'o');
     if (is_shape(text)) return parse_shape(text);
-    if (parse_fill(given))
-        refuse(given, "only a page determines the dots of this grid; expected its numbers of dots");
+    if (parse_fill(given)) refuse(given, "this grid needs a page to fill; expected numbers of dots, such as 7x9");
     auto [items, sort] = NotationReader(given).read();
     return Notation(given, std::move(items), sort).grid();
 }

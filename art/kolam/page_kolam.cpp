@@ -149,15 +149,14 @@ PageKolam make_on(const DotRectangle& rectangle, const PageFill& fill, const Gri
 }
 
 [[noreturn]] void refuse_fill(const PageFill& fill, const std::string& obstacle) {
-    throw std::runtime_error(
-        fmt::format("no grid fills {:.4g} x {:.4g} mm: {}", fill.room.x, fill.room.y,
-                    !obstacle.empty()
-                        ? obstacle
-                        : "these dots leave much space, whatever the other side; expected dots of the shorter side, "
-                          "such as ROWSxfill on a wide page"));
+    throw std::runtime_error(fmt::format(
+        "no grid fills {:.4g} x {:.4g} mm: {}", fill.room.x, fill.room.y,
+        !obstacle.empty() ? obstacle
+                          : "this number of dots leaves too much space; expected a number for the shorter side, "
+                            "such as ROWSxfill on a wide page"));
 }
 
-/// Candidates that permit what is wanted, the best first, and why a better one does not.
+/// Candidates that permit the symmetry and the line, best first, and why a better one fails.
 struct Permitted {
     std::vector<Candidate> candidates;
     std::string skipped;

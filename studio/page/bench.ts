@@ -240,7 +240,8 @@ class BenchPanel implements Panel {
     /// Writes a word in dots.
     private async setWord(word: Word): Promise<void> {
         if (wordTitle(word) === "") return;
-        const refuse = (message: string): void => this.side.refuse(`${capital(message)}; fewer rows make fewer gaps`);
+        const refuse = (message: string): void =>
+            this.side.refuse(capital(message) + (message.includes("gaps") ? "; fewer rows make fewer gaps" : ""));
         const grid = await this.gridOf({ do: "dots", grid: wordGrid(word) }, refuse);
         if (grid) this.takeGrid(grid, word);
     }

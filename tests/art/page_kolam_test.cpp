@@ -156,7 +156,7 @@ TEST(PageKolam, ChoosesTheNearestGridThatPermitsASymmetry) {
     EXPECT_TRUE(has(kolam.skipped, "no single line is possible on 4x12 with the symmetry C2")) << kolam.skipped;
     EXPECT_TRUE(has(error_of([] { filled("4xfill", 1200, 400, {.symmetry = GridSymmetry::c4}); }),
                     "no grid fills 1180 x 380 mm: 4x12 itself does not have the symmetry C4"));
-    EXPECT_TRUE(has(error_of([] { filled("9xfill", 100, 3000, {}); }), "expected dots of the shorter side"));
+    EXPECT_TRUE(has(error_of([] { filled("9xfill", 100, 3000, {}); }), "expected a number for the shorter side"));
 }
 
 TEST(PageKolam, RimsAndPeriodsFillPages) {
@@ -180,7 +180,7 @@ TEST(PageKolam, ReadsNotations) {
          {"fillxfill", "7x7fill", "xfill", "0xfill", "fill-3", "7 to fill", "99999999999999fill"}) {
         EXPECT_TRUE(has(error_of([&] { parse_fill(text); }), "expected fill, ROWSxfill or fillxCOLUMNS")) << text;
     }
-    EXPECT_TRUE(has(error_of([] { parse_dot_grid("7xfill"); }), "only a page determines the dots"));
+    EXPECT_TRUE(has(error_of([] { parse_dot_grid("7xfill"); }), "this grid needs a page to fill"));
     const PageFill tiny{{DotLattice::square, 0, 0}, {800, 1100}, 0.01};
     EXPECT_TRUE(has(error_of([&] { make_page_kolam(tiny, {}, {}, {}); }), "more than 4000000 dots"));
 }

@@ -247,7 +247,7 @@ TEST_F(KolamGrid, RefusesWithTheReason) {
                             {{"--grid", "7xfill", "--size", "A7", "--margin", "33mm", "--border", "padi"},
                              2,
                              "--border leaves no room on this page"},
-                            {{"--grid", "7xfill", "--crossings", "all"}, 2, "--crossings states the gaps"},
+                            {{"--grid", "7xfill", "--crossings", "all"}, 2, "--crossings needs a grid"},
                             {{"--grid", "7xfill", "--enumerate"}, 2, "--enumerate needs the numbers"},
                             {{"--grid", "fillxfill"}, 2, "expected fill, ROWSxfill or fillxCOLUMNS"},
                             {{"--grid", "3x9", "--period", "9"}, 1, "nothing repeats; expected fewer than 9"},

@@ -57,7 +57,7 @@ def make_kolam(
     attempts: attempts to find a single line with a symmetry or a period.
     colours: colour the lines; lines that are images of each other share a colour.
     dots: draw the dots.
-    centred: set a dot, too, in each field between four dots whose four gaps are crossed.
+    centred: also set a dot in each field between four dots whose four gaps are crossed.
     rim: shape of the loops at the rim: round, pointed, petal, horn or crescent.
 
     Raises SettingError, and Error if no single line was found.

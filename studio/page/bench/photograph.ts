@@ -51,7 +51,7 @@ export class Photograph {
         this.grids.set(after.text, { x: shift.x + after.moved.x, level: shift.level + after.moved.level });
     }
 
-    /// What makes the dots of a grid of those that were read.
+    /// The fixes that turn the dots that were read into those of a grid.
     fixes({ text, dots }: DotGrid): string[] {
         const shift = this.grids.get(text)!;
         return dotFixes(this.first, dots.map(({ x, level }) => ({ x: x - shift.x, level: level - shift.level })));

@@ -21,7 +21,7 @@ const rim_points: Record<RimName, readonly RimPoint[]> = {
     pointed: [[1, -40], [1.64, 0, true], [1, 40]],
     petal: [[1.08, -62], [1.36, -28], [1.9, 0, true], [1.36, 28], [1.08, 62]],
     horn: [[1.08, -48], [1.7, -12], [2.2, 28, true], [1.24, 20], [0.96, 50]],
-    crescent: [[1, -75], [1.9, -46, true], [1.2, -18], [1.2, 18], [1.9, 46, true], [1, 75]],
+    crescent: [[1.16, -58], [2, -25, true], [1.16, 0], [2, 25, true], [1.16, 58]],
 };
 
 type Point = [x: number, y: number];

@@ -236,7 +236,7 @@ export class Side {
         input.addEventListener("input", () => this.acts.look({ ...this.look, hand: input.valueAsNumber / 100 }));
         return [
             element("div", { class: "bench-random" }, shareRow("By hand", this.hand)),
-            element("p", { class: "bench-lock-name" }, "Picture and prints show the texture of floors, and lines as a hand strews them."),
+            element("p", { class: "bench-lock-name" }, "Picture and prints show the texture of the floor and lines strewn by hand."),
         ];
     }
 
@@ -371,7 +371,7 @@ export class Side {
 
     private showDoubts(count: number): void {
         this.doubtControls.hidden = count === 0;
-        this.doubts.textContent = count === 0 ? "" : `${counted(count, "gap")} of the photograph ${count === 1 ? "is" : "are"} doubtful, with dashed rings on the board. A click corrects a gap; N selects the next one, R accepts it.`;
+        this.doubts.textContent = count === 0 ? "" : `${counted(count, "gap")} of the photograph ${count === 1 ? "is" : "are"} doubtful: see the dashed rings on the board. A click corrects a gap; N selects the next one, R accepts it.`;
     }
 
     private showPhotograph(photograph: Photograph | null): void {
