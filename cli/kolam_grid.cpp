@@ -39,9 +39,12 @@ auto of_option(const char* option, Work&& work) {
     }
 }
 
-/// Text of an option, or of the file that it names with `@`.
+/// Text of an option, or of the file that it names with `@`, without the line ends after it.
 std::string text_of(const std::string& value) {
-    return value.starts_with('@') ? read_pattern_text(value.substr(1)).text : value;
+    if (!value.starts_with('@')) return value;
+    std::string text = read_pattern_text(value.substr(1)).text;
+    while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
+    return text;
 }
 
 RimStyle rim_of(const KolamGridOptions& options) {
@@ -168,8 +171,7 @@ void make_pattern(const KolamGridOptions& options, const DotGrid& grid, std::opt
 std::string command_of(const KolamGridOptions& options) {
     std::string command = "sikku kolam";
     const auto add = [&](const char* name, const std::string& value) {
-        const char* quote = value.find_first_of(" '\"\\$") == std::string::npos ? "" : "'";
-        if (!value.empty()) command += fmt::format(" --{} {}{}{}", name, quote, value, quote);
+        if (!value.empty()) command += fmt::format(" --{} {}", name, shell_word(value));
     };
     const auto add_number = [&](const char* name, auto value, bool is_given) {
         if (is_given) command += fmt::format(" --{} {}", name, value);
@@ -177,7 +179,7 @@ std::string command_of(const KolamGridOptions& options) {
     const auto add_flag = [&](const char* name, bool is_given) {
         if (is_given) command += fmt::format(" --{}", name);
     };
-    add("grid", options.grid);
+    add("grid", std::string(trimmed(text_of(options.grid))));
     add("size", options.size);
     add_flag("landscape", options.landscape);
     add("margin", options.margin);
@@ -225,7 +227,7 @@ struct FilledPage {
 };
 
 FilledPage page_of(const KolamGridOptions& options) {
-    FilledPage filled{{.given = *of_option("--grid", [&] { return parse_fill(options.grid); })}, {}};
+    FilledPage filled{{.given = *of_option("--grid", [&] { return parse_fill(text_of(options.grid)); })}, {}};
     const DrawSettings settings = read_draw_settings(page_values(options));
     filled.page = settings.paper.page;
     const bool grows_both = filled.fill.given.rows == 0 && filled.fill.given.columns == 0;
@@ -330,7 +332,7 @@ void add_page_options(const OptionGroup& group, KolamGridOptions& options, CLI::
 }  // namespace
 
 bool KolamGridOptions::is_fill() const {
-    return of_option("--grid", [&] { return parse_fill(grid).has_value(); });
+    return of_option("--grid", [&] { return parse_fill(text_of(grid)).has_value(); });
 }
 
 void add_kolam_grid_options(CLI::App& command, KolamGridOptions& options) {

@@ -387,7 +387,8 @@ DotGrid parse_dot_grid(std::string_view given) {
     return Notation(given, std::move(items), sort).grid();
 }
 
-std::optional<DotRectangle> parse_fill(std::string_view given) {
+std::optional<DotRectangle> parse_fill(std::string_view text) {
+    const std::string_view given = trimmed(text);
     const std::size_t at = lower_case(given).find(fill_word);
     if (at == std::string_view::npos || parse_text_in_dots(given)) return std::nullopt;
     // `7xfill` is one word otherwise.

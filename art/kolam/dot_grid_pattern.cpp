@@ -163,6 +163,7 @@ private:
         text_ += kolam_head(options_);
         if (states_.size() > most_listed_gaps) return;
         text_ += fmt::format("// grid: {}\n// gaps: {}\n", grid_.text(), gap_states_text(grid_, states_));
+        if (!centres_.empty()) text_ += "// centred dots: yes\n";
         if (options_.rim != RimStyle::round) text_ += fmt::format("// rim: {}\n", rim_style_name(options_.rim));
     }
     /// Faces show where dots are, except centred ones.

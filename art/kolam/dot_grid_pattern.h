@@ -62,15 +62,15 @@ std::vector<GridDot> crossed_cells(const DotGrid& grid, const GapStates& states)
 /// apart, and every position is exact. In the triangular lattice the control points are those of rounded_line(), dots
 /// are 2 steps apart, and dots that are not drawn are marked with a transparent pen, as they are beside centred ones.
 /// The grid and up to most_listed_gaps gaps are listed in comments, as parse_dot_grid() and parse_gap_states() read
-/// them, and a rim that is not round.
+/// them, a rim that is not round, and centred dots.
 /// @throws std::runtime_error if the text is too long for a pattern file
 KolamPattern kolam_pattern(const DotGrid& grid, const GapStates& states, const KolamPatternOptions& options = {});
 
 /// The keys `title`, `source` and `description` of a pattern; empty ones are left out.
 std::string kolam_head(const KolamPatternOptions& options);
 
-/// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps, rim), or
-/// empty.
+/// The value of a comment `// NAME: VALUE` that the program writes into patterns of kolams (grid, gaps, rim, centred
+/// dots), or empty.
 std::string_view kolam_comment(std::string_view pattern, std::string_view name);
 
 }  // namespace sikku

@@ -7,7 +7,7 @@
 namespace sikku {
 namespace {
 
-/// Dots that every row has less than the one before, or more.
+/// How many dots fewer a row has than the first one.
 std::uint32_t shorter(const DotRectangle& rectangle, std::uint32_t row) {
     return rectangle.lattice == DotLattice::triangular ? row % 2 : 0;
 }

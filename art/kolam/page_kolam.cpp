@@ -162,11 +162,12 @@ struct Permitted {
     std::string skipped;
 };
 
-Permitted permitted(const PageFill& fill, const GridKolamOptions& options) {
+Permitted permitted(const PageFill& fill, const GridKolamOptions& options, const Monitor& monitor) {
     constexpr std::size_t most = 3;
     Permitted found;
     for (const Candidate& candidate : Candidates(fill).all()) {
         if (found.candidates.size() == most) break;
+        monitor.check();
         // Further ones are only to be better by the size of their loops.
         if (!found.candidates.empty() && candidate.detour > found.candidates.front().detour) break;
         const std::string obstacle = obstacle_of(dot_grid(candidate.rectangle), options);
@@ -192,7 +193,7 @@ std::uint64_t tries_of(const PageFill& fill, const KolamPatternOptions& look, co
 
 PageKolam make_page_kolam(const PageFill& fill, const GridKolamOptions& options, const KolamPatternOptions& look,
                           const Monitor& monitor) {
-    Permitted found = permitted(fill, options);
+    Permitted found = permitted(fill, options, monitor);
     const std::uint64_t tries = tries_of(fill, look, found.candidates.front());
     std::optional<PageKolam> best;
     GridKolamOptions tried = options;

@@ -104,6 +104,22 @@ std::optional<ReadKolam> stated_kolam(const Document& document, const std::vecto
     }
 }
 
+/// Adds the rim and the centred dots that the comments of a pattern state, if its lines agree with their gaps.
+void add_stated_look(std::string_view text, ReadKolam& kolam) {
+    const std::string_view rim = kolam_comment(text, "rim");
+    const bool has_centred_dots = kolam_comment(text, "centred dots") == "yes";
+    if (rim.empty() && !has_centred_dots) return;
+    try {
+        const DotGrid grid = parse_dot_grid(kolam_comment(text, "grid"));
+        if (grid.text() != kolam.grid.text()) return;
+        if (parse_gap_states(grid, kolam_comment(text, "gaps")) != kolam.states) return;
+        kolam.has_centred_dots = has_centred_dots;
+        if (!rim.empty()) kolam.rim = parse_rim_style(rim);
+    } catch (const std::runtime_error&) {
+        return;  // the comments are not those of a kolam
+    }
+}
+
 }  // namespace
 
 std::optional<ReadKolam> read_kolam_text(const std::string& text, const KolamFileOptions& options,
@@ -144,6 +160,7 @@ ReadKolam read_kolam_document(const Document& document, double budget, const Mon
     ReadKolam kolam = stated ? std::move(*stated) : kolam_of_lines(lines, {}, false, std::nullopt, monitor);
     if (open > 0) kolam.notes.push_back(fmt::format("{} left out", counted(open, "open line")));
     kolam.title = document.pattern().text("title");
+    add_stated_look(document.source().text(), kolam);
     return kolam;
 }
 

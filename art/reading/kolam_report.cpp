@@ -120,6 +120,8 @@ std::string read_kolam_pattern(const ReadKolam& kolam, const KolamReport& report
     options.title = kolam.title;
     if (options.title.empty()) options.title = fmt::format("Kolam on {} dots", printable(kolam.grid.text(), 80));
     options.description = fmt::format("{}; read from {}", kolam_summary(kolam, report), source);
+    options.rim = kolam.rim;
+    options.centred_dots = kolam.has_centred_dots;
     options.monitor = monitor;
     std::string text = kolam_pattern(kolam.grid, kolam.states, options).text;
     const std::vector<std::uint32_t> doubts = kolam.doubtful();

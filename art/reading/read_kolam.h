@@ -2,6 +2,7 @@
 #pragma once
 
 #include "art/kolam/dot_grid_lines.h"
+#include "art/kolam/dot_grid_pattern.h"
 
 #include <array>
 #include <cstdint>
@@ -21,6 +22,8 @@ struct ReadKolam {
     std::vector<std::uint32_t> repaired = {};  ///< gaps changed by symmetry or by hand, ascending
     std::vector<std::string> notes = {};       ///< notes for the user: assumptions, repairs, omissions
     std::string title = {};                    ///< title in the file; may be empty
+    RimStyle rim = RimStyle::round;            ///< shape of the loops at the rim that the pattern states
+    bool has_centred_dots = false;             ///< the pattern states dots between crossed gaps
 
     static constexpr float doubtful_below = 0.5F;
     bool is_doubtful(std::uint32_t gap) const { return !certainty.empty() && certainty[gap] < doubtful_below; }

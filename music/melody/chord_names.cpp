@@ -12,6 +12,7 @@ namespace sikku {
 namespace {
 
 constexpr std::array<std::string_view, 7> numerals = {"I", "II", "III", "IV", "V", "VI", "VII"};
+constexpr std::size_t longest_name = 32;
 constexpr std::array<double, 7> major_cents = {0, 200, 400, 500, 700, 900, 1100};
 
 /// Semitones of a chord above its root. The accompaniment sounds the first three, so that sevenths come before
@@ -26,8 +27,9 @@ constexpr Quality qualities[] = {
     {"sus4", {0, 5, 7, -1, -1}},  {"6", {0, 4, 9, 7, -1}},     {"m6", {0, 3, 9, 7, -1}},
     {"7", {0, 4, 10, 7, -1}},     {"maj7", {0, 4, 11, 7, -1}}, {"m7", {0, 3, 10, 7, -1}},
     {"mmaj7", {0, 3, 11, 7, -1}}, {"m7b5", {0, 3, 10, 6, -1}}, {"dim7", {0, 3, 9, 6, -1}},
-    {"7sus4", {0, 5, 10, 7, -1}}, {"add9", {0, 4, 7, 2, -1}},  {"9", {0, 4, 10, 7, 2}},
-    {"maj9", {0, 4, 11, 7, 2}},   {"m9", {0, 3, 10, 7, 2}},
+    {"7sus4", {0, 5, 10, 7, -1}}, {"add9", {0, 4, 2, 7, -1}},  {"9", {0, 4, 10, 7, 2}},
+    {"maj9", {0, 4, 11, 7, 2}},   {"m9", {0, 3, 10, 7, 2}},    {"madd9", {0, 3, 2, 7, -1}},
+    {"mmaj9", {0, 3, 11, 7, 2}},
 };
 
 const Quality* find_quality(std::string_view name) {
@@ -100,13 +102,14 @@ std::optional<Numeral> read_numeral(std::string_view text) {
     return numeral;
 }
 
-/// The quality of a numeral: a suffix to small letters makes minor chords, where there is such a chord.
+/// The quality of a numeral: a suffix to small letters makes minor chords. Chords with a major third have no small
+/// letters, except augmented ones.
 const Quality* quality_of(const Numeral& numeral) {
     const std::string name(numeral.quality);
-    if (numeral.is_minor) {
-        if (const Quality* minor = find_quality("m" + name)) return minor;
-    }
-    return find_quality(name.empty() ? "maj" : name);
+    if (!numeral.is_minor) return find_quality(name.empty() ? "maj" : name);
+    if (const Quality* minor = find_quality("m" + name)) return minor;
+    const Quality* other = find_quality(name);
+    return other && other->tones[1] == 4 && name != "aug" ? nullptr : other;
 }
 
 std::optional<Chord> numeral_chord(std::string_view name, const Scale& scale) {
@@ -153,6 +156,12 @@ std::optional<Chord> letter_chord(std::string_view name, const Scale& scale, dou
     // The lowest tone comes first, and sounds once.
     const double low = cents_above(*bass) - 1200;
     std::erase_if(chord.cents, [&](double tone) { return std::fabs(std::remainder(tone - low, 1200)) < 1; });
+    // Of a seventh chord third and seventh sound rather than the root, if neither is the bass.
+    const bool is_seventh = quality->tones[3] >= 0;
+    if (is_seventh && chord.cents.size() >= 3 && chord.cents[2] - chord.cents[0] == 100 * quality->tones[2] &&
+        chord.cents[1] - chord.cents[0] == 100 * quality->tones[1]) {
+        std::rotate(chord.cents.begin(), chord.cents.begin() + 1, chord.cents.begin() + 3);
+    }
     chord.cents.insert(chord.cents.begin(), low);
     mark_tones(chord, scale);
     return chord;
@@ -161,15 +170,17 @@ std::optional<Chord> letter_chord(std::string_view name, const Scale& scale, dou
 }  // namespace
 
 std::optional<Chord> named_chord(std::string_view name, const Scale& scale, double tonic) {
+    if (name.size() > longest_name) return std::nullopt;
     const std::string text = plain(name);
     if (auto chord = numeral_chord(text, scale)) return chord;
     return letter_chord(text, scale, tonic);
 }
 
 bool is_chord_and_note(std::string_view name) {
+    if (name.size() > longest_name) return false;
     const std::string text = plain(name);
     std::string_view rest = text;
-    return take_letter(rest) && rest.size() == 1 && find_quality(rest);
+    return take_letter(rest) && (rest.empty() || (rest.size() == 1 && find_quality(rest)));
 }
 
 }  // namespace sikku

@@ -953,12 +953,17 @@ TEST(Harmonies, ChordsByName) {
         {"vi", "0 4 9"},      {"VI", "0 4 9"},        {"#ivdim", "0 6 9"},
     };
     for (const auto& [name, pitches] : in_c) EXPECT_EQ(classes(name, "major", 60), pitches) << name;
+    // Third and seventh sound above another bass, before the root.
+    EXPECT_EQ(chord_names("major", "C7/G-C7/E-C7/Bb-C/G"),
+              (std::vector<std::string>{"-5 4 10 0", "-8 0 10 7", "-2 0 4 7", "-5 0 4"}));
+    EXPECT_EQ(classes("iadd9", "major", 60), "0 2 3 7");
+    EXPECT_EQ(classes("imaj9", "major", 60), "0 2 3 7 11");
     EXPECT_EQ(classes("III", "minor", 60), "3 7 10");
     EXPECT_EQ(classes("bIII", "minor", 60), "3 7 10") << "accidentals count from the major scale";
     EXPECT_EQ(classes("V", "minor", 60), "2 7 10") << "the triad of the scale";
     EXPECT_EQ(classes("V7", "minor", 60), "2 5 7 11");
     for (const char* bad :
-         {"H", "c", "Cx", "I/V7", "I/G", "C/V", "C/", "Iv", "iI", "IIX", "C77", "bbbI", "♭", "/V", "C/G/E"}) {
+         {"H", "c", "Cx", "I/V7", "I/G", "C/V", "C/", "Iv", "iI", "IIX", "C77", "bbbI", "♭", "imaj", "/V", "C/G/E"}) {
         EXPECT_TRUE(has(classes(bad, "major", 60), "unknown chord")) << bad;
     }
 }

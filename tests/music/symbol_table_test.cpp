@@ -98,6 +98,7 @@ TEST(SymbolTable, ChordsByName) {
         return found;
     };
     EXPECT_EQ(keys("C7"), (std::vector<double>{60, 64, 67, 70}));
+    EXPECT_EQ(keys("C"), (std::vector<double>{60, 64, 67}));
     EXPECT_EQ(keys("Am"), (std::vector<double>{69, 72, 76}));
     EXPECT_EQ(keys("C/G"), (std::vector<double>{55, 60, 64}));
     EXPECT_EQ(keys("C4 C7"), (std::vector<double>{60, 96})) << "notes";

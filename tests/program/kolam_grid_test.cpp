@@ -67,8 +67,25 @@ TEST_F(KolamGrid, SetsCentredDots) {
                                 "all", "--centred", "-o", "mixed.lsys"});
     ASSERT_EQ(made.status, 0) << made.errors;
     EXPECT_TRUE(has(kolam({"mixed.lsys"}).output, "40 dots, all encircled"));
+    ASSERT_EQ(kolam({"mixed.lsys", "-o", "again.lsys"}).status, 0);
+    EXPECT_TRUE(has(kolam({"again.lsys"}).output, "40 dots, all encircled")) << "they survive";
     EXPECT_TRUE(
         has(kolam({"--grid", "3x3", "--crossings", "none", "--centred"}).errors, "warning: --centred has no effect"));
+}
+
+TEST_F(KolamGrid, RimsSurviveReading) {
+    ASSERT_EQ(kolam({"--grid", "9-1", "--symmetry", "D4", "--rim", "horn", "--seed", "5", "-o", "a.lsys"}).status, 0);
+    ASSERT_EQ(kolam({"a.lsys", "-o", "b.lsys"}).status, 0);
+    EXPECT_TRUE(has(contents(folder_ / "b.lsys"), "// rim: horn"));
+}
+
+TEST_F(KolamGrid, ReadsNotationsFromFiles) {
+    folder_.write("filled.txt", "3x3\n");
+    folder_.write("page.txt", "7xfill\n");
+    EXPECT_EQ(kolam({"--grid", "@filled.txt", "-o", "a.lsys"}).status, 0);
+    const Outcome filled = kolam({"--grid", "@page.txt", "--size", "120x40cm", "-o", "b.lsys"});
+    EXPECT_EQ(filled.status, 0) << filled.errors;
+    EXPECT_TRUE(has(contents(folder_ / "b.lsys"), "source: sikku kolam --grid 7xfill --size 120x40cm"));
 }
 
 TEST_F(KolamGrid, ExtensionsMayBeCapitals) {
