@@ -16,8 +16,9 @@ import { RequestFailed } from "./context";
 import { element } from "./elements";
 import { capital, counted, sentence } from "./numbers_shown";
 import { withOption } from "./options";
-import type { Dots, Examined, Grid, Request, SymmetryName } from "./protocol";
+import type { Dots, Examined, Grid, PatternRequest, Request, SymmetryName } from "./protocol";
 import { makeChance } from "./sound/chance";
+import { isAnother } from "./versions";
 
 type GridRequest = Extract<Request, { do: "grid" }>;
 type DotsRequest = Extract<Request, { do: "dots" }>;
@@ -54,8 +55,13 @@ class BenchPanel implements Panel {
     private isShown = false;
     private frame = 0;
     private typing = 0; // timer
-    private laid: { photograph: Photograph | null; grid: DotGrid | null; view?: View; made: Underlay | null } =
-        { photograph: null, grid: null, made: null };
+    private laid: {
+        photograph: Photograph | null;
+        grid: DotGrid | null;
+        shift?: Place | null;
+        view?: View;
+        made: Underlay | null;
+    } = { photograph: null, grid: null, made: null };
     private around: { grid: DotGrid | null; places: Place[] } = { grid: null, places: [] };
     private made = ""; // the text of this kolam as written by the libraries
     private text = ""; // the same with the edits of the user
@@ -83,7 +89,7 @@ class BenchPanel implements Panel {
         chances: (chances) => void this.random(chances),
         look: (look) => this.setLook(look),
         word: (word) => void this.setWord(word),
-        photograph: (file) => void readPhotograph(this.studio, file),
+        photograph: (file) => void readPhotograph(this.studio, file).then(() => this.update()),
         nextKolam: () => this.readNextKolam(),
         view: (view) => this.setView(view),
         forget: () => {
@@ -102,7 +108,7 @@ class BenchPanel implements Panel {
         );
         this.listen();
         this.update();
-        if (!this.take(studio.store.work.pattern.text)) void this.begin();
+        if (!this.take(studio.store.work.pattern)) void this.begin();
     }
 
     private listen(): void {
@@ -146,7 +152,15 @@ class BenchPanel implements Panel {
             this.leave();
         });
         this.studio.store.subscribe((work, before) => {
-            if (work.pattern !== before.pattern && work.pattern.text !== this.text) this.take(work.pattern.text);
+            if (work.pattern === before.pattern) return;
+            if (work.pattern.text !== this.text) {
+                this.take(work.pattern, before.pattern);
+                return;
+            }
+            const dots = latestPhotograph()?.dots;
+            const shift = dots?.shift;
+            dots?.show(work.pattern, true);
+            if (dots?.shift !== shift) this.update();
         });
     }
 
@@ -161,15 +175,19 @@ class BenchPanel implements Panel {
         this.update();
     }
 
-    /// Reads the kolam from the text, for example after an undo. False if it is not a kolam of the bench.
-    private take(text: string): boolean {
+    /// Reads the kolam from a pattern, for example after an undo. False if it is not a kolam of the bench.
+    private take(pattern: PatternRequest, before = pattern): boolean {
+        const { text } = pattern;
         const found = readKolam(text);
         if (!found) return false;
         const mine = ++this.asked;
         const take = (grid: DotGrid | null): void => {
             const states = grid && parseStates(grid, found.gaps);
             if (!grid || !states || mine !== this.asked) return; // the comments were edited
-            if (grid.text !== this.kolam.grid.text) this.cursor = -1;
+            const isSameGrid = grid.text === this.kolam.grid.text;
+            if (!isSameGrid) this.cursor = -1;
+            const isSame = isSameGrid && statesText(states) === statesText(this.kolam.states);
+            latestPhotograph()?.dots.show(pattern, isSame && !isAnother(pattern, before));
             this.kolam.set(grid, states);
             const { isFilled, hasDots, rim, ground, hand, word } = found;
             const places = found.doubts.length > 0 ? gapPlaces(grid) : [];
@@ -248,6 +266,7 @@ class BenchPanel implements Panel {
 
     private takeGrid(grid: DotGrid, word: Word | null): void {
         this.word = word;
+        latestPhotograph()?.dots.leave();
         this.kolam.setGrid(grid, false);
         this.cursor = -1;
         this.commit();
@@ -288,7 +307,7 @@ class BenchPanel implements Panel {
             const edited = await this.gridOf(request, (message) => this.studio.say(sentence(message), "warning"));
             if (!edited) return;
             const { photograph } = this;
-            photograph?.follow(grid, edited);
+            photograph?.dots.follow(grid, edited);
             this.kolam.setGrid(edited, true);
             const { x, level } = { x: place.x + edited.moved.x, level: place.level + edited.moved.level };
             this.cursor = placesAround(edited).findIndex((each) => each.x === x && each.level === level);
@@ -304,10 +323,10 @@ class BenchPanel implements Panel {
         const { x, level } = grid.moved;
         const old = new Set(before.gaps.map((gap) => `${gap.x + x} ${gap.level + level}`));
         try {
-            const reading = { part: photograph.part, fixes: photograph.fixes(grid) };
+            const reading = { part: photograph.part, fixes: photograph.dots.fixes(grid) };
             const { found } = await requestReading(this.studio, photograph.file, reading);
             const read = parseStates(grid, found.gaps);
-            if (found.grid !== grid.text || grid !== this.kolam.grid || !read) return;
+            if (photograph !== this.photograph || found.grid !== grid.text || grid !== this.kolam.grid || !read) return;
             const fresh = [...grid.gaps.keys()].filter((gap) => !old.has(`${grid.gaps[gap].x} ${grid.gaps[gap].level}`));
             const states = this.kolam.states.slice();
             for (const gap of fresh) states[gap] = read[gap];
@@ -424,6 +443,7 @@ class BenchPanel implements Panel {
             pattern.settings,
         );
         store.change({ pattern: { ...pattern, ...(isOurs ? { settings } : fresh), text: this.text }, place: null }, merge);
+        latestPhotograph()?.dots.keep(store.work.pattern); // dots may have moved without a change of the text
         if (!isOurs) this.studio.say("The kolam has replaced the pattern. Undo restores it.");
         void this.examine();
     }
@@ -433,7 +453,7 @@ class BenchPanel implements Panel {
     /// The photograph that the dots lie on.
     private get photograph(): Photograph | null {
         const latest = latestPhotograph();
-        return latest?.shows(this.kolam.grid.text) ? latest : null;
+        return latest?.dots.shift ? latest : null;
     }
 
     private setView(view: View): void {
@@ -587,8 +607,9 @@ class BenchPanel implements Panel {
     /// Made once for each state of the photograph, because the board compares it.
     private underlay(): Underlay | null {
         const { photograph, laid, kolam: { grid } } = this;
-        if (laid.photograph !== photograph || laid.grid !== grid || laid.view !== photograph?.view) {
-            this.laid = { photograph, grid, view: photograph?.view, made: photograph?.underlay(grid) ?? null };
+        const { view, dots: { shift = null } = {} } = photograph ?? {};
+        if (laid.photograph !== photograph || laid.grid !== grid || laid.shift !== shift || laid.view !== view) {
+            this.laid = { photograph, grid, shift, view, made: photograph?.underlay(grid) ?? null };
         }
         return this.laid.made;
     }

@@ -12,6 +12,7 @@ const { readKolam, withEditsOf, withLook, first_look, wordGrid, wordTitle } = aw
 const { Rim, rim_names, rimIcon } = await load("bench/rims");
 const { doubtsText, gapPlaces, readDoubts } = await load("bench/doubts");
 const { dotFixes } = await load("bench/dot_fixes");
+const { PhotographDots } = await load("bench/photograph_dots");
 const { ground_names } = await load("bench/grounds");
 const { Kolam } = await load("bench/kolam");
 const { gapText, changeText, placeText, statesTold, neighbour } = await load("bench/gap_names");
@@ -282,6 +283,68 @@ test("dots added by hand are named as the program names them", () => {
     }
 });
 
+test("a photograph lies only under its own kolam, not under others on the same grid", () => {
+    const dots = new PhotographDots("read");
+    assert.equal(dots.shift, null); // until the bench shows what was read
+    const [older, read] = [{ text: "older" }, { text: "read" }];
+    dots.show(read, false);
+    assert.deepEqual(dots.shift, { x: 0, level: 0 });
+    // Edited text with the same kolam keeps it, another kolam does not, and undo returns to both.
+    const edited = { text: "edited" };
+    dots.show(edited, true);
+    assert.deepEqual(dots.shift, { x: 0, level: 0 });
+    const chosen = { text: "chosen" };
+    dots.leave();
+    dots.keep(chosen);
+    assert.equal(dots.shift, null);
+    dots.follow(gridOf("3x3"), gridOf("3x3", { add: [[4, 0]] }));
+    assert.equal(dots.shift, null);
+    for (const pattern of [older, chosen]) {
+        dots.show(pattern, false);
+        assert.equal(dots.shift, null);
+        dots.show(edited, false);
+        assert.deepEqual(dots.shift, { x: 0, level: 0 });
+    }
+    const again = new PhotographDots("read");
+    again.show(older, true);
+    assert.equal(again.shift, null);
+});
+
+test("dots that come back to the same notation elsewhere keep their places in the photograph", () => {
+    const dots = new PhotographDots("3x3");
+    const first = gridOf("3x3");
+    const patterns = [{ text: "3x3" }];
+    dots.show(patterns[0], false);
+    const edit = (grid, change) => {
+        const edited = gridOf(grid.text, change);
+        dots.follow(grid, edited);
+        patterns.push({ text: edited.text }); // as all gaps are crossed, equal notations are equal texts
+        dots.keep(patterns.at(-1));
+        return edited;
+    };
+    let grid = first;
+    const places = () => grid.dots.map(({ x, level }) => ({ x: x - dots.shift.x, level: level - dots.shift.level }));
+    const right = () => Math.max(...grid.dots.map(({ x }) => x));
+    const left = () => Math.min(...grid.dots.map(({ x }) => x));
+    for (const level of [2, 0, -2]) grid = edit(grid, { add: [[right() + (grid === first ? 2 : 0), level]] });
+    assert.equal(grid.text, "3x4");
+    for (const level of [2, 0, -2]) grid = edit(grid, { remove: [[left(), level]] });
+    assert.equal(grid.text, "3x3");
+    assert.deepEqual(dots.shift, { x: -2, level: 0 });
+    assert.deepEqual(places(), first.dots.map(({ x, level }) => ({ x: x + 2, level })));
+    const fixes = dots.fixes(grid);
+    assert.deepEqual(fixes, ["dot 1,4", "dot 2,4", "dot 3,4", "no dot 1,1", "no dot 2,1", "no dot 3,1"]);
+    // Undo to the same notation, and redo.
+    dots.show(patterns[0], true);
+    assert.deepEqual(dots.shift, { x: 0, level: 0 });
+    assert.deepEqual(dots.fixes(first), []);
+    dots.show(patterns.at(-1), true);
+    assert.deepEqual(dots.fixes(grid), fixes);
+    // Further edits still count from the dots that were read.
+    grid = edit(grid, { add: [[4, 0]] });
+    assert.equal(dots.fixes(grid).filter((fix) => fix.startsWith("dot")).length, 4);
+});
+
 test("pictures without a kolam and wrong pixels are refused", () => {
     const read = (more, bytes) => ask({ do: "read", width: 100, height: 80, source: "x", ...more }, bytes).error;
     const blank = new Uint8Array(4 * 100 * 80).fill(200);
@@ -540,6 +603,24 @@ test("what was edited in a pattern stays", () => {
     const edited = navy + "tempo: 90\n";
     assert.equal(withEditsOf(edited, bare, bare), edited);
     assert.equal(withEditsOf(edited, "", bare), edited);
+});
+
+test("the command that made a kolam leaves its text with the first edit", () => {
+    const bare = (rim) => ask({ do: "grid", grid: "1-3-5-3-1", rim }).text;
+    for (const command of ["sikku kolam --grid 5xfill --rim horn --seed 0", "sikku kolam --grid '5-3 idukku' --rim horn"]) {
+        const line = `source: ${command}`;
+        const written = bare("round").replace(/^title: .*$/m, (title) => `${title}\n${line}`);
+        assert.equal(readKolam(written).rim, "horn"); // as in the kolam library, without a comment
+        for (const made of ["", bare("round")]) {
+            const edited = withEditsOf(written, made, bare("round"));
+            assert.doesNotMatch(edited, /^source:/m);
+            assert.equal(readKolam(edited).rim, "round");
+            assert.equal(readKolam(withEditsOf(written, made, bare("petal"))).rim, "petal");
+        }
+        assert.equal(readKolam(`${bare("round")}${line}\n`).rim, "round"); // kept by an earlier bench
+    }
+    const told = `${bare("round")}source: my grandmother\n`;
+    assert.equal(withEditsOf(told, "", bare("round")), told);
 });
 
 test("the certificate is a sentence", () => {

@@ -294,6 +294,19 @@ async function photograph() {
     assert.equal(await page.getAttribute(".bench-view:has-text('Both')", "aria-checked"), "true");
     console.log(await text("#message"));
 
+    // It leaves the board when a grid is chosen, and another kolam on 5x5 does not bring it back, but undo does.
+    for (const grid of ["7x7", "5x5"]) {
+        await page.waitForTimeout(1200);
+        await page.fill("#bench-grid", grid);
+        await page.keyboard.press("Enter");
+        await untilText(`// grid: ${grid}`);
+        await page.waitForSelector(".bench-view", { state: "hidden" });
+    }
+    await until(() => !document.querySelector(".cm-content").textContent.includes("read from doorstep.png"));
+    for (let i = 0; i < 2; ++i) await page.getByRole("button", { name: /^Undo/ }).click();
+    await page.waitForSelector(".bench-view >> visible=true");
+    await untilText("read from doorstep.png");
+
     await page.setInputFiles("#bench-photograph", { name: "no.png", mimeType: "image/png", buffer: Buffer.from("no picture") });
     await until(() => /^no\.png: This browser cannot decode it/.test(document.querySelector("#message").textContent));
 

@@ -83,9 +83,14 @@ export function readKolam(text: string): ReadKolam | null {
     };
 }
 
-/// The rim that the libraries name, or the command in patterns of the kolam library.
+/// The command that made a kolam. It no longer makes it after an edit.
+const command_line = /^source:\s*sikku kolam .*$/m;
+
+/// The rim that the libraries name, or the command in patterns of the kolam library. Commands behind the axiom were
+/// kept by earlier benches, for kolams that were edited.
 function rimOf(text: string): RimName {
-    const name = /^\/\/ rim: (\w+)$/m.exec(text)?.[1] ?? /^source: sikku kolam .*--rim (\w+)/m.exec(text)?.[1];
+    const command = command_line.exec(text.split(/^axiom:/m, 1)[0])?.[0] ?? "";
+    const name = /^\/\/ rim: (\w+)$/m.exec(text)?.[1] ?? /--rim (\w+)/.exec(command)?.[1];
     return rim_names.find((each) => each === name) ?? "round";
 }
 
@@ -130,7 +135,7 @@ export function withEditsOf(old: string, made: string, fresh: string): string {
     let text = fresh;
     for (const [key, line] of otherKeys(old)) {
         const own = now.get(key);
-        if (line === was.get(key) || line === own || isOurs(line)) continue;
+        if (line === was.get(key) || line === own || isOurs(line) || command_line.test(line)) continue;
         if (key === "ground" && own !== grounds.earth.line) continue; // a floor was chosen
         if (key === "palette" && was.get(key) !== own) continue; // the number of lines has changed
         text = own === undefined ? `${text.trimEnd()}\n${line}\n` : text.replace(own, () => line);

@@ -5,9 +5,9 @@ import { element } from "../elements";
 import { counted, sentence } from "../numbers_shown";
 import { openPattern } from "../opening";
 import type { ReadPhotograph } from "../protocol";
-import { dotFixes } from "./dot_fixes";
 import type { DotGrid, Place } from "./dot_grid";
 import { first_look, readKolam, withLook } from "./kolam_text";
+import { PhotographDots } from "./photograph_dots";
 
 /// What the board shows of it.
 export interface Underlay {
@@ -23,42 +23,24 @@ export type View = "photograph" | "both" | "kolam";
 const longest_side = 4000; // pixels that are read; the bytes of larger pictures would exceed the limit of a request
 
 export class Photograph {
-    /// Grids whose dots lie on those of the photograph: from the places in the first one to their places.
-    private readonly grids = new Map<string, Place>();
+    readonly dots: PhotographDots;
     private readonly veiled: HTMLCanvasElement; // the picture below lines
-    private first: readonly Place[] = []; // dots that were read
     view: View = "both";
 
+    /// `text`: of the pattern that was read.
     constructor(
         readonly file: File,
         readonly part: number,
         readonly found: ReadPhotograph,
         private readonly picture: HTMLCanvasElement,
+        text: string,
     ) {
         this.veiled = veiled(picture);
-        this.grids.set(found.grid, { x: 0, level: 0 });
+        this.dots = new PhotographDots(text);
     }
 
-    shows(grid: string): boolean {
-        return this.grids.has(grid);
-    }
-
-    /// Dots were added or removed.
-    follow(before: DotGrid, after: DotGrid): void {
-        const shift = this.grids.get(before.text);
-        if (!shift) return;
-        if (before.text === this.found.grid) this.first = before.dots;
-        this.grids.set(after.text, { x: shift.x + after.moved.x, level: shift.level + after.moved.level });
-    }
-
-    /// The fixes that turn the dots that were read into those of a grid.
-    fixes({ text, dots }: DotGrid): string[] {
-        const shift = this.grids.get(text)!;
-        return dotFixes(this.first, dots.map(({ x, level }) => ({ x: x - shift.x, level: level - shift.level })));
-    }
-
-    underlay({ text, rise, dots }: DotGrid): Underlay | null {
-        const shift = this.grids.get(text);
+    underlay({ rise, dots }: DotGrid): Underlay | null {
+        const { shift } = this.dots;
         if (!shift || this.view === "kolam") return null;
         const missing = [...this.found.missing, ...this.found.open_ends]
             .map(([x, level]) => ({ x: x + shift.x, level: level + shift.level }))
@@ -142,9 +124,11 @@ export async function readPhotograph(studio: Studio, file: File, reading: Readin
     studio.say(`Reading ${file.name}…`);
     try {
         const { found, picture } = await requestReading(studio, file, reading);
-        latest = new Photograph(file, reading.part ?? 1, found, picture);
         const name = `${file.name.replace(/\.\w+$/, "")}.lsys`;
         const text = withLook(found.text, first_look);
+        latest = new Photograph(file, reading.part ?? 1, found, picture, text);
+        // If the pattern is open already, the bench is not told.
+        if (studio.store.work.pattern.text === text) latest.dots.show(studio.store.work.pattern, false);
         openPattern(studio, { name, text }, readKolam(text) ? "bench" : "map"); // the bench takes up to 1000 gaps
         const doubts = found.doubtful.length;
         const doubtful = doubts === 0 ? "no gap is doubtful" : `${counted(doubts, "gap")} ${doubts === 1 ? "is" : "are"} doubtful`;
