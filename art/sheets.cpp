@@ -18,6 +18,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <map>
+#include <memory>
 #include <utility>
 
 namespace sikku {
@@ -171,7 +173,9 @@ struct Shared {
 std::string take_font(OptionValues& values) {
     std::string font;
     for (const OptionValue& value : values) {
-        if (value.name == "font") font = value.text;
+        if (value.name != "font") continue;
+        if (value.text.empty()) refuse_option("font", "", "expected the name of an installed font, or a file");
+        font = value.text;
     }
     std::erase_if(values, [](const OptionValue& value) { return value.name == "font"; });
     return font;
@@ -315,7 +319,7 @@ private:
         const DrawSettings settings = read_draw_settings(values);
         check_draw_settings(settings, format_);
         const Document document = settings.keys.empty() ? assigned.document : assigned.document.with(settings.keys);
-        SheetCell cell = print_cell(document, settings, folder);
+        SheetCell cell = print_cell(document, settings, folder, shared_font(settings.look.font_name, folder));
         const std::string grid(kolam_comment(document.source().text(), "grid"));
         if (cell.title.empty()) cell.title = std::filesystem::path(document.source().name()).stem().string();
         if ((cell.title.empty() || cell.title == "-") && !grid.empty()) cell.title = grid;
@@ -390,7 +394,14 @@ private:
         if (!shared_.font.empty() && !is_used) {
             refuse_option("font", "", "needs 'titles', 'heading', 'title-line' or 'edition'");
         }
-        options_.font = load_font(shared_.font, folder);
+        options_.font = shared_font(shared_.font, folder);
+    }
+
+    /// Opens a font once for all texts. @param name  empty: single strokes
+    std::shared_ptr<const Font> shared_font(const std::string& name, const std::filesystem::path& folder) {
+        std::shared_ptr<const Font>& font = fonts_[name];
+        if (!font) font = load_font(name, folder);
+        return font;
     }
 
     /// One ground under all drawings if they share it; texts stand out from it.
@@ -414,7 +425,8 @@ private:
     PrintFormat format_;
     Shared shared_;
     std::vector<SheetCell> cells_;
-    std::vector<DrawSettings> settings_;  ///< of the drawings
+    std::vector<DrawSettings> settings_;                        ///< of the drawings
+    std::map<std::string, std::shared_ptr<const Font>> fonts_;  ///< by their names
     SheetOptions options_;
 };
 

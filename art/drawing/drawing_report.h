@@ -61,7 +61,8 @@ struct DrawingReport {
     bool has_one_strand_colour =
         false;                    ///< colours by strand are those of the drawing: there is one strand, or orbit
     bool crosses_itself = false;  ///< the outline of a map crosses itself
-    bool cuts_text = false;       ///< the title line or the edition is too long for its place
+    bool cuts_title = false;      ///< the title line is too long for its place
+    bool cuts_edition = false;    ///< the edition is too long for its place
     bool is_empty = false;        ///< the window contains no part of the drawing
 };
 

@@ -19,6 +19,8 @@ constexpr double foot_share = 2.6;   // space for letters of the usual size, as 
 constexpr double large_share = 1.8;  // the same for what a title is higher than them
 constexpr double most_of_page = 0.4;
 constexpr double thickest = 0.25;  // of strokes, as part of the height of capitals
+constexpr double least_title = 4;  // room for a title, as part of its height
+constexpr double edition_gap = 2;  // between title and edition, as part of the height of the edition
 
 /// Usual height of capitals in millimetres.
 double letters_of(const Page& page) {
@@ -185,6 +187,17 @@ void FramedDrawing::read(const Print& print, const Window& window, PathSink& sin
     if (has_text(options_)) read_text(print, window, sink);
 }
 
+/// Width for the edition: beside a title what that leaves, at least half of the line with the space between them. A
+/// title in the centre leaves half of the rest.
+double FramedDrawing::edition_room(double width, const Page& page) const {
+    const TitleLook& look = options_.title_look;
+    if (!options_.title_line || look.is_above) return width;
+    const double height = title_height(page);
+    const double title = std::max(letters_.width(*options_.title_line, height), least_title * height);
+    const double room = std::max(width / 2, width - title) / (look.side == TitleLook::Side::centre ? 2 : 1);
+    return std::max(0.0, room - edition_gap * letters_of(page));
+}
+
 FramedDrawing::Line FramedDrawing::edition_line(double width, const Page& page) const {
     const double height = letters_of(page);
     Line line{letters_.shortened(options_.edition, height, width), {}, height, letter_stem * height};
@@ -197,7 +210,8 @@ FramedDrawing::Line FramedDrawing::edition_line(double width, const Page& page) 
 FramedDrawing::Line FramedDrawing::title_line(double room, const Page& page) const {
     const double height = title_height(page);
     Line line{"", {}, height, title_stem(page)};
-    if (room > 4 * height) line.text = letters_.shortened(*options_.title_line, height, room);
+    if (room > least_title * height) line.text = letters_.shortened(*options_.title_line, height, room);
+    line.is_title = true;
     line.is_cut = line.text != *options_.title_line;
     line.width = letters_.width(line.text, height);
     return line;
@@ -216,10 +230,10 @@ std::vector<FramedDrawing::Line> FramedDrawing::lines_of(const Window& window) c
     std::vector<Line> lines;
     double taken = 0;
     if (!options_.edition.empty()) {
-        lines.push_back(edition_line(width, page));
+        lines.push_back(edition_line(edition_room(width, page), page));
         const bool is_beside = options_.title_line && !look.is_above;
         place(lines.back(), is_beside && look.side == right ? TitleLook::Side::left : right);
-        if (is_beside) taken = lines.back().width + 2 * lines.back().height;
+        if (is_beside) taken = lines.back().width + edition_gap * lines.back().height;
     }
     if (options_.title_line) {
         lines.push_back(title_line(width - (look.side == centre ? 2 : 1) * taken, page));
@@ -238,7 +252,7 @@ std::vector<FramedDrawing::Line> FramedDrawing::lines_of(const Window& window) c
 void FramedDrawing::read_text(const Print& print, const Window& window, PathSink& sink) const {
     const BorderInk ink(print, text_colour_, sink);
     for (const Line& line : lines_of(window)) {
-        is_cut_ = is_cut_ || line.is_cut;
+        if (line.is_cut) (line.is_title ? cuts_title_ : cuts_edition_) = true;
         glm::dmat3x2 map = ink.from_page();
         map[2] += glm::dmat2x2(map[0], map[1]) * line.at;
         map[1] = -1.0 * map[1];
@@ -249,7 +263,8 @@ void FramedDrawing::read_text(const Print& print, const Window& window, PathSink
 
 void FramedDrawing::report(DrawingReport& report) const {
     DerivedDrawing::report(report);
-    report.cuts_text = is_cut_;
+    report.cuts_title = cuts_title_;
+    report.cuts_edition = cuts_edition_;
 }
 
 }  // namespace sikku

@@ -38,6 +38,7 @@ private:
         double height = 0;   ///< of capitals, in millimetres
         double stem = 0;     ///< width of single strokes
         double width = 0;
+        bool is_title = false;
         bool is_cut = false;
     };
 
@@ -45,6 +46,7 @@ private:
     double title_stem(const Page& page) const;
     double foot_lift(const Page& page) const;
     double head_drop(const Page& page) const;
+    double edition_room(double width, const Page& page) const;
     Line edition_line(double width, const Page& page) const;
     Line title_line(double room, const Page& page) const;
     std::vector<Line> lines_of(const Window& window) const;
@@ -60,7 +62,8 @@ private:
     glm::dvec2 size_{0.0};  ///< of the drawing, in steps; known once it was seen
     int border_colour_ = 0;
     int text_colour_ = 0;
-    mutable std::atomic<bool> is_cut_ = false;  ///< the title or the edition was too long
+    mutable std::atomic<bool> cuts_title_ = false;
+    mutable std::atomic<bool> cuts_edition_ = false;
 };
 
 }  // namespace sikku

@@ -59,9 +59,11 @@ constexpr std::size_t most_line_points = 2'000'000;
 bool is_font_file(std::string_view name);
 
 /// Opens a font.
-/// @param name    a file in `folder`, or a pattern of fontconfig such as `Noto Serif:bold`
-/// @throws std::runtime_error if the module cannot be loaded, no font of that name and style is installed, or the
-/// file is not a font with outlines; a font that fontconfig would use instead is only named
+/// @param name    a file in `folder`, or a pattern of fontconfig such as `Noto Serif:bold`: one family, and at
+///                most its style, weight, slant and width
+/// @throws std::runtime_error if the module cannot be loaded, the pattern has other parts, no font of that name and
+/// style is installed, or the file is not a font with outlines; a font that fontconfig would use instead is only
+/// named
 std::shared_ptr<const Font> open_font(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace sikku

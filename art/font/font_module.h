@@ -18,7 +18,8 @@ struct FoundFont {
 /// Both sides must be built from the same sources: `version` is compared when the module is loaded.
 struct FontModule {
     std::uint64_t version;
-    /// @throws std::runtime_error for patterns that cannot be read
+    /// @throws std::runtime_error for patterns that cannot be read, or that state more than a family, a style, a
+    /// weight, a slant and a width
     FoundFont (*find)(const std::string& pattern);
     /// @param bytes  of the file; `found.name` may be empty, and is then read from the font
     /// @throws std::runtime_error if it is not a font with outlines

@@ -27,11 +27,11 @@ bool is_control(char32_t code) {
     return code < 0x20 || code == 0x7F || (code >= 0x80 && code < 0xA0) || code == 0x2028 || code == 0x2029;
 }
 
-/// Control characters become spaces, invalid bytes U+FFFD.
+/// Control characters become spaces, invalid bytes U+FFFD. Ends after `most_font_letters`.
 CodePoints code_points_of(std::string_view utf8) {
     constexpr char32_t replacement = 0xFFFD;
     CodePoints points;
-    for (std::size_t at = 0; at < utf8.size();) {
+    for (std::size_t at = 0; at < utf8.size() && points.codes.size() < most_font_letters;) {
         const std::size_t length = utf8_length(utf8.substr(at));
         const char32_t code = length == 0 ? replacement : code_point(utf8.substr(at, length));
         points.codes += is_control(code) ? U' ' : code;
@@ -39,6 +39,15 @@ CodePoints code_points_of(std::string_view utf8) {
         at += std::max<std::size_t>(length, 1);
     }
     return points;
+}
+
+/// True if a font shapes only the beginning of a text.
+bool is_too_long(std::string_view utf8) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < utf8.size() && count <= most_font_letters; ++count) {
+        at += std::max<std::size_t>(utf8_length(utf8.substr(at)), 1);
+    }
+    return count > most_font_letters;
 }
 
 bool has_all(const ShapedText& text) {
@@ -69,7 +78,7 @@ private:
 
 }  // namespace
 
-/// Shapes a line, whose clusters become bytes of the text.
+/// Shapes a line, or its first `most_font_letters`. Clusters become bytes of the text.
 ShapedText Letters::shape(std::string_view utf8) const {
     const CodePoints points = code_points_of(utf8);
     ShapedText text = font_->shape(points.codes);
@@ -104,7 +113,7 @@ double Letters::reach(std::string_view utf8, double upwards) const {
 /// Number of bytes of the longest beginning that is at most `ems` wide. Ends between clusters, which are not cut.
 std::size_t Letters::fitting(std::string_view utf8, double ems) const {
     const ShapedText text = shape(utf8);
-    if (text.width <= ems * width_slack) return utf8.size();
+    if (text.width <= ems * width_slack && !is_too_long(utf8)) return utf8.size();
     std::map<std::size_t, double> advances;
     for (const ShapedGlyph& placed : text.glyphs) advances[placed.cluster] += placed.advance;
     std::vector<std::size_t> ends;

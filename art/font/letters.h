@@ -16,7 +16,8 @@
 namespace sikku {
 
 /// Writes lines of text. Lengths are in the unit of the sink; `height` is that of a capital letter. Text is UTF-8;
-/// line breaks and other control characters are spaces in a font. The functions throw std::runtime_error as
+/// line breaks and other control characters are spaces in a font, which takes only the first `most_font_letters`
+/// characters of a text; shortened() and wrapped() cut longer ones. The functions throw std::runtime_error as
 /// Font::shape() and Font::outline(), and for outlines of over `most_line_points` points in a line.
 class Letters {
 public:

@@ -82,7 +82,7 @@ private:
         const LessonLength length = lesson_length(grammar(), print(), steps);
         std::vector<SheetCell> list;
         for (std::size_t step = length.first; step < length.count; ++step) {
-            SheetCell& cell = list.emplace_back(print_cell(document(), settings(), folder()));
+            SheetCell& cell = list.emplace_back(print_cell(document(), settings(), folder(), drawing().font));
             cell.lesson_step = step;
             cell.most_steps = steps.most_steps;
             cell.lesson_memo = steps.lesson_memo;

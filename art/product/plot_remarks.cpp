@@ -135,12 +135,14 @@ std::vector<std::string> drawing_warnings(const DrawReport& report, const Style&
             "'powders' has no effect: powders colour fields and tiles; set 'fields', for example to kind, or 'tile "
             "colours'");
     }
-    if (report.cuts_text) {
+    if (report.cuts_title) {
         warnings.emplace_back(
-            settings.look.title_line
-                ? "the title line is too long for its place and is shortened; a smaller 'title-size' "
-                  "or a larger page shows more of it"
-                : "the edition is too long for its place and is shortened");
+            "the title line is too long for its place and is shortened; a smaller 'title-size' or a larger page "
+            "shows more of it");
+    }
+    if (report.cuts_edition) {
+        warnings.emplace_back(
+            "the edition is too long for its place and is shortened; a larger page shows more of it");
     }
     if (report.lacks_worms) {
         warnings.emplace_back("no tiles form worms: only rhombs do, three around a vertex");

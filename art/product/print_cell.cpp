@@ -2,16 +2,19 @@
 
 #include "art/product/border_files.h"
 
+#include <utility>
+
 namespace sikku {
 
-SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder) {
+SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder,
+                     std::shared_ptr<const Font> font) {
     SheetCell cell;
     static_cast<DrawingOptions&>(cell) = drawing_options(settings, document);
     cell.budget = settings.work.budget;
     cell.grammar = document.shared_grammar();
     cell.style = read_print_style(document, settings);
     load_border(cell.style, document, settings, folder, cell);
-    cell.font = load_font(settings.look.font_name, folder);
+    cell.font = font ? std::move(font) : load_font(settings.look.font_name, folder);
     cell.title = document.text("title");
     return cell;
 }

@@ -6,6 +6,7 @@
 #include "engine/language/document.h"
 
 #include <filesystem>
+#include <memory>
 
 namespace sikku {
 
@@ -13,7 +14,8 @@ namespace sikku {
 /// marks, inks, resolution, the order of a plot) have no effect, and neither has the dot spacing: a drawing fills its
 /// cell. @throws SettingError, PatternError
 /// @param folder  folder of files that the settings name
-SheetCell print_cell(const Document& document, const DrawSettings& settings,
-                     const std::filesystem::path& folder = {});
+/// @param font    the font of the settings, which cells may share; null: it is opened
+SheetCell print_cell(const Document& document, const DrawSettings& settings, const std::filesystem::path& folder = {},
+                     std::shared_ptr<const Font> font = nullptr);
 
 }  // namespace sikku

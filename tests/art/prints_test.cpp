@@ -142,11 +142,31 @@ TEST(Prints, TitlesAreRefusedOrReportedIfTheyDoNotFit) {
         EXPECT_TRUE(has(refusal({{title, ""}, {"title-weight", weight}}), "expected thin")) << weight;
     }
     EXPECT_NE(refusal({{title, ""}, {"font", "No such font at all"}}), "");
-    MemoryDestination memory;
-    const Made made =
-        prints().plan(snake, "svg", {{title, std::string(10'000, 'k')}}, {})->make(memory, "print.svg", {}, 1);
-    ASSERT_EQ(made.remarks.size(), 1u);
-    EXPECT_TRUE(has(made.remarks.front().text, "the title line is too long for its place"));
+    const std::string letters(10'001, 'k');
+    const auto remarks = [&](const OptionValues& values) {
+        MemoryDestination memory;
+        return prints().plan(snake, "svg", values, {})->make(memory, "print.svg", {}, 1).remarks;
+    };
+    const auto cut = [&](const OptionValues& values, const char* what) {
+        const auto found = remarks(values);
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_TRUE(has(found.front().text, std::string("the ") + what + " is too long for its place"));
+    };
+    cut({{title, letters}}, "title line");
+    // The edition leaves room for a title.
+    cut({{"edition", letters}}, "edition");
+    for (const char* place : {"left", "centre", "right", "above"}) {
+        cut({{title, "K"}, {"title-place", place}, {"edition", letters}}, "edition");
+        cut({{title, letters}, {"title-place", place}, {"edition", "3/50"}}, "title line");
+    }
+    EXPECT_EQ(remarks({{title, letters}, {"edition", letters}}).size(), 2u);
+}
+
+TEST(Prints, SheetsRefuseAnEmptyNameOfAFont) {
+    EXPECT_TRUE(has(error_of([] {
+                        plan_sheet({{load("snake-kolam"), {}}}, "svg", {{"titles", "title"}, {"font", ""}}, {});
+                    }),
+                    "expected the name of an installed font"));
 }
 
 TEST(Prints, ABorderIsALayerOfItsOwnWithinTheMargins) {
