@@ -124,8 +124,10 @@ void add_surplus_notes(KolamPart& part) {
                                     count == 1 ? "it" : "them"));
     }
     if (part.unread > 0) {
-        notes.push_back(fmt::format("{} beside the kolam left out: the lines around {} cannot be read",
-                                    counted(part.unread, "dot"), part.unread == 1 ? "it" : "them"));
+        const bool is_one = part.unread == 1;
+        notes.push_back(
+            fmt::format("{} beside the kolam {} missing from the pattern: the lines around {} cannot be read",
+                        counted(part.unread, "dot"), is_one ? "is" : "are", is_one ? "it" : "them"));
     }
     if (part.beside > 0) {
         notes.push_back(fmt::format("{} between the places of the grid left out", counted(part.beside, "dot")));
