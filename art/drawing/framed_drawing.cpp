@@ -206,7 +206,7 @@ FramedDrawing::Line FramedDrawing::edition_line(double width, const Page& page) 
     return line;
 }
 
-/// The text is empty if there is no room.
+/// Leaves the text empty where it does not fit.
 FramedDrawing::Line FramedDrawing::title_line(double room, const Page& page) const {
     const double height = title_height(page);
     Line line{"", {}, height, title_stem(page)};

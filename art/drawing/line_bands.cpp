@@ -16,7 +16,6 @@ namespace sikku {
 namespace {
 
 constexpr double accuracy = 0.005;      // accuracy of parallel curves, in widths of a strand
-constexpr double tightest = 0.75;       // share of a turn's radius by which the innermost strand may be inside
 constexpr double least_share = 0.55;    // share of the spacing: the widest strand
 constexpr double beside = 0.6;          // share of a spacing: more room between bands than between strands
 constexpr double least_spacing = 1e-3;  // in steps
@@ -116,11 +115,17 @@ void LineBands::measure_tips(double step, const Monitor& monitor) {
     }
 }
 
+std::span<const LineTip> LineBands::tips_of(std::size_t line) const {
+    const auto begin =
+        std::partition_point(tips_.begin(), tips_.end(), [&](const LineTip& tip) { return tip.line < line; });
+    const auto end = std::partition_point(begin, tips_.end(), [&](const LineTip& tip) { return tip.line == line; });
+    return {begin, end};
+}
+
 /// For each eighth of each piece, whether a tip covers it.
 std::vector<bool> LineBands::places_in_tips(std::size_t line) const {
     std::vector<bool> covered(std::size_t{places_of_piece} * lines_.lines[line].count(), false);
-    for (const LineTip& tip : tips_) {
-        if (tip.line != line) continue;
+    for (const LineTip& tip : tips_of(line)) {
         const auto end = static_cast<std::size_t>(std::lround(tip.end * places_of_piece));
         for (auto i = static_cast<std::size_t>(std::lround(tip.begin * places_of_piece)); i < end; ++i) {
             covered[i % covered.size()] = true;
@@ -222,8 +227,9 @@ BandLook LineBands::look(const Print& print) const {
     const double gap = style_.weave.value_or(0);
     if (look.count > 1) {
         const int between = look.count - 1;
-        look.spacing = std::min({look.spacing, 2 * tightest * least_radius_ / between, 2 * least_corner_ / between,
-                                 2 * least_tip_ / between, least_distance_ / (look.count + beside)});
+        look.spacing =
+            std::min({look.spacing, 2 * tightest_inside * least_radius_ / between, 2 * least_corner_ / between,
+                      2 * least_tip_ / between, least_distance_ / (look.count + beside)});
         if (style_.weave) look.spacing = std::min(look.spacing, 0.9 * least_run_ / (look.count + gap));
         if (!(look.spacing >= std::min(least_spacing, look.wanted))) {
             throw std::runtime_error("parallel lines do not fit: a line turns too tightly or lies too near another");
@@ -294,11 +300,11 @@ double LineBands::cut(std::size_t line, std::size_t pass, bool is_forward, doubl
 }
 
 /// The parts of a strand that are drawn, between its passes under other lines.
-std::vector<std::pair<double, double>> LineBands::sections(std::size_t line, double offset,
-                                                           const BandLook& look) const {
+LineBands::Sections LineBands::sections(std::size_t line, double offset, const Sections& omitted,
+                                        const BandLook& look) const {
     const double count = lines_.lines[line].count();
     const bool is_closed = lines_.lines[line].is_closed;
-    std::vector<std::pair<double, double>> cuts;
+    Sections cuts;
     if (style_.weave) {
         const auto& passes = diagram_.diagram.lines[line].passes;
         for (std::size_t i = 0; i < passes.size(); ++i) {
@@ -309,13 +315,14 @@ std::vector<std::pair<double, double>> LineBands::sections(std::size_t line, dou
     if (cuts.empty()) {
         // Closed lines begin where the strand is drawn.
         double start = 0;
-        for (const auto& [from, to] : is_closed ? left_out(line, offset) : cuts) {
+        for (const auto& [from, to] : omitted) {
+            if (!is_closed) break;
             if (from < 0) start = to;
             if (to > count) start = to - count;
         }
         return {{start, start + count}};
     }
-    std::vector<std::pair<double, double>> found;
+    Sections found;
     if (!is_closed && cuts.front().first > 0) found.emplace_back(0.0, cuts.front().first);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) found.emplace_back(cuts[i].second, cuts[i + 1].first);
     if (!is_closed && cuts.back().second < count) found.emplace_back(cuts.back().second, count);
@@ -324,10 +331,10 @@ std::vector<std::pair<double, double>> LineBands::sections(std::size_t line, dou
 }
 
 /// The parts that a strand leaves out inside of tips, sorted by position.
-std::vector<std::pair<double, double>> LineBands::left_out(std::size_t line, double offset) const {
-    std::vector<std::pair<double, double>> found;
-    for (const LineTip& tip : tips_) {
-        if (tip.line != line || tip.side * offset <= 0) continue;
+LineBands::Sections LineBands::left_out(std::size_t line, double offset) const {
+    Sections found;
+    for (const LineTip& tip : tips_of(line)) {
+        if (tip.side * offset <= 0) continue;
         if (const auto crossing = crossing_inside(lines_, tip, std::fabs(offset))) found.push_back(*crossing);
     }
     std::sort(found.begin(), found.end());
@@ -339,15 +346,17 @@ void LineBands::draw(const Print& print, const std::function<int(std::size_t)>& 
     for (std::size_t line = 0; line < lines_.lines.size(); ++line) {
         for (int strand = 0; strand < bands.count; ++strand) {
             const double offset = (strand - (bands.count - 1) / 2.0) * bands.spacing;
-            for (const auto& section : sections(line, offset, bands)) {
-                if (section.second > section.first) draw_section(line, section, offset, bands, colour(line), sink);
+            const Sections omitted = left_out(line, offset);
+            for (const auto& section : sections(line, offset, omitted, bands)) {
+                if (section.second <= section.first) continue;
+                draw_section(line, section, offset, omitted, bands, colour(line), sink);
             }
         }
     }
 }
 
-void LineBands::draw_section(std::size_t line, std::pair<double, double> section, double offset, const BandLook& look,
-                             int colour, PathSink& sink) const {
+void LineBands::draw_section(std::size_t line, std::pair<double, double> section, double offset,
+                             const Sections& omitted, const BandLook& look, int colour, PathSink& sink) const {
     const CurvedLines::Line& whole = lines_.lines[line];
     const bool is_closed = whole.is_closed && section.second - section.first >= whole.count();
     std::vector<Part> parts;
@@ -357,7 +366,6 @@ void LineBands::draw_section(std::size_t line, std::pair<double, double> section
         });
     };
     double from = section.first;
-    const std::vector<std::pair<double, double>> omitted = left_out(line, offset);
     for (const double round : {-1.0, 0.0, 1.0}) {
         for (const auto& [begin, end] : omitted) {
             const double shift = round * whole.count();

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -52,18 +53,21 @@ private:
     std::vector<bool> places_in_tips(std::size_t line) const;
     void measure_distance(const Monitor& monitor, double most);
     void measure_crossings();
-    std::vector<std::pair<double, double>> sections(std::size_t line, double offset, const BandLook& look) const;
+    /// Positions along a line from which to which something is drawn, or left out.
+    using Sections = std::vector<std::pair<double, double>>;
+    std::span<const LineTip> tips_of(std::size_t line) const;
+    Sections sections(std::size_t line, double offset, const Sections& omitted, const BandLook& look) const;
     double cut(std::size_t line, std::size_t pass, bool is_forward, double offset, const BandLook& look) const;
-    std::vector<std::pair<double, double>> left_out(std::size_t line, double offset) const;
-    void draw_section(std::size_t line, std::pair<double, double> section, double offset, const BandLook& look,
-                      int colour, PathSink& sink) const;
+    Sections left_out(std::size_t line, double offset) const;
+    void draw_section(std::size_t line, std::pair<double, double> section, double offset, const Sections& omitted,
+                      const BandLook& look, int colour, PathSink& sink) const;
 
     const CurvedLines& lines_;
     const CurveMeetings& meetings_;
     Style style_;
     CurveDiagram diagram_;
-    std::vector<std::size_t> upper_;  ///< for each crossing the mark of the upper strand
-    std::vector<LineTip> tips_;
+    std::vector<std::size_t> upper_;                         ///< for each crossing the mark of the upper strand
+    std::vector<LineTip> tips_;                              ///< sorted by line
     double least_tip_ = std::numeric_limits<double>::max();  ///< farthest parallel inside of every tip
     double least_radius_ = std::numeric_limits<double>::max();
     double least_distance_ = std::numeric_limits<double>::max();  ///< between lines beside each other

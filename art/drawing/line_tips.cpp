@@ -15,7 +15,6 @@ namespace sikku {
 namespace {
 
 constexpr double least_turn_cosine = 0.7071;  // of 45 degrees
-constexpr double tightest_inside = 0.75;      // share of a turn's radius by which a line may be inside
 
 /// A parallel to a line, by positions on the line.
 class Parallel {

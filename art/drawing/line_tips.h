@@ -13,6 +13,9 @@ namespace sikku {
 /// Places of each piece where its curvature is measured.
 constexpr int places_of_piece = 8;
 
+/// Share of a turn's radius by which a parallel line may be inside.
+constexpr double tightest_inside = 0.75;
+
 /// A short, sharp turn: farther inside than its radius, parallel lines cross each other before they reach it.
 struct LineTip {
     std::size_t line = 0;

@@ -123,14 +123,6 @@ private:
         }
     }
 
-    bool is_lonely(std::uint32_t dot) const {
-        for (std::uint32_t side = 0; side < grid_.sides(); ++side) {
-            const std::int32_t gap = grid_.gap(dot, side);
-            if (gap >= 0 && states_[static_cast<std::size_t>(gap)] != GapState::turned) return false;
-        }
-        return true;
-    }
-
     /// Crosses all gaps around dots of a layer, as many as have no neighbour in common, beginning with the first;
     /// then those between the others of this layer.
     void cross_stars(std::uint32_t layer, const std::vector<std::uint32_t>& orbits) {
@@ -143,7 +135,8 @@ private:
         for (std::size_t i = 0; i < linked.size(); ++i) {
             const GridGap& gap = grid_.gaps()[i];
             if (layers_[gap.from] != layer || layers_[gap.to] != layer) continue;
-            if (is_lonely(gap.from) && is_lonely(gap.to)) linked[i] = GapState::crossed;
+            if (is_lonely(grid_, gap.from, states_) && is_lonely(grid_, gap.to, states_))
+                linked[i] = GapState::crossed;
         }
         states_ = std::move(linked);
     }
@@ -195,7 +188,7 @@ private:
     void link_corners() {
         std::vector<std::uint32_t> corners;
         for (std::uint32_t dot = 0; dot < layers_.size(); ++dot) {
-            if (layers_[dot] == 0 && is_lonely(dot)) corners.push_back(dot);
+            if (layers_[dot] == 0 && is_lonely(grid_, dot, states_)) corners.push_back(dot);
         }
         for (const std::uint32_t dot : corners) cross_all(dot);
     }
@@ -220,6 +213,14 @@ bool has_sharp_corners(const DotGrid& grid, const std::vector<std::uint32_t>& la
 }
 
 }  // namespace
+
+bool is_lonely(const DotGrid& grid, std::uint32_t dot, const GapStates& states) {
+    for (std::uint32_t side = 0; side < grid.sides(); ++side) {
+        const std::int32_t gap = grid.gap(dot, side);
+        if (gap >= 0 && states[static_cast<std::size_t>(gap)] != GapState::turned) return false;
+    }
+    return true;
+}
 
 std::vector<std::uint32_t> dot_layers(const DotGrid& grid) {
     std::vector<std::uint32_t> layers(grid.dots().size(), nowhere);

@@ -13,6 +13,9 @@ namespace sikku {
 /// Cost: linear.
 std::vector<std::uint32_t> dot_layers(const DotGrid& grid);
 
+/// True if lines turn back in all gaps of a dot, so that they form a ring around it.
+bool is_lonely(const DotGrid& grid, std::uint32_t dot, const GapStates& states);
+
 /// Crosses gaps of the outermost layers, so that they form bands that follow the rim: wreaths one layer wide, in
 /// which each dot is linked to the next, and between them bands of one other kind: zigzags of two rows, scallops, or
 /// stars between two wreaths. No gap between two bands is crossed. Around 40 dots or more, the innermost band has an

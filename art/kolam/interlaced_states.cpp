@@ -184,14 +184,6 @@ void cross_orbit(const std::vector<std::uint32_t>& orbits, std::uint32_t orbit, 
     }
 }
 
-bool has_crossing(const DotGrid& grid, std::uint32_t dot, const GapStates& states) {
-    for (std::uint32_t side = 0; side < grid.sides(); ++side) {
-        const std::int32_t gap = grid.gap(dot, side);
-        if (gap >= 0 && states[static_cast<std::size_t>(gap)] == GapState::crossed) return true;
-    }
-    return false;
-}
-
 /// Links the dots beside a hexagon to each other, and by an orbit of gaps or none to the hexagon; those that
 /// would be alone, always.
 void link_beside(const DotGrid& grid, GridSymmetry symmetry, const std::vector<std::uint32_t>& beside,
@@ -214,7 +206,7 @@ void link_beside(const DotGrid& grid, GridSymmetry symmetry, const std::vector<s
     if (chosen < found.size()) cross_orbit(orbits, found[chosen], states);
     // Dots without neighbours among them would be rings beside the figure.
     for (std::uint32_t dot = 0; dot < places.size(); ++dot) {
-        if (places[dot] != Place::between || has_crossing(grid, dot, states)) continue;
+        if (places[dot] != Place::between || !is_lonely(grid, dot, states)) continue;
         std::vector<std::uint32_t> own;  // its orbits
         for (std::size_t i = 0; i < states.size(); ++i) {
             const GridGap& gap = grid.gaps()[i];

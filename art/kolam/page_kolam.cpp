@@ -14,7 +14,7 @@
 namespace sikku {
 namespace {
 
-/// Largest acceptable slack, in spacings, where the nearest grid cannot be had.
+/// Maximum slack of a grid, in spacings, if the nearest one is impossible.
 constexpr double most_slack = 1.5;
 constexpr double good_slack = 0.5;
 /// Loops at the rim beyond the outer dots, with half of the line's width, in spacings.

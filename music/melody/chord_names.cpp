@@ -156,7 +156,7 @@ std::optional<Chord> letter_chord(std::string_view name, const Scale& scale, dou
     // The lowest tone comes first, and sounds once.
     const double low = cents_above(*bass) - 1200;
     std::erase_if(chord.cents, [&](double tone) { return std::fabs(std::remainder(tone - low, 1200)) < 1; });
-    // Of a seventh chord third and seventh sound rather than the root, if neither is the bass.
+    // In a seventh chord, the third and the seventh take precedence over the root unless one of them is the bass.
     const bool is_seventh = quality->tones[3] >= 0;
     if (is_seventh && chord.cents.size() >= 3 && chord.cents[2] - chord.cents[0] == 100 * quality->tones[2] &&
         chord.cents[1] - chord.cents[0] == 100 * quality->tones[1]) {

@@ -55,7 +55,7 @@ export class Kolam {
         this.setStates(states);
     }
 
-    /// Gaps that change are no longer doubtful.
+    /// Removes the doubts about gaps that change.
     setStates(states: Uint8Array): void {
         const before = this.states;
         if (this.doubts.size > 0) this.settle([...this.doubts].filter((gap) => before[gap] !== states[gap]));

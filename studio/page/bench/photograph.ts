@@ -9,7 +9,7 @@ import type { DotGrid, Place } from "./dot_grid";
 import { first_look, readKolam, withLook } from "./kolam_text";
 import { PhotographDots } from "./photograph_dots";
 
-/// What the board shows of it.
+/// The layers that the board shows.
 export interface Underlay {
     picture: CanvasImageSource;
     box: [x0: number, y0: number, x1: number, y1: number]; // half spacings, y up
