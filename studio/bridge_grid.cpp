@@ -13,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 
 namespace sikku {
 namespace {
@@ -44,6 +45,12 @@ std::vector<GridDot> places_of(const Json& request, const std::string& name) {
         places.push_back({coordinate(pair[0]), coordinate(pair[1])});
     }
     return places;
+}
+
+Json places(std::span<const GridDot> dots) {
+    Json all = Json::array();
+    for (const GridDot& dot : dots) all.push_back({dot.x, dot.y});
+    return all;
 }
 
 struct EditedGrid {
@@ -127,15 +134,13 @@ Json answer_dots(const Json& request) {
     const EditedGrid result = is_edited ? edited(before, request) : EditedGrid{before, {}};
     const DotGrid& grid = result.grid;
     require_readable(grid);
-    Json dots = Json::array();
-    for (const GridDot& dot : grid.dots()) dots.push_back({dot.x, dot.y});
     Json gaps = Json::array();
     for (const GridGap& gap : grid.gaps()) gaps.push_back({gap.from, gap.to, gap.side});
     return {{"grid", grid.text()},
             {"lattice", grid.lattice() == DotLattice::square ? "square" : "triangular"},
             {"rows", grid.rows()},
             {"is_solid", grid.is_solid()},
-            {"dots", std::move(dots)},
+            {"dots", places(grid.dots())},
             {"gaps", std::move(gaps)},
             {"symmetries", symmetries_of(grid)},
             {"gap_images", grid_symmetries(grid)},
@@ -186,6 +191,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
         fmt::format("{}, {}, {}", counted(grid.dots().size(), "dot"), summary_of(states), counted(lines, "line"));
     options.coloured = flag_of(request, "coloured");
     options.rim = parse_rim_style(text_of(request, "rim", "round"));
+    options.centred_dots = flag_of(request, "centred");
     options.monitor = monitor;
 
     const KolamPattern pattern = kolam_pattern(grid, states, options);
@@ -198,6 +204,7 @@ Json answer_grid(const Json& request, const Monitor& monitor) {
     if (flag_of(request, "strands")) {
         answer["strands"] = strands(grid, states, options.rim, monitor);
         answer["line_orbits"] = line_orbits(grid, states, monitor);
+        answer["centred"] = places(crossed_cells(grid, states));
     }
     return answer;
 }

@@ -119,7 +119,7 @@ std::span<const LineTip> LineBands::tips_of(std::size_t line) const {
     const auto begin =
         std::partition_point(tips_.begin(), tips_.end(), [&](const LineTip& tip) { return tip.line < line; });
     const auto end = std::partition_point(begin, tips_.end(), [&](const LineTip& tip) { return tip.line == line; });
-    return {begin, end};
+    return std::span(tips_).subspan(begin - tips_.begin(), end - begin);
 }
 
 /// For each eighth of each piece, whether a tip covers it.

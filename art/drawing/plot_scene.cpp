@@ -24,9 +24,9 @@
 namespace sikku {
 namespace {
 
-constexpr double thin_stem = 0.5;    // millimetres
-constexpr double thinnest = 0.05;    // millimetres; least pen width for fills
-constexpr double tolerance = 0.005;  // millimetres; deviation of flattened curves
+constexpr double thin_stem = 0.5;     // millimetres
+constexpr double thinnest = 0.05;     // millimetres; least pen width for fills
+constexpr double flattening = 0.005;  // millimetres; deviation of flattened curves
 
 /// An undirected edge between two points of a scene.
 struct Edge {
@@ -357,7 +357,7 @@ private:
         std::vector<glm::dvec3> points = {on_ball(path[0])};
         for (std::size_t k = 0; k + 3 < path.size(); k += 3) {
             pulse_();
-            flatten(path[k], path[k + 1], path[k + 2], path[k + 3], tolerance / step_,
+            flatten(path[k], path[k + 1], path[k + 2], path[k + 3], flattening / step_,
                     [&](glm::dvec2 end) { points.push_back(on_ball(end)); });
         }
         if (!is_visible(points, owner_of_sphere(i))) return draw_line(points, real, owner_of_sphere(i));

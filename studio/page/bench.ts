@@ -189,12 +189,12 @@ class BenchPanel implements Panel {
             const isSame = isSameGrid && statesText(states) === statesText(this.kolam.states);
             latestPhotograph()?.dots.show(pattern, isSame && !isAnother(pattern, before));
             this.kolam.set(grid, states);
-            const { isFilled, hasDots, rim, ground, hand, word } = found;
+            const { isFilled, hasDots, hasCentredDots, rim, ground, hand, word } = found;
             const places = found.doubts.length > 0 ? gapPlaces(grid) : [];
             this.kolam.doubts = new Set(found.doubts.map((place) => places.indexOf(place)).filter((gap) => gap >= 0));
             this.kolam.setRim(rim);
             const isColoured = this.kolam.count > 1 ? found.isColoured : this.look.isColoured;
-            this.look = { isColoured, isFilled, hasDots, rim, ground, hand };
+            this.look = { isColoured, isFilled, hasDots, hasCentredDots, rim, ground, hand };
             this.word = word;
             this.made = "";
             this.text = text;
@@ -386,9 +386,9 @@ class BenchPanel implements Panel {
     }
 
     private request(more: Partial<GridRequest>): GridRequest {
-        const { isColoured: coloured, rim } = this.look;
+        const { isColoured: coloured, hasCentredDots: centred, rim } = this.look;
         const title = this.word ? { title: wordTitle(this.word) } : {};
-        return { do: "grid", grid: this.kolam.grid.text, coloured, rim, ...title, ...more };
+        return { do: "grid", grid: this.kolam.grid.text, coloured, centred, rim, ...title, ...more };
     }
 
     /// Asks the libraries for the gaps, and keeps the symmetry. Returns the obstacle if there is one, otherwise null.

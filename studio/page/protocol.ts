@@ -41,7 +41,7 @@ export type Request =
     /// A kolam on a grid, as a pattern: of the gaps given as digits, or by chance. `single_line` joins its lines into
     /// one; with a symmetry by looking for another kolam.
     | { do: "grid"; grid: string; gaps?: string; symmetry?: SymmetryName; density?: number; joined?: number; seed?: string;
-        composed?: boolean; single_line?: boolean; coloured?: boolean; title?: string; rim?: RimName; strands?: boolean }
+        composed?: boolean; single_line?: boolean; coloured?: boolean; title?: string; rim?: RimName; centred?: boolean; strands?: boolean }
     /// The kolam of a photograph, whose bytes are RGBA pixels from the top: the kolam number `part` (1), or the one on
     /// this grid. `fixes` as in `sikku kolam --fix`. `source` names the file.
     | { do: "read"; width: number; height: number; source: string; part?: string; grid?: string; fixes?: string[] }
@@ -184,6 +184,7 @@ export interface Grid {
     obstacle?: string; // the reason why no single line on this grid has this symmetry, or that none was found
     /// With `strands`: lines as closed polygons of points in the coordinates of Dots.
     strands?: [number, number][][];
+    centred?: [number, number][]; // middles of the fields between four crossed gaps, in the same coordinates
     line_orbits?: number[]; // lines that the kolam's symmetries take to each other have the same number, and colour
 }
 /// With the bytes of the photograph seen from straight above, RGBA from the top.

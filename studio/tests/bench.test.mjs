@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { anyBridge } from "./any_bridge.mjs";
 import { load } from "./load.mjs";
 
-const { makeGrid, statesText, parseStates, followLines, lineOrbits, countLines, crossed, joined, turned } =
+const { makeGrid, statesText, parseStates, followLines, lineOrbits, countLines, crossed, crossedCells, joined, turned } =
     await load("bench/dot_grid");
 const { roundedStrands } = await load("bench/rounded_lines");
 const { symmetrised, isSymmetric, singleLineNear, symmetry_labels } = await load("bench/symmetry");
@@ -94,6 +94,22 @@ test("shaped rims are those of the libraries, on every kind of grid", () => {
     }
     assert.ok(shaped > 100, String(shaped));
     assert.equal(new Set(rim_names.map(rimIcon)).size, rim_names.length);
+});
+
+test("centred dots are those of the libraries, and stay when the pattern is read again", () => {
+    let found = 0;
+    for (const [seed, shape] of shapes.entries()) {
+        const grid = gridOf(shape);
+        const states = random(grid, seed, 0.9);
+        const request = { do: "grid", grid: shape, gaps: statesText(states), strands: true };
+        const { text, centred } = ask({ ...request, centred: true });
+        const cells = crossedCells(grid, states);
+        assert.deepEqual(cells.map(({ x, level }) => [x, level]), centred, shape);
+        assert.equal(readKolam(text).hasCentredDots, cells.length > 0, shape);
+        assert.equal(readKolam(ask(request).text).hasCentredDots, false);
+        found += cells.length;
+    }
+    assert.ok(found > 100, String(found));
 });
 
 test("a rim stays while gaps and dots change, and is written into the text", () => {

@@ -237,6 +237,15 @@ async function looks() {
     await until(() => !document.querySelector(".cm-content").textContent.includes("// rim:"));
     assert.equal(await rim(), "Round");
 
+    await page.check("label:has-text('Dots between four crossings') input");
+    await untilText("// centred dots: yes");
+    await page.fill("#bench-grid", "9x9");
+    await page.keyboard.press("Enter");
+    await untilText("// grid: 9x9");
+    await untilText("// centred dots: yes");
+    await page.uncheck("label:has-text('Dots between four crossings') input");
+    await until(() => !document.querySelector(".cm-content").textContent.includes("centred"));
+
     await page.click('[aria-label="Slate"]');
     await untilText("ground: slate");
     await page.click('[aria-label="White paper"]');

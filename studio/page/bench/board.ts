@@ -4,7 +4,7 @@ import { element } from "../elements";
 import { Surface } from "../play/surface";
 import { makeChance } from "../sound/chance";
 import type { DotGrid, Place } from "./dot_grid";
-import { followLines } from "./dot_grid";
+import { crossedCells, followLines } from "./dot_grid";
 import { type GroundLook, type GroundName, grounds } from "./grounds";
 import type { Look } from "./kolam_text";
 import type { Underlay } from "./photograph";
@@ -219,11 +219,12 @@ export class Board {
         context.stroke();
     }
 
-    private drawDots(context: CanvasRenderingContext2D, { grid, look, places }: Scene): void {
+    private drawDots(context: CanvasRenderingContext2D, { grid, states, look, places }: Scene): void {
         const chance = makeChance(5);
         context.fillStyle = look.ground === "white" ? grounds.white.ink : "#f6ecd9";
         const size = (grid.isTriangular ? 0.8 : 1) * (places ? 1.5 : 1);
-        for (const { x, level } of grid.dots) {
+        const centres = look.hasCentredDots && !places ? crossedCells(grid, states) : [];
+        for (const { x, level } of [...grid.dots, ...centres]) {
             const y = level * grid.rise;
             // Dots look placed by hand: none is perfectly round or exactly in place.
             const radius = size * (0.125 + 0.022 * chance());

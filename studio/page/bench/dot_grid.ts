@@ -194,6 +194,24 @@ export function lineOrbits(grid: DotGrid, states: Uint8Array, { strands, lineOfA
     });
 }
 
+/// The middles of the fields between four crossed gaps, as crossed_cells() of the libraries finds them.
+export function crossedCells(grid: DotGrid, states: Uint8Array): Place[] {
+    const { dots, gaps, gapAt, sides, isTriangular } = grid;
+    if (isTriangular) return [];
+    const [right, down] = [0, 3];
+    const gapOf = (dot: number, side: number): number => gapAt[sides * dot + side];
+    const isCrossed = (dot: number, side: number): boolean => gapOf(dot, side) >= 0 && states[gapOf(dot, side)] === crossed;
+    const beyond = (dot: number, side: number): number => {
+        const { from, to } = gaps[gapOf(dot, side)];
+        return from === dot ? to : from;
+    };
+    return dots.flatMap(({ x, level }, dot) => {
+        const isCell = isCrossed(dot, right) && isCrossed(dot, down)
+            && isCrossed(beyond(dot, right), down) && isCrossed(beyond(dot, down), right);
+        return isCell ? [{ x: x + 1, level: level - 1 }] : [];
+    });
+}
+
 export function countLines(grid: DotGrid, states: Uint8Array): number {
     return followLines(grid, states).strands.length;
 }

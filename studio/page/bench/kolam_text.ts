@@ -12,6 +12,7 @@ export interface Look {
     isColoured: boolean;
     isFilled: boolean;
     hasDots: boolean;
+    hasCentredDots: boolean; // in fields between four crossed gaps, see crossedCells()
     rim: RimName;
     ground: GroundName;
     hand: number; // 0 to 1
@@ -20,6 +21,7 @@ export const first_look: Look = {
     isColoured: true,
     isFilled: false,
     hasDots: true,
+    hasCentredDots: false,
     rim: "round",
     ground: "earth",
     hand: 0,
@@ -35,7 +37,7 @@ export const usual_rows = 12;
 export const wordGrid = ({ letters, rows }: Word): string => `text ${rows}:${letters}`;
 export const wordTitle = ({ letters }: Word): string => letters.replaceAll("/", " ").trim();
 
-/// Keys by which the looks are read again. The colours and the rim are written by the libraries.
+/// Keys by which the looks are read again. The libraries write the colours, the rim and centred dots.
 function lookLines({ hasDots, isFilled, hand, ground }: Look): string[] {
     return [
         ...(hasDots ? [dots_line] : []),
@@ -74,6 +76,7 @@ export function readKolam(text: string): ReadKolam | null {
         ...found,
         isColoured: palette.length > 2,
         hasDots: /^dots:(?!\s*none)/m.test(text),
+        hasCentredDots: /^\/\/ centred dots: yes$/m.test(text),
         isFilled: /^fields:\s*chessboard\s*$/m.test(text),
         rim: rimOf(text),
         ground: groundOf(text),

@@ -74,7 +74,7 @@ export interface Shown {
     photograph: Photograph | null;
 }
 
-type Toggle = "isColoured" | "isFilled" | "hasDots";
+type Toggle = "isColoured" | "isFilled" | "hasDots" | "hasCentredDots";
 
 export class Side {
     readonly element = element("aside", { class: "bench-side", "aria-label": "Kolam" });
@@ -160,6 +160,7 @@ export class Side {
                 this.toggle("Coloured lines", "isColoured"),
                 this.toggle("Fill alternate fields", "isFilled"),
                 this.toggle("Dots", "hasDots"),
+                this.toggle("Dots between four crossings", "hasCentredDots"),
             ),
             this.section("Ground and hand", this.grounds.element, this.groundName, ...this.handControls()),
             element("p", { class: "bench-keys", id: "bench-keys" }, keys_text),
@@ -360,6 +361,8 @@ export class Side {
         this.composed.checked = chances.composed;
         this.seed.value = String(chances.seed);
         for (const [name, box] of this.boxes) box.checked = look[name];
+        // Interlaced dots have no fields between four dots.
+        this.boxes.get("hasCentredDots")!.disabled = !look.hasDots || grid.isTriangular;
         this.rims.update(look.rim);
         this.rimName.textContent = rimText(kolam, look.rim);
         this.grounds.update(look.ground);
