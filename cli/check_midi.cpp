@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <system_error>
@@ -35,11 +36,13 @@ std::string read_bytes(const std::string& file) {
 bool check_midi_file(const std::string& file) {
     const std::string bytes = read_bytes(file);
     const auto faults = check_midi(span_of(bytes));
-    for (const MidiFault& fault : faults) fmt::print("{}: byte {}: {}\n", printable(file), fault.at, fault.what);
+    for (const MidiFault& fault : faults) {
+        fmt::print("{}: byte {}: {}{}\n", printable(file), fault.at, fault.is_remark ? "warning: " : "", fault.what);
+    }
     if (faults.size() == most_midi_faults) {
         fmt::print("{}: only the first {} errors are listed\n", printable(file), most_midi_faults);
     }
-    return faults.empty();
+    return std::all_of(faults.begin(), faults.end(), [](const MidiFault& fault) { return fault.is_remark; });
 }
 
 }  // namespace sikku

@@ -225,7 +225,8 @@ void add_check(CLI::App& app, bool& /*quiet*/) {
             "or MIDI files")
         ->required();
     command->footer(
-        "Exits with 0 and prints nothing if the files have no errors. Errors in MIDI files exit with 1, other errors "
+        "Exits with 0 and prints at most warnings if the files have no errors. Errors in MIDI files exit with 1, "
+        "other errors "
         "with 2.\n\n"
         "Examples:\n  sikku check my.lsys patterns/*/*.lsys");
     command->callback([files] {

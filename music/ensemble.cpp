@@ -1,6 +1,8 @@
 #include "music/ensemble.h"
 
 #include "music/form/block.h"
+#include "music/form/counterpoint.h"
+#include "music/held_ending.h"
 #include "music/score/glides.h"
 #include "music/score/note_order.h"
 
@@ -8,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -357,10 +358,8 @@ private:
                                                  [&](const FormNote& note) { return !is_drum(parts_[i], note); });
         const std::vector<FormNote> drums(first, notes.end());
         notes.erase(first, notes.end());
-        const CounterpointReport one = sikku::make_strict(fixed, notes, melody, ensemble_.meter);
+        report_.moved_by_strictness += sikku::make_strict(fixed, notes, melody, ensemble_.meter);
         notes.insert(notes.end(), drums.begin(), drums.end());
-        report_.counterpoint.moved += one.moved;
-        report_.counterpoint.left += one.left;
         report_.is_strict = true;
     }
 
@@ -391,82 +390,6 @@ private:
     std::vector<WholePart> parts_;
     EnsembleReport report_;
 };
-
-/// Forwards notes, but holds back the last one of each voice until the end of the score is known. Memory: O(voices).
-class HeldEnding : public NoteSink {
-public:
-    /// The line of a voice; -1 for drums, which are not held. Voices of one line end together: their last notes are
-    /// held if they sound when the last note of the line begins.
-    using LineOf = std::function<int(int voice)>;
-    HeldEnding(NoteSink& sink, LineOf line_of) : sink_(sink), line_of_(std::move(line_of)) {}
-
-    void controls(std::span<const ControlPoint> points) override { sink_.controls(points); }
-    void notes(std::span<const Note> notes) override {
-        passing_.clear();
-        for (const Note& note : notes) {
-            auto& last = last_[note.voice];
-            if (last) passing_.push_back(*last);
-            last = note;
-        }
-        if (!passing_.empty()) sink_.notes(passing_);
-    }
-    void finish(std::int64_t) override {}
-
-    /// Forwards the notes held back. The last notes of lines that ended within four bars of the end are extended to
-    /// the end of the last bar, or of one more bar if the last of them would otherwise last less than half a bar.
-    /// @param end  end of the score, in ticks
-    /// @param most  limit of the new end
-    /// @return the end of the score
-    std::int64_t finish(std::int64_t end, const Meter& meter, std::int64_t most) {
-        constexpr std::int64_t latest_bars = 4;
-        const std::int64_t bar = meter.bar();
-        std::map<int, std::int64_t> onsets;  // onset of the last note, by line
-        std::int64_t last_onset = 0;
-        for (const auto& [voice, note] : last_) {
-            const int line = line_of_(voice);
-            if (line < 0) continue;
-            onsets[line] = std::max(onsets[line], note->onset);
-            last_onset = std::max(last_onset, note->onset);
-        }
-        std::int64_t until = (end + bar - 1) / bar * bar;
-        if (2 * (until - last_onset) < bar) until += bar;
-        until = std::max(end, std::min(until, most));
-        passing_.clear();
-        for (auto& [voice, last] : last_) {
-            Note& note = *last;
-            const int line = line_of_(voice);
-            const std::int64_t note_end = note.onset + note.duration;
-            if (line >= 0 && note_end > onsets[line] && note_end > end - latest_bars * bar) {
-                note.duration = until - note.onset;
-                note.glide = {};
-                note.has_fermata = true;
-            }
-            passing_.push_back(note);
-        }
-        if (!passing_.empty()) sink_.notes(passing_);
-        last_.clear();
-        return until;
-    }
-
-private:
-    NoteSink& sink_;
-    LineOf line_of_;
-    std::map<int, std::optional<Note>> last_;  // by voice
-    std::vector<Note> passing_;
-};
-
-/// The line of a voice for HeldEnding: a melody or its accompaniment; -1 for drums.
-int line_of(const Ensemble& ensemble, int voice) {
-    int line = -1;
-    for (const Player& player : ensemble.players) {
-        if (voice < player.first_voice) break;
-        const int within = voice - player.first_voice;
-        const bool is_drum = player.has_drums && within >= player.drums_from;
-        const bool is_chord = player.melody.accompanying_voices() > 0 && within >= player.chords_from;
-        line = is_drum ? -1 : 2 * player.first_voice + (is_chord ? 1 : 0);
-    }
-    return line;
-}
 
 /// Explains why there are no notes. @throws ScoreError always
 [[noreturn]] void refuse_silence(const Ensemble& ensemble, const PlayOptions& playing, const PlayReport& all) {
@@ -521,6 +444,11 @@ bool Ensemble::needs_whole() const {
                                         [](const Player& player) { return player.melody.layout.needs_whole(); });
 }
 
+bool Ensemble::is_strict() const {
+    return std::any_of(players.begin(), players.end(),
+                       [](const Player& player) { return player.melody.layout.is_strict; });
+}
+
 bool Ensemble::has_expression() const {
     return std::any_of(players.begin(), players.end(),
                        [](const Player& player) { return player.melody.expression.any(); });
@@ -535,6 +463,10 @@ bool Ensemble::has_glides() const {
     return std::any_of(players.begin(), players.end(), [](const Player& player) {
         return player.melody.mapping == Mapping::runs && player.melody.vertical == Vertical::glissando;
     });
+}
+
+bool Ensemble::has_ending(const PlayOptions& playing) const {
+    return close != Close::none && (!playing.is_excerpt() || ends_excerpts);
 }
 
 bool Ensemble::has_tempo_ratio() const {
@@ -578,10 +510,12 @@ EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, 
         return ensemble.needs_whole() ? WholeScore(ensemble, playing).play(to) : stream(ensemble, playing, to);
     };
     if (ensemble.close != Close::fermata) return play_into(sink);
-    HeldEnding ending(sink, [&](int voice) { return line_of(ensemble, voice); });
+    HeldEnding ending(ensemble, sink);
     EnsembleReport report = play_into(ending);
     const std::int64_t most = playing.to < INT64_MAX ? playing.to - playing.from : INT64_MAX;
-    report.end = ending.finish(report.end, ensemble.meter, most);
+    // An excerpt has an ending only if it contains the end of the whole, or if one is requested.
+    report.end = report.end < most || ensemble.ends_excerpts ? ending.finish(report.end, ensemble.meter, most)
+                                                             : ending.finish_as_cut(report.end);
     return report;
 }
 

@@ -1,7 +1,6 @@
 // music/ensemble.h: all parts of a score and the order in which they are played.
 #pragma once
 
-#include "music/form/counterpoint.h"
 #include "music/melody/layout.h"
 #include "music/players.h"
 
@@ -17,9 +16,14 @@ struct Ensemble {
     double tempo = 120;             ///< quarters a minute
     Meter meter;
     Close close = Close::none;
+    bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole
 
+    /// True if what is played ends with `close`, whatever it contains.
+    bool has_ending(const PlayOptions& playing) const;
     /// True if whole parts must be known before the first note is played.
     bool needs_whole() const;
+    /// True if a part gives way to others.
+    bool is_strict() const;
     /// True if a key of a part makes velocity, tempo, pan or pitch follow the curve.
     bool has_expression() const;
     /// True if notes of a part have gamakas.
@@ -32,10 +36,14 @@ struct Ensemble {
 
 /// Report about playing all parts.
 struct EnsembleReport : PlayReport {
-    std::vector<std::uint64_t> moved_of;  ///< `moved`, by player
-    CounterpointReport counterpoint;
-    bool is_strict = false;  ///< a part is strict
-    double seconds = 0;      ///< with all changes of tempo; 0: unknown
+    std::vector<std::uint64_t> moved_of;      ///< `moved`, by player
+    bool is_strict = false;                   ///< a part is strict
+    std::uint64_t moved_by_strictness = 0;    ///< notes that give way to other parts
+    std::vector<std::int64_t> strict_faults;  ///< see StrictCheck; set by perform()
+    double seconds = 0;                       ///< with all changes of tempo; 0: unknown
+    /// Curves of an excerpt have the ranges of the bars around it, because the whole is too long to be played for
+    /// them.
+    bool has_own_ranges = false;
 };
 
 /// The requested piece, in ticks. @throws SettingError

@@ -14,6 +14,7 @@ namespace sikku {
 /// Makes notes begin slightly late and sound slightly louder or softer, like a player's; their ends stay.
 class Humaniser : public NoteSink {
 public:
+    static constexpr std::int64_t latest = 60;  ///< greatest delay of a note, in ticks
     /// @param amount  0 to 1: share of 60 ticks, and of 24 steps of velocity
     /// @param from    ticks of the score before the piece, which then sounds as in the whole, except for notes that
     ///                its edges cut
@@ -28,7 +29,7 @@ public:
                                                            static_cast<std::uint64_t>(note.voice)));
             const double late = static_cast<double>(chance >> 40) / 0x1p24;
             const double loud = static_cast<double>(chance & 0xFFFFFF) / 0x1p24 - 0.5;
-            const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * 60), note.duration / 4);
+            const auto delay = std::min(static_cast<std::int64_t>(late * amount_ * latest), note.duration / 4);
             note.onset += delay;
             note.duration -= delay;
             note.glide.ticks = std::min(note.glide.ticks, note.duration);

@@ -1,6 +1,7 @@
 #include "music/note_stream.h"
 
 #include "music/ensemble.h"
+#include "music/excerpt.h"
 #include "music/form/block.h"
 #include "music/humaniser.h"
 #include "music/performance.h"
@@ -310,15 +311,10 @@ private:
     /// Measures the ranges of the sources of curves of expression. @throws as play_all()
     void measure() {
         constexpr std::int64_t tempo_margin = 4 * ticks_per_quarter;  // tempo is smoothed over two quarters
-        constexpr double many_notes = 16e6;                           // more than these are not played in advance
         lead_ = std::max(lead_, tempo_margin);
         grid_ = std::lcm(grid_, ticks_per_quarter);
         measured_.emplace(ensemble_, ExpressionSink::Use::pieces);
-        const bool is_far = std::any_of(ensemble_.players.begin(), ensemble_.players.end(), [](const Player& player) {
-            const auto known = census(player.document.grammar(), player.melody);
-            return known && known->notes.convert_to<double>() > many_notes;
-        });
-        measured_->fold_ranges(playing_, is_far);
+        measured_->fold_ranges();
         if (!measured_->needs_ranges()) return;
         try {
             play_all(ensemble_, playing_, *measured_);
@@ -393,48 +389,15 @@ bool has_windows(const Player& player) {
     }
 }
 
-/// Replaces `anchor: piece` by the height of the first note of the piece, which later windows do not contain.
-void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) {
-    Melody& melody = player.melody;
-    if (melody.anchor != Anchor::piece) return;
-    Melody plain = melody;
-    plain.cadence = Cadence::none;
-    plain.harmony = Harmony::none;
-    plain.progression.clear();
-    plain.articulation = Articulation::legato;
-    plain.swing = 0.5;
-    // Degrees are not changed, even far from the tonic.
-    plain.lowest = -std::numeric_limits<double>::infinity();
-    plain.highest = std::numeric_limits<double>::infinity();
-    const PlayOptions whole = piece_of_part(player, meter, playing);
-    for (std::int64_t length = meter.bar(); whole.from < whole.to; length *= 2) {
-        PlayOptions options = whole;
-        options.to = whole.to - whole.from > length ? whole.from + length : whole.to;
-        const auto first_degree = [&](Anchor anchor) {
-            std::vector<std::int64_t> degrees;
-            options.degrees = &degrees;
-            plain.anchor = anchor;
-            NullSink nobody;
-            player.playable->play(plain, nobody, options);
-            return degrees.empty() ? std::optional<std::int64_t>() : degrees.front();
-        };
-        if (const auto degree = first_degree(Anchor::piece)) {
-            melody.shift += *degree - *first_degree(Anchor::first_note);
-            melody.anchor = Anchor::first_note;
-            return;
-        }
-        if (options.to == whole.to) return;
-    }
-}
-
 }  // namespace
 
 std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing) {
     const std::int64_t grid = grid_of(ensemble, playing);
-    const bool is_whole = ensemble.needs_whole() || ensemble.close == Close::fermata || grid == 0 ||
-                          !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
+    const bool depends_on_context = playing.is_excerpt() && ensemble.has_expression() && is_soon_played(ensemble);
+    const bool is_whole = depends_on_context || ensemble.needs_whole() || ensemble.close == Close::fermata ||
+                          grid == 0 || !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
     if (is_whole) return std::make_unique<WholeStream>(std::move(score), std::move(ensemble), playing);
-    for (Player& player : ensemble.players) fix_anchor(player, ensemble.meter, playing);
+    ensemble = with_fixed_anchors(std::move(ensemble), playing);
     auto stream = std::make_unique<WindowStream>(std::move(score), std::move(ensemble), playing, grid);
     // A score that cannot be played is refused now.
     stream->next();

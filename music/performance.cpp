@@ -1,6 +1,9 @@
 #include "music/performance.h"
 
+#include "music/excerpt.h"
+#include "music/held_ending.h"
 #include "music/humaniser.h"
+#include "music/strict_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,14 +113,14 @@ ExpressionSink::ExpressionSink(const ExpressionSink& measured, NoteSink& sink)
     if (first.expression.tempo.is_on()) tempo_.emplace(first.expression.tempo, first.tempo);
 }
 
-void ExpressionSink::fold_ranges(const PlayOptions& playing, bool is_far) {
-    if (playing.to < INT64_MAX || (playing.from > 0 && !is_far) || ensemble_.needs_whole()) return;
+void ExpressionSink::fold_ranges() {
+    if (ensemble_.needs_whole()) return;
     for (std::size_t i = 0; i < followed_.size(); ++i) {
         const Player& player = ensemble_.players[i];
         const bool has_place = std::any_of(followed_[i].begin(), followed_[i].end(), [](const Followed& one) {
             return one.curve.source == ExpressionSource::x || one.curve.source == ExpressionSource::y;
         });
-        if (!has_place || player.is_bass || has_excerpt(player)) continue;
+        if (!has_place || player.is_bass) continue;
         const auto box = note_box(player.document.grammar(), player.melody);
         if (!box) continue;
         for (Followed& one : followed_[i]) {
@@ -129,8 +132,20 @@ void ExpressionSink::fold_ranges(const PlayOptions& playing, bool is_far) {
     }
 }
 
+void ExpressionSink::take_ranges(const ExpressionSink& other) {
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+        for (std::size_t k = 0; k < followed_[i].size(); ++k) {
+            followed_[i][k].range = other.followed_[i][k].range;
+            followed_[i][k].is_known = true;
+        }
+    }
+}
+
 bool ExpressionSink::needs_ranges() const {
-    if (tempo_) return true;
+    return tempo_ || measures_ranges();
+}
+
+bool ExpressionSink::measures_ranges() const {
     return std::any_of(followed_.begin(), followed_.end(), [](const std::vector<Followed>& curves) {
         return std::any_of(curves.begin(), curves.end(), [](const Followed& one) { return !one.is_known; });
     });
@@ -274,15 +289,85 @@ std::vector<TempoPoint> ExpressionSink::tempos(std::int64_t end) const {
     return {};
 }
 
-EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
-                       const Human& human, NoteSink& sink) {
+namespace {
+
+/// Parts that state an excerpt follow the ranges of the whole curve, which is played for them once.
+void take_whole_ranges(const Ensemble& ensemble, ExpressionSink::Use use, ExpressionSink& expressive) {
+    if (!expressive.needs_ranges() || std::none_of(ensemble.players.begin(), ensemble.players.end(), has_excerpt))
+        return;
+    Ensemble whole = without_excerpts(ensemble);
+    if (!is_soon_played(whole)) return;
+    ExpressionSink measured(whole, use);
+    measured.fold_ranges();
+    try {
+        play_all(whole, {}, measured);
+    } catch (const ScoreError&) {
+        return;  // its form has other sections, for example
+    }
+    expressive.take_ranges(measured);
+}
+
+/// Plays an excerpt within its context, in which curves of expression have their ranges and the end slows down.
+EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& context, const PlayOptions& playing,
+                              ExpressionSink::Use use, const Human& human, NoteSink& sink) {
+    NullSink nobody;
+    EnsembleReport report = play_parts(ensemble, playing, nobody);  // for the counts
+    Ensemble whole = with_fixed_anchors(ensemble, playing);
+    if (ensemble.ends_excerpts) whole.close = Close::none;
+    whole.ends_excerpts = false;
+    ExpressionSink expressive(whole, use);
+    expressive.fold_ranges();
+    take_whole_ranges(whole, use, expressive);
+    report.has_own_ranges = !context.is_whole && expressive.measures_ranges();
+    const std::int64_t end = play_all(whole, context.playing, expressive).end;
+    const std::int64_t from = playing.from - context.playing.from;
+    const std::int64_t to = playing.to < INT64_MAX ? playing.to - context.playing.from : INT64_MAX;
+
+    Curves curves;
+    const bool slows = whole.close != Close::none && use != ExpressionSink::Use::print &&
+                       (context.playing.to == INT64_MAX || end < context.playing.to - context.playing.from);
+    ScoreHead head;
+    head.ritardando = slows ? 2 * whole.meter.bar() : 0;
+    curves.tempo = cut_tempo(tempo_map(head, {expressive.tempos(end), {}}, end), from, to);
+    if (!curves.tempo.empty()) sink.curves(curves);
+
+    Humaniser humaniser(sink, human.amount, human.seed, playing.from);
+    NoteSink& human_or_not = human.amount > 0 ? static_cast<NoteSink&>(humaniser) : sink;
+    HeldEnding ending(ensemble, human_or_not);
+    const bool is_held = ensemble.ends_excerpts && ensemble.close == Close::fermata;
+    ExcerptSink excerpt(is_held ? static_cast<NoteSink&>(ending) : human_or_not, from, to);
+    expressive.write_to(excerpt);
+    const EnsembleReport around = play_parts(whole, context.playing, expressive);
+    report.end = std::max<std::int64_t>(0, std::min(around.end, to) - from);
+    expressive.finish(around.end);
+    if (excerpt.count() == 0) play_all(ensemble, playing, nobody);  // throws the reason
+    if (report.notes == 0) {
+        // Only a note that a fermata holds sounds.
+        report.lowest = excerpt.lowest();
+        report.highest = excerpt.highest();
+    }
+    report.notes = excerpt.count();
+    if (is_held) {
+        const std::int64_t most = playing.to < INT64_MAX ? playing.to - playing.from : INT64_MAX;
+        report.end = ending.finish(report.end, ensemble.meter, most);
+        human_or_not.finish(report.end);
+    }
+    report.seconds = seconds_of(ensemble, playing, report.end, use, curves.tempo);
+    return report;
+}
+
+}  // namespace
+
+EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
+                           const Human& human, NoteSink& sink) {
     Humaniser humaniser(sink, human.amount, human.seed, playing.from);
     NoteSink& to = human.amount > 0 ? static_cast<NoteSink&>(humaniser) : sink;
     std::vector<TempoPoint> tempo;
     EnsembleReport report;
     if (ensemble.has_expression()) {
         ExpressionSink expressive(ensemble, use);
-        expressive.fold_ranges(playing);
+        expressive.fold_ranges();
+        take_whole_ranges(ensemble, use, expressive);
         if (expressive.needs_ranges()) play_all(ensemble, playing, expressive);
         expressive.write_to(to);
         report = play_all(ensemble, playing, expressive);
@@ -290,14 +375,34 @@ EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, Exp
     } else {
         report = play_all(ensemble, playing, to);
     }
-    report.seconds = seconds_of(ensemble, report.end, use, tempo);
+    report.seconds = seconds_of(ensemble, playing, report.end, use, tempo);
     return report;
 }
 
-double seconds_of(const Ensemble& ensemble, std::int64_t end, ExpressionSink::Use use,
+EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
+                       const Human& human, NoteSink& sink) {
+    // Notes that the end of an excerpt cuts are as loud as those of their full length.
+    const bool has_lengths = std::any_of(ensemble.players.begin(), ensemble.players.end(), [](const Player& player) {
+        return player.melody.loudness == Loudness::by_length;
+    });
+    const bool depends_on_whole =
+        has_lengths || ensemble.has_expression() || (ensemble.close != Close::none && !ensemble.ends_excerpts);
+    const auto play_into = [&](NoteSink& to) {
+        return playing.is_excerpt() && depends_on_whole
+                   ? perform_within(ensemble, context_of(ensemble, playing), playing, use, human, to)
+                   : perform_all(ensemble, playing, use, human, to);
+    };
+    if (!ensemble.is_strict()) return play_into(sink);
+    StrictCheck check(ensemble, sink);
+    EnsembleReport report = play_into(check);
+    report.strict_faults = check.faults(human.amount > 0 ? Humaniser::latest : 0);
+    return report;
+}
+
+double seconds_of(const Ensemble& ensemble, const PlayOptions& playing, std::int64_t end, ExpressionSink::Use use,
                   const std::vector<TempoPoint>& curve) {
     ScoreHead times;
-    if (ensemble.close != Close::none && use != ExpressionSink::Use::print) {
+    if (ensemble.has_ending(playing) && use != ExpressionSink::Use::print) {
         times.ritardando = 2 * ensemble.meter.bar();
     }
     return seconds_at(end, ensemble.tempo, tempo_map(times, {curve, {}}, end));

@@ -32,11 +32,14 @@ public:
     /// the piece.
     ExpressionSink(const ExpressionSink& measured, NoteSink& sink);
 
-    /// Takes ranges of positions from the fold if possible: for parts that are played from beginning to end. @param
-    /// is_far  also for parts that do not begin at the beginning
-    void fold_ranges(const PlayOptions& playing, bool is_far = false);
+    /// Takes the ranges of positions on whole curves from the fold where it is known.
+    void fold_ranges();
+    /// Takes the ranges that another sink has received, of an ensemble with the same players and curves.
+    void take_ranges(const ExpressionSink& other);
     /// True if the parts have to be played once before write_to().
     bool needs_ranges() const;
+    /// True if it takes ranges from the notes that it receives then.
+    bool measures_ranges() const;
     /// @throws ScoreError for a score that is too long for a curve of its tempo; exceptions of the sink
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override;
@@ -99,13 +102,21 @@ struct Human {
     std::uint64_t seed = 0;
 };
 
-/// Plays all parts with their expression and the deviations of a player into `sink`. The seconds of the report
-/// include all changes of tempo. @throws as play_all()
+/// Plays all parts with their expression and the deviations of a player into `sink`. An excerpt has the velocities,
+/// controllers, tempo and held notes that it has within the whole (see context_of()), and the ending of the whole
+/// only as far as it contains it, unless Ensemble::ends_excerpts. The seconds of the report include all changes of
+/// tempo.
+/// @throws as play_all()
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
                        const Human& human, NoteSink& sink);
 
-/// Seconds until a tick of a score, with all changes of tempo. @param curve  the tempo that follows the curve
-double seconds_of(const Ensemble& ensemble, std::int64_t end, ExpressionSink::Use use,
+/// Plays a score as it is, an excerpt without its context.
+EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
+                           const Human& human, NoteSink& sink);
+
+/// Seconds until a tick of a score, with all changes of tempo. @param curve  the tempo that follows the curve, and in
+/// an excerpt the end of the whole
+double seconds_of(const Ensemble& ensemble, const PlayOptions& playing, std::int64_t end, ExpressionSink::Use use,
                   const std::vector<TempoPoint>& curve = {});
 
 }  // namespace sikku

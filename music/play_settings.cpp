@@ -65,6 +65,16 @@ std::vector<Option<S>> make_table() {
          [](S& s, Text t) { s.humanise = to_number(t); }},
         {{.name = "seed", .help = "random seed of the pattern and of humanise (0)", .value = "N", .kind = whole},
          [](S& s, Text t) { read_whole("seed", t, s.seed); }},
+        {{.name = "score",
+          .help =
+              "print of clarinets, horns and other transposing instruments: transposed (as it is read) or concert "
+              "(as it sounds) (transposed)",
+          .value = "transposed|concert",
+          .neutral = "transposed"},
+         [](S& s, Text t) {
+             if (t != "transposed" && t != "concert") refuse_option("score", t, "expected transposed or concert");
+             s.is_transposed = t == "transposed";
+         }},
         {{.name = "midi-format",
           .help = "0: a single track; 1: a track for each voice (1)",
           .value = "0|1",

@@ -1,6 +1,7 @@
 #include "music/rendition.h"
 
 #include "engine/base/memory.h"
+#include "music/excerpt.h"
 #include "music/score/unisons.h"
 
 namespace sikku {
@@ -22,10 +23,50 @@ NoteCollector Rendition::collect() {
 }
 
 const Notation& Rendition::print() {
+    if (playing.is_excerpt() && !ensemble.has_ending(playing)) return print_excerpt();
     Notator notator(head);
     report = perform(ensemble, playing, use, {}, notator);
     notation = notator.notation();
     return *notation;
+}
+
+/// Arranges the notes of the context in bars, and cuts out those of the excerpt.
+const Notation& Rendition::print_excerpt() {
+    constexpr double most_symbols = 400e3;
+    ExcerptContext context = context_of(ensemble, playing, most_symbols);
+    Notator alone(head);
+    report = perform(ensemble, playing, use, {}, alone);  // for the counts
+    try {
+        notation = print_within(context);
+    } catch (const ScoreError&) {
+        if (!context.is_whole) throw;
+        context = bars_around(ensemble, playing);  // the whole is too long to be printed
+        notation = print_within(context);
+    }
+    report.has_own_ranges = !context.is_whole && ensemble.has_expression();
+    notation->moved = alone.notation().moved;
+    notation->bent = alone.notation().bent;
+    notation->merged = alone.notation().merged;
+    return *notation;
+}
+
+Notation Rendition::print_within(const ExcerptContext& context) const {
+    const Ensemble whole = with_fixed_anchors(ensemble, playing);
+    const std::int64_t length =
+        context.playing.to < INT64_MAX ? context.playing.to - context.playing.from : INT64_MAX;
+    ScoreHead whole_head = head;
+    if (ensemble.close != Close::none) {
+        NullSink nobody;
+        const bool has_end = context.is_whole || play_parts(whole, context.playing, nobody).end < length;
+        if (has_end) whole_head.ritardando = 2 * ensemble.meter.bar();
+    }
+    const std::int64_t bar = ensemble.meter.bar();
+    Notator::Bars bars;
+    bars.first = (playing.from - context.playing.from) / bar;
+    if (playing.to < INT64_MAX) bars.count = std::max<std::int64_t>(1, (playing.to - playing.from + bar - 1) / bar);
+    Notator notator(whole_head, bars);
+    perform_all(whole, context.playing, use, {}, notator);
+    return notator.notation();
 }
 
 void Rendition::write_midi(Output& output) {

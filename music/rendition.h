@@ -14,6 +14,8 @@
 
 namespace sikku {
 
+struct ExcerptContext;
+
 /// A piece that is about to be written, with everything that writers of scores need. A writer asks for its notes
 /// once, in the form of its medium.
 struct Rendition {
@@ -32,10 +34,15 @@ struct Rendition {
 
     /// Plays all notes into memory.
     NoteCollector collect();
-    /// Arranges the notes in bars, without the deviations of a player.
+    /// Arranges the notes in bars, without the deviations of a player. An excerpt has the staves, clefs and dynamics
+    /// that it has within the whole, and whole bars.
     const Notation& print();
     /// Writes the notes as a MIDI file as they are played.
     void write_midi(Output& output);
+
+private:
+    const Notation& print_excerpt();
+    Notation print_within(const ExcerptContext& context) const;
 };
 
 }  // namespace sikku

@@ -37,8 +37,9 @@ void add_texts(const Player& player, std::vector<std::string>& titles, ScoreHead
     if (head.source.empty()) head.source = pattern.text("source");
 }
 
-Part drum_part(const std::string& name, int voices, bool has_chords) {
+Part drum_part(const std::string& name, int voices, bool has_chords, const Swing& swing) {
     Part part;
+    part.swing = swing;
     part.has_chords = has_chords;
     part.name = name.empty() ? "Drums" : name;
     part.is_drums = true;
@@ -60,12 +61,14 @@ Part part_of(const Player& player, const PlayOptions& playing) {
     part.signature = print_signature(melody.scale, melody.tonic_spelling);
     part.voices = voices_of(player, playing);
     part.has_chords = melody.table.most_notes() > 1;
+    part.swing = player.printed_swing;
     return part;
 }
 
 /// The part of the drone or the chords of a player, from that of its curve.
 Part accompaniment_of(Part part, const Melody& melody) {
     part.has_chords = false;
+    part.swing = {};
     part.is_accompaniment = true;
     part.voices = melody.accompanying_voices();
     part.program = melody.harmony == Harmony::drone ? sitar : strings;
@@ -98,7 +101,7 @@ void add_parts(Player& player, const PlayOptions& playing, VoiceCount& voices, s
     if (!is_drums_alone) parts.push_back(part);
     if (accompanying > 0) parts.push_back(accompaniment_of(part, melody));
     if (!sounds.has_drums) return;
-    parts.push_back(drum_part(is_drums_alone ? player.name : "", part.voices, part.has_chords));
+    parts.push_back(drum_part(is_drums_alone ? player.name : "", part.voices, part.has_chords, part.swing));
 }
 
 }  // namespace
@@ -107,8 +110,9 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
                   const PlayOptions& playing, int most) {
     ScoreHead head;
     head.tempo = ensemble.tempo;
-    head.ritardando = ensemble.close != Close::none ? 2 * ensemble.meter.bar() : 0;
+    head.ritardando = ensemble.has_ending(playing) ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
+    head.is_transposed = settings.is_transposed;
     head.made = made_with(settings, ensemble.players.front().document, arrangement != nullptr);
     if (arrangement) {
         head.title = arrangement->title;

@@ -123,6 +123,22 @@ std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, con
     return names;
 }
 
+/// `, in bars 9, 13 and 21`
+std::string bars_with_faults(const std::vector<std::int64_t>& ticks, std::int64_t bar) {
+    constexpr std::size_t most_named = 4;
+    std::vector<std::int64_t> bars;
+    for (const std::int64_t tick : ticks) {
+        if (bars.empty() || bars.back() != tick / bar + 1) bars.push_back(tick / bar + 1);
+    }
+    if (bars.empty()) return "";
+    const std::size_t named = std::min(bars.size(), most_named);
+    std::string text = fmt::format(", in bar{} {}", bars.size() == 1 ? "" : "s", bars.front());
+    for (std::size_t i = 1; i < named; ++i) {
+        text += fmt::format("{}{}", i + 1 == bars.size() ? " and " : ", ", bars[i]);
+    }
+    return bars.size() > named ? fmt::format("{} and {} others", text, bars.size() - named) : text;
+}
+
 }  // namespace
 
 void report_shared_channels(const Ensemble& ensemble, const ScoreHead& head, bool share_channels, Made& made) {
@@ -139,9 +155,15 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
                           report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
                           range_of(report, first)));
     if (report.is_strict) {
-        made.fact(fmt::format("counterpoint: {} moved, {} left before endings",
-                              counted(report.counterpoint.moved, "note"),
-                              counted(report.counterpoint.left, "fault")));
+        made.fact(fmt::format("counterpoint: {} moved, {} left{}", counted(report.moved_by_strictness, "note"),
+                              counted(report.strict_faults.size(), "fault"),
+                              bars_with_faults(report.strict_faults, ensemble.meter.bar())));
+    }
+    if (report.has_own_ranges) {
+        made.warn(
+            "the whole is too long to be played for this excerpt: velocities, controllers and tempo that follow the "
+            "curve "
+            "do so within the bars around it");
     }
     report_moved(ensemble, playing, report, made);
     if (report.lost > 0) {
@@ -171,6 +193,15 @@ void report_notation(const Notation& notation, const Ensemble& ensemble, Made& m
                         "nearest 64th{}",
                         is_one ? "1 note does" : counted(notation.moved, "note") + " do", is_one ? "is" : "are",
                         remedy_for_moved(ensemble)));
+    }
+    for (const auto& [program, outside] : notation.outside) {
+        const KeyRange range = *range_of_instrument(program);
+        const auto spelling = spell(*find_scale("major"), {});
+        const bool is_low = outside.lowest < range.lowest;
+        made.warn(fmt::format(
+            "{} outside the range of the {}, {} to {}: the {} is {}", counted(outside.notes, "note"),
+            instrument_of(program).printed, note_name(range.lowest, spelling), note_name(range.highest, spelling),
+            is_low ? "lowest" : "highest", note_name(is_low ? outside.lowest : outside.highest, spelling)));
     }
     if (notation.merged > 0) {
         made.fact(fmt::format("{} in unison with other voices printed once", counted(notation.merged, "note")));

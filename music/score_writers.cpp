@@ -117,6 +117,7 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .write = write_notes<write_csound_score>},
     {.name = {.extension = "strudel", .label = "Strudel", .is_text = true},
      .is_printed = true,
+     .plays_swing = true,
      .has_glides = false,
      .pattern = PatternForm::comments,
      .write = write_notes<write_strudel>},

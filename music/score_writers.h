@@ -33,7 +33,8 @@ struct ScoreWriter {
     ScoreMedium medium = ScoreMedium::notes;
     /// Note values are written and performance is left to the player: no swing, articulation, pan or gamakas.
     bool is_printed = false;
-    bool has_glides = true;  ///< notes may slide; else they are held at the pitch they begin with
+    bool plays_swing = false;  ///< though it is printed
+    bool has_glides = true;    ///< notes may slide; else they are held at the pitch they begin with
     PatternForm pattern = PatternForm::exact;
     double lowest = 0;              ///< MIDI key of its lowest note
     std::string_view needs_file{};  ///< subject of the message that a pipe is refused; empty: any output

@@ -80,14 +80,16 @@ public:
         if (!is_arranged) return text;
         NullSink nobody;
         Made made;
-        const bool has_tempo = ensemble_.players.front().melody.expression.tempo.is_on();
+        const bool is_performed = ensemble_.players.front().melody.expression.tempo.is_on() ||
+                                  ensemble_.is_strict() || playing.is_excerpt();
         EnsembleReport report =
-            has_tempo ? perform(ensemble_, playing, use(), human(), nobody) : play_all(ensemble_, playing, nobody);
-        if (!has_tempo) report.seconds = seconds_of(ensemble_, report.end, use());
+            is_performed ? perform(ensemble_, playing, use(), human(), nobody) : play_all(ensemble_, playing, nobody);
+        if (!is_performed) report.seconds = seconds_of(ensemble_, playing, report.end, use());
         report_notes(ensemble_, playing, report, made);
         report_replaced(made);
         // A single part is described already, unless its tempo changes.
-        const bool is_alone = !arrangement_ && ensemble_.players.size() == 1 && !has_tempo;
+        const bool is_alone = !arrangement_ && ensemble_.players.size() == 1 &&
+                              !ensemble_.players.front().melody.expression.tempo.is_on();
         if (!is_alone) text += "together\n";
         for (auto remark = made.remarks.begin() + (is_alone ? 1 : 0); remark != made.remarks.end(); ++remark) {
             text += remark->text + "\n";
@@ -102,6 +104,8 @@ private:
         if (settings_.format != 1 && writer_.medium != ScoreMedium::midi) {
             warn("midi-format", "it applies only to MIDI files");
         }
+        if (!settings_.is_transposed && writer_.medium != ScoreMedium::notation)
+            warn("score", "it applies only to print");
         if (settings_.tuning != Tuning::bend && !writer_.has_channels()) {
             warn("tuning", "it applies only to MIDI and sound");
         }
@@ -112,7 +116,6 @@ private:
             if (!writer_.is_printed) break;
             if (key.key == "pan" || key.key == "controller") warn(key.key, "it is heard, not printed");
             if (key.key == "gamaka") warn(key.key, "gamakas are heard, not printed");
-            if (key.key == "swing") warn(key.key, "eighths are printed straight");
         }
     }
     /// Reports keys of the piece that replace those of patterns within it.
@@ -142,9 +145,9 @@ private:
         Melody& melody = player.melody;
         player.section = section;
         player.name = part_name;
-        if (writer_.is_printed) {
-            melody.swing = 0.5;
-            melody.articulation = Articulation::legato;
+        if (writer_.is_printed) melody.articulation = Articulation::legato;
+        if (writer_.is_printed && !writer_.plays_swing) {
+            player.printed_swing = {std::exchange(melody.swing, 0.5), melody.swing_unit};
         }
         melody.lowest = std::max(melody.lowest, writer_.lowest);
         std::vector<Player>& players = ensemble_.players;
@@ -153,16 +156,40 @@ private:
         for (Player& follower : followers_of(player)) players.push_back(std::move(follower));
     }
 
+    /// An excerpt of the only part is an excerpt of the score. @throws ScoreError if the requested bars lie behind it
+    void take_excerpt() {
+        if (ensemble_.players.size() != 1 || ensemble_.needs_whole() || !has_excerpt(ensemble_.players.front()))
+            return;
+        Layout& layout = ensemble_.players.front().melody.layout;
+        const std::int64_t before = settings_.from_bar - 1;
+        if (layout.bars > 0 && before >= layout.bars) {
+            throw ScoreError(
+                fmt::format("the requested bars contain no notes: the excerpt has {}", counted(layout.bars, "bar")));
+        }
+        // Who states both an excerpt and an ending wants the excerpt to end.
+        const bool is_stated = !is_option("excerpt") && before == 0 && settings_.bars == 0 && settings_.seconds == 0;
+        ensemble_.ends_excerpts = ensemble_.ends_excerpts || is_stated;
+        settings_.from_bar += layout.first_bar - 1;
+        if (layout.bars > 0) {
+            const std::int64_t left = layout.bars - before;
+            settings_.bars = settings_.bars > 0 ? std::min(settings_.bars, left) : left;
+        }
+        layout.first_bar = 1;
+        layout.bars = 0;
+    }
+    bool is_option(std::string_view key) const {
+        return std::any_of(settings_.keys.begin(), settings_.keys.end(),
+                           [&](const Setting& setting) { return setting.key == key; });
+    }
+
     /// Tempo and meter are those of the first player, unless the arrangement or an option sets them.
     void complete() {
         const Melody& first = ensemble_.players.front().melody;
-        const auto is_option = [&](std::string_view key) {
-            return std::any_of(settings_.keys.begin(), settings_.keys.end(),
-                               [&](const Setting& setting) { return setting.key == key; });
-        };
         ensemble_.tempo = first.tempo;
         ensemble_.meter = first.meter;
         ensemble_.close = first.close;
+        ensemble_.ends_excerpts = is_option("ending");
+        take_excerpt();
         if (arrangement_ && arrangement_->tempo && !is_option("tempo")) ensemble_.tempo = *arrangement_->tempo;
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
         for (const Player& player : ensemble_.players) {

@@ -318,6 +318,11 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
             result.notes.push_back(one);
         }
         result.length += piece.length;
+        // The next section begins at a bar line. The sections of a bass have the length of those above it.
+        if (ends.empty() && &section != &order.back()) {
+            const std::int64_t bar = melody.meter.bar();
+            result.length = (result.length + bar - 1) / bar * bar;
+        }
         result.ends.push_back(result.length);
     }
     const std::size_t last = borders.size() - 2;

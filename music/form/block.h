@@ -42,7 +42,8 @@ void link_glides(std::vector<FormNote>& notes);
 void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, each
-/// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections.
+/// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections. Sections begin at
+/// bar lines, after a rest if need be.
 /// @param grammar  grammar of the block, to suggest a derivation length if sub-curves are missing
 /// @param ends  ticks at which sections end, taken from another part; empty: those of the curve
 /// @throws ScoreError if the curve has too few sub-curves

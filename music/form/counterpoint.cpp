@@ -20,9 +20,10 @@ class Line {
 public:
     void add(const Note& note) { notes_.push_back(note); }
     void sort() { sort_by_onset(notes_); }
-    /// The key that sounds at a tick.
-    std::optional<double> at(std::int64_t tick) const {
+    /// The key that sounds at a tick, or begins up to `late` ticks after it.
+    std::optional<double> at(std::int64_t tick, std::int64_t late) const {
         const auto after = first_after(tick);
+        if (after != notes_.end() && after->onset <= tick + late) return after->key;
         if (after == notes_.begin()) return std::nullopt;
         const Note& note = *std::prev(after);
         return note.onset + note.duration > tick ? std::optional(note.key) : std::nullopt;
@@ -32,9 +33,9 @@ public:
         const auto after = first_after(tick - 1);
         return after == notes_.begin() ? std::nullopt : std::optional(*std::prev(after));
     }
-    bool begins_at(std::int64_t tick) const {
-        const auto after = first_after(tick - 1);
-        return after != notes_.end() && after->onset == tick;
+    bool begins_at(std::int64_t tick, std::int64_t late) const {
+        const auto after = first_after(tick - late - 1);
+        return after != notes_.end() && after->onset <= tick + late;
     }
 
 private:
@@ -50,35 +51,42 @@ using Lines = std::map<int, Line>;
 /// Finds the faults of a note among other voices.
 class Checker {
 public:
-    explicit Checker(const Meter& meter) : bar_(meter.bar()), beats_(strong_beats(meter)) {}
+    /// @param late  ticks by which notes may begin after their beat
+    explicit Checker(const Meter& meter, std::int64_t late = 0)
+        : bar_(meter.bar()), beats_(strong_beats(meter)), late_(late) {}
 
-    /// Counts dissonances on strong beats, and parallels twice, if `note` sounds after `last` in its voice.
-    int faults(const Note& note, const std::optional<Note>& last, const Lines& lines) const {
-        int count = 0;
+    struct Faults {
+        int dissonances = 0;  ///< on strong beats
+        int parallels = 0;
+    };
+    /// The faults if `note` sounds after `last` in its voice.
+    Faults faults(const Note& note, const std::optional<Note>& last, const Lines& lines) const {
+        Faults found;
+        const std::int64_t begin = note.onset - late_;
         const std::int64_t end = note.onset + note.duration;
-        for (std::int64_t bar = note.onset / bar_ * bar_; bar < end; bar += bar_) {
+        for (std::int64_t bar = std::max<std::int64_t>(0, begin) / bar_ * bar_; bar < end; bar += bar_) {
             for (const std::int64_t beat : beats_) {
                 const std::int64_t tick = bar + beat;
-                if (tick >= note.onset && tick < end) count += dissonances(note.key, tick, lines);
+                if (tick >= begin && tick < end) found.dissonances += dissonances(note.key, tick, lines);
             }
         }
         for (const auto& [voice, other] : lines) {
             // Parallels: both voices move from one note to another.
-            const auto now = other.at(note.onset);
-            if (!last || !now || !other.begins_at(note.onset)) continue;
-            const auto before = other.before(note.onset);
-            if (before && is_parallel(before->key, last->key, *now, note.key)) count += 2;
+            const auto now = other.at(note.onset, late_);
+            if (!last || !now || !other.begins_at(note.onset, late_)) continue;
+            const auto before = other.before(note.onset - late_);
+            if (before && is_parallel(before->key, last->key, *now, note.key)) ++found.parallels;
         }
-        return count;
+        return found;
     }
 
 private:
     /// Number of dissonances at a tick. A fourth is consonant above a lower voice.
-    static int dissonances(double key, std::int64_t tick, const Lines& lines) {
+    int dissonances(double key, std::int64_t tick, const Lines& lines) const {
         constexpr int fourth = 5;
         std::vector<double> sounding;
         for (const auto& [voice, other] : lines) {
-            if (const auto against = other.at(tick)) sounding.push_back(*against);
+            if (const auto against = other.at(tick, late_)) sounding.push_back(*against);
         }
         if (sounding.empty()) return 0;
         const double lowest = *std::min_element(sounding.begin(), sounding.end());
@@ -92,18 +100,20 @@ private:
 
     std::int64_t bar_;
     std::vector<std::int64_t> beats_;
+    std::int64_t late_;
 };
 
 /// Places the notes of one voice, one after another, each where it clashes least.
 class Leader {
 public:
-    Leader(const Checker& checker, const Melody& melody, const Lines& lines, CounterpointReport& report)
-        : checker_(checker), melody_(melody), lines_(lines), report_(report) {}
+    Leader(const Checker& checker, const Melody& melody, const Lines& lines)
+        : checker_(checker), melody_(melody), lines_(lines) {}
 
     void lead(FormNote& note) {
         if (note.has_degree) settle(note);
         last_ = &note;
     }
+    std::uint64_t moved() const { return moved_; }
 
 private:
     void settle(FormNote& note) {
@@ -113,23 +123,22 @@ private:
         constexpr int degree = 2;
         const bool was_repeated = last_ && last_->note.key == note.note.key;
         int least = std::numeric_limits<int>::max();
-        int faults_left = 0;
         FormNote best = note;
         for (const std::int64_t move : moves) {
             const FormNote tried = moved(note, move);
             // Notes folded into the range would leap.
             if (static_cast<double>(move) * (tried.note.key - note.note.key) * melody_.scale.period < 0) continue;
-            const int faults = checker_.faults(tried.note, last_ ? std::optional(last_->note) : std::nullopt, lines_);
+            const auto [dissonances, parallels] =
+                checker_.faults(tried.note, last_ ? std::optional(last_->note) : std::nullopt, lines_);
+            const int faults = dissonances + 2 * parallels;
             const bool repeats = !was_repeated && last_ && last_->note.key == tried.note.key;
             const int cost = faults * fault + static_cast<int>(std::abs(move)) * degree + (repeats ? repetition : 0);
             if (move == 0 && faults == 0) return;
             if (cost >= least) continue;
             least = cost;
-            faults_left = faults;
             best = tried;
         }
-        report_.moved += best.degree != note.degree ? 1 : 0;
-        report_.left += static_cast<std::uint64_t>(faults_left);
+        moved_ += best.degree != note.degree ? 1 : 0;
         note = best;
     }
 
@@ -145,7 +154,7 @@ private:
     const Checker& checker_;
     const Melody& melody_;
     const Lines& lines_;
-    CounterpointReport& report_;
+    std::uint64_t moved_ = 0;
     const FormNote* last_ = nullptr;
 };
 
@@ -156,9 +165,9 @@ bool is_consonant(double low, double high) {
     return interval == 0 || interval == 3 || interval == 4 || interval == 7 || interval == 8 || interval == 9;
 }
 
-CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
-                               const Meter& meter) {
-    CounterpointReport report;
+std::uint64_t make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
+                          const Meter& meter) {
+    std::uint64_t moved = 0;
     const Checker checker(meter);
     Lines lines;
     for (const FormNote& one : fixed) lines[one.note.voice].add(one.note);
@@ -178,15 +187,37 @@ CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<Form
     for (auto& [voice, notes] : voices) {
         std::stable_sort(notes.begin(), notes.end(),
                          [](const FormNote* a, const FormNote* b) { return a->note.onset < b->note.onset; });
-        Leader leader(checker, melody, lines, report);
+        Leader leader(checker, melody, lines);
         Line line;
         for (FormNote* one : notes) {
             leader.lead(*one);
             line.add(one->note);
         }
         lines[voice] = std::move(line);
+        moved += leader.moved();
     }
-    return report;
+    return moved;
+}
+
+std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const Meter& meter,
+                                          std::int64_t late) {
+    const Checker checker(meter, late);
+    std::vector<std::int64_t> ticks;
+    Lines lines;
+    for (const SoundingVoice& voice : voices) {
+        std::optional<Note> last;
+        Line line;
+        for (const Note& note : voice.notes) {
+            line.add(note);
+            if (!voice.is_led) continue;
+            const auto [dissonances, parallels] = checker.faults(note, last, lines);
+            ticks.insert(ticks.end(), static_cast<std::size_t>(dissonances + parallels), note.onset);
+            last = note;
+        }
+        lines.emplace(static_cast<int>(lines.size()), std::move(line));
+    }
+    std::sort(ticks.begin(), ticks.end());
+    return ticks;
 }
 
 }  // namespace sikku

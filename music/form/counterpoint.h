@@ -9,12 +9,6 @@
 
 namespace sikku {
 
-/// Result of make_strict().
-struct CounterpointReport {
-    std::uint64_t moved = 0;  ///< notes moved
-    std::uint64_t left = 0;   ///< parallels and dissonances that cannot be avoided within three degrees
-};
-
 /// True for the intervals that are consonant between two voices, in semitones rounded: unisons, thirds, fifths,
 /// sixths and octaves. Fourths are dissonant, as between two voices.
 bool is_consonant(double low, double high);
@@ -25,7 +19,20 @@ bool is_consonant(double low, double high);
 /// before it, and to chords and drones of the part. Notes without faults stay where they are; moves avoid repeating
 /// the note before. Notes without degrees count as neighbours, but never move. Cost: O(notes x voices).
 /// @param fixed  by onset; times as in `part`
-CounterpointReport make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
-                               const Meter& meter);
+/// @return number of notes moved
+std::uint64_t make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
+                          const Meter& meter);
+
+/// A voice as it sounds, by onset.
+struct SoundingVoice {
+    std::vector<Note> notes;
+    bool is_led = false;  ///< it gives way to the voices before it
+};
+
+/// The faults of led voices with the voices before them: the onset of a note for each dissonance on a strong beat and
+/// each parallel, as make_strict() counts them. Cost: O(notes x voices).
+/// @param late  ticks by which a player may begin notes after their beat
+std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const Meter& meter,
+                                          std::int64_t late);
 
 }  // namespace sikku

@@ -28,6 +28,9 @@ struct PlayOptions {
     std::vector<std::int64_t>* degrees = nullptr;      ///< receives the degree of each note, or no_degree
     std::vector<std::int64_t>* phrase_ends = nullptr;  ///< receives the ticks after `from` at which phrases end
     std::function<void(std::uint64_t symbols)> watch;  ///< as in DerivationOptions
+
+    /// True if only a part of the score is played.
+    bool is_excerpt() const { return ahead != 0 || from > 0 || to < INT64_MAX; }
 };
 
 /// Report about a performance.

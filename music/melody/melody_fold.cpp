@@ -113,7 +113,7 @@ Action action_of(const Grammar& grammar, Symbol symbol, bool moves_sound) {
 std::optional<GridStretch> symbol_primitive(const Grammar& grammar, Symbol symbol, bool moves_sound) {
     GridStretch result;
     const SymbolInfo& info = grammar.symbols()[symbol];
-    if (info.command.action == Action::turn) result.rise = info.letter == "+" ? 1 : info.letter == "-" ? -1 : 0;
+    result.rise = rise_of(info);
     if (info.command.action != Action::draw && info.command.action != Action::move) return result;
     const double length = std::fabs(info.command.value);
     if (!(length < 1e15) || length != std::floor(length)) return std::nullopt;
@@ -127,9 +127,8 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
     GridStretch result;
     const Action action = action_of(grammar, symbol, moves_sound);
     if (action == Action::turn) {
-        const std::string& letter = grammar.symbols()[symbol].letter;
         result.turn = static_cast<int>(lattice.turn[symbol]);
-        result.rise = letter == "+" ? 1 : letter == "-" ? -1 : 0;
+        result.rise = rise_of(grammar.symbols()[symbol]);
     }
     const std::int64_t length = lattice.length[symbol];
     if ((action != Action::draw && action != Action::move) || length == 0) return result;
@@ -148,6 +147,19 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
 }
 
 }  // namespace
+
+bool counts_degrees(const SymbolInfo& symbol) {
+    constexpr double most = 24;  // larger ones, and fractions, are angles
+    if (symbol.arguments.size() != 1) return false;
+    const double argument = symbol.arguments.front();
+    return argument >= 0 && argument <= most && argument == std::floor(argument);
+}
+
+int rise_of(const SymbolInfo& symbol) {
+    if (symbol.command.action != Action::turn) return 0;
+    const int direction = symbol.letter == "+" ? 1 : symbol.letter == "-" ? -1 : 0;
+    return direction * (counts_degrees(symbol) ? static_cast<int>(symbol.arguments.front()) : 1);
+}
 
 bool draws_nothing(const Grammar& grammar) {
     const std::vector<char> reached = grammar.reachable();

@@ -26,7 +26,7 @@ struct GridStretch {
     std::array<Integer, 2> runs{};                 ///< number of straight runs drawn along each axis
     std::array<Integer, 2> corners{};              ///< number of those that lead into a run across
     Integer marks = 0;                             ///< number of phrases that end
-    Integer rise = 0;                              ///< symbols `+` less symbols `-`
+    Integer rise = 0;                              ///< sum of rise_of()
     std::array<std::optional<Span>, 2> crossings;  ///< range of the runs along each axis on the other axis
     std::array<Span, 2> box;                       ///< range of all positions on each axis, including the start
     int first = -1;        ///< direction of a drawn step that begins the stretch; -1: none, or something precedes it
@@ -37,6 +37,14 @@ struct GridStretch {
 /// True if the word moves but draws nothing, like that of a kolam whose steps guide a spline. Its moves are then read
 /// as drawn steps.
 bool draws_nothing(const Grammar& grammar);
+
+/// True if the parameter of a turn is a whole number up to 24, which then counts degrees of a scale: `+(3)`. Others
+/// are angles.
+bool counts_degrees(const SymbolInfo& symbol);
+
+/// Degrees by which a symbol raises the notes after it in a word that is read symbol by symbol: 1 for `+`, -1 for
+/// `-`, or as many as the parameter counts.
+int rise_of(const SymbolInfo& symbol);
 
 /// Reading that a fold represents: the curve, or the word symbol by symbol, where turns only change `rise`.
 enum class FoldOf { curve, symbols };

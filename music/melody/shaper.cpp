@@ -180,24 +180,32 @@ void Shaper::close_bar() {
 }
 
 void Shaper::perform(Draft note) {
+    if (melody_.swing != 0.5) swing(note);
     if (!note.is_last && !note.is_drum && note.glide == 0 && melody_.articulation != Articulation::legato) {
         double share = melody_.sounding;
         if (melody_.articulation == Articulation::by_depth) share = std::max(0.25, 1 - 0.15 * note.depth);
         note.end =
             note.onset + std::max<std::int64_t>(1, std::llround(static_cast<double>(note.end - note.onset) * share));
     }
-    if (melody_.swing != 0.5) {
-        const std::int64_t slides_from = swung(note.end - note.glide);
-        note.onset = swung(note.onset);
-        note.end = swung(note.end);
-        note.glide = note.end - slides_from;
-    }
     ready_.push_back(note);
 }
 
+void Shaper::swing(Draft& note) {
+    const auto at = static_cast<std::size_t>(note.voice);
+    if (at >= swung_until_.size()) swung_until_.resize(at + 1, 0);
+    // A tuplet that begins with an off-beat must not begin before it.
+    note.onset = std::max(swung(note.onset), swung_until_[at]);
+    const std::int64_t slides_from = swung(note.end - note.glide);
+    note.end = std::max(swung(note.end), note.onset + 1);
+    note.glide = std::clamp<std::int64_t>(note.end - slides_from, 0, note.end - note.onset);
+    swung_until_[at] = note.end;
+}
+
+/// Only halves, quarters and eighths of the unit swing, with it: tuplets keep their time.
 std::int64_t Shaper::swung(std::int64_t tick) const {
     const std::int64_t unit = melody_.swing_unit;
     const std::int64_t within = tick % (2 * unit);
+    if (8 * within % unit != 0) return tick;
     const double first = melody_.swing * 2 * static_cast<double>(unit);
     const double moved = within <= unit ? first * static_cast<double>(within) / static_cast<double>(unit)
                                         : first + (2 * static_cast<double>(unit) - first) *

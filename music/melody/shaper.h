@@ -74,6 +74,7 @@ private:
     void go_on_until(std::int64_t tick);
     void perform(Draft note);
     bool is_strong(const Draft& note) const;
+    void swing(Draft& note);
     std::int64_t swung(std::int64_t tick) const;
 
     const Melody& melody_;
@@ -86,9 +87,10 @@ private:
     int leader_ = 0;
     std::vector<Draft> bar_;  // bar of the voice that chords follow, until its chord is known
     std::vector<BarChord> chords_;
-    BarChord latest_;                  // the last one chosen
-    std::int64_t sounding_until_ = 0;  // end of the last note of its bar
-    std::int64_t last_bar_ = -1;       // tick of the last bar, once the melody has ended
+    BarChord latest_;                        // the last one chosen
+    std::int64_t sounding_until_ = 0;        // end of the last note of its bar
+    std::int64_t last_bar_ = -1;             // tick of the last bar, once the melody has ended
+    std::vector<std::int64_t> swung_until_;  // by voice: end of the last note, if notes swing
     std::vector<Draft> ready_;
     std::vector<Draft> taken_;
 };

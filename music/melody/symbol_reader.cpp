@@ -1,3 +1,4 @@
+#include "music/melody/melody_fold.h"
 #include "music/melody/reader.h"
 #include "music/melody/symbol_table.h"
 #include "music/score/dynamics.h"
@@ -51,9 +52,8 @@ public:
                     stop_if_done();
                     break;
                 case Kind::turn:
-                    if (info.letter == "+") ++state_.degree;
-                    if (info.letter == "-") --state_.degree;
-                    if (!info.arguments.empty() || info.arity > 0) ++skipped_[symbol];
+                    state_.degree += rise_of(info);
+                    if ((!info.arguments.empty() && !counts_degrees(info)) || info.arity > 0) ++skipped_[symbol];
                     state_.turned = sign_of(command.angle);
                     break;
                 case Kind::open:

@@ -3,6 +3,7 @@
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
+#include "music/score/swing.h"
 #include "music/score/text_writer.h"
 
 #include <fmt/format.h>
@@ -89,15 +90,20 @@ public:
         if (!head_.composer.empty()) put("C:{}\n", field(head_.composer));
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
         const BeatUnit beat = beat_unit(head_.meter);
-        put("M:{}\nL:1/8\nQ:{}/{}={}\n{}", meter_name(head_.meter), beat.value.dotted ? 3 : 1,
+        const auto swing = common_swing(notation_);
+        put("M:{}\nL:1/8\nQ:{}{}/{}={}\n{}", meter_name(head_.meter),
+            swing ? fmt::format("\"{}\" ", swing_words(*swing)) : "", beat.value.dotted ? 3 : 1,
             beat.value.divisor * (beat.value.dotted ? 2 : 1),
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
         // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.
         if (notation_.is_held) put("%%MIDI fermatafixed\n");
         put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
+        if (notation_.is_concert) put("%%text {}\n", concert_text);
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
+            const std::string transposition =
+                notated.transposition ? fmt::format("\n%%MIDI transpose {}", -notated.transposition->semitones) : "";
             const VoiceMarks marks = marks_of(notated);
             for (const Staff& staff : notated.staves) {
                 // Both hands share one name.
@@ -108,8 +114,9 @@ public:
                     // Keys without a clef would reset the octaves.
                     put("V:{} clef={}{}\n{}\n[K:{} clef={}] ", ++number, clef,
                         has_name ? fmt::format(" name=\"{}\"", quoted(notated.name)) : "",
-                        part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program),
+                        (part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program)) + transposition,
                         key_name(notated.keys.front().key), clef);
+                    if (has_name && part.swing.is_on() && !swing) put("\"^{}\"", swing_words(part.swing));
                     write_voice(staff, k, notated.keys, marks.at(&staff.voices[k]));
                 }
             }

@@ -138,7 +138,46 @@ constexpr std::array<Instrument, 128> instrument_table = {{
     {"Gunshot", "Gunshot", "Gun", "gunshot"},
 }};
 
+struct TransposingInstrument {
+    int program;
+    Transposition by;
+};
+constexpr std::array<TransposingInstrument, 9> transposing = {{{56, {2, 1, "B♭", "bes"}},
+                                                               {59, {2, 1, "B♭", "bes"}},
+                                                               {60, {7, 4, "F", "f"}},
+                                                               {64, {2, 1, "B♭", "bes"}},
+                                                               {65, {9, 5, "E♭", "es"}},
+                                                               {66, {14, 8, "B♭", "bes,"}},
+                                                               {67, {21, 12, "E♭", "es,"}},
+                                                               {69, {7, 4, "F", "f"}},
+                                                               {71, {2, 1, "B♭", "bes"}}}};
+
+struct RangedInstrument {
+    int program;
+    KeyRange range;
+};
+constexpr std::array<RangedInstrument, 42> ranged = {
+    {{0, {21, 108}},  {1, {21, 108}},  {2, {21, 108}},  {6, {29, 89}},    {8, {60, 108}},  {9, {79, 108}},
+     {11, {53, 89}},  {12, {36, 96}},  {13, {65, 108}}, {14, {60, 77}},   {24, {40, 83}},  {25, {40, 86}},
+     {26, {40, 88}},  {27, {40, 88}},  {32, {28, 67}},  {33, {28, 67}},   {34, {28, 67}},  {35, {28, 67}},
+     {40, {55, 105}}, {41, {48, 88}},  {42, {36, 84}},  {43, {28, 67}},   {46, {23, 104}}, {47, {38, 60}},
+     {56, {52, 86}},  {57, {40, 77}},  {58, {26, 65}},  {59, {52, 86}},   {60, {35, 77}},  {64, {56, 88}},
+     {65, {49, 81}},  {66, {44, 76}},  {67, {36, 69}},  {68, {58, 93}},   {69, {52, 81}},  {70, {34, 76}},
+     {71, {50, 94}},  {72, {74, 108}}, {73, {59, 98}},  {110, {55, 105}}, {45, {28, 105}}, {48, {28, 105}}}};
+
 }  // namespace
+
+std::optional<Transposition> transposition_of(int program) {
+    const auto* row = std::find_if(transposing.begin(), transposing.end(),
+                                   [&](const TransposingInstrument& one) { return one.program == program; });
+    return row == transposing.end() ? std::nullopt : std::optional(row->by);
+}
+
+std::optional<KeyRange> range_of_instrument(int program) {
+    const auto* row = std::find_if(ranged.begin(), ranged.end(),
+                                   [&](const RangedInstrument& one) { return one.program == program; });
+    return row == ranged.end() ? std::nullopt : std::optional(row->range);
+}
 
 const Instrument& instrument_of(int program) {
     return instrument_table[static_cast<std::size_t>(std::clamp(program, 0, 127))];

@@ -1,6 +1,7 @@
 // music/score/instruments.h: names of General MIDI instruments.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace sikku {
@@ -15,5 +16,24 @@ struct Instrument {
 
 /// @param program  counted from 0; values out of range are clamped
 const Instrument& instrument_of(int program);
+
+/// How much higher a transposing instrument is written than it sounds.
+struct Transposition {
+    int semitones = 0;
+    int letters = 0;
+    std::string_view key;       ///< of the note that sounds where C is written: `B♭`
+    std::string_view lilypond;  ///< that note below c': `bes`
+};
+/// Nullopt for instruments that are written as they sound, or an octave or two away, which their clef says.
+std::optional<Transposition> transposition_of(int program);
+
+/// The keys that an instrument can play, as they sound: without extensions and rare high notes. Source: Adler, The
+/// Study of Orchestration, appendix A; makers' tables for mallets and guitars.
+struct KeyRange {
+    int lowest = 0;
+    int highest = 127;
+};
+/// Nullopt for instruments of any range, such as synthesizers, and for those of many sizes.
+std::optional<KeyRange> range_of_instrument(int program);
 
 }  // namespace sikku

@@ -52,6 +52,11 @@ void set_labels(std::span<NotatedPart> parts) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].name = labels[i].name;
         parts[i].abbreviation = labels[i].abbreviation;
+        // Saxophones are known by their size.
+        const bool is_sax = parts[i].part.program >= 64 && parts[i].part.program <= 67;
+        if (parts[i].transposition && parts[i].part.has_instrument_name && !is_sax) {
+            parts[i].name += fmt::format(" in {}", parts[i].transposition->key);
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include "music/score/dynamics.h"
 #include "music/score/instruments.h"
 #include "music/score/labels.h"
+#include "music/score/swing.h"
 #include "music/score/text_writer.h"
 
 #include <fmt/format.h>
@@ -82,6 +83,7 @@ public:
         // The name of a single part stands above it, as in printed music; those of several stand before their staves.
         const bool is_solo = notation_.parts.size() == 1;
         if (is_solo) put("  instrument = {}\n", text_lines(notation_.parts.front().name, title_width));
+        if (notation_.is_concert) put("  poet = \"{}\"\n", concert_text);
         if (!head_.source.empty()) put("  copyright = {}\n", text_lines(head_.source, source_width));
         put("  tagline = ##f\n}}\n\n");
         write_drum_table();
@@ -309,8 +311,12 @@ private:
     std::string tempo_mark() const {
         const BeatUnit beat = beat_unit(head_.meter);
         const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();
-        return fmt::format("\\tempo {}{}{} = {}", first.slows_down ? rit : "", beat.value.divisor,
-                           beat.value.dotted ? "." : "",
+        const auto swing = common_swing(notation_);
+        const std::string words = swing ? fmt::format("\"{}\" ", swing_words(*swing)) : "";
+        const std::string text = !first.slows_down ? words
+                                 : words.empty()   ? std::string(rit)
+                                                   : fmt::format("\\markup {{ {}{} }} ", words, rit.substr(8));
+        return fmt::format("\\tempo {}{}{} = {}", text, beat.value.divisor, beat.value.dotted ? "." : "",
                            std::max<long long>(1, std::llround(head_.tempo / beat.quarters)));
     }
 
@@ -328,7 +334,11 @@ private:
                 const std::optional<KeySignature>& key = part.keys.front().key;
                 put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
                     key ? " " : "", meter_name(head_.meter));
+                if (part.transposition) put("        \\transposition {}\n", part.transposition->lilypond);
                 if (has_tempo) put("        {}\n", tempo_mark());
+                if (told.swing.is_on() && &staff == &part.staves.front() && !common_swing(notation_)) {
+                    put("        <>^\\markup \\bold \"{}\"\n", swing_words(told.swing));
+                }
             }
             if (!is_single) put("        \\voice{}\n", numbers[i % 4]);
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -100,6 +101,8 @@ struct TrackState {
     int last_channel_status = 0;  ///< kept after meta and sysex events
     bool sysex_is_open = false;   ///< the last F0 was not ended by an F7
     std::size_t sysex_at = 0;     ///< beginning of that message
+    std::int64_t sysex_tick = 0;  ///< its tick
+    bool has_begun = false;       ///< a channel or sysex event was seen
     bool ended = false;           ///< the end-of-track was seen
     bool is_extended = false;     ///< it continued after the end that its head states
     bool is_readable = true;      ///< it could be read up to its end
@@ -131,6 +134,12 @@ private:
     bool fault(std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
         if (!is_full()) faults_.push_back({at, fmt::format(what, std::forward<Values>(values)...)});
         return false;
+    }
+    /// Adds what the format permits, but few programs expect.
+    template <class... Values>
+    void remark(std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
+        if (is_full()) return;
+        faults_.push_back({at, fmt::format(what, std::forward<Values>(values)...), true});
     }
     template <class... Values>
     void fault(const TrackState& track, std::size_t at, fmt::format_string<Values...> what, Values&&... values) {
@@ -191,7 +200,7 @@ private:
         if (format > 2) {
             fault(8, "header: format {}, but there are only 0, 1 and 2", format);
         } else if (format == 2) {
-            fault(8, "header: format 2, tracks that are songs of their own, which hardly any program reads");
+            remark(8, "header: format 2, tracks that are pieces of their own, which few programs read");
         } else if (format == 0 && declared_ > 1) {
             fault(8, "header: format 0 has one track, and not {}", declared_);
         }
@@ -229,9 +238,9 @@ private:
                 at_ += chunk_head_bytes + big_endian(at_ + 4, 4);
             } else {
                 const std::size_t next = next_track(at_ + 1);
-                fault(at_, "{}: {} that form no chunk",
+                fault(at_, "{}: {} that form{} no chunk",
                       found_ == 0 ? std::string("after the header") : fmt::format("after track {}", found_),
-                      bytes_of(next - at_));
+                      bytes_of(next - at_), next - at_ == 1 ? "s" : "");
                 at_ = next;
             }
         }
@@ -245,7 +254,7 @@ private:
         check_ends();
     }
 
-    /// Checks that tracks end within an hour of the last event, as a longer last note or rest is an error.
+    /// Remarks on tracks that end more than an hour after the last event, as a longer rest is seldom meant.
     void check_ends() {
         if (division_ == 0) return;
         double seconds = 1e-6 * tempo_ / division_;  // a tick, after the last event
@@ -258,8 +267,8 @@ private:
         for (const auto& [number, tick, at] : ends_) {
             const double hours = static_cast<double>(tick - last_tick_) * seconds / 3600.0;
             if (hours > 1.0) {
-                fault(at, "track {}, tick {}: its end-of-track comes {:.1f} hours after the last event", number, tick,
-                      hours);
+                remark(at, "track {}, tick {}: its end-of-track comes {:.1f} hours after the last event", number,
+                       tick, hours);
             }
         }
     }
@@ -282,9 +291,7 @@ private:
             fault_length(track, fmt::format("its end-of-track, and with it the file, comes after {}",
                                             size() - track.head - chunk_head_bytes));
         }
-        if (track.sysex_is_open && track.is_readable) {
-            fault(track, track.sysex_at, "a sysex message that is not ended by F7");
-        }
+        if (track.sysex_is_open && track.is_readable) fault_open_sysex(track);
         end_notes(track);
         at_ = track.ended ? track.at : track.limit;
     }
@@ -450,6 +457,7 @@ private:
 
     void read_channel_event(TrackState& track, const Layout& event) {
         track.running = track.last_channel_status = event.status;
+        track.has_begun = true;
         for (std::size_t i = event.data; i < event.next; ++i) {
             if (bytes_[i] > 0x7F) fault(track, i, "data byte {:02X} is above 7F", bytes_[i]);
         }
@@ -514,12 +522,19 @@ private:
         }
     }
 
+    void fault_open_sysex(const TrackState& track) {
+        fault(track.sysex_at, "track {}, tick {}: a sysex message that is not ended by F7", track.number,
+              track.sysex_tick);
+    }
+
     void read_sysex(TrackState& track, const Layout& event) {
         const auto data = bytes_.subspan(event.data, event.size);
         const bool ends = !data.empty() && data.back() == 0xF7;
         if (event.status == 0xF0) {
-            if (track.sysex_is_open) fault(track, track.sysex_at, "a sysex message that is not ended by F7");
+            if (track.sysex_is_open) fault_open_sysex(track);
             track.sysex_at = event.at;
+            track.sysex_tick = track.tick;
+            track.has_begun = true;
         } else if (!track.sysex_is_open) {
             return;  // an escape: any bytes
         }
@@ -540,6 +555,7 @@ private:
         if (event.type == 0 && event.size != 2 && event.size != 0) {
             fault(track, event.length_at, "a sequence number of {} instead of 2", bytes_of(event.size));
         }
+        if (event.type == 0) require_beginning(track, event, "a sequence number");
         for (const MetaForm& form : meta_forms) {
             if (form.type != event.type) continue;
             if (form.size != event.size) {
@@ -548,6 +564,36 @@ private:
             }
         }
         check_meta_data(track, event);
+    }
+
+    /// Some meta events stand at the beginning of a track (RP-001, "Meta Events").
+    void require_beginning(const TrackState& track, const Layout& event, std::string_view name) {
+        if (track.tick > 0 || track.has_begun) {
+            fault(track, event.at, "{} after the beginning of its track", name);
+        }
+    }
+
+    /// Hours with the frame rate in bits 5 and 6, minutes, seconds, frames and hundredths of a frame.
+    void check_smpte_offset(const TrackState& track, const Layout& event) {
+        require_beginning(track, event, "an SMPTE offset");
+        if (format_ == 1 && track.number > 1) {
+            fault(track, event.at, "an SMPTE offset outside the first track, where format 1 has it");
+        }
+        constexpr std::array<int, 4> frames = {24, 25, 30, 30};
+        const int rate = bytes_[event.data] >> 5 & 3;
+        const struct {
+            int value, most;
+            std::string_view unit;
+        } fields[] = {{bytes_[event.data] & 0x1F, 23, "hours"},
+                      {bytes_[event.data + 1], 59, "minutes"},
+                      {bytes_[event.data + 2], 59, "seconds"},
+                      {bytes_[event.data + 3], frames[static_cast<std::size_t>(rate)] - 1, "frames"},
+                      {bytes_[event.data + 4], 99, "hundredths of a frame"}};
+        for (std::size_t i = 0; i < std::size(fields); ++i) {
+            if (fields[i].value <= fields[i].most) continue;
+            fault(track, event.data + i, "an SMPTE offset of {} {}, but {} is the most", fields[i].value,
+                  fields[i].unit, fields[i].most);
+        }
     }
 
     void check_meta_data(const TrackState& track, const Layout& event) {
@@ -565,6 +611,8 @@ private:
             }
         } else if (event.type == 0x20 && data(0) > 15) {
             fault(track, event.data, "a channel prefix of {}, but 15 is the most", data(0));
+        } else if (event.type == 0x54) {
+            check_smpte_offset(track, event);
         } else if (event.type == 0x58) {
             if (data(0) == 0) fault(track, event.data, "a time signature of no beats");
             // 2^7 is a 128th, the shortest that has a name.

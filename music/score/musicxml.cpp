@@ -4,6 +4,7 @@
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
+#include "music/score/swing.h"
 #include "music/score/text_writer.h"
 
 #include <fmt/format.h>
@@ -189,7 +190,14 @@ private:
                 write_key(keys[++key].key);
                 put("</attributes>\n");
             }
+            if (bar == 0 && index == 0 && notation_.is_concert) {
+                put("<direction placement=\"above\"><direction-type><words>{}</words></direction-type></direction>\n",
+                    concert_text);
+            }
             if (bar == 0 && index == 0) write_tempo();
+            if (bar == 0 && part.part->part.swing.is_on()) {
+                write_swing(part.part->part.swing, index == 0 || !common_swing(notation_));
+            }
             here_ = begin;
             for (std::size_t staff = 0; staff < part.staves.size(); ++staff) {
                 for (std::size_t voice = 0; voice < part.staves[staff].voices.size(); ++voice) {
@@ -223,7 +231,15 @@ private:
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
         for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
         if (part.staves.front().lines == 1) put("<staff-details><staff-lines>1</staff-lines></staff-details>\n");
+        if (const auto& by = part.part->transposition) write_transposition(*by);
         put("</attributes>\n");
+    }
+
+    void write_transposition(const Transposition& by) {
+        const int octaves = by.semitones / 12;
+        put("<transpose><diatonic>{}</diatonic><chromatic>{}</chromatic>{}</transpose>\n",
+            -(by.letters - 7 * octaves), -(by.semitones - 12 * octaves),
+            octaves > 0 ? fmt::format("<octave-change>{}</octave-change>", -octaves) : "");
     }
 
     void write_clef(Clef clef, const XmlPart& part, std::size_t staff) {
@@ -245,6 +261,22 @@ private:
         put("<direction placement=\"above\"><direction-type><metronome><beat-unit>{}</beat-unit>{}"
             "<per-minute>{}</per-minute></metronome></direction-type><sound tempo=\"{}\"/></direction>\n",
             type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, head_.tempo);
+    }
+
+    /// Programs play eighths and sixteenths with swing. @param has_words  prints it, too
+    void write_swing(const Swing& swing, bool has_words) {
+        const std::int64_t eighth = ticks_per_quarter / 2;
+        const auto [first, second] = swing_ratio(swing);
+        const std::string sound =
+            swing.unit != eighth && swing.unit != eighth / 2
+                ? ""
+                : fmt::format(
+                      "<sound><swing><first>{}</first><second>{}</second><swing-type>{}</swing-type></swing></sound>",
+                      first, second, swing.unit == eighth ? "eighth" : "16th");
+        if (!has_words) return put("{}\n", sound);
+        put("<direction placement=\"above\"><direction-type><words font-weight=\"bold\">{}</words></direction-type>{}"
+            "</direction>\n",
+            swing_words(swing), sound);
     }
 
     void go_to(std::int64_t time) {
@@ -400,7 +432,9 @@ private:
                 : symbol.leaves < 0 ? "<falloff/>"
                                     : "");
         }
-        if (symbol.has_fermata) put("<fermata/>");
+        // Second voices have theirs below the staff.
+        if (symbol.has_fermata)
+            put("{}", voice_ % voice_numbers_per_staff % 2 == 0 ? "<fermata type=\"inverted\"/>" : "<fermata/>");
         put("</notations>");
     }
 

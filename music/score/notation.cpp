@@ -3,17 +3,19 @@
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
+#include "music/score/notation_excerpt.h"
 #include "music/score/note_order.h"
+#include "music/score/signs.h"
 #include "music/score/spelling.h"
 #include "music/score/staves.h"
 #include "music/score/strokes.h"
+#include "music/score/transposing.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -23,64 +25,6 @@ namespace {
 constexpr std::size_t most_notes = 200'000;
 constexpr std::int64_t most_bars = 100'000;
 constexpr double unheard = 0.01;  // semitones
-
-/// Determines which notes need a printed sign: signs apply to the end of the bar, for their octave, in all voices of
-/// the staff; a note tied over the bar line needs no sign and sets none.
-void set_signs(Staff& staff, const PrintedPart& part, std::int64_t bar) {
-    struct Head {
-        std::int64_t onset;
-        const Pitch* pitch;
-        bool* has_sign;
-    };
-    std::vector<Head> notes;
-    for (NotatedVoice& voice : staff.voices) {
-        for (NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.kind != SymbolKind::note || symbol.tied_back) continue;
-            notes.push_back({symbol.onset, &symbol.pitch, &symbol.has_sign});
-            for (ChordNote& other : symbol.chord) notes.push_back({symbol.onset, &other.pitch, &other.has_sign});
-        }
-    }
-    std::stable_sort(notes.begin(), notes.end(), [](const Head& a, const Head& b) { return a.onset < b.onset; });
-    std::int64_t current_bar = -1;
-    std::map<std::pair<int, int>, int> in_force;
-    std::array<int, 7> key{};
-    for (const Head& note : notes) {
-        if (note.onset / bar != current_bar) {
-            current_bar = note.onset / bar;
-            key = signs_of(part.key_at(note.onset).key);
-            in_force.clear();
-        }
-        const Pitch& pitch = *note.pitch;
-        const auto [entry, is_new] =
-            in_force.try_emplace({pitch.octave, pitch.letter}, 2 * key[static_cast<std::size_t>(pitch.letter)]);
-        *note.has_sign = entry->second != pitch.quarters;
-        entry->second = pitch.quarters;
-    }
-}
-
-/// Determines which notes have their deviation printed: like signs, once in a bar; in an accompaniment, which repeats
-/// its notes, once. @param bar  ticks
-void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
-    for (NotatedVoice& voice : staff.voices) {
-        std::int64_t current_bar = -1;
-        std::map<std::pair<int, int>, int> in_force;
-        for (NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.kind != SymbolKind::note) continue;
-            if (!is_accompaniment && symbol.onset / bar != current_bar) {
-                current_bar = symbol.onset / bar;
-                in_force.clear();
-            }
-            const auto set = [&](const Pitch& pitch, int& printed) {
-                int& last = in_force[{pitch.height(), pitch.quarters}];
-                const int cents = printed;
-                if (symbol.tied_back || cents == last) printed = 0;
-                last = cents;
-            };
-            set(symbol.pitch, symbol.cents);
-            for (ChordNote& note : symbol.chord) set(note.pitch, note.cents);
-        }
-    }
-}
 
 /// Hides rests: a bar's rest is printed once, and only if all voices rest; rests of more than two voices do not fit.
 void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
@@ -331,7 +275,12 @@ std::array<int, 7> signs_of(const std::optional<KeySignature>& key) {
     return signs;
 }
 
-Notator::Notator(const ScoreHead& head) : parts_(head.parts), meter_(head.meter), ritardando_(head.ritardando) {
+Notator::Notator(const ScoreHead& head, const Bars& bars)
+    : parts_(head.parts),
+      meter_(head.meter),
+      is_transposed_(head.is_transposed),
+      ritardando_(head.ritardando),
+      printed_bars_(bars) {
     std::size_t voices = 0;
     for (const Part& part : parts_) voices += static_cast<std::size_t>(part.voices);
     voices_.resize(voices);
@@ -365,11 +314,14 @@ void Notator::finish(std::int64_t end) {
         if (!voice.empty()) last = std::max(last, voice.back().onset + voice.back().duration);
     }
     const std::int64_t bar = notation_.bar_length;
-    notation_.bars = std::max<std::int64_t>(1, (last + bar - 1) / bar);
-    if (notation_.bars > most_bars) {
+    all_bars_ = std::max<std::int64_t>(1, (last + bar - 1) / bar);
+    if (all_bars_ > most_bars) {
         throw ScoreError(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
-                                     notation_.bars, most_bars));
+                                     all_bars_, most_bars));
     }
+    printed_bars_.first = std::min(printed_bars_.first, all_bars_ - 1);
+    printed_bars_.count = std::min(printed_bars_.count, all_bars_ - printed_bars_.first);
+    notation_.bars = printed_bars_.count;
     printed_ = share_parts(parts_, voices_, bar);
     share_chords();
     std::vector<std::vector<double>> others(printed_.size());
@@ -378,10 +330,17 @@ void Notator::finish(std::int64_t end) {
         list.insert(list.end(), keys.begin(), keys.end());
     }
     agree_on_keys(printed_, others);
+    find_outside();
+    for (std::size_t i = 0; i < printed_.size() && is_transposed_; ++i) transpose_part(i);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
     mark_ending(end);
     set_labels(notation_.parts);
     std::vector<std::int64_t>& bars = notation_.double_bars;
+    for (const NotatedPart& part : notation_.parts) {
+        for (const KeyChange& key : part.keys) {
+            if (key.onset > 0) bars.push_back(key.onset);
+        }
+    }
     std::sort(bars.begin(), bars.end());
     bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
 }
@@ -428,16 +387,59 @@ void Notator::share_chords() {
     chords_ = std::move(shared);
 }
 
+void Notator::transpose_part(std::size_t index) {
+    PrintedPart& printed = printed_[index];
+    const auto by = transposition_of(printed.part.program);
+    if (!by || printed.part.is_drums) return;
+    transpose(printed, *by);
+    for (auto& [place, keys] : chords_) {
+        if (std::get<0>(place) != index) continue;
+        for (double& key : keys) key += by->semitones;
+    }
+}
+
+/// Counts the notes that no player of their instrument has.
+void Notator::find_outside() {
+    for (const PrintedPart& printed : printed_) {
+        const auto range = range_of_instrument(printed.part.program);
+        if (!range || printed.part.is_drums || printed.part.is_accompaniment) continue;
+        for (const std::vector<Note>& voice : printed.voices) {
+            for (const Note& note : voice) {
+                if (note.key > range->lowest - 0.5 && note.key < range->highest + 0.5) continue;
+                Notation::Outside& outside = notation_.outside[printed.part.program];
+                ++outside.notes;
+                outside.lowest = std::min(outside.lowest, note.key);
+                outside.highest = std::max(outside.highest, note.key);
+            }
+        }
+    }
+}
+
 NotatedPart& Notator::begin_part(const PrintedPart& printed) {
     NotatedPart& notated = notation_.parts.emplace_back();
     notated.part = printed.part;
+    if (const auto by = transposition_of(printed.part.program); by && !printed.part.is_drums) {
+        if (is_transposed_) notated.transposition = by;
+        notation_.is_concert = !is_transposed_;
+    }
     for (const KeyOfBars& key : printed.keys) {
         const bool is_new = notated.keys.empty() || signs_of(key.key) != signs_of(notated.keys.back().key);
         if (!is_new) continue;
         notated.keys.push_back({key.onset, key.key});
-        if (key.onset > 0) notation_.double_bars.push_back(key.onset);
     }
     return notated;
+}
+
+/// Keeps the printed bars of a part.
+void Notator::cut(NotatedPart& part) const {
+    if (printed_bars_.first == 0 && printed_bars_.count == all_bars_) return;
+    const std::int64_t from = printed_bars_.first * notation_.bar_length;
+    cut_bars(part, from, from + printed_bars_.count * notation_.bar_length);
+}
+
+void Notator::finish_staff(Staff& staff, const NotatedPart& part) const {
+    hide_rests(staff, notation_.bars, notation_.bar_length);
+    if (!part.part.is_drums) set_signs(staff, part.keys, part.part.is_accompaniment, notation_.bar_length);
 }
 
 /// Drums have one staff for up to four lines.
@@ -459,10 +461,11 @@ void Notator::notate_drums(std::size_t index) {
             together.insert(together.end(), line.strokes.begin(), line.strokes.end());
         }
         if (drums_of(staff).size() == 1) set_on_one_line(staff);
-        hide_rests(staff, notation_.bars, notation_.bar_length);
         sort_by_onset(together);
         staff.dynamics = dynamics_of(together, notation_.bar_length);
     }
+    cut(notated);
+    for (Staff& staff : notated.staves) finish_staff(staff, notated);
 }
 
 void Notator::notate_part(std::size_t index) {
@@ -483,24 +486,25 @@ void Notator::notate_part(std::size_t index) {
             together.insert(together.end(), voice.notes.begin(), voice.notes.end());
         }
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
-        hide_rests(staff, notation_.bars, notation_.bar_length);
-        set_signs(staff, printed, notation_.bar_length);
-        set_cents(staff, part.is_accompaniment, notation_.bar_length);
         sort_by_onset(together);
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
         marked.dynamics = dynamics_of(together, notation_.bar_length);
     }
     if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, notated);
+    cut(notated);
+    for (Staff& staff : notated.staves) finish_staff(staff, notated);
 }
 
 /// Begins a ritardando in the first voice. If one voice has a fermata, all get one: those that do not hold their last
 /// note, at the end.
 void Notator::mark_ending(std::int64_t end) {
     std::vector<NotatedSymbol>& first = notation_.parts.front().staves.front().voices.front().symbols;
+    const std::int64_t slow_from = end - ritardando_ - printed_bars_.first * notation_.bar_length;
     const auto slow = std::find_if(first.begin(), first.end(), [&](const NotatedSymbol& symbol) {
-        return symbol.onset >= std::max<std::int64_t>(0, end - ritardando_);
+        return symbol.onset >= std::max<std::int64_t>(0, slow_from);
     });
     if (ritardando_ > 0 && slow != first.end()) slow->slows_down = true;
+    if (printed_bars_.first + printed_bars_.count < all_bars_) return;
     const auto is_held = [](const NotatedSymbol& symbol) { return symbol.has_fermata; };
     std::vector<std::vector<NotatedSymbol>*> others;
     for (NotatedPart& part : notation_.parts) {
@@ -531,7 +535,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
     const Grid grid = grid_of(notes, meter_);
     // Notes that come from several voices may lie on several grids.
     notation_.moved += snap(notes, grid);
-    const std::int64_t end = notation_.bars * notation_.bar_length;
+    const std::int64_t end = all_bars_ * notation_.bar_length;
     while (!notes.empty() && notes.back().onset >= end) notes.pop_back();
     if (!notes.empty()) notes.back().duration = std::min(notes.back().duration, end - notes.back().onset);
     NotatedVoice voice;

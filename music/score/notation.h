@@ -1,6 +1,7 @@
 // music/score/notation.h: arranges notes in bars: note values, tuplets, ties, rests, staves, clefs, signs, dynamics.
 #pragma once
 
+#include "music/score/instruments.h"
 #include "music/score/rhythm.h"
 #include "music/score/score.h"
 #include "music/score/turns.h"
@@ -129,11 +130,12 @@ struct KeyChange {
 };
 
 struct NotatedPart {
-    Part part;                    ///< its instrument
-    std::string name;             ///< printed name; parts with the same name are numbered
-    std::string abbreviation;     ///< abbreviation of the name
-    std::vector<KeyChange> keys;  ///< ascending, the first at 0
-    std::vector<Staff> staves;    ///< at least one
+    Part part;                                   ///< its instrument
+    std::string name;                            ///< printed name; parts with the same name are numbered
+    std::string abbreviation;                    ///< abbreviation of the name
+    std::vector<KeyChange> keys;                 ///< ascending, the first at 0
+    std::optional<Transposition> transposition;  ///< notes and keys are written this much higher than they sound
+    std::vector<Staff> staves;                   ///< at least one
     Bracket bracket = Bracket::none;
 };
 
@@ -147,6 +149,14 @@ struct Notation {
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
     std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
     std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
+    bool is_concert = false;   ///< parts of transposing instruments are written as they sound
+    /// Notes beyond the range of their instrument, by program.
+    struct Outside {
+        std::uint64_t notes = 0;
+        double lowest = 127;
+        double highest = 0;
+    };
+    std::map<int, Outside> outside;
 };
 
 /// Collects a melody and makes a Notation of it.
@@ -160,7 +170,14 @@ struct Notation {
 /// Memory: O(notes + bars).
 class Notator final : public NoteSink {
 public:
-    explicit Notator(const ScoreHead& head);
+    /// Bars that are printed, of all that are received.
+    struct Bars {
+        std::int64_t first = 0;
+        std::int64_t count = INT64_MAX;
+    };
+    explicit Notator(const ScoreHead& head) : Notator(head, Bars{}) {}
+    /// Staves, clefs and dynamics are those of the whole.
+    Notator(const ScoreHead& head, const Bars& bars);
 
     /// @throws ScoreError after 200,000 notes, and for a voice without a part
     void notes(std::span<const Note> notes) override;
@@ -174,6 +191,8 @@ private:
     using ChordPlace = std::tuple<std::size_t, std::uint64_t, std::int64_t>;
 
     void notate_part(std::size_t index);
+    void cut(NotatedPart& part) const;
+    void finish_staff(Staff& staff, const NotatedPart& part) const;
     void mark_ending(std::int64_t end);
     void gather_chords(std::size_t part, std::size_t first_voice);
     void share_chords();
@@ -183,9 +202,15 @@ private:
                       std::span<const std::vector<double>> chords);
     std::vector<std::vector<double>> chords_of(std::span<const Note> notes, std::size_t index) const;
 
+    void transpose_part(std::size_t index);
+    void find_outside();
+
     std::vector<Part> parts_;
     Meter meter_;
+    bool is_transposed_;
     std::int64_t ritardando_;  ///< ticks before the end; 0: none
+    Bars printed_bars_;
+    std::int64_t all_bars_ = 1;
     std::vector<std::vector<Note>> voices_;
     std::vector<PrintedPart> printed_;
     /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.
@@ -193,6 +218,9 @@ private:
     std::size_t count_ = 0;
     Notation notation_;
 };
+
+/// Stated at the head of a score whose transposing instruments are written as they sound.
+constexpr std::string_view concert_text = "Score in C";
 
 /// The letter, octave and sign of a key, by Part::spelling.
 Pitch spelled(double key, const std::array<Spelling, 12>& spelling);

@@ -112,6 +112,14 @@ struct KeySignature {
     Mode mode = minor ? Mode::minor : Mode::major;
 };
 
+/// Off-beats that come late.
+struct Swing {
+    double share = 0.5;                         ///< of the first of two notes, 0.5 (straight) to 0.8
+    std::int64_t unit = ticks_per_quarter / 2;  ///< ticks of each
+    bool is_on() const { return share != 0.5; }
+    bool operator==(const Swing&) const = default;
+};
+
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
@@ -125,6 +133,7 @@ struct Part {
     bool has_chords = false;                ///< notes of one onset and symbol are a chord in print
     bool is_accompaniment = false;  ///< its voices share a staff, and notes of one onset and length are a chord
     bool is_drums = false;          ///< percussion of General MIDI: keys are those of drums.h
+    Swing swing{};                  ///< to be printed: the notes are written straight
 };
 
 /// Contents of a score besides its notes. Voices are numbered through all parts in order.
@@ -137,6 +146,7 @@ struct ScoreHead {
     double tempo = 120.0;         ///< quarters a minute
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
+    bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
     std::vector<Part> parts;
 
     /// The index of the part that contains a voice; 0 if none does.

@@ -49,7 +49,9 @@ std::vector<Candidate> clefs_of(int program, bool is_high) {
     if (program == 47 || program == 58) return {{Clef::bass, 0}, {Clef::treble, unusual}};
     const bool is_treble = program == 10 || program == 40 || program == 56 || program == 59 || is_within(64, 66) ||
                            is_within(68, 69) || is_within(71, 79) || program == 110;
-    return {{Clef::treble, 0}, {Clef::bass, is_treble ? unusual : 0.0}};
+    // Mallets are read in treble clef, too.
+    const bool is_only_treble = is_treble || program == 9 || program == 11 || program == 13;
+    return {{Clef::treble, 0}, {Clef::bass, is_only_treble ? 3.0 : 0.0}};
 }
 
 /// The height of the middle line.

@@ -200,7 +200,8 @@ TEST(Arrangement, EndingsLieWithinTheRange) {
 TEST(Arrangement, FormsAreMadeOfSubCurves) {
     const NoteList plain = notes_of(track("", "hilbert"));
     const NoteList formed = notes_of(track("form = \"ABCD\"\n", "hilbert"));
-    EXPECT_EQ(told(formed), told(plain));
+    ASSERT_EQ(formed.notes.size(), plain.notes.size());
+    for (std::size_t i = 0; i < plain.notes.size(); ++i) EXPECT_EQ(formed.notes[i].key, plain.notes[i].key);
     const NoteList again = notes_of(track("form = \"AABA\"\n", "hilbert"));
     std::vector<double> first;
     std::vector<double> keys;
@@ -210,6 +211,10 @@ TEST(Arrangement, FormsAreMadeOfSubCurves) {
     EXPECT_TRUE(std::equal(first.begin(), first.end(), keys.begin()));
     EXPECT_TRUE(std::equal(first.begin(), first.end(), keys.begin() + static_cast<std::ptrdiff_t>(first.size())));
     EXPECT_TRUE(std::equal(first.rbegin(), first.rend(), keys.rbegin()));
+    // Each section begins at a bar line.
+    for (const std::size_t i : {first.size(), 2 * first.size(), again.notes.size() - first.size()}) {
+        EXPECT_EQ(again.notes[i].onset % 1920, 0) << i;
+    }
     // Endings: the first leads to the fifth, the second to the tonic, and all before them is the same.
     const NoteList endings = notes_of(track("form = \"A1 A2\"\n", "hilbert"));
     keys.clear();
@@ -268,7 +273,8 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
     EXPECT_EQ(remarks_of(track("range = \"fold C4-C#4\"\n")),
               (Remarks{"3 notes were beyond C4 to Db4 and held at the last key"}));
     EXPECT_EQ(remarks_of(track("transposition = -60\ninstrument = \"Violin\"\n") + track(""), "musicxml"),
-              (Remarks{"4 notes were beyond C0 to G9 and folded back"}));
+              (Remarks{"4 notes were beyond C0 to G9 and folded back",
+                       "4 notes outside the range of the Violin, G3 to A7: the lowest is C0"}));
     // Also where parts are played to their ends before.
     EXPECT_EQ(remarks_of(track("") + track("range = \"fold C3-C4\"\nretrograde = true\n")),
               (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
@@ -304,8 +310,10 @@ TEST(ScoreOptions, AreAppliedOrReported) {
     // Names of keys contain blanks, those of options dashes.
     EXPECT_EQ(warnings_of("mid", {{"named-notes", "no"}}),
               "'named notes:' has no meaning without `mapping: symbols`\n");
-    const OptionValues options = {{"midi-format", "0"}, {"tuning", "mts"},         {"humanise", "0.5"},
-                                  {"pan", "by x"},      {"controller", "74 by y"}, {"swing", "66"}};
+    const OptionValues options = {
+        {"midi-format", "0"}, {"tuning", "mts"}, {"humanise", "0.5"}, {"pan", "by x"}, {"controller", "74 by y"}};
+    EXPECT_EQ(warnings_of("mid", {{"score", "concert"}}), "'score' has no effect: it applies only to print\n");
+    for (const char* format : {"musicxml", "ly", "abc"}) EXPECT_EQ(warnings_of(format, {{"score", "concert"}}), "");
     for (const char* format : {"mid", "musicxml", "ly", "abc"}) {
         for (const auto& [name, value] : options) {
             const std::string warnings = warnings_of(format, {{name, value}});

@@ -132,9 +132,12 @@ TEST(FarBars, EqualAnExactWalk) {
                                         "derivation length: {}\nscale: chromatic\nphrases: 3\nbreath: 1/8\n"
                                         "anchor: piece\nrange: refuse\n",
                                         n));
-        const NoteList played = list_notes({&document, 1}, {{"from-bar", first}, {"bars", "30"}}, {});
+        const NoteList played =
+            list_notes({&document, 1}, {{"from-bar", first}, {"bars", "30"}, {"velocity", "by y 20-120"}}, {});
         const ExactWalk exact(n, 3, (Integer(first) - 1) * bar, 30);
         ASSERT_GT(exact.notes.size(), 100u);
+        const bool is_below =
+            std::any_of(exact.notes.begin(), exact.notes.end(), [](const auto& one) { return one.y < 0; });
         ASSERT_EQ(played.notes.size(), exact.notes.size()) << first;
         for (std::size_t i = 0; i < exact.notes.size(); ++i) {
             EXPECT_EQ(played.notes[i].onset, exact.notes[i].onset) << first << ' ' << i;
@@ -142,6 +145,11 @@ TEST(FarBars, EqualAnExactWalk) {
             EXPECT_EQ(Integer(std::llround(played.notes[i].key - played.notes[0].key)),
                       exact.notes[i].y - exact.notes[0].y)
                 << first << ' ' << i;
+            // The whole curve is 2^n - 1 steps high, and lies above its start or below it.
+            const double height = std::ldexp(1.0, n) - 1;
+            const double rise = exact.notes[i].y.convert_to<double>() / height;
+            const double part = is_below ? 1 + rise : rise;
+            EXPECT_EQ(played.notes[i].velocity, std::lround(20 + 100 * part)) << first << ' ' << i;
         }
     }
 }

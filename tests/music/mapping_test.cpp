@@ -894,6 +894,27 @@ TEST(Form, SwingKeepsTheBeats) {
     EXPECT_EQ(onsets, (std::vector<std::int64_t>{0, 320, 480, 800}));
 }
 
+/// A ride of triplets meets the swung off-beat: both sound after two thirds of a beat.
+TEST(Form, SwingMovesOnlyBinaryOffBeats) {
+    const auto onsets = [](std::int64_t length, int notes, double swing) {
+        Melody melody = plain();
+        melody.runs = Runs::each_step;
+        melody.unit = length;
+        melody.swing = swing;
+        std::vector<std::int64_t> found;
+        const std::string word(static_cast<std::size_t>(notes), 'F');
+        for (const Note& note : played(grammar_of("heading: 0\naxiom: " + word + "\n"), melody).all) {
+            EXPECT_TRUE(found.empty() || note.onset >= found.back());
+            found.push_back(note.onset);
+        }
+        return found;
+    };
+    EXPECT_EQ(onsets(ticks_per_quarter / 3, 4, 0.66), (std::vector<std::int64_t>{0, 160, 320, 480}));
+    EXPECT_EQ(onsets(ticks_per_quarter / 5, 6, 0.66), (std::vector<std::int64_t>{0, 96, 192, 288, 384, 480}));
+    EXPECT_EQ(onsets(ticks_per_quarter / 2, 3, 0.66), (std::vector<std::int64_t>{0, 317, 480}));
+    EXPECT_EQ(onsets(ticks_per_quarter / 4, 5, 0.75), (std::vector<std::int64_t>{0, 180, 360, 420, 480}));
+}
+
 std::vector<std::string> chord_names(const std::string& scale, const std::string& progression, double tonic = 60) {
     std::string problem;
     std::vector<std::string> names;

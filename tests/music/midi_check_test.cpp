@@ -195,10 +195,36 @@ TEST(MidiCheck, HeadersAndChunks) {
         {"bytes between tracks",
          header + conductor + std::string(5, '\0') + midi_chunk("MTrk", melody_events),
          {{41, "after track 1: 5 bytes that form no chunk"}}},
-        {"bytes after the header", header + "\xFF" + good.substr(14), {{14, "after the header: 1 byte that"}}},
+        {"bytes after the header",
+         header + "\xFF" + good.substr(14),
+         {{14, "after the header: 1 byte that forms no chunk"}}},
         {"half a chunk head", good + "MTrk", {{71, "4 bytes that form no chunk"}}},
         {"two files", good + good, {{10, "declares 2 tracks, but there are 4"}, {71, "a second header"}}},
         {"an empty track", header + conductor + midi_chunk("MTrk", ""), {{49, "it has no end-of-track"}}}};
+    for (const Case& expected : cases) expect_faults(expected);
+}
+
+/// RP-001: an SMPTE offset is a time of a day, at the beginning of the first track.
+TEST(MidiCheck, SmpteOffsets) {
+    const auto conducted = [](const std::string& events) {
+        return header + midi_chunk("MTrk", hex_bytes(events + " 00 FF2F 00")) +
+               midi_chunk("MTrk", hex_bytes("00 FF2F 00"));
+    };
+    const std::size_t at = 14 + 8;
+    const std::vector<Case> cases = {
+        {"23:59:59, 29 frames", conducted("00 FF 54 05 77 3B 3B 1D 63"), {}},
+        {"25:60",
+         conducted("00 FF 54 05 79 3C 00 00 00"),
+         {{at + 4, "of 25 hours, but 23"}, {at + 5, "of 60 minutes"}}},
+        {"60 s", conducted("00 FF 54 05 00 00 3C 00 00"), {{at + 6, "of 60 seconds, but 59"}}},
+        {"24 frames of 24",
+         conducted("00 FF 54 05 00 00 00 18 64"),
+         {{at + 7, "of 24 frames, but 23"}, {at + 8, "of 100 hundredths of a frame"}}},
+        {"24 frames of 25", conducted("00 FF 54 05 20 00 00 18 00"), {}},
+        {"after an event", conducted("00 C0 05 00 FF 54 05 00 00 00 00 00"), {{at + 4, "an SMPTE offset after the"}}},
+        {"in the second track",
+         melody("00 FF 54 05 00 00 00 00 00 00 FF 2F 00"),
+         {{events_at + 1, "outside the first"}}}};
     for (const Case& expected : cases) expect_faults(expected);
 }
 
@@ -258,7 +284,16 @@ TEST(MidiCheck, Events) {
         {"unknown meta", melody("00 FF 7F 03 41 42 FF 00 FF 60 00" + end), {}},
         {"sysex", melody("00 F0 03 7D 01 F7 00 F7 02 F8 FF" + end), {}},
         {"sysex in packets", melody("00 F0 02 7D 01 10 F7 01 02 10 F7 02 03 F7" + end), {}},
+        {"sequence number after an event",
+         melody("00 90 3C 50 00 FF 00 02 00 01 10 80 3C 00" + end),
+         {{at(5), "track 2, tick 0: a sequence number after the beginning of its track"}}},
+        {"sequence number after a rest",
+         melody("10 FF 00 02 00 01" + end),
+         {{at(1), "track 2, tick 16: a sequence number after the beginning"}}},
         {"sysex without end", melody("00 F0 02 7D 01" + end), {{at(1), "is not ended by F7"}}},
+        {"sysex without end, then a note",
+         melody("10 F0 02 7D 01 83 60 90 3C 50 10 80 3C 00" + end),
+         {{at(1), "track 2, tick 16: a sysex message that is not ended by F7"}}},
         {"sysex without end, another follows",
          melody("00 F0 02 7D 01 00 F0 02 7D F7" + end),
          {{at(1), "is not ended by F7"}}},
@@ -396,6 +431,10 @@ TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
     Outcome outcome = run({"check", good});
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_EQ(outcome.output + outcome.errors, "");
+    const std::string songs = folder.write("songs.mid", with_byte(good_file(), 9, 2));
+    outcome = run({"check", songs});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_TRUE(has(outcome.output, "byte 8: warning: header: format 2"));
     outcome = run({"check", bad, good});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.output, bad + ": byte 10: header: it declares 3 tracks, but there are 2\n");

@@ -417,7 +417,9 @@ TEST(Notation, AMelodyHasOneStaff) {
         EXPECT_EQ(staves_of(program, {48, 62, 55, 72, 59, 60, 84, 61}).size(), 1u) << program;
     }
     EXPECT_EQ(changes(staves_of(vibraphone, {60, 62, 64, 72}).front()), "0 treble");
-    EXPECT_EQ(changes(staves_of(vibraphone, {48, 50, 52, 53}).front()), "0 bass");
+    // Below the range of the instrument, too.
+    EXPECT_EQ(changes(staves_of(vibraphone, {48, 50, 52, 53}).front()), "0 treble");
+    EXPECT_EQ(changes(staves_of(12, {48, 50, 52, 53}).front()), "0 bass");
     EXPECT_EQ(changes(staves_of(vibraphone, {}).front()), "0 treble");
     EXPECT_EQ(changes(staves_of(41, {60, 55, 62, 64}).front()), "0 alto");
     EXPECT_EQ(changes(staves_of(24, {52, 60, 64, 55}).front()), "0 treble_8");

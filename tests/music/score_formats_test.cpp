@@ -245,6 +245,30 @@ TEST(Strudel, WeightsAreDurations) {
     EXPECT_EQ(strudel_link("\xFF\xEF\xBE"), "https://strudel.cc/#%2F%2B%2B%2B");
 }
 
+TEST(Swing, IsPrintedAndHeard) {
+    const std::string tune = "heading: 0\naxiom: FFFFFFFF\nmapping: runs\nruns: each step\nunit: 1/8\n";
+    const Document one = parse("tune.lsys", tune);
+    const auto score = [&](std::string_view format, const std::string& swing) {
+        return play(one, format, {{"swing", swing}});
+    };
+    EXPECT_TRUE(has(score("ly", "67"), "\\tempo \"Swing\" 4 = 120"));
+    EXPECT_TRUE(has(score("ly", "58"), "\"Light swing\""));
+    EXPECT_TRUE(has(score("abc", "75 1/16"), "Q:\"Hard swing (sixteenths)\" 1/4=120"));
+    const std::string xml = score("musicxml", "60");
+    EXPECT_TRUE(has(xml, "<words font-weight=\"bold\">Light swing</words>"));
+    EXPECT_TRUE(has(xml, "<swing><first>3</first><second>2</second><swing-type>eighth</swing-type></swing>"));
+    EXPECT_FALSE(has(score("musicxml", "50"), "wing"));
+    EXPECT_TRUE(has(score("strudel", "75"), "@360"));
+    EXPECT_TRUE(has(score("csd", "75"), "i 1 0.375 "));
+    // Parts that differ each have their own words.
+    const std::vector<Document> both = {parse("tune.lsys", tune + "swing: 66\n"), parse("other.lsys", tune)};
+    MemoryDestination destination;
+    plan_score(both, "ly", {})->make(destination, "a.ly", {}, 1);
+    const std::string parts = destination.take("a.ly");
+    EXPECT_EQ(count_of(parts, "\"Swing\""), 1U);
+    EXPECT_TRUE(has(parts, "<>^\\markup \\bold \"Swing\""));
+}
+
 TEST(Mxl, IsReadByOthers) {
     NEEDS("python3");
     const ScratchFolder folder;

@@ -282,11 +282,28 @@ TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
 }
 
 TEST(SymbolTable, SkippedSymbolsAreReportedWithoutATable) {
-    const Made made = remarks_about(scores(), parse("d.lsys", head + "axiom: F+(3)F!;CDF-(1)+\n"), "mid");
+    const Made made = remarks_about(scores(), parse("d.lsys", head + "axiom: F+(3)F!;CDF-(90)+(2.5)\n"), "mid");
     ASSERT_EQ(made.remarks.size(), 2u);
     EXPECT_EQ(made.remarks[1].text, "skipped: 1 !, 1 ;, 1 C, 1 D, 1 parameter of +, 1 parameter of -");
     const Document plain = parse("d.lsys", head + "axiom: F+F-F[+F]f\n");
     EXPECT_EQ(remarks_about(scores(), plain, "mid").remarks.size(), 1u);
+}
+
+/// Whole parameters of turns count degrees, also where the fold skips a part of the word.
+TEST(SymbolTable, TurnsHaveDegrees) {
+    const auto keys = [](const std::string& axiom, const OptionValues& values = {}) {
+        const Document document = parse("d.lsys", head + axiom);
+        std::vector<double> found;
+        for (const Note& note : list_notes(std::span(&document, 1), values, {}).notes) found.push_back(note.key);
+        return found;
+    };
+    EXPECT_EQ(keys("axiom: F+(3)F-(1)F+(0)f F-(90)F\n"), (std::vector<double>{60, 65, 64, 64, 62}));
+    const std::string long_one = "axiom: X\nX --> XF+(2)F-(2)X\nderivation length: 13\n";
+    const OptionValues far = {{"from-bar", "2001"}, {"bars", "2"}};
+    const std::vector<double> all = keys(long_one);
+    const std::vector<double> some = keys(long_one, far);
+    ASSERT_FALSE(some.empty());
+    EXPECT_NE(std::search(all.begin(), all.end(), some.begin(), some.end()), all.end());
 }
 
 TEST(SymbolTable, TracksOfArrangements) {

@@ -1,0 +1,15 @@
+// music/score/notation_excerpt.h: bars cut out of a printed part.
+#pragma once
+
+#include "music/score/notation.h"
+
+#include <cstdint>
+
+namespace sikku {
+
+/// Keeps what begins between two bar lines, counted from the first. Ties, slides and hairpins end at the cuts; the
+/// key, the clefs, lines of 8va and dynamics in force apply from the first on. Beams and accents stay as they are.
+/// Second voices of a staff that are silent there are left out.
+void cut_bars(NotatedPart& part, std::int64_t from, std::int64_t to);
+
+}  // namespace sikku

@@ -1,0 +1,17 @@
+// music/score/signs.h: which accidentals and cents are printed.
+#pragma once
+
+#include "music/score/notation.h"
+
+#include <cstdint>
+#include <span>
+
+namespace sikku {
+
+/// Determines which notes need a printed sign: signs apply to the end of the bar, for their octave, in all voices of
+/// the staff; a note tied over the bar line needs no sign and sets none. Likewise their deviations in cents, which
+/// are those of the notes before; in an accompaniment, which repeats its notes, they are printed once.
+/// @param keys  key signatures, ascending. @param bar  ticks
+void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, std::int64_t bar);
+
+}  // namespace sikku

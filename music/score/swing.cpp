@@ -1,0 +1,34 @@
+#include "music/score/swing.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace sikku {
+
+std::optional<Swing> common_swing(const Notation& notation) {
+    std::optional<Swing> common;
+    for (const NotatedPart& part : notation.parts) {
+        if (part.part.is_accompaniment) continue;
+        if (common && *common != part.part.swing) return std::nullopt;
+        common = part.part.swing;
+    }
+    return common && common->is_on() ? common : std::nullopt;
+}
+
+std::string swing_words(const Swing& swing) {
+    const double percent = 100 * swing.share;
+    std::string words = percent <= 61 ? "Light swing" : percent >= 71 ? "Hard swing" : "Swing";
+    const std::int64_t eighth = ticks_per_quarter / 2;
+    if (swing.unit == eighth / 2) words += " (sixteenths)";
+    if (swing.unit == 2 * eighth) words += " (quarters)";
+    return words;
+}
+
+std::pair<int, int> swing_ratio(const Swing& swing) {
+    const auto percent = static_cast<int>(std::lround(100 * swing.share));
+    if (percent == 66 || percent == 67) return {2, 1};
+    const int common = std::gcd(percent, 100 - percent);
+    return {percent / common, (100 - percent) / common};
+}
+
+}  // namespace sikku
