@@ -27,7 +27,6 @@ void HeldEnding::notes(std::span<const Note> notes) {
 }
 
 std::int64_t HeldEnding::finish(std::int64_t end, const Meter& meter, std::int64_t most) {
-    constexpr std::int64_t latest_bars = 4;
     const std::int64_t bar = meter.bar();
     std::map<int, std::int64_t> onsets;  // onset of the last note, by line
     std::int64_t last_onset = 0;
@@ -44,7 +43,7 @@ std::int64_t HeldEnding::finish(std::int64_t end, const Meter& meter, std::int64
         Note& note = *last;
         const int line = line_of(voice);
         const std::int64_t note_end = note.onset + note.duration;
-        if (line < 0 || note_end <= onsets[line] || note_end <= end - latest_bars * bar) continue;
+        if (line < 0 || note_end <= onsets[line] || note_end < end - bar) continue;
         note.duration = until - note.onset;
         note.glide = {};
         note.has_fermata = true;

@@ -22,7 +22,7 @@ public:
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t) override {}
 
-    /// Forwards the notes held back. The last notes of lines that ended within four bars of the end are extended to
+    /// Forwards the notes held back. The last notes of lines that ended within a bar of the end are extended to
     /// the end of the last bar, or of one more bar if the last of them would otherwise last less than half a bar.
     /// Voices of one line end together: their last notes are held if they sound when the last note of the line
     /// begins. Drums are not held.

@@ -173,6 +173,11 @@ std::optional<Transposition> transposition_of(int program) {
     return row == transposing.end() ? std::nullopt : std::optional(row->by);
 }
 
+bool is_without_dynamics(int program) {
+    constexpr int harpsichord = 6, first_organ = 16, last_organ = 20;
+    return program == harpsichord || (program >= first_organ && program <= last_organ);
+}
+
 std::optional<KeyRange> range_of_instrument(int program) {
     const auto* row = std::find_if(ranged.begin(), ranged.end(),
                                    [&](const RangedInstrument& one) { return one.program == program; });

@@ -491,6 +491,9 @@ void Notator::notate_part(std::size_t index) {
         marked.dynamics = dynamics_of(together, notation_.bar_length);
     }
     if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, notated);
+    if (is_without_dynamics(part.program)) {
+        for (Staff& staff : notated.staves) staff.dynamics.clear();
+    }
     cut(notated);
     for (Staff& staff : notated.staves) finish_staff(staff, notated);
 }

@@ -81,7 +81,7 @@ TurnSource source_of(std::size_t index, int first_voice, std::span<const std::ve
 
 /// @return false if the parts need different staves
 bool is_same_instrument(const Part& a, const Part& b) {
-    return a.name == b.name && a.program == b.program && a.is_drums == b.is_drums;
+    return a.name == b.name && a.program == b.program && a.is_drums == b.is_drums && a.swing == b.swing;
 }
 
 std::vector<Line> lines_of(std::span<const Part> parts, const std::vector<TurnSource>& sources) {
