@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace sikku {
 namespace {
@@ -91,6 +94,74 @@ void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& curr
     }
 }
 
+/// A dynamic that the pattern states for the notes of an onset.
+struct StatedLevel {
+    std::size_t first = 0;  ///< index of the first of these notes
+    std::size_t end = 0;
+    int level = -1;        ///< of the loudest; -1: none is stated
+    bool is_told = false;  ///< the bar repeats the balance of a bar before
+};
+
+std::vector<StatedLevel> stated_levels(std::span<const Note> notes) {
+    std::vector<StatedLevel> all;
+    for (std::size_t i = 0; i < notes.size();) {
+        StatedLevel& one = all.emplace_back(StatedLevel{i, i, -1, false});
+        for (; i < notes.size() && notes[i].onset == notes[one.first].onset; ++i) {
+            one.level = std::max<int>(one.level, notes[i].emphasis.dynamic);
+        }
+        one.end = i;
+    }
+    return all;
+}
+
+/// A balance such as loud bass notes and soft chords is printed once: of four or more bars in a row whose notes have
+/// the same levels at the same places, or some of them, the second and all that follow are marked as told.
+void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int64_t fresh_from,
+                  std::vector<StatedLevel>& stated) {
+    constexpr std::size_t fewest_bars = 4;
+    struct Bar {
+        std::size_t first = 0;  // in `stated`
+        std::size_t end = 0;
+        std::map<std::int64_t, int> levels;  // by place
+    };
+    std::vector<Bar> bars;
+    std::int64_t last_bar = -1;
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        const std::int64_t onset = notes[stated[i].first].onset;
+        if (onset / bar_length != last_bar) bars.push_back({i, i, {}});
+        last_bar = onset / bar_length;
+        bars.back().end = i + 1;
+        bars.back().levels[onset % bar_length] = stated[i].level;
+    }
+    const auto is_balance = [](const Bar& bar) {
+        const int level = bar.levels.begin()->second;
+        return std::all_of(bar.levels.begin(), bar.levels.end(), [](const auto& one) { return one.second >= 0; }) &&
+               std::any_of(bar.levels.begin(), bar.levels.end(),
+                           [&](const auto& one) { return one.second != level; });
+    };
+    for (std::size_t i = 0; i < bars.size();) {
+        const Bar& first = bars[i];
+        std::size_t end = i + 1;
+        while (end < bars.size() && std::includes(first.levels.begin(), first.levels.end(), bars[end].levels.begin(),
+                                                  bars[end].levels.end())) {
+            ++end;
+        }
+        if (is_balance(first) && end - i >= fewest_bars) {
+            bool is_printed = false;
+            for (std::size_t bar = i; bar < end; ++bar) {
+                // The first bar that is printed states it.
+                const bool is_read =
+                    notes[stated[bars[bar].first].first].onset / bar_length * bar_length >= fresh_from;
+                for (std::size_t k = bars[bar].first; k < bars[bar].end; ++k) stated[k].is_told = is_printed;
+                is_printed = is_printed || is_read;
+            }
+            i = end;
+        } else {
+            ++i;
+        }
+    }
+}
+
 }  // namespace
 
 std::string_view dynamic_name(int level) {
@@ -102,21 +173,20 @@ int dynamic_level(double velocity) {
     return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
 }
 
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length) {
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length, std::int64_t fresh_from) {
     std::vector<DynamicMark> marks;
     int current = -1;
     std::size_t derived = 0;  // first note whose dynamics are still to be derived
-    for (std::size_t i = 0; i < notes.size();) {
-        const std::size_t first = i;
-        int stated = -1;
-        for (; i < notes.size() && notes[i].onset == notes[first].onset; ++i) {
-            stated = std::max<int>(stated, notes[i].emphasis.dynamic);
+    std::vector<StatedLevel> all = stated_levels(notes);
+    find_balance(notes, bar_length, fresh_from, all);
+    for (const StatedLevel& stated : all) {
+        if (stated.level < 0) continue;
+        add_derived(notes.subspan(derived, stated.first - derived), bar_length, current, marks);
+        derived = stated.end;
+        if (stated.level != current && !stated.is_told) {
+            marks.push_back({notes[stated.first].onset, DynamicMark::Kind::level, stated.level});
         }
-        if (stated < 0) continue;
-        add_derived(notes.subspan(derived, first - derived), bar_length, current, marks);
-        derived = i;
-        if (stated != current) marks.push_back({notes[first].onset, DynamicMark::Kind::level, stated});
-        current = stated;
+        current = stated.level;
     }
     add_derived(notes.subspan(derived), bar_length, current, marks);
     return marks;

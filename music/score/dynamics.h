@@ -17,11 +17,15 @@ std::string_view dynamic_name(int level);
 int dynamic_level(double velocity);
 
 /// The dynamics of notes (by onset). Stated dynamics are marked where they change; of notes that begin together, the
-/// loudest counts. Other notes, unless they are a few between those, have a dynamic for each stretch of bars whose
-/// mean velocity stays within a level, and hairpins where it rises or falls steadily from one level to another.
-/// Levels are 16 steps of velocity apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3
-/// steps to change it. Hairpins have at least two notes, and end at a rest before the new level.
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length);
+/// loudest counts. Of four bars or more with the same levels at the same
+/// places, only the first has marks. Other notes,
+/// unless they are a few between those, have a dynamic for each stretch of bars whose mean velocity stays within a
+/// level, and hairpins where it rises or falls steadily from one level to another. Levels are 16 steps of velocity
+/// apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3 steps to change it. Hairpins have
+/// at least two notes, and end at a rest before the new level.
+/// @param fresh_from  tick from which the print begins: nothing before it has been read
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length,
+                                     std::int64_t fresh_from = 0);
 
 /// True for each accented note: those that the rhythm accents; or, if the pattern states neither accents nor
 /// dynamics, those 14 steps louder than the mean of their bar, after a softer one, if they are at most a third of the

@@ -48,7 +48,7 @@ void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
 }
 
 /// Gives hands that state dynamics their own, if these are fewer marks.
-void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, NotatedPart& notated) {
+void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, std::int64_t fresh_from, NotatedPart& notated) {
     std::vector<std::vector<DynamicMark>> of_hands;
     std::size_t count = 0;
     bool is_stated = false;
@@ -60,7 +60,7 @@ void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, NotatedPart&
         sort_by_onset(notes);
         is_stated = is_stated || std::any_of(notes.begin(), notes.end(),
                                              [](const Note& note) { return note.emphasis.dynamic >= 0; });
-        of_hands.push_back(dynamics_of(notes, bar_length));
+        of_hands.push_back(dynamics_of(notes, bar_length, fresh_from));
         count += of_hands.back().size();
     }
     if (!is_stated || count >= notated.staves.front().dynamics.size()) return;
@@ -433,8 +433,7 @@ NotatedPart& Notator::begin_part(const PrintedPart& printed) {
 /// Keeps the printed bars of a part.
 void Notator::cut(NotatedPart& part) const {
     if (printed_bars_.first == 0 && printed_bars_.count == all_bars_) return;
-    const std::int64_t from = printed_bars_.first * notation_.bar_length;
-    cut_bars(part, from, from + printed_bars_.count * notation_.bar_length);
+    cut_bars(part, first_tick(), first_tick() + printed_bars_.count * notation_.bar_length);
 }
 
 void Notator::finish_staff(Staff& staff, const NotatedPart& part) const {
@@ -462,7 +461,7 @@ void Notator::notate_drums(std::size_t index) {
         }
         if (drums_of(staff).size() == 1) set_on_one_line(staff);
         sort_by_onset(together);
-        staff.dynamics = dynamics_of(together, notation_.bar_length);
+        staff.dynamics = dynamics_of(together, notation_.bar_length, first_tick());
     }
     cut(notated);
     for (Staff& staff : notated.staves) finish_staff(staff, notated);
@@ -488,9 +487,9 @@ void Notator::notate_part(std::size_t index) {
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
         sort_by_onset(together);
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
-        marked.dynamics = dynamics_of(together, notation_.bar_length);
+        marked.dynamics = dynamics_of(together, notation_.bar_length, first_tick());
     }
-    if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, notated);
+    if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, first_tick(), notated);
     if (is_without_dynamics(part.program)) {
         for (Staff& staff : notated.staves) staff.dynamics.clear();
     }
@@ -502,7 +501,7 @@ void Notator::notate_part(std::size_t index) {
 /// note, at the end.
 void Notator::mark_ending(std::int64_t end) {
     std::vector<NotatedSymbol>& first = notation_.parts.front().staves.front().voices.front().symbols;
-    const std::int64_t slow_from = end - ritardando_ - printed_bars_.first * notation_.bar_length;
+    const std::int64_t slow_from = end - ritardando_ - first_tick();
     const auto slow = std::find_if(first.begin(), first.end(), [&](const NotatedSymbol& symbol) {
         return symbol.onset >= std::max<std::int64_t>(0, slow_from);
     });

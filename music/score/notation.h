@@ -191,6 +191,7 @@ private:
     using ChordPlace = std::tuple<std::size_t, std::uint64_t, std::int64_t>;
 
     void notate_part(std::size_t index);
+    std::int64_t first_tick() const { return printed_bars_.first * notation_.bar_length; }
     void cut(NotatedPart& part) const;
     void finish_staff(Staff& staff, const NotatedPart& part) const;
     void mark_ending(std::int64_t end);

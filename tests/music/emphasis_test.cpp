@@ -75,6 +75,16 @@ TEST(Emphasis, StatedDynamicsStandAtTheirNotes) {
     EXPECT_TRUE(has(lilypond, "c'4\\mf c'4 c'4\\p c'4 | % 1\n        c'4\\mf c'4 c'4\\ff c'4 \\bar"));
 }
 
+/// An accompaniment of loud bass notes and soft chords has its balance printed once, until it changes.
+TEST(Emphasis, ARepeatedBalanceIsPrintedOnce) {
+    EXPECT_EQ(dynamics_of(table + "axiom: ABBBABBBABBBABBBABBB\n"), "0 mf, 1 p");
+    EXPECT_EQ(dynamics_of(table + "axiom: ABBBABBBABBBABBBAAAA\n"), "0 mf, 1 p, 16 mf");
+    EXPECT_EQ(dynamics_of(table + "axiom: ABBBABBBABBB\n"), "0 mf, 1 p, 4 mf, 5 p, 8 mf, 9 p");
+    // An excerpt states it again.
+    const std::string fourth = printed(table + "axiom: ABBBABBBABBBABBBABBB\n", "abc", {{"from-bar", "4"}});
+    EXPECT_TRUE(has(fourth, "!mf!C2 !p!C2 C2 C2"));
+}
+
 TEST(Emphasis, ChangesStateDynamicsToo) {
     const std::string changes = table + "change L: loud\nchange S: soft\nchange U: louder 20\nchange N: 100\n";
     EXPECT_EQ(dynamics_of(changes + "axiom: DDLDDSDDA\n"), "0 mf, 2 f, 4 p, 6 mf");
