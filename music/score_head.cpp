@@ -113,6 +113,7 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
     head.ritardando = ensemble.has_ending(playing) ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
     head.is_transposed = settings.is_transposed;
+    head.first_bar = settings.from_bar;
     head.made = made_with(settings, ensemble.players.front().document, arrangement != nullptr);
     if (arrangement) {
         head.title = arrangement->title;

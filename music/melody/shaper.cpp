@@ -205,7 +205,7 @@ void Shaper::swing(Draft& note) {
 std::int64_t Shaper::swung(std::int64_t tick) const {
     const std::int64_t unit = melody_.swing_unit;
     const std::int64_t within = tick % (2 * unit);
-    if (8 * within % unit != 0) return tick;
+    if (!Swing{melody_.swing, unit}.moves(tick)) return tick;
     const double first = melody_.swing * 2 * static_cast<double>(unit);
     const double moved = within <= unit ? first * static_cast<double>(within) / static_cast<double>(unit)
                                         : first + (2 * static_cast<double>(unit) - first) *

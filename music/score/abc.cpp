@@ -98,6 +98,7 @@ public:
         // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.
         if (notation_.is_held) put("%%MIDI fermatafixed\n");
         put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
+        if (head_.first_bar > 1 && head_.first_bar < INT32_MAX) put("%%setbarnb {}\n", head_.first_bar);
         if (notation_.is_concert) put("%%text {}\n", concert_text);
         int number = 0;
         for (const NotatedPart& notated : notation_.parts) {
@@ -268,7 +269,7 @@ private:
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             const bool is_double = std::binary_search(doubled.begin(), doubled.end(), end);
             put(" {}{}",
-                is_last     ? "|]"
+                is_last     ? (notation_.is_cut ? "|" : "|]")
                 : is_double ? "||"
                             : "|",
                 is_last || end / bar % bars_on_a_line_ == 0 ? "\n" : " ");

@@ -334,6 +334,9 @@ private:
                 const std::optional<KeySignature>& key = part.keys.front().key;
                 put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
                     key ? " " : "", meter_name(head_.meter));
+                if (has_tempo && head_.first_bar > 1 && head_.first_bar < INT32_MAX) {
+                    put("        \\set Score.currentBarNumber = #{}\n", head_.first_bar);
+                }
                 if (part.transposition) put("        \\transposition {}\n", part.transposition->lilypond);
                 if (has_tempo) put("        {}\n", tempo_mark());
                 if (told.swing.is_on() && &staff == &part.staves.front() && !common_swing(notation_)) {
@@ -423,10 +426,10 @@ private:
             if (is_last && octaves != 0) put("\\ottava #0 ");
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             put("{}| % {}\n",
-                is_last                                                   ? "\\bar \"|.\" "
+                is_last && !notation_.is_cut                              ? "\\bar \"|.\" "
                 : std::binary_search(doubled.begin(), doubled.end(), end) ? "\\bar \"||\" "
                                                                           : "",
-                end / bar);
+                head_.first_bar - 1 + end / bar);
             if (!is_last) put("        ");
         }
     }

@@ -182,7 +182,7 @@ private:
         std::size_t key = 0;
         const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
-            put("<measure number=\"{}\">\n", bar + 1);
+            put("<measure number=\"{}\">\n", head_.first_bar + bar);
             if (bar == 0) write_attributes(part);
             const std::int64_t begin = bar * notation_.bar_length;
             if (key + 1 < keys.size() && keys[key + 1].onset == begin) {
@@ -209,7 +209,7 @@ private:
             }
             // A bar ends where its last voice did.
             go_to((bar + 1) * notation_.bar_length);
-            if (bar + 1 == notation_.bars) {
+            if (bar + 1 == notation_.bars && !notation_.is_cut) {
                 put("<barline location=\"right\"><bar-style>light-heavy</bar-style></barline>\n");
             } else if (std::binary_search(doubled.begin(), doubled.end(), here_)) {
                 put("<barline location=\"right\"><bar-style>light-light</bar-style></barline>\n");

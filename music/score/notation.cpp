@@ -322,6 +322,8 @@ void Notator::finish(std::int64_t end) {
     printed_bars_.first = std::min(printed_bars_.first, all_bars_ - 1);
     printed_bars_.count = std::min(printed_bars_.count, all_bars_ - printed_bars_.first);
     notation_.bars = printed_bars_.count;
+    notation_.is_cut = printed_bars_.first + printed_bars_.count < all_bars_;
+    agree_on_swing();
     printed_ = share_parts(parts_, voices_, bar);
     share_chords();
     std::vector<std::vector<double>> others(printed_.size());
@@ -385,6 +387,27 @@ void Notator::share_chords() {
         shared[{index[std::get<0>(place)], std::get<1>(place), std::get<2>(place)}] = std::move(keys);
     }
     chords_ = std::move(shared);
+}
+
+/// Parts without off-beats have the swing of the others, if that is one: it does not move their notes.
+void Notator::agree_on_swing() {
+    Swing common;
+    for (const Part& part : parts_) {
+        if (!part.swing.is_on()) continue;
+        if (common.is_on() && common != part.swing) return;
+        common = part.swing;
+    }
+    if (!common.is_on()) return;
+    std::size_t first_voice = 0;
+    for (Part& part : parts_) {
+        const auto begin = voices_.begin() + static_cast<std::ptrdiff_t>(first_voice);
+        const bool has_off_beats = std::any_of(begin, begin + part.voices, [&](const std::vector<Note>& voice) {
+            return std::any_of(voice.begin(), voice.end(),
+                               [&](const Note& note) { return common.moves(note.onset); });
+        });
+        if (!has_off_beats) part.swing = common;
+        first_voice += static_cast<std::size_t>(part.voices);
+    }
 }
 
 void Notator::transpose_part(std::size_t index) {
@@ -506,7 +529,7 @@ void Notator::mark_ending(std::int64_t end) {
         return symbol.onset >= std::max<std::int64_t>(0, slow_from);
     });
     if (ritardando_ > 0 && slow != first.end()) slow->slows_down = true;
-    if (printed_bars_.first + printed_bars_.count < all_bars_) return;
+    if (notation_.is_cut) return;
     const auto is_held = [](const NotatedSymbol& symbol) { return symbol.has_fermata; };
     std::vector<std::vector<NotatedSymbol>*> others;
     for (NotatedPart& part : notation_.parts) {

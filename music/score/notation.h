@@ -149,6 +149,7 @@ struct Notation {
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
     std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
     std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
+    bool is_cut = false;       ///< bars follow that are not printed
     bool is_concert = false;   ///< parts of transposing instruments are written as they sound
     /// Notes beyond the range of their instrument, by program.
     struct Outside {
@@ -203,6 +204,7 @@ private:
                       std::span<const std::vector<double>> chords);
     std::vector<std::vector<double>> chords_of(std::span<const Note> notes, std::size_t index) const;
 
+    void agree_on_swing();
     void transpose_part(std::size_t index);
     void find_outside();
 

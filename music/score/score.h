@@ -117,6 +117,8 @@ struct Swing {
     double share = 0.5;                         ///< of the first of two notes, 0.5 (straight) to 0.8
     std::int64_t unit = ticks_per_quarter / 2;  ///< ticks of each
     bool is_on() const { return share != 0.5; }
+    /// True for binary off-beats: halves, quarters and eighths of the unit.
+    bool moves(std::int64_t tick) const { return tick % (2 * unit) != 0 && 8 * tick % unit == 0; }
     bool operator==(const Swing&) const = default;
 };
 
@@ -146,6 +148,7 @@ struct ScoreHead {
     double tempo = 120.0;         ///< quarters a minute
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
+    std::int64_t first_bar = 1;  ///< number of the first bar
     bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
     std::vector<Part> parts;
 

@@ -260,13 +260,40 @@ TEST(Swing, IsPrintedAndHeard) {
     EXPECT_FALSE(has(score("musicxml", "50"), "<swing>"));
     EXPECT_TRUE(has(score("strudel", "75"), "c4@3 c4 c4@3"));
     EXPECT_TRUE(has(score("csd", "75"), "i 1 0.75 0.25 "));
+    // Quarters on the beat do not mind.
+    const std::vector<Document> walking = {
+        parse("tune.lsys", tune + "swing: 66\n"),
+        parse("bass.lsys", "heading: 0\naxiom: FFFF\nruns: each step\nunit: 1/4\ninstrument: tuba\n")};
+    MemoryDestination one_tempo;
+    plan_score(walking, "ly", {})->make(one_tempo, "a.ly", {}, 1);
+    EXPECT_TRUE(has(one_tempo.take("a.ly"), "\\tempo \"Swing\""));
     // Parts that differ each have their own words.
-    const std::vector<Document> both = {parse("tune.lsys", tune + "swing: 66\n"), parse("other.lsys", tune + "instrument: flute\n")};
+    const std::vector<Document> both = {parse("tune.lsys", tune + "swing: 66\n"),
+                                        parse("other.lsys", tune + "instrument: flute\n")};
     MemoryDestination destination;
     plan_score(both, "ly", {})->make(destination, "a.ly", {}, 1);
     const std::string parts = destination.take("a.ly");
     EXPECT_EQ(count_of(parts, "\"Swing\""), 1U);
     EXPECT_TRUE(has(parts, "<>^\\markup \\bold \"Swing\""));
+}
+
+/// Excerpts keep the numbers of their bars, and have no final bar line unless the whole ends there.
+TEST(Excerpts, AreNotEndings) {
+    const Document tune = parse("tune.lsys", "heading: 0\naxiom: FFFFFFFFFFFFFFFF\nruns: each step\nunit: 1/4\n");
+    const auto score = [&](std::string_view format, const OptionValues& values) {
+        return play(tune, format, values);
+    };
+    const OptionValues middle = {{"from-bar", "2"}, {"bars", "2"}};
+    const OptionValues last = {{"from-bar", "3"}};
+    EXPECT_TRUE(has(score("musicxml", middle), "<measure number=\"2\">"));
+    EXPECT_FALSE(has(score("musicxml", middle), "light-heavy"));
+    EXPECT_TRUE(has(score("musicxml", last), "light-heavy"));
+    EXPECT_TRUE(has(score("ly", middle), "\\set Score.currentBarNumber = #2"));
+    EXPECT_FALSE(has(score("ly", middle), "|."));
+    EXPECT_TRUE(has(score("ly", last), "|."));
+    EXPECT_TRUE(has(score("abc", middle), "%%setbarnb 2"));
+    EXPECT_FALSE(has(score("abc", middle), "|]"));
+    EXPECT_TRUE(has(score("ly", {{"bars", "2"}, {"ending", "fermata"}}), "|."));
 }
 
 TEST(Mxl, IsReadByOthers) {
