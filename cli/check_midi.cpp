@@ -40,7 +40,7 @@ bool check_midi_file(const std::string& file) {
         fmt::print("{}: byte {}: {}{}\n", printable(file), fault.at, fault.is_remark ? "warning: " : "", fault.what);
     }
     if (faults.size() == most_midi_faults) {
-        fmt::print("{}: only the first {} errors are listed\n", printable(file), most_midi_faults);
+        fmt::print("{}: only the first {} errors and warnings are listed\n", printable(file), most_midi_faults);
     }
     return std::all_of(faults.begin(), faults.end(), [](const MidiFault& fault) { return fault.is_remark; });
 }

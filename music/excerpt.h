@@ -11,13 +11,13 @@
 
 namespace sikku {
 
-/// What is played to know how an excerpt sounds within the whole.
+/// The part of a score to play so that an excerpt sounds as it does within the whole.
 struct ExcerptContext {
     PlayOptions playing;
     bool is_whole = true;  ///< otherwise some bars before and after the excerpt
 };
 
-/// Number of symbols that are derived and played in about a second.
+/// Number of symbols that take about a second to derive and play.
 constexpr double soon_played = 2e6;
 
 /// True if a whole score is derived from up to `most` symbols.

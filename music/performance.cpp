@@ -381,7 +381,7 @@ EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing,
 
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
                        const Human& human, NoteSink& sink) {
-    // Notes that the end of an excerpt cuts are as loud as those of their full length.
+    // Notes cut at the end of an excerpt keep the loudness of their full length.
     const bool has_lengths = std::any_of(ensemble.players.begin(), ensemble.players.end(), [](const Player& player) {
         return player.melody.loudness == Loudness::by_length;
     });

@@ -34,19 +34,26 @@ const Notation& Rendition::print() {
 const Notation& Rendition::print_excerpt() {
     constexpr double most_symbols = 400e3;
     ExcerptContext context = context_of(ensemble, playing, most_symbols);
+    // Whole bars are printed.
+    PlayOptions bars = playing;
+    const std::int64_t bar = ensemble.meter.bar();
+    if (bars.to < INT64_MAX) bars.to = bars.from + (bars.to - bars.from + bar - 1) / bar * bar;
     Notator alone(head);
-    report = perform(ensemble, playing, use, {}, alone);  // for the counts
+    report = perform(ensemble, bars, use, {}, alone);  // for the counts
     try {
         notation = print_within(context);
-    } catch (const ScoreError&) {
+    } catch (const TooLongToPrint&) {
         if (!context.is_whole) throw;
-        context = bars_around(ensemble, playing);  // the whole is too long to be printed
+        context = bars_around(ensemble, playing);
         notation = print_within(context);
     }
-    report.has_own_ranges = !context.is_whole && ensemble.has_expression();
+    ExpressionSink ranges(ensemble, use);
+    ranges.fold_ranges();
+    report.has_own_ranges = !context.is_whole && ranges.measures_ranges();
     notation->moved = alone.notation().moved;
     notation->bent = alone.notation().bent;
     notation->merged = alone.notation().merged;
+    notation->outside = alone.notation().outside;
     return *notation;
 }
 

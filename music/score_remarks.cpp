@@ -58,10 +58,11 @@ void report_moved(const Ensemble& ensemble, const PlayOptions& playing, const En
     for (const Moved& one : ranges) {
         const auto spelling = spell(one.melody->scale, one.melody->tonic_spelling);
         made.warn(fmt::format(
-            "{}{} {} beyond {} to {} and {}{}", counted(one.notes, "note"),
+            "{}{} {} beyond {} to {} and {}{}{}", counted(one.notes, "note"),
             ranges.size() > 1 ? fmt::format(" of {}", fmt::join(one.instruments, ", ")) : "",
             one.notes == 1 ? "was" : "were", note_name(one.melody->lowest, spelling),
             note_name(one.melody->highest, spelling), fate_of(*one.melody),
+            playing.is_excerpt() && ensemble.needs_whole() ? " in the whole score" : "",
             playing.from > 0 && one.is_anchored ? "; with `anchor: piece` the piece begins on the tonic" : ""));
     }
 }
@@ -124,11 +125,11 @@ std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, con
 }
 
 /// `, in bars 9, 13 and 21`
-std::string bars_with_faults(const std::vector<std::int64_t>& ticks, std::int64_t bar) {
+std::string bars_with_faults(const std::vector<std::int64_t>& ticks, std::int64_t bar, std::int64_t first_bar) {
     constexpr std::size_t most_named = 4;
     std::vector<std::int64_t> bars;
     for (const std::int64_t tick : ticks) {
-        if (bars.empty() || bars.back() != tick / bar + 1) bars.push_back(tick / bar + 1);
+        if (bars.empty() || bars.back() != first_bar + tick / bar) bars.push_back(first_bar + tick / bar);
     }
     if (bars.empty()) return "";
     const std::size_t named = std::min(bars.size(), most_named);
@@ -155,15 +156,16 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
                           report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
                           range_of(report, first)));
     if (report.is_strict) {
-        made.fact(fmt::format("counterpoint: {} moved, {} left{}", counted(report.moved_by_strictness, "note"),
+        const std::int64_t bar = ensemble.meter.bar();
+        made.fact(fmt::format("counterpoint: {} moved{}, {} left{}", counted(report.moved_by_strictness, "note"),
+                              playing.is_excerpt() ? " in the whole score" : "",
                               counted(report.strict_faults.size(), "fault"),
-                              bars_with_faults(report.strict_faults, ensemble.meter.bar())));
+                              bars_with_faults(report.strict_faults, bar, playing.from / bar + 1)));
     }
     if (report.has_own_ranges) {
         made.warn(
-            "the whole is too long to be played for this excerpt: velocities, controllers and tempo that follow the "
-            "curve "
-            "do so within the bars around it");
+            "the whole score is too long to play for this excerpt: velocities, controllers and tempo that follow the "
+            "curve use the range of the nearby bars only");
     }
     report_moved(ensemble, playing, report, made);
     if (report.lost > 0) {
@@ -198,10 +200,11 @@ void report_notation(const Notation& notation, const Ensemble& ensemble, Made& m
         const KeyRange range = *range_of_instrument(program);
         const auto spelling = spell(*find_scale("major"), {});
         const bool is_low = outside.lowest < range.lowest;
-        made.warn(fmt::format(
-            "{} outside the range of the {}, {} to {}: the {} is {}", counted(outside.notes, "note"),
-            instrument_of(program).printed, note_name(range.lowest, spelling), note_name(range.highest, spelling),
-            is_low ? "lowest" : "highest", note_name(is_low ? outside.lowest : outside.highest, spelling)));
+        made.warn(fmt::format("{} {} outside the range of {} ({} to {}); the {} is {}",
+                              counted(outside.notes, "note"), outside.notes == 1 ? "lies" : "lie",
+                              instrument_of(program).printed, note_name(range.lowest, spelling),
+                              note_name(range.highest, spelling), is_low ? "lowest" : "highest",
+                              note_name(is_low ? outside.lowest : outside.highest, spelling)));
     }
     if (notation.merged > 0) {
         made.fact(fmt::format("{} in unison with other voices printed once", counted(notation.merged, "note")));

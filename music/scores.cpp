@@ -162,11 +162,11 @@ private:
             return;
         Layout& layout = ensemble_.players.front().melody.layout;
         const std::int64_t before = settings_.from_bar - 1;
-        if (layout.bars > 0 && before >= layout.bars) {
-            throw ScoreError(
-                fmt::format("the requested bars contain no notes: the excerpt has {}", counted(layout.bars, "bar")));
+        if (before > INT64_MAX - layout.first_bar || (layout.bars > 0 && before >= layout.bars)) {
+            const std::string end = layout.bars > 0 ? ": the excerpt has " + counted(layout.bars, "bar") : "";
+            throw ScoreError("the requested bars contain no notes" + end);
         }
-        // Who states both an excerpt and an ending wants the excerpt to end.
+        // A pattern with both `excerpt` and `ending` means an excerpt that ends.
         const bool is_stated = !is_option("excerpt") && before == 0 && settings_.bars == 0 && settings_.seconds == 0;
         ensemble_.ends_excerpts = ensemble_.ends_excerpts || is_stated;
         settings_.from_bar += layout.first_bar - 1;
@@ -251,6 +251,9 @@ void ScoreWork::report(const Rendition& rendition, Made& made) const {
     report_notes(ensemble_, rendition.playing, rendition.report, made);
     report_replaced(made);
     if (rendition.notation) report_notation(*rendition.notation, ensemble_, made);
+    if (rendition.notation && !settings_.is_transposed && !rendition.notation->is_concert) {
+        made.warn_of_unused("score", "no part has a transposing instrument");
+    }
     const std::string& pattern = rendition.head.pattern;
     if (writer_.pattern == PatternForm::comments && !comments_keep(pattern)) {
         made.warn(

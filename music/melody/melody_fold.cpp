@@ -149,7 +149,7 @@ GridStretch primitive(const Grammar& grammar, const Lattice& lattice, Symbol sym
 }  // namespace
 
 bool counts_degrees(const SymbolInfo& symbol) {
-    constexpr double most = 24;  // larger ones, and fractions, are angles
+    constexpr double most = 14;  // larger ones, and fractions, are angles
     if (symbol.arguments.size() != 1) return false;
     const double argument = symbol.arguments.front();
     return argument >= 0 && argument <= most && argument == std::floor(argument);

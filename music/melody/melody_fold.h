@@ -38,7 +38,7 @@ struct GridStretch {
 /// as drawn steps.
 bool draws_nothing(const Grammar& grammar);
 
-/// True if the parameter of a turn is a whole number up to 24, which then counts degrees of a scale: `+(3)`. Others
+/// True if the parameter of a turn is a whole number up to 14, which then counts degrees of a scale: `+(3)`. Others
 /// are angles.
 bool counts_degrees(const SymbolInfo& symbol);
 

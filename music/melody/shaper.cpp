@@ -204,8 +204,9 @@ void Shaper::swing(Draft& note) {
 /// Only halves, quarters and eighths of the unit swing, with it: tuplets keep their time.
 std::int64_t Shaper::swung(std::int64_t tick) const {
     const std::int64_t unit = melody_.swing_unit;
-    const std::int64_t within = tick % (2 * unit);
-    if (!Swing{melody_.swing, unit}.moves(tick)) return tick;
+    const std::int64_t bar = melody_.meter.bar();
+    if (!Swing{melody_.swing, unit}.moves(tick, bar)) return tick;
+    const std::int64_t within = tick % bar % (2 * unit);
     const double first = melody_.swing * 2 * static_cast<double>(unit);
     const double moved = within <= unit ? first * static_cast<double>(within) / static_cast<double>(unit)
                                         : first + (2 * static_cast<double>(unit) - first) *

@@ -98,8 +98,8 @@ void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& curr
 struct StatedLevel {
     std::size_t first = 0;  ///< index of the first of these notes
     std::size_t end = 0;
-    int level = -1;        ///< of the loudest; -1: none is stated
-    bool is_told = false;  ///< the bar repeats the balance of a bar before
+    int level = -1;            ///< of the loudest; -1: none is stated
+    bool is_repeated = false;  ///< the bar repeats the balance of a bar before
 };
 
 std::vector<StatedLevel> stated_levels(std::span<const Note> notes) {
@@ -115,7 +115,7 @@ std::vector<StatedLevel> stated_levels(std::span<const Note> notes) {
 }
 
 /// A balance such as loud bass notes and soft chords is printed once: of four or more bars in a row whose notes have
-/// the same levels at the same places, or some of them, the second and all that follow are marked as told.
+/// the same levels at the same places, or some of them, the second and all that follow are marked as repeated.
 void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int64_t fresh_from,
                   std::vector<StatedLevel>& stated) {
     constexpr std::size_t fewest_bars = 4;
@@ -139,26 +139,27 @@ void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int
                std::any_of(bar.levels.begin(), bar.levels.end(),
                            [&](const auto& one) { return one.second != level; });
     };
+    const auto mark_repeated = [&](std::size_t begin, std::size_t end) {
+        bool is_printed = false;
+        for (std::size_t bar = begin; bar < end; ++bar) {
+            for (std::size_t k = bars[bar].first; k < bars[bar].end; ++k) stated[k].is_repeated = is_printed;
+            // The first bar that is printed states it.
+            const std::int64_t onset = notes[stated[bars[bar].first].first].onset;
+            is_printed = is_printed || onset / bar_length * bar_length >= fresh_from;
+        }
+    };
     for (std::size_t i = 0; i < bars.size();) {
         const Bar& first = bars[i];
         std::size_t end = i + 1;
-        while (end < bars.size() && std::includes(first.levels.begin(), first.levels.end(), bars[end].levels.begin(),
-                                                  bars[end].levels.end())) {
-            ++end;
-        }
-        if (is_balance(first) && end - i >= fewest_bars) {
-            bool is_printed = false;
-            for (std::size_t bar = i; bar < end; ++bar) {
-                // The first bar that is printed states it.
-                const bool is_read =
-                    notes[stated[bars[bar].first].first].onset / bar_length * bar_length >= fresh_from;
-                for (std::size_t k = bars[bar].first; k < bars[bar].end; ++k) stated[k].is_told = is_printed;
-                is_printed = is_printed || is_read;
+        if (is_balance(first)) {
+            while (end < bars.size() && std::includes(first.levels.begin(), first.levels.end(),
+                                                      bars[end].levels.begin(), bars[end].levels.end())) {
+                ++end;
             }
-            i = end;
-        } else {
-            ++i;
         }
+        const bool is_long = end - i >= fewest_bars;
+        if (is_long) mark_repeated(i, end);
+        i = is_long ? end : i + 1;
     }
 }
 
@@ -183,7 +184,7 @@ std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t b
         if (stated.level < 0) continue;
         add_derived(notes.subspan(derived, stated.first - derived), bar_length, current, marks);
         derived = stated.end;
-        if (stated.level != current && !stated.is_told) {
+        if (stated.level != current && !stated.is_repeated) {
             marks.push_back({notes[stated.first].onset, DynamicMark::Kind::level, stated.level});
         }
         current = stated.level;

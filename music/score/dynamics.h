@@ -17,12 +17,11 @@ std::string_view dynamic_name(int level);
 int dynamic_level(double velocity);
 
 /// The dynamics of notes (by onset). Stated dynamics are marked where they change; of notes that begin together, the
-/// loudest counts. Of four bars or more with the same levels at the same
-/// places, only the first has marks. Other notes,
-/// unless they are a few between those, have a dynamic for each stretch of bars whose mean velocity stays within a
-/// level, and hairpins where it rises or falls steadily from one level to another. Levels are 16 steps of velocity
-/// apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3 steps to change it. Hairpins have
-/// at least two notes, and end at a rest before the new level.
+/// loudest counts. If four or more bars repeat the same levels at the same places, only the first is marked. Other
+/// notes, unless they are a few between those, have a dynamic for each stretch of bars whose mean velocity stays
+/// within a level, and hairpins where it rises or falls steadily from one level to another. Levels are 16 steps of
+/// velocity apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3 steps to change it.
+/// Hairpins have at least two notes, and end at a rest before the new level.
 /// @param fresh_from  tick from which the print begins: nothing before it has been read
 std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length,
                                      std::int64_t fresh_from = 0);

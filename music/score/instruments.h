@@ -27,7 +27,7 @@ struct Transposition {
 /// Nullopt for instruments that are written as they sound, or an octave or two away, which their clef says.
 std::optional<Transposition> transposition_of(int program);
 
-/// True for harpsichords and organs, on which a touch is as loud as any other.
+/// True for harpsichords and organs, whose loudness does not depend on the touch.
 bool is_without_dynamics(int program);
 
 /// The keys that an instrument can play, as they sound: without extensions and rare high notes. Source: Adler, The

@@ -528,13 +528,13 @@ private:
     }
 
     void read_sysex(TrackState& track, const Layout& event) {
+        track.has_begun = true;
         const auto data = bytes_.subspan(event.data, event.size);
         const bool ends = !data.empty() && data.back() == 0xF7;
         if (event.status == 0xF0) {
             if (track.sysex_is_open) fault_open_sysex(track);
             track.sysex_at = event.at;
             track.sysex_tick = track.tick;
-            track.has_begun = true;
         } else if (!track.sysex_is_open) {
             return;  // an escape: any bytes
         }

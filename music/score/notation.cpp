@@ -290,7 +290,7 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
 void Notator::notes(std::span<const Note> notes) {
     count_ += notes.size();
     if (count_ > most_notes) {
-        throw ScoreError(fmt::format("more than {} notes are too many to print; limit the bars", most_notes));
+        throw TooLongToPrint(fmt::format("more than {} notes are too many to print; limit the bars", most_notes));
     }
     for (const Note& note : notes) {
         if (note.voice < 0 || static_cast<std::size_t>(note.voice) >= voices_.size()) {
@@ -316,8 +316,8 @@ void Notator::finish(std::int64_t end) {
     const std::int64_t bar = notation_.bar_length;
     all_bars_ = std::max<std::int64_t>(1, (last + bar - 1) / bar);
     if (all_bars_ > most_bars) {
-        throw ScoreError(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
-                                     all_bars_, most_bars));
+        throw TooLongToPrint(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
+                                         all_bars_, most_bars));
     }
     printed_bars_.first = std::min(printed_bars_.first, all_bars_ - 1);
     printed_bars_.count = std::min(printed_bars_.count, all_bars_ - printed_bars_.first);
@@ -389,7 +389,7 @@ void Notator::share_chords() {
     chords_ = std::move(shared);
 }
 
-/// Parts without off-beats have the swing of the others, if that is one: it does not move their notes.
+/// Gives parts without off-beats the swing of the others, if these agree: it would not move their notes.
 void Notator::agree_on_swing() {
     Swing common;
     for (const Part& part : parts_) {
@@ -403,7 +403,7 @@ void Notator::agree_on_swing() {
         const auto begin = voices_.begin() + static_cast<std::ptrdiff_t>(first_voice);
         const bool has_off_beats = std::any_of(begin, begin + part.voices, [&](const std::vector<Note>& voice) {
             return std::any_of(voice.begin(), voice.end(),
-                               [&](const Note& note) { return common.moves(note.onset); });
+                               [&](const Note& note) { return common.moves(note.onset, meter_.bar()); });
         });
         if (!has_off_beats) part.swing = common;
         first_voice += static_cast<std::size_t>(part.voices);
@@ -421,7 +421,7 @@ void Notator::transpose_part(std::size_t index) {
     }
 }
 
-/// Counts the notes that no player of their instrument has.
+/// Counts notes that their instrument cannot play.
 void Notator::find_outside() {
     for (const PrintedPart& printed : printed_) {
         const auto range = range_of_instrument(printed.part.program);
@@ -443,7 +443,7 @@ NotatedPart& Notator::begin_part(const PrintedPart& printed) {
     notated.part = printed.part;
     if (const auto by = transposition_of(printed.part.program); by && !printed.part.is_drums) {
         if (is_transposed_) notated.transposition = by;
-        notation_.is_concert = !is_transposed_;
+        notation_.is_concert = notation_.is_concert || !is_transposed_;
     }
     for (const KeyOfBars& key : printed.keys) {
         const bool is_new = notated.keys.empty() || signs_of(key.key) != signs_of(notated.keys.back().key);
@@ -568,10 +568,11 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
     voice.tuplets = grid.tuplets();
     VoiceWriter writer(grid, meter_, voice);
     const std::vector<bool> accents = accents_of(notes, notation_.bar_length);
+    const bool is_loud_by_touch = !is_without_dynamics(part.part.program);
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];
         NotatedSymbol symbol;
-        symbol.is_accented = accents[i];
+        symbol.is_accented = is_loud_by_touch ? accents[i] : note.emphasis.is_accented;
         symbol.has_fermata = note.has_fermata;
         const auto meets = [&](std::size_t one) {
             return one + 1 < notes.size() && notes[one].is_sliding &&

@@ -160,6 +160,11 @@ struct Notation {
     std::map<int, Outside> outside;
 };
 
+/// Thrown for scores that have too many notes or bars.
+class TooLongToPrint : public ScoreError {
+    using ScoreError::ScoreError;
+};
+
 /// Collects a melody and makes a Notation of it.
 ///
 /// Bars: a note is split at bar lines, at the ends of tuplets, then into note values: see rhythm.h. Onsets and ends
@@ -180,9 +185,9 @@ public:
     /// Staves, clefs and dynamics are those of the whole.
     Notator(const ScoreHead& head, const Bars& bars);
 
-    /// @throws ScoreError after 200,000 notes, and for a voice without a part
+    /// @throws TooLongToPrint after 200,000 notes; ScoreError for a voice without a part
     void notes(std::span<const Note> notes) override;
-    /// @throws ScoreError if the score has more than 100,000 bars
+    /// @throws TooLongToPrint if the score has more than 100,000 bars
     void finish(std::int64_t end) override;
 
     /// The result, after finish().

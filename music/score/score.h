@@ -117,8 +117,13 @@ struct Swing {
     double share = 0.5;                         ///< of the first of two notes, 0.5 (straight) to 0.8
     std::int64_t unit = ticks_per_quarter / 2;  ///< ticks of each
     bool is_on() const { return share != 0.5; }
-    /// True for binary off-beats: halves, quarters and eighths of the unit.
-    bool moves(std::int64_t tick) const { return tick % (2 * unit) != 0 && 8 * tick % unit == 0; }
+    /// True for binary off-beats of a bar: halves, quarters and eighths of the unit, in pairs from the bar line on. A
+    /// unit without a second one is straight.
+    bool moves(std::int64_t tick, std::int64_t bar) const {
+        const std::int64_t place = tick % bar;
+        const std::int64_t within = place % (2 * unit);
+        return within != 0 && 8 * within % unit == 0 && place - within + 2 * unit <= bar;
+    }
     bool operator==(const Swing&) const = default;
 };
 

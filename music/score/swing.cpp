@@ -1,5 +1,9 @@
 #include "music/score/swing.h"
 
+#include "music/score/text_writer.h"
+
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -17,11 +21,19 @@ std::optional<Swing> common_swing(const Notation& notation) {
 
 std::string swing_words(const Swing& swing) {
     const double percent = 100 * swing.share;
-    std::string words = percent <= 61 ? "Light swing" : percent >= 71 ? "Hard swing" : "Swing";
-    const std::int64_t eighth = ticks_per_quarter / 2;
-    if (swing.unit == eighth / 2) words += " (sixteenths)";
-    if (swing.unit == 2 * eighth) words += " (quarters)";
-    return words;
+    const std::string words = percent <= 61 ? "Light swing" : percent >= 71 ? "Hard swing" : "Swing";
+    constexpr std::int64_t whole = 4 * ticks_per_quarter;
+    switch (whole / swing.unit) {
+        case 4:
+            return words + " (quarters)";
+        case 8:
+            return words;
+        case 16:
+            return words + " (sixteenths)";
+        default:
+            return words +
+                   fmt::format(" (1/{})", number(static_cast<double>(whole) / static_cast<double>(swing.unit), 3));
+    }
 }
 
 std::pair<int, int> swing_ratio(const Swing& swing) {

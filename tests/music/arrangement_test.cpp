@@ -274,7 +274,7 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
               (Remarks{"3 notes were beyond C4 to Db4 and held at the last key"}));
     EXPECT_EQ(remarks_of(track("transposition = -60\ninstrument = \"Violin\"\n") + track(""), "musicxml"),
               (Remarks{"4 notes were beyond C0 to G9 and folded back",
-                       "4 notes outside the range of the Violin, G3 to A7: the lowest is C0"}));
+                       "4 notes lie outside the range of Violin (G3 to A7); the lowest is C0"}));
     // Also where parts are played to their ends before.
     EXPECT_EQ(remarks_of(track("") + track("range = \"fold C3-C4\"\nretrograde = true\n")),
               (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
@@ -313,7 +313,11 @@ TEST(ScoreOptions, AreAppliedOrReported) {
     const OptionValues options = {
         {"midi-format", "0"}, {"tuning", "mts"}, {"humanise", "0.5"}, {"pan", "by x"}, {"controller", "74 by y"}};
     EXPECT_EQ(warnings_of("mid", {{"score", "concert"}}), "'score' has no effect: it applies only to print\n");
-    for (const char* format : {"musicxml", "ly", "abc"}) EXPECT_EQ(warnings_of(format, {{"score", "concert"}}), "");
+    for (const char* format : {"musicxml", "ly", "abc"}) {
+        EXPECT_EQ(warnings_of(format, {{"score", "concert"}, {"instrument", "clarinet"}}), "");
+        EXPECT_EQ(warnings_of(format, {{"score", "concert"}}),
+                  "'score' has no effect: no part has a transposing instrument\n");
+    }
     for (const char* format : {"mid", "musicxml", "ly", "abc"}) {
         for (const auto& [name, value] : options) {
             const std::string warnings = warnings_of(format, {{name, value}});

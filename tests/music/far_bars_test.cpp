@@ -124,6 +124,31 @@ private:
     int due_ = 0;
 };
 
+/// Off-beats swing beyond 2^60 ticks, too, and in meters of odd beats from each bar line on.
+TEST(FarBars, Swing) {
+    const Document document = parse("f.lsys",
+                                    "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nturn: left\n"
+                                    "derivation length: 60\nanchor: piece\nunit: 1/8\nruns: each step\n");
+    for (const std::string first : {"3", "600479950316064", "1000000000000000"}) {
+        const auto played = [&](const std::string& swing) {
+            return list_notes({&document, 1}, {{"from-bar", first}, {"bars", "6"}, {"swing", swing}}, {}).notes;
+        };
+        const std::vector<Note> straight = played("50");
+        const std::vector<Note> swung = played("75");
+        ASSERT_EQ(straight.size(), swung.size());
+        for (std::size_t i = 0; i < straight.size(); ++i) {
+            const bool is_off_beat = straight[i].onset % 480 == 240;
+            EXPECT_EQ(swung[i].onset - straight[i].onset, is_off_beat ? 120 : 0) << first << ' ' << i;
+        }
+    }
+    const Document seven =
+        parse("s.lsys", "axiom: FFFFFFFFFFFFFFFF\nheading: 0\nruns: each step\nunit: 1/8\nmeter: 7/8\nswing: 75\n");
+    std::vector<std::int64_t> onsets;
+    for (const Note& note : list_notes({&seven, 1}, {{"bars", "2"}}, {}).notes) onsets.push_back(note.onset);
+    EXPECT_EQ(onsets, (std::vector<std::int64_t>{0, 360, 480, 840, 960, 1320, 1440, 1680, 2040, 2160, 2520, 2640,
+                                                 3000, 3120}));
+}
+
 TEST(FarBars, EqualAnExactWalk) {
     for (const auto& [n, first] :
          {std::pair(6, "40"), {40, "123456789012345"}, {60, "1000000000000000000"}, {60, "8765432109876543210"}}) {

@@ -7,6 +7,7 @@
 #include "tests/tools.h"
 #include "tests/works.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -275,6 +276,48 @@ TEST(Swing, IsPrintedAndHeard) {
     const std::string parts = destination.take("a.ly");
     EXPECT_EQ(count_of(parts, "\"Swing\""), 1U);
     EXPECT_TRUE(has(parts, "<>^\\markup \\bold \"Swing\""));
+}
+
+/// Written pitches and keys of the usual transposing instruments, from a scale of C major.
+TEST(Transposing, PartsAreWrittenAsTheyAreRead) {
+    const std::string tune = "heading: 0\nmapping: symbols\nunit: 1/4\naxiom: F+F+F\ninstrument: ";
+    const auto score = [&](const std::string& instrument, std::string_view format, const OptionValues& values = {}) {
+        return play(parse("tune.lsys", tune + instrument + "\n"), format, values);
+    };
+    struct Row {
+        const char *instrument, *transpose, *fifths, *first, *lilypond;
+    };
+    for (const Row& row : std::vector<Row>{
+             {"clarinet", "<diatonic>-1</diatonic><chromatic>-2</chromatic></transpose>", "2", "D4",
+              "\\transposition bes\n"},
+             {"trumpet", "<diatonic>-1</diatonic><chromatic>-2</chromatic></transpose>", "2", "D4",
+              "\\transposition bes\n"},
+             {"french horn", "<diatonic>-4</diatonic><chromatic>-7</chromatic></transpose>", "1", "G4",
+              "\\transposition f\n"},
+             {"alto sax", "<diatonic>-5</diatonic><chromatic>-9</chromatic></transpose>", "3", "A4",
+              "\\transposition es\n"},
+             {"tenor sax", "<diatonic>-1</diatonic><chromatic>-2</chromatic><octave-change>-1</octave-change>", "2",
+              "D5", "\\transposition bes,\n"},
+             {"baritone sax", "<diatonic>-5</diatonic><chromatic>-9</chromatic><octave-change>-1</octave-change>",
+              "3", "A5", "\\transposition es,\n"}}) {
+        const std::string xml = score(row.instrument, "musicxml");
+        EXPECT_TRUE(has(xml, row.transpose)) << row.instrument;
+        EXPECT_TRUE(has(xml, "<key><fifths>" + std::string(row.fifths))) << row.instrument;
+        const std::string first =
+            fmt::format("<pitch><step>{}</step><octave>{}</octave>", row.first[0], row.first[1]);
+        EXPECT_EQ(xml.find("<pitch>"), xml.find(first)) << row.instrument;
+        EXPECT_TRUE(has(score(row.instrument, "ly"), row.lilypond)) << row.instrument;
+        const std::string concert = score(row.instrument, "musicxml", {{"score", "concert"}});
+        EXPECT_FALSE(has(concert, "<transpose>"));
+        EXPECT_TRUE(has(concert, "<words>Score in C</words>"));
+        EXPECT_TRUE(has(concert, "<pitch><step>C</step><octave>4</octave>"));
+    }
+    EXPECT_TRUE(has(score("clarinet", "abc"), "%%MIDI transpose -2"));
+    EXPECT_TRUE(has(score("clarinet", "ly"), "Clarinet in B♭"));
+    EXPECT_FALSE(has(score("oboe", "musicxml"), "<transpose>"));
+    // Five sharps and two more are seven; nine become three flats.
+    EXPECT_TRUE(has(score("clarinet\ntonic: B4", "musicxml"), "<fifths>7"));
+    EXPECT_TRUE(has(score("clarinet\ntonic: C#5", "musicxml"), "<fifths>-3"));
 }
 
 /// Excerpts keep the numbers of their bars, and have no final bar line unless the whole ends there.
