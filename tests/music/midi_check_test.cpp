@@ -443,7 +443,7 @@ TEST(MidiCheckProgram, TellsFaultsAndExitsWithOne) {
     for (int i = 0; i < 60; ++i) many += "00 80 3C 40 ";
     outcome = run({"check", folder.write("many.mid", melody(many + "00 FF 2F 00"))});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(has(outcome.output, "only the first 50 errors are listed"));
+    EXPECT_TRUE(has(outcome.output, "only the first 50 errors and warnings are listed"));
     outcome = run({"check", folder.file("none.mid")});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_TRUE(has(outcome.errors, "none.mid: No such file or directory"));
