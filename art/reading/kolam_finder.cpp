@@ -3,6 +3,8 @@
 #include "art/reading/grid_fit.h"
 #include "art/reading/kolam_edge.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
+#include "engine/geometry/point_grid.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -127,8 +129,30 @@ private:
     std::vector<Known> given_up_;
 };
 
-/// Spots in which to look for a lattice: all of them, then those of similar sizes, the largest first. A border can
-/// have more ornaments than the kolam has dots.
+/// The spots without others close beside them. Dots are many radii apart; hearts, petals and tips of flowers are not.
+std::vector<InkSpot> spots_alone(const std::vector<InkSpot>& spots) {
+    constexpr double close = 4.5;        // radii
+    constexpr double least_share = 0.3;  // weaker or smaller spots are noise
+    std::vector<glm::dvec2> points;
+    for (const InkSpot& spot : spots) points.push_back(spot.at);
+    const PointGrid index(points,
+                          std::max(1.0, box_of(points).longest() / std::sqrt(static_cast<double>(points.size()))));
+    std::vector<InkSpot> alone;
+    for (std::uint32_t i = 0; i < spots.size(); ++i) {
+        const InkSpot& spot = spots[i];
+        const auto near = index.neighbours(i, 8);
+        const bool is_alone = std::none_of(near.begin(), near.end(), [&](std::uint32_t k) {
+            const InkSpot& other = spots[k];
+            return glm::distance(spot.at, other.at) < close * std::max(spot.radius, other.radius) &&
+                   other.strength > least_share * spot.strength && other.radius > least_share * spot.radius;
+        });
+        if (is_alone) alone.push_back(spot);
+    }
+    return alone;
+}
+
+/// Spots in which to look for a lattice: all of them, then those of similar sizes, the largest first, then those that
+/// stand alone. A border can have more ornaments than the kolam has dots.
 std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) {
     constexpr double similar = 1.9;
     constexpr std::size_t most_sizes = 3;
@@ -148,6 +172,8 @@ std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) 
         if (same.size() >= least_spots && 5 * same.size() < 4 * spots.size()) subsets.push_back(std::move(same));
         end = static_cast<std::size_t>(std::upper_bound(radii.begin(), radii.end(), low) - radii.begin());
     }
+    std::vector<InkSpot> alone = spots_alone(spots);
+    if (alone.size() >= least_spots && 5 * alone.size() < 4 * spots.size()) subsets.push_back(std::move(alone));
     return subsets;
 }
 /// Finds the parts of a picture with dots on a lattice, with lines of one sense.
