@@ -349,6 +349,25 @@ bool lies_outside(const KolamPart& part, const KolamArea& area) {
         return area.contains(part.reading.grid.map.dot(dot), loop);
     });
 }
+bool share_area(const Box& a, const Box& b) {
+    return a.low.x < b.high.x && a.low.y < b.high.y && a.high.x > b.low.x && a.high.y > b.low.y;
+}
+/// The box around a part and, if its dots lie in single rows, around all such parts that overlap it and have its
+/// spacing: a border may be found in pieces.
+Box whole_box(const std::vector<KolamPart>& parts, const std::vector<KolamArea>& areas, std::size_t number) {
+    Box box = areas[number].box();
+    if (!parts[number].is_narrow()) return box;
+    const Box own = box;
+    const double spacing = parts[number].reading.grid.spacing;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Box& other = areas[i].box();
+        const double times = parts[i].reading.grid.spacing / spacing;
+        if (!parts[i].is_narrow() || times < 0.8 || times > 1.25 || !share_area(own, other)) continue;
+        box.add(other.low);
+        box.add(other.high);
+    }
+    return box;
+}
 /// Sorts parts: readable kolams first, those with most dots before the others, frames after the kolams within them.
 void sort_parts(std::vector<KolamPart>& parts) {
     const auto rank = [](const KolamPart& part) {
@@ -362,9 +381,9 @@ void sort_parts(std::vector<KolamPart>& parts) {
     for (const KolamPart& part : parts) areas.emplace_back(part.reading);
     std::vector<char> is_frame(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Box box = whole_box(parts, areas, i);
         for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
-            if (k == i || parts[i].is_expected() || !parts[k].is_kolam() || !areas[i].box().surrounds(areas[k].box()))
-                continue;
+            if (k == i || parts[i].is_expected() || !parts[k].is_kolam() || !box.surrounds(areas[k].box())) continue;
             if (10 * parts[k].dots() <= parts[i].dots()) continue;
             is_frame[i] = parts[i].is_kolam() || (parts[i].has_lines() && lies_outside(parts[i], areas[k]));
         }
