@@ -3,6 +3,8 @@
 #include "art/reading/grid_fit.h"
 #include "art/reading/kolam_edge.h"
 #include "engine/base/text.h"
+#include "engine/geometry/box.h"
+#include "engine/geometry/point_grid.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -127,8 +129,30 @@ private:
     std::vector<Known> given_up_;
 };
 
-/// Spots in which to look for a lattice: all of them, then those of similar sizes, the largest first. A border can
-/// have more ornaments than the kolam has dots.
+/// The spots without others close beside them. Dots are many radii apart; hearts, petals and tips of flowers are not.
+std::vector<InkSpot> spots_alone(const std::vector<InkSpot>& spots) {
+    constexpr double close = 4.5;        // radii
+    constexpr double least_share = 0.3;  // weaker or smaller spots are noise
+    std::vector<glm::dvec2> points;
+    for (const InkSpot& spot : spots) points.push_back(spot.at);
+    const PointGrid index(points,
+                          std::max(1.0, box_of(points).longest() / std::sqrt(static_cast<double>(points.size()))));
+    std::vector<InkSpot> alone;
+    for (std::uint32_t i = 0; i < spots.size(); ++i) {
+        const InkSpot& spot = spots[i];
+        const auto near = index.neighbours(i, 8);
+        const bool is_alone = std::none_of(near.begin(), near.end(), [&](std::uint32_t k) {
+            const InkSpot& other = spots[k];
+            return glm::distance(spot.at, other.at) < close * std::max(spot.radius, other.radius) &&
+                   other.strength > least_share * spot.strength && other.radius > least_share * spot.radius;
+        });
+        if (is_alone) alone.push_back(spot);
+    }
+    return alone;
+}
+
+/// Spots in which to look for a lattice: all of them, then those of similar sizes, the largest first, then those that
+/// stand alone. A border can have more ornaments than the kolam has dots.
 std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) {
     constexpr double similar = 1.9;
     constexpr std::size_t most_sizes = 3;
@@ -148,6 +172,8 @@ std::vector<std::vector<InkSpot>> subsets_of(const std::vector<InkSpot>& spots) 
         if (same.size() >= least_spots && 5 * same.size() < 4 * spots.size()) subsets.push_back(std::move(same));
         end = static_cast<std::size_t>(std::upper_bound(radii.begin(), radii.end(), low) - radii.begin());
     }
+    std::vector<InkSpot> alone = spots_alone(spots);
+    if (alone.size() >= least_spots && 5 * alone.size() < 4 * spots.size()) subsets.push_back(std::move(alone));
     return subsets;
 }
 /// Finds the parts of a picture with dots on a lattice, with lines of one sense.
@@ -323,6 +349,25 @@ bool lies_outside(const KolamPart& part, const KolamArea& area) {
         return area.contains(part.reading.grid.map.dot(dot), loop);
     });
 }
+bool share_area(const Box& a, const Box& b) {
+    return a.low.x < b.high.x && a.low.y < b.high.y && a.high.x > b.low.x && a.high.y > b.low.y;
+}
+/// The box around a part and, if its dots lie in single rows, around all such parts that overlap it and have its
+/// spacing: a border may be found in pieces.
+Box whole_box(const std::vector<KolamPart>& parts, const std::vector<KolamArea>& areas, std::size_t number) {
+    Box box = areas[number].box();
+    if (!parts[number].is_narrow()) return box;
+    const Box own = box;
+    const double spacing = parts[number].reading.grid.spacing;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Box& other = areas[i].box();
+        const double times = parts[i].reading.grid.spacing / spacing;
+        if (!parts[i].is_narrow() || times < 0.8 || times > 1.25 || !share_area(own, other)) continue;
+        box.add(other.low);
+        box.add(other.high);
+    }
+    return box;
+}
 /// Sorts parts: readable kolams first, those with most dots before the others, frames after the kolams within them.
 void sort_parts(std::vector<KolamPart>& parts) {
     const auto rank = [](const KolamPart& part) {
@@ -336,9 +381,9 @@ void sort_parts(std::vector<KolamPart>& parts) {
     for (const KolamPart& part : parts) areas.emplace_back(part.reading);
     std::vector<char> is_frame(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Box box = whole_box(parts, areas, i);
         for (std::size_t k = 0; k < parts.size() && is_frame[i] == 0; ++k) {
-            if (k == i || parts[i].is_expected() || !parts[k].is_kolam() || !areas[i].box().surrounds(areas[k].box()))
-                continue;
+            if (k == i || parts[i].is_expected() || !parts[k].is_kolam() || !box.surrounds(areas[k].box())) continue;
             if (10 * parts[k].dots() <= parts[i].dots()) continue;
             is_frame[i] = parts[i].is_kolam() || (parts[i].has_lines() && lies_outside(parts[i], areas[k]));
         }

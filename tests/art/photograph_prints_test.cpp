@@ -79,6 +79,11 @@ TEST(PhotographPrints, BordersAreNotPartsOfKolams) {
     expect_as_drawn({"7-1", 5}, "diamonds", {160, 130});
     expect_as_drawn({"9-5 idukku", 5}, "diamonds", {100, 130});
     expect_as_drawn({"11-1", 5}, "rope", {100, 130});
+    // The spots of the flowers outnumber the dots.
+    expect_as_drawn({"5x5", 2}, "marigolds", {210, 130});
+    expect_as_drawn({"11-1", 2}, "marigolds", {100, 130});
+    // Some dots of the border lie so close to the kolam that the border is found in pieces.
+    expect_as_drawn({"9-5 idukku", 2}, "rope", {120, 130});
 }
 
 /// The strands of a rope and its dots are a kolam, which is read if the one within it is not found.
