@@ -21,7 +21,7 @@ std::optional<Swing> common_swing(const Notation& notation) {
 
 std::string swing_words(const Swing& swing) {
     const double percent = 100 * swing.share;
-    const std::string words = percent <= 61 ? "Light swing" : percent >= 71 ? "Hard swing" : "Swing";
+    std::string words = percent <= 61 ? "Light swing" : percent >= 71 ? "Hard swing" : "Swing";
     constexpr std::int64_t whole = 4 * ticks_per_quarter;
     switch (whole / swing.unit) {
         case 4:
