@@ -30,8 +30,7 @@ std::optional<Transposition> transposition_of(int program);
 /// True for harpsichords and organs, whose loudness does not depend on the touch.
 bool is_without_dynamics(int program);
 
-/// The keys that an instrument can play, as they sound: without extensions and rare high notes. Source: Adler, The
-/// Study of Orchestration, appendix A; makers' tables for mallets and guitars.
+/// The keys that players of an instrument usually have, as they sound: without extensions and rare high notes.
 struct KeyRange {
     int lowest = 0;
     int highest = 127;

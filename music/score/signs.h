@@ -9,8 +9,8 @@
 namespace sikku {
 
 /// Determines which notes need a printed sign: signs apply to the end of the bar, for their octave, in all voices of
-/// the staff; a note tied over the bar line needs no sign and sets none. Likewise their deviations in cents, which
-/// are those of the notes before; in an accompaniment, which repeats its notes, they are printed once.
+/// the staff; a note tied over the bar line needs no sign and sets none. Deviations in cents are printed like signs,
+/// once in a bar; in an accompaniment, which repeats its notes, once.
 /// @param keys  key signatures, ascending. @param bar  ticks
 void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, std::int64_t bar);
 

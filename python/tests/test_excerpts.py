@@ -23,8 +23,8 @@ KEYS = [
     {"velocity": "by level 40-120", "phrases": "2"},
     {"velocity": "by x", "pan": "by x 20-100"},
     {"controller": "11 by y 30-120", "pan": "by y"},
-    {"tempo": "by y 60-140"},
-    {"tempo": "by x 90-100", "velocity": "by y 20-120", "swing": "60"},
+    {"tempo": "96 by y 60-140"},
+    {"tempo": "95 by x 90-100", "velocity": "by y 20-120", "swing": "60"},
     {"harmony": "triads", "velocity": "by y"},
     {"harmony": "drone"},
     {"vertical": "glissando", "velocity": "by y"},
@@ -60,7 +60,7 @@ def cases() -> Iterator[tuple[str, dict[str, str], sikku.Pattern | sikku.Arrange
         if bars > 400:
             continue
         accepted.add(str(keys))
-        for _ in range(5):
+        for _ in range(3):
             first = chance.randrange(1, bars + 1)
             yield name, keys, pattern, whole, first, chance.randrange(1, min(12, bars - first + 1) + 1)
             found += 1
