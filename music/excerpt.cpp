@@ -57,6 +57,13 @@ bool is_soon_played(const Ensemble& ensemble, double most) {
     return symbols <= most;
 }
 
+bool depends_on_whole(const Ensemble& ensemble) {
+    if (ensemble.has_expression() || (ensemble.close != Close::none && !ensemble.ends_excerpts)) return true;
+    // Notes cut at the end of an excerpt keep the loudness of their full length.
+    return std::any_of(ensemble.players.begin(), ensemble.players.end(),
+                       [](const Player& player) { return player.melody.loudness == Loudness::by_length; });
+}
+
 Ensemble without_excerpts(Ensemble ensemble) {
     for (Player& player : ensemble.players) {
         player.melody.layout.first_bar = 1;
@@ -66,7 +73,7 @@ Ensemble without_excerpts(Ensemble ensemble) {
 }
 
 ExcerptContext bars_around(const Ensemble& ensemble, const PlayOptions& excerpt) {
-    constexpr std::int64_t bars = 8;  // hairpins have four, and an ending is held for as many
+    constexpr std::int64_t bars = 8;  // hairpins have four
     // Where a quarter begins, too, as the tempo follows quarters.
     const std::int64_t step = std::lcm(ensemble.meter.bar(), ticks_per_quarter);
     const std::int64_t lead = (bars * ensemble.meter.bar() + step - 1) / step * step;

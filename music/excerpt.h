@@ -23,6 +23,9 @@ constexpr double soon_played = 2e6;
 /// True if a whole score is derived from up to `most` symbols.
 bool is_soon_played(const Ensemble& ensemble, double most = soon_played);
 
+/// True if excerpts sound as in the whole only if more is played than their bars.
+bool depends_on_whole(const Ensemble& ensemble);
+
 /// The same parts without `excerpt`.
 Ensemble without_excerpts(Ensemble ensemble);
 

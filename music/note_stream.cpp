@@ -393,7 +393,7 @@ bool has_windows(const Player& player) {
 
 std::unique_ptr<NoteStream> stream_notes(StreamedScore score, Ensemble ensemble, const PlayOptions& playing) {
     const std::int64_t grid = grid_of(ensemble, playing);
-    const bool depends_on_context = playing.is_excerpt() && ensemble.has_expression() && is_soon_played(ensemble);
+    const bool depends_on_context = playing.is_excerpt() && depends_on_whole(ensemble) && is_soon_played(ensemble);
     const bool is_whole = depends_on_context || ensemble.needs_whole() || ensemble.close == Close::fermata ||
                           grid == 0 || !std::all_of(ensemble.players.begin(), ensemble.players.end(), has_windows);
     if (is_whole) return std::make_unique<WholeStream>(std::move(score), std::move(ensemble), playing);

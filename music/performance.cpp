@@ -381,14 +381,8 @@ EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing,
 
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
                        const Human& human, NoteSink& sink) {
-    // Notes cut at the end of an excerpt keep the loudness of their full length.
-    const bool has_lengths = std::any_of(ensemble.players.begin(), ensemble.players.end(), [](const Player& player) {
-        return player.melody.loudness == Loudness::by_length;
-    });
-    const bool depends_on_whole =
-        has_lengths || ensemble.has_expression() || (ensemble.close != Close::none && !ensemble.ends_excerpts);
     const auto play_into = [&](NoteSink& to) {
-        return playing.is_excerpt() && depends_on_whole
+        return playing.is_excerpt() && depends_on_whole(ensemble)
                    ? perform_within(ensemble, context_of(ensemble, playing), playing, use, human, to)
                    : perform_all(ensemble, playing, use, human, to);
     };

@@ -113,6 +113,7 @@ TEST(NoteStream, WindowsMakeTheWhole) {
         {{"velocity", "by level 20-120"}, {"phrases", "2"}},
         {{"velocity", "by turn 20-120"}, {"mapping", "counterpoint"}, {"from-bar", "7"}},
         {{"velocity", "by level 20-120"}, {"from-bar", "9"}, {"bars", "13"}},
+        {{"velocity", "by length"}, {"from-bar", "9"}, {"bars", "13"}, {"unit", "7/4"}},
     };
     for (const std::string& text : {hilbert, arrowhead}) {
         const std::vector<Document> documents = {document_of(text)};
