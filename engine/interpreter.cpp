@@ -117,7 +117,7 @@ std::string make_in_memory(const Interpreter& interpreter, const Document& docum
     MemoryDestination memory;
     const std::string name = "memory." + std::string(format);
     interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
-    if (!memory.outputs().contains(name)) {
+    if (memory.outputs().size() != 1 || !memory.outputs().contains(name)) {
         throw std::runtime_error(std::to_string(memory.outputs().size()) +
                                  " files instead of one: plan the work and make it into a destination");
     }

@@ -5,6 +5,7 @@
 #include "engine/interpreter.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -75,6 +76,28 @@ std::vector<Option<S>> make_table() {
              if (t != "transposed" && t != "concert") refuse_option("score", t, "expected transposed or concert");
              s.is_transposed = t == "transposed";
          }},
+        {{.name = "syllables",
+          .help =
+              "degrees of the scale under the notes of a print: sargam (S R G), degrees (1 2 3), solfa (do re mi), "
+              "none (none)",
+          .value = "KIND",
+          .neutral = "none"},
+         [](S& s, Text t) {
+             constexpr std::array<std::string_view, 4> names = {"none", "sargam", "degrees", "solfa"};
+             const auto* name = std::find(names.begin(), names.end(), t);
+             if (name == names.end()) refuse_option("syllables", t, "expected sargam, degrees, solfa or none");
+             s.syllables = static_cast<Syllables>(name - names.begin());
+         }},
+        {{.name = "chord-symbols",
+          .help = "name the chords of triads and progressions above the first staff of a print",
+          .kind = flag},
+         [](S& s, Text t) { s.has_chord_signs = t == "true"; }},
+        {{.name = "parts",
+          .help = "print a part for each player, too, beside the score: the name of the file with a number and the "
+                  "player's instrument",
+          .kind = flag,
+          .is_alone = true},
+         [](S& s, Text t) { s.has_parts = t == "true"; }},
         {{.name = "midi-format",
           .help = "0: a single track; 1: a track for each voice (1)",
           .value = "0|1",

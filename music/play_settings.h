@@ -20,9 +20,12 @@ struct PlaySettings {
     double seconds = 0;         ///< 0: all
     double transpose = 0;       ///< semitones, -127 to 127
     double humanise = 0;        ///< 0 to 1
-    bool is_transposed = true;  ///< in print, transposing instruments are written as their players read them
-    std::uint64_t seed = 0;     ///< random seed of humanise
-    int format = 1;             ///< MIDI format, 0 or 1
+    Syllables syllables = Syllables::none;
+    bool has_chord_signs = false;  ///< chords are named in print
+    bool has_parts = false;        ///< a part for each player is printed, too
+    bool is_transposed = true;     ///< in print, transposing instruments are written as their players read them
+    std::uint64_t seed = 0;        ///< random seed of humanise
+    int format = 1;                ///< MIDI format, 0 or 1
     Tuning tuning = Tuning::bend;
     double budget = 200e6;  ///< maximum number of derivation nodes visited
 };

@@ -152,7 +152,7 @@ std::vector<Player> followers_of(const Player& player) {
 Player read_player(const PlaySettings& settings, const Document& given, const std::filesystem::path& folder,
                    const FileWitness& witness) {
     require_turtle(given, "it has no melody");
-    Player player{given, {}, 0, 0, 0, false, false, false, 0, {}, {}, {}, {}};
+    Player player{given, {}, 0, 0, 0, false, false, false, 0, {}, {}, {}, {}, {}};
     for (const Setting& setting : settings.keys) {
         try {
             player.document = player.document.with({setting});

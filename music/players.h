@@ -34,6 +34,7 @@ struct Player {
     char section = 0;                          ///< section of the score, `A` to `Z`; 0: it plays from the beginning
     std::string name;                          ///< name of its part; empty: that of the instrument
     Swing printed_swing{};                     ///< in print, which writes the notes straight
+    Touch printed_touch{};                     ///< in print, which writes the notes in full
     std::vector<std::string> warnings;         ///< warnings about values of options
     std::shared_ptr<PlayableMelody> playable;  ///< prepared once for it and the players that follow it in canon
 

@@ -62,6 +62,8 @@ Part part_of(const Player& player, const PlayOptions& playing) {
     part.voices = voices_of(player, playing);
     part.has_chords = melody.table.most_notes() > 1;
     part.swing = player.printed_swing;
+    part.touch = player.printed_touch;
+    part.tonic = melody.tonic + melody.transpose;
     return part;
 }
 
@@ -69,6 +71,7 @@ Part part_of(const Player& player, const PlayOptions& playing) {
 Part accompaniment_of(Part part, const Melody& melody) {
     part.has_chords = false;
     part.swing = {};
+    part.touch = {};
     part.is_accompaniment = true;
     part.voices = melody.accompanying_voices();
     part.program = melody.harmony == Harmony::drone ? sitar : strings;
@@ -113,6 +116,8 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
     head.ritardando = ensemble.has_ending(playing) ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
     head.is_transposed = settings.is_transposed;
+    head.syllables = settings.syllables;
+    head.has_chord_signs = settings.has_chord_signs;
     head.first_bar = settings.from_bar;
     head.made = made_with(settings, ensemble.players.front().document, arrangement != nullptr);
     if (arrangement) {

@@ -35,8 +35,20 @@ void write_sound(Rendition& rendition, Output& output) {
 
 /// Writes notation by a function of notation and head.
 template <void (*write)(const Notation&, const ScoreHead&, Output&)>
-void write_notation(Rendition& rendition, Output& output) {
-    write(rendition.print(), rendition.head, output);
+void write_notation(const Notation& notation, const Rendition& rendition, Output& output) {
+    write(notation, rendition.head, output);
+}
+
+void write_compressed(const Notation& notation, const Rendition& rendition, Output& output) {
+    MemoryOutput whole;
+    write_musicxml(notation, rendition.head, whole);
+    write_mxl(whole.bytes(), output);
+}
+
+void write_engraved(const Notation& notation, const Rendition& rendition, Output& output) {
+    MemoryOutput whole;
+    write_lilypond(notation, rendition.head, whole);
+    engrave(whole.bytes(), rendition.head, output.temporary(), rendition.name, [&] { rendition.monitor.check(); });
 }
 
 /// Writes all notes by a function of head, notes, end and perhaps curves.
@@ -48,18 +60,6 @@ void write_notes(Rendition& rendition, Output& output) {
     } else {
         write(rendition.head, all.notes(), all.end(), output);
     }
-}
-
-void write_compressed(Rendition& rendition, Output& output) {
-    MemoryOutput whole;
-    write_notation<write_musicxml>(rendition, whole);
-    write_mxl(whole.bytes(), output);
-}
-
-void write_engraved(Rendition& rendition, Output& output) {
-    MemoryOutput whole;
-    write_notation<write_lilypond>(rendition, whole);
-    engrave(whole.bytes(), rendition.head, output.temporary(), rendition.name, [&] { rendition.monitor.check(); });
 }
 
 constexpr ScoreCost sound_cost{1, 600, 60e6, 2e-3, 44'100, 0};
@@ -75,30 +75,34 @@ constexpr std::array<ScoreWriter, 13> table = {{
      .is_printed = true,
      .pattern = PatternForm::xml,
      .lowest = lowest_in_musicxml,
-     .write = write_notation<write_musicxml>},
+     .print = write_notation<write_musicxml>,
+     .has_cues = true},
     {.name = {"mxl", "compressed MusicXML"},
      .medium = notation,
      .is_printed = true,
      .pattern = PatternForm::xml,
      .lowest = lowest_in_musicxml,
      .cost = {0.001, 1000, 2e6, 2.5e-6, 12, 110},
-     .write = write_compressed},
+     .print = write_compressed,
+     .has_cues = true},
     {.name = {.extension = "ly", .label = "LilyPond", .is_text = true},
      .medium = notation,
      .is_printed = true,
      .pattern = PatternForm::comments,
-     .write = write_notation<write_lilypond>},
+     .print = write_notation<write_lilypond>,
+     .has_cues = true},
     {.name = {"score.pdf", "printed score", "pdf"},
      .medium = notation,
      .is_printed = true,
      .needs_file = "a printed score needs",
      .cost = {2, 10'000, 120e6, 2e-3, 300, 20'000},
-     .write = write_engraved},
+     .print = write_engraved,
+     .has_cues = true},
     {.name = {.extension = "abc", .label = "ABC", .is_text = true},
      .medium = notation,
      .is_printed = true,
      .pattern = PatternForm::comments,
-     .write = write_notation<write_abc>},
+     .print = write_notation<write_abc>},
     {.name = {"wav", "sound"},
      .medium = sound,
      .needs_file = "sound needs",

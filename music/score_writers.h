@@ -39,7 +39,10 @@ struct ScoreWriter {
     double lowest = 0;              ///< MIDI key of its lowest note
     std::string_view needs_file{};  ///< subject of the message that a pipe is refused; empty: any output
     ScoreCost cost{};
+    /// Writes a score in bars, also that of a player; null for other media.
+    void (*print)(const Notation& notation, const Rendition& rendition, Output& output) = nullptr;
     void (*write)(Rendition& rendition, Output& output) = nullptr;
+    bool has_cues = false;  ///< parts of players have cues
 
     /// True for MIDI files and for sound, which is rendered from them.
     bool has_channels() const { return medium == ScoreMedium::midi || medium == ScoreMedium::sound; }

@@ -12,6 +12,7 @@
 #include "music/score/comments.h"
 #include "music/score/glides.h"
 #include "music/score/note_order.h"
+#include "music/score/player_parts.h"
 #include "music/score_head.h"
 #include "music/score_remarks.h"
 #include "music/score_writers.h"
@@ -26,6 +27,8 @@ namespace sikku {
 namespace {
 
 constexpr int widest_bend = 12;  // semitones, for gamakas
+
+using Outputs = std::vector<std::unique_ptr<Output>>;
 
 /// A planned score.
 class ScoreWork : public Work {
@@ -106,6 +109,11 @@ private:
         }
         if (!settings_.is_transposed && writer_.medium != ScoreMedium::notation)
             warn("score", "it applies only to print");
+        if (writer_.medium != ScoreMedium::notation) {
+            if (settings_.syllables != Syllables::none) warn("syllables", "it applies only to print");
+            if (settings_.has_chord_signs) warn("chord-symbols", "it applies only to print");
+        }
+        if (settings_.has_parts && writer_.medium != ScoreMedium::notation) warn("parts", "it applies only to print");
         if (settings_.tuning != Tuning::bend && !writer_.has_channels()) {
             warn("tuning", "it applies only to MIDI and sound");
         }
@@ -145,7 +153,12 @@ private:
         Melody& melody = player.melody;
         player.section = section;
         player.name = part_name;
-        if (writer_.is_printed) melody.articulation = Articulation::legato;
+        if (writer_.is_printed) {
+            const Articulation touch = std::exchange(melody.articulation, Articulation::legato);
+            player.printed_touch.sounding = touch == Articulation::detached ? melody.sounding : 1;
+            player.printed_touch.is_by_depth = touch == Articulation::by_depth;
+            player.printed_touch.has_phrases = melody.phrase_order > 0;
+        }
         if (writer_.is_printed && !writer_.plays_swing) {
             player.printed_swing = {std::exchange(melody.swing, 0.5), melody.swing_unit};
         }
@@ -218,6 +231,8 @@ private:
     Human human() const { return {settings_.humanise, settings_.seed}; }
     void check_size(const PlayOptions& playing) const;
     void report(const Rendition& rendition, Made& made) const;
+    void write(Rendition& rendition, Output& output) const;
+    Outputs write_parts(Destination& destination, const Rendition& rendition, Made& made) const;
 
     const ScoreWriter& writer_;
     PlaySettings settings_;
@@ -266,6 +281,46 @@ void ScoreWork::report(const Rendition& rendition, Made& made) const {
     if (!rendition.warning.empty()) made.warn(rendition.warning);
 }
 
+/// Writes the score itself.
+void ScoreWork::write(Rendition& rendition, Output& output) const {
+    const auto put = [&](Output& to) {
+        if (writer_.print) return writer_.print(rendition.print(), rendition, to);
+        writer_.write(rendition, to);
+    };
+    if (output.can_insert()) return put(output);
+    if (!writer_.needs_file.empty()) {
+        throw std::runtime_error(
+            fmt::format("cannot write '{}': {} a regular file", rendition.name.string(), writer_.needs_file));
+    }
+    // Writers seek to the beginning, which pipes do not support.
+    MemoryOutput whole;
+    put(whole);
+    output.write(whole.bytes());
+}
+
+/// Writes a part for each player beside the score: `blues-1-tenor-sax.pdf`.
+Outputs ScoreWork::write_parts(Destination& destination, const Rendition& rendition, Made& made) const {
+    Outputs outputs;
+    if (!settings_.has_parts || !rendition.notation) return outputs;
+    const std::vector<PlayerPart> players = player_parts(*rendition.notation, writer_.has_cues);
+    if (players.size() < 2) {
+        made.warn_of_unused("parts", "the score has a single player");
+        return outputs;
+    }
+    std::string names;
+    for (std::size_t i = 0; i < players.size(); ++i) {
+        const std::filesystem::path& whole = rendition.name;
+        std::filesystem::path name = whole;
+        name.replace_filename(fmt::format("{}-{}-{}{}", whole.stem().string(), i + 1, file_part(players[i].name),
+                                          whole.extension().string()));
+        outputs.push_back(destination.open(name));
+        writer_.print(players[i].notation, rendition, *outputs.back());
+        names += (i > 0 ? ", " : "") + name.filename().string();
+    }
+    made.fact(fmt::format("parts: {}", names));
+    return outputs;
+}
+
 Made ScoreWork::make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
                      int /*threads*/) {
     Made made;
@@ -289,20 +344,14 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     if (writer_.has_channels() && !is_mpe) report_shared_channels(ensemble_, head, midi_.share_channels, made);
     Rendition rendition{ensemble_, playing, head, use(), human(), midi_, monitor, name, {}, {}, {}};
     const auto output = destination.open(name);
-    if (output->can_insert()) {
-        writer_.write(rendition, *output);
-    } else {
-        if (!writer_.needs_file.empty()) {
-            throw std::runtime_error(
-                fmt::format("cannot write '{}': {} a regular file", name.string(), writer_.needs_file));
-        }
-        // Writers seek to the beginning, which pipes do not support.
-        MemoryOutput whole;
-        writer_.write(rendition, whole);
-        output->write(whole.bytes());
+    if (settings_.has_parts && writer_.print && !output->can_insert()) {
+        throw SettingError("parts", "", "parts are files beside that of the score, and need one with a name");
     }
+    write(rendition, *output);
+    const Outputs parts = write_parts(destination, rendition, made);
     report(rendition, made);
     output->commit();
+    for (const auto& part : parts) part->commit();
     return made;
 }
 
@@ -310,7 +359,15 @@ Cost ScoreWork::forecast() const {
     constexpr double program_seconds = 0.003, program_memory = 7e6;
     constexpr double node_seconds = 15e-9, player_memory = 0.5e6;
     constexpr double nodes_read = 50'000;  // limit, for words whose length only a derivation determines
-    const ScoreCost& each = writer_.cost;
+    ScoreCost each = writer_.cost;
+    if (settings_.has_parts && writer_.print) {
+        // Each note is written twice; LilyPond runs once for each player, of whom a part may have several.
+        const auto files = static_cast<double>(1 + ensemble_.players.size());
+        each.seconds *= files;
+        each.bytes *= files;
+        each.note_seconds *= 2;
+        each.note_bytes *= 2;
+    }
     Cost result;
     result.seconds = result.shared_seconds = program_seconds;
     result.memory = result.shared_memory = program_memory;

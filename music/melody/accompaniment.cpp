@@ -62,6 +62,7 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) con
         if (keys[voice] == silent) continue;
         notes.push_back({begin, length, keys[voice], static_cast<std::int16_t>(voice), soft});
     }
+    notes.front().chord = sign_of(*chord, melody_.tonic + melody_.transpose);
     return notes;
 }
 

@@ -1,5 +1,7 @@
 #include "music/melody/chord_names.h"
 
+#include "music/score/chord_signs.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,27 +17,11 @@ constexpr std::array<std::string_view, 7> numerals = {"I", "II", "III", "IV", "V
 constexpr std::size_t longest_name = 32;
 constexpr std::array<double, 7> major_cents = {0, 200, 400, 500, 700, 900, 1100};
 
-/// Semitones of a chord above its root. The accompaniment sounds the first three, so that sevenths come before
-/// fifths.
-struct Quality {
-    std::string_view name;
-    std::array<int, 5> tones;  ///< the root first; -1: no more
-};
-constexpr Quality qualities[] = {
-    {"maj", {0, 4, 7, -1, -1}},   {"m", {0, 3, 7, -1, -1}},    {"dim", {0, 3, 6, -1, -1}},
-    {"aug", {0, 4, 8, -1, -1}},   {"5", {0, 7, -1, -1, -1}},   {"sus2", {0, 2, 7, -1, -1}},
-    {"sus4", {0, 5, 7, -1, -1}},  {"6", {0, 4, 9, 7, -1}},     {"m6", {0, 3, 9, 7, -1}},
-    {"7", {0, 4, 10, 7, -1}},     {"maj7", {0, 4, 11, 7, -1}}, {"m7", {0, 3, 10, 7, -1}},
-    {"mmaj7", {0, 3, 11, 7, -1}}, {"m7b5", {0, 3, 10, 6, -1}}, {"dim7", {0, 3, 9, 6, -1}},
-    {"7sus4", {0, 5, 10, 7, -1}}, {"add9", {0, 4, 2, 7, -1}},  {"9", {0, 4, 10, 7, 2}},
-    {"maj9", {0, 4, 11, 7, 2}},   {"m9", {0, 3, 10, 7, 2}},    {"madd9", {0, 3, 2, 7, -1}},
-    {"mmaj9", {0, 3, 11, 7, 2}},
-};
-
-const Quality* find_quality(std::string_view name) {
-    const auto* found = std::find_if(std::begin(qualities), std::end(qualities),
-                                     [&](const Quality& one) { return one.name == name; });
-    return found == std::end(qualities) ? nullptr : found;
+const ChordQuality* find_quality(std::string_view name) {
+    for (const ChordQuality& one : chord_qualities()) {
+        if (one.name == name) return &one;
+    }
+    return nullptr;
 }
 
 /// A name with signs written as letters.
@@ -65,8 +51,10 @@ int take_accidentals(std::string_view& text) {
     return sum;
 }
 
-Chord chord_of(const Quality& quality, double root, const Scale& scale) {
+Chord chord_of(const ChordQuality& quality, double root, const Scale& scale) {
     Chord chord;
+    chord.quality = static_cast<int>(&quality - chord_qualities().data());
+    chord.root = root;
     for (const int tone : quality.tones) {
         if (tone >= 0) chord.cents.push_back(root + 100 * tone);
     }
@@ -104,11 +92,11 @@ std::optional<Numeral> read_numeral(std::string_view text) {
 
 /// The quality of a numeral: a suffix to small letters makes minor chords. Chords with a major third have no small
 /// letters, except augmented ones.
-const Quality* quality_of(const Numeral& numeral) {
+const ChordQuality* quality_of(const Numeral& numeral) {
     const std::string name(numeral.quality);
     if (!numeral.is_minor) return find_quality(name.empty() ? "maj" : name);
-    if (const Quality* minor = find_quality("m" + name)) return minor;
-    const Quality* other = find_quality(name);
+    if (const ChordQuality* minor = find_quality("m" + name)) return minor;
+    const ChordQuality* other = find_quality(name);
     return other && other->tones[1] == 4 && name != "aug" ? nullptr : other;
 }
 
@@ -116,7 +104,7 @@ std::optional<Chord> numeral_chord(std::string_view name, const Scale& scale) {
     const std::size_t slash = name.find('/');
     const auto numeral = read_numeral(name.substr(0, slash));
     if (!numeral) return std::nullopt;
-    const Quality* quality = quality_of(*numeral);
+    const ChordQuality* quality = quality_of(*numeral);
     if (!quality) return std::nullopt;
     if (slash != std::string_view::npos) {
         const auto tonic = read_numeral(name.substr(slash + 1));
@@ -146,7 +134,7 @@ std::optional<Chord> letter_chord(std::string_view name, const Scale& scale, dou
     const auto root = take_letter(rest);
     if (!root) return std::nullopt;
     const std::size_t slash = std::min(rest.find('/'), rest.size());
-    const Quality* quality = find_quality(slash == 0 ? "maj" : rest.substr(0, slash));
+    const ChordQuality* quality = find_quality(slash == 0 ? "maj" : rest.substr(0, slash));
     if (!quality) return std::nullopt;
     Chord chord = chord_of(*quality, cents_above(*root), scale);
     if (slash == rest.size()) return chord;

@@ -124,7 +124,8 @@ void Emitter::put(const Shaper::Draft& draft, const Placed& placed, int voice, s
               glide.semitones != 0,
               glide,
               false,
-              draft.emphasis};
+              draft.emphasis,
+              draft.chord};
     if (!draft.is_drum) extend_range(placed.key);
     cut(note, options_.from, options_.to);
     note.onset -= options_.from;

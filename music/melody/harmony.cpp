@@ -2,6 +2,7 @@
 
 #include "engine/base/text.h"
 #include "music/melody/chord_names.h"
+#include "music/score/chord_signs.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,17 @@ void mark_tones(Chord& chord, const Scale& scale) {
     }
 }
 
+ChordSign sign_of(const Chord& chord, double tonic) {
+    constexpr double most_away = 0.3;
+    const double root = tonic + chord.root / 100;
+    if (chord.quality < 0 || std::fabs(root - std::round(root)) > most_away) return {};
+    const auto class_of = [](double key) { return static_cast<std::int8_t>((std::lround(key) % 12 + 12) % 12); };
+    ChordSign sign{static_cast<std::int8_t>(chord.quality), class_of(root),
+                   class_of(tonic + chord.cents.front() / 100)};
+    if (sign.bass == sign.root) sign.bass = -1;
+    return sign;
+}
+
 std::int64_t degree_of_numeral(const Scale& scale, std::size_t number) {
     if (scale.size() == 7 || number == 0) return static_cast<std::int64_t>(number);
     return degree_at(scale, 0, usual_cents[number], 1e9).value_or(0);
@@ -75,6 +87,8 @@ Chord triad_on(const Scale& scale, std::int64_t root) {
     }
     Chord chord;
     for (const std::int64_t degree : degrees) chord.cents.push_back(scale.cents(degree, false));
+    chord.quality = quality_with(chord.cents);
+    chord.root = chord.cents.front();
     mark_tones(chord, scale);
     return chord;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "music/scale/scale.h"
+#include "music/score/score.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +18,8 @@ enum class Harmony { none, drone, triads, bass, progression };
 
 /// A chord as pitches above the tonic.
 struct Chord {
+    int quality = -1;           ///< index in chord_qualities(); -1: a chord without a name
+    double root = 0;            ///< cents above the tonic
     std::vector<double> cents;  ///< the root or the bass first, the others within a period of it
     std::vector<char> is_tone;  ///< for each degree of the scale
     /// The tone of the chord from `low` to `high` that is nearest to `degree`; of two, the lower. `degree` if there
@@ -24,6 +27,10 @@ struct Chord {
     std::int64_t nearest(std::int64_t degree, std::int64_t low = INT64_MIN, std::int64_t high = INT64_MAX) const;
     bool has(std::int64_t degree) const;
 };
+
+/// The sign of a chord; none for chords without a name, and for roots more than 30 cents from every key.
+/// @param tonic  MIDI key of the scale's tonic
+ChordSign sign_of(const Chord& chord, double tonic);
 
 /// The chord on a degree of a scale: in scales of seven notes its first, third and fifth; in others the notes nearest
 /// to a third and a fifth, if there are any.

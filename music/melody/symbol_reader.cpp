@@ -188,6 +188,7 @@ private:
             draft.from = {onset, height};
             draft.to = {state_.time, height};
             draft.symbol = counted(position_);
+            if (i == 0) draft.chord = sign_of_row(row);
             emitter_.table_note(i == 0 ? state_.line : others[i - 1], draft);
         }
         for (const Emitter::Line& line : others) emitter_.release(line);
@@ -197,6 +198,12 @@ private:
     std::int8_t stated_dynamic(const SymbolRow& row, int velocity) const {
         const bool is_stated = row.velocity > 0 ? row.is_dynamic : state_.level > 0 && state_.is_dynamic;
         return static_cast<std::int8_t>(is_stated ? dynamic_level(velocity) : -1);
+    }
+
+    /// The sign of a chord that sounds as it is named.
+    ChordSign sign_of_row(const SymbolRow& row) const {
+        const bool is_moved = state_.degree != 0 || melody_.shift != 0 || melody_.answer != 0 || melody_.is_inverted;
+        return row.named && !is_moved ? sign_of(*row.named, melody_.tonic + melody_.transpose) : ChordSign{};
     }
 
     static Shaper::Draft drum(const TablePitch& pitch) {

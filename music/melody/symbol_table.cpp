@@ -268,6 +268,7 @@ private:
             for (const double cents : chord->cents) {
                 row.pitches.push_back(pitch_of_key(melody_, melody_.tonic + cents / 100));
             }
+            row.named = chord;
             at = 1;
         }
         if (row.pitches.empty()) return "expected degrees such as 0 2 4";

@@ -3,6 +3,7 @@
 
 #include "engine/language/grammar.h"
 #include "engine/language/pattern.h"
+#include "music/melody/harmony.h"
 
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,7 @@ struct SymbolRow {
     double steps = 1;                 ///< duration in steps of the unit, above 0
     int velocity = 0;                 ///< 1 to 127; 0: that of the key `velocity`
     bool is_dynamic = false;          ///< the velocity is stated as `ppp` to `fff`, `loud` or `soft`
+    std::optional<Chord> named;       ///< chord that is stated by numeral or name
     SoundChange change = SoundChange::velocity;
     double amount = 0;  ///< amount of the change
 

@@ -1,5 +1,6 @@
 #include "music/score/score_formats.h"
 
+#include "music/score/chord_signs.h"
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
@@ -118,7 +119,9 @@ public:
                         (part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program)) + transposition,
                         key_name(notated.keys.front().key), clef);
                     if (has_name && part.swing.is_on() && !swing) put("\"^{}\"", swing_words(part.swing));
-                    write_voice(staff, k, notated.keys, marks.at(&staff.voices[k]));
+                    const bool is_top = k == 0 && &staff == &notated.staves.front();
+                    write_voice(staff, k, notated.keys, marks.at(&staff.voices[k]),
+                                is_top ? std::span(notated.chords) : std::span<const ChordMark>{});
                 }
             }
         }
@@ -137,15 +140,16 @@ private:
         std::string text;
         int number = 0;
         for (const NotatedPart& part : notation_.parts) {
-            std::string staves;
+            std::string staves, pedal;
             for (const Staff& staff : part.staves) {
                 std::string voices;
                 for (std::size_t i = 0; i < staff.voices.size(); ++i) {
                     voices += fmt::format("{}{}", i > 0 ? " " : "", ++number);
                 }
-                staves += (staves.empty() ? "" : " ") + (staff.voices.size() > 1 ? "(" + voices + ")" : voices);
+                std::string& group = part.has_pedal && &staff == &part.staves.back() ? pedal : staves;
+                group += (staves.empty() ? "" : " ") + (staff.voices.size() > 1 ? "(" + voices + ")" : voices);
             }
-            text += part.bracket == Bracket::brace     ? " {" + staves + "}"
+            text += part.bracket == Bracket::brace     ? " {" + staves + "}" + pedal
                     : part.bracket == Bracket::bracket ? " [" + staves + "]"
                                                        : " " + staves;
         }
@@ -221,7 +225,7 @@ private:
     }
 
     void write_voice(const Staff& staff, std::size_t index, const std::vector<KeyChange>& keys,
-                     const std::vector<DynamicMark>& marks) {
+                     const std::vector<DynamicMark>& marks, std::span<const ChordMark> chords) {
         const NotatedVoice& voice = staff.voices[index];
         const std::int64_t bar = notation_.bar_length;
         std::array<int, 7> signs = signs_of(keys.front().key);
@@ -232,8 +236,11 @@ private:
         Clef clef = staff.changes.front().clef;
         int octaves = 0;
         std::string_view hairpin;
+        auto chord = chords.begin();
+        std::string sung;       // syllables of the line
         std::set<int> altered;  // letters whose sign is not that of the key
-        for (const NotatedSymbol& symbol : voice.symbols) {
+        for (std::size_t i = 0; i < voice.symbols.size(); ++i) {
+            const NotatedSymbol& symbol = voice.symbols[i];
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 signs = signs_of(key->key);
                 put("[K:{} clef={}] ", key_name(key->key), clef_name(clef));
@@ -255,9 +262,23 @@ private:
                 if (!hairpin.empty()) put("!{}(!", hairpin);
                 if (next.kind == level) put("!{}!", dynamic_name(next.level));
             }
+            for (; chord != chords.end() && chord->onset <= symbol.onset; ++chord) put("\"{}\"", chord_name(*chord));
+            if (symbol.begins_slur) put("(");
             if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
-            write_symbol(symbol, form_of(clef).octaves, signs, altered);
-            const std::int64_t end = symbol.onset + symbol.length;
+            const bool is_whole_rest = symbol.length == bar && symbol.kind != SymbolKind::note;
+            const std::int64_t bars = is_whole_rest ? notation_.bars_of_rest(symbol.onset) : 1;
+            if (bars > 1) {
+                if (symbol.slows_down) put("\"^rit.\"");
+                put("{}{}", symbol.kind == SymbolKind::gap ? "X" : "Z", bars);
+            } else {
+                write_symbol(symbol, form_of(clef).octaves, signs, altered);
+            }
+            if (symbol.ends_slur) put(")");
+            if (symbol.kind == SymbolKind::note) {
+                sung += fmt::format(" {}", symbol.syllable.empty() ? "*" : symbol.syllable);
+            }
+            const std::int64_t end = symbol.onset + bars * symbol.length;
+            i += static_cast<std::size_t>(bars - 1);
             const bool is_beamed = symbol.beams[0] == Beam::begin || symbol.beams[0] == Beam::inside;
             if (end % bar != 0) {
                 put("{}", is_beamed ? "" : " ");
@@ -273,7 +294,23 @@ private:
                 : is_double ? "||"
                             : "|",
                 is_last || end / bar % bars_on_a_line_ == 0 ? "\n" : " ");
+            if (!is_last && end / bar % bars_on_a_line_ != 0) continue;
+            if (sung.find_first_not_of(" *") != std::string::npos) put("w:{}\n", sung);
+            sung.clear();
         }
+    }
+
+    /// `F#m7`, `C/G`.
+    static std::string chord_name(const ChordMark& chord) {
+        const auto name = [](const Pitch& pitch) {
+            return fmt::format("{}{}", "CDEFGAB"[pitch.letter],
+                               pitch.quarters < 0   ? "b"
+                               : pitch.quarters > 0 ? "#"
+                                                    : "");
+        };
+        std::string quality(chord_qualities()[static_cast<std::size_t>(chord.quality)].name);
+        if (quality == "maj") quality.clear();
+        return name(chord.root) + quality + (chord.bass ? "/" + name(*chord.bass) : "");
     }
 
     /// A mark at a space without width between notes, as programs disagree on whether a note with the mark is under
@@ -314,6 +351,7 @@ private:
         }
         const Pitch& pitch = symbol.pitch;
         if (symbol.is_accented) put("!accent!");
+        if (symbol.is_staccato) put(".");
         if (symbol.ends_slide) put("!~)!");
         if (symbol.begins_slide) put("!~(!");
         if (symbol.leaves != 0) put("\"^gliss.\"");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -176,6 +178,12 @@ std::optional<Transposition> transposition_of(int program) {
 bool is_without_dynamics(int program) {
     constexpr int harpsichord = 6, first_organ = 16, last_organ = 20;
     return program == harpsichord || (program >= first_organ && program <= last_organ);
+}
+
+bool has_slurs(int program) {
+    constexpr std::pair<int, int> ranges[] = {{0, 5}, {16, 23}, {40, 44}, {48, 54}, {56, 79}, {109, 111}};
+    return std::any_of(std::begin(ranges), std::end(ranges),
+                       [&](const auto& range) { return program >= range.first && program <= range.second; });
 }
 
 std::optional<KeyRange> range_of_instrument(int program) {

@@ -30,6 +30,9 @@ std::optional<Transposition> transposition_of(int program);
 /// True for harpsichords and organs, whose loudness does not depend on the touch.
 bool is_without_dynamics(int program);
 
+/// True for instruments on which one note leads into the next: bowed strings, voices, winds, pianos and organs.
+bool has_slurs(int program);
+
 /// The keys that players of an instrument usually have, as they sound: without extensions and rare high notes.
 struct KeyRange {
     int lowest = 0;

@@ -1,6 +1,7 @@
 #include "music/score/score_formats.h"
 
 #include "engine/base/diagnostic.h"
+#include "music/score/chord_signs.h"
 #include "music/score/comments.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
@@ -92,7 +93,9 @@ public:
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
         put("  >>\n");
         write_layout();
-        put("  \\midi {{ }}\n}}\n");
+        // Cues and names of chords are read, not heard.
+        put("  \\midi {{{}{} }}\n}}\n", has_cues() ? " \\context { \\CueVoice \\remove \"Note_performer\" }" : "",
+            has_chords() ? " \\context { \\ChordNames \\remove \"Note_performer\" }" : "");
         flush();
     }
 
@@ -123,6 +126,8 @@ private:
             "(stretchability . 30))\n");
         // LilyPond underestimates the height of systems with tuplets, and would have to squeeze a page.
         if (has_tuplets()) put("  page-breaking-system-system-spacing.padding = #5\n");
+        // Players turn pages at rests; a part of two pages begins on a left one.
+        if (notation_.is_extracted) put("  page-breaking = #ly:page-turn-breaking\n  auto-first-page-number = ##t\n");
         put("}}\n\n");
     }
 
@@ -136,6 +141,18 @@ private:
         bool has_any = false;
         each_symbol(notation_, [&](const NotatedSymbol& symbol) { has_any = has_any || symbol.begins_slide; });
         return has_any;
+    }
+
+    bool has_cues() const {
+        return std::any_of(notation_.parts.begin(), notation_.parts.end(), [](const NotatedPart& part) {
+            return std::any_of(part.staves.begin(), part.staves.end(),
+                               [](const Staff& staff) { return !staff.cues.empty(); });
+        });
+    }
+
+    bool has_chords() const {
+        return std::any_of(notation_.parts.begin(), notation_.parts.end(),
+                           [](const NotatedPart& part) { return !part.chords.empty(); });
     }
 
     /// Reserves room for names, and leaves out staves that rest throughout a system.
@@ -160,23 +177,31 @@ private:
             notation_.parts.begin(), notation_.parts.end(),
             [](const NotatedPart& one) { return one.bracket == Bracket::bracket && one.staves.size() > 1; });
         // Bar numbers stand clear of the tips of brackets.
-        put("    \\context {{ \\Score \\autoBeamOff{} }}\n", has_bracket ? " \\override BarNumber.padding = #2" : "");
-        put("    \\context {{ \\Staff \\numericTimeSignature }}\n"
-            "    \\context {{ \\DrumStaff \\numericTimeSignature }}\n");
+        put("    \\context {{ \\Score \\autoBeamOff{}{} }}\n",
+            has_bracket ? " \\override BarNumber.padding = #2" : "", notation_.is_extracted ? " skipBars = ##t" : "");
+        for (const std::string_view context : {"Staff", "DrumStaff"}) {
+            put("    \\context {{ \\{} \\numericTimeSignature{} }}\n", context,
+                notation_.is_extracted ? " \\consists \"Page_turn_engraver\"" : "");
+        }
         if (has_slides()) {
             put("    \\context {{ \\Voice \\override Glissando.minimum-length = #4 "
                 "\\override Glissando.springs-and-rods = #ly:spanner::set-spacing-rods }}\n");
         }
-        if (staves > 1) {
+        if (staves > 1 && !notation_.is_extracted) {
             put("    \\context {{ \\Staff \\RemoveEmptyStaves }}\n    \\context {{ \\DrumStaff \\RemoveEmptyStaves "
                 "}}\n");
         }
         put("  }}\n");
     }
 
+    static bool is_pedal(const NotatedPart& part, std::size_t staff) {
+        return part.has_pedal && staff + 1 == part.staves.size();
+    }
+
     /// The name and the abbreviation of a staff, or of both hands. Staves of a bracket are numbered; a single part
     /// has its name above the score.
     std::pair<std::string, std::string> names_of(const NotatedPart& part, std::size_t staff) const {
+        if (is_pedal(part, staff)) return {"Pedal", "Ped."};
         const bool is_solo = notation_.parts.size() == 1;
         constexpr std::size_t most = 45;
         const std::string name = is_solo ? "" : shortened(part.name, most);
@@ -271,7 +296,7 @@ private:
         const bool is_drums = part.part.is_drums;
         const bool has_hands = part.bracket == Bracket::brace && part.staves.size() > 1;
         std::string settings;
-        if (are_hands || !has_hands) {
+        if (are_hands || !has_hands || is_pedal(part, staff)) {
             const auto [name, abbreviation] = names_of(part, staff);
             if (!name.empty()) {
                 settings += fmt::format("instrumentName = {} shortInstrumentName = {} ", name_of(name),
@@ -294,16 +319,19 @@ private:
         const bool is_group = part.staves.size() > 1;
         // Dynamics of both hands stand between them.
         const bool is_shared = are_hands && is_group && part.staves.back().dynamics.empty();
+        write_chords(part.chords);
         if (is_group) put("    {} <<\n", are_hands ? opening_of(part, 0, true) : "\\new StaffGroup");
         for (std::size_t i = 0; i < part.staves.size(); ++i) {
             write_staff(part.staves[i], part, opening_of(part, i, false), index == 0 && i == 0, !is_shared);
+            // The pedal of an organ stands below the brace.
+            if (part.has_pedal && i + 2 == part.staves.size()) put("    >>\n");
             if (is_shared && i == 0) {
                 put("    \\new Dynamics {{\n");
                 write_dynamics(part.staves[i].dynamics);
                 put("    }}\n");
             }
         }
-        if (is_group) put("    >>\n");
+        if (is_group && !part.has_pedal) put("    >>\n");
     }
 
     /// The tempo in beats of the meter, as a whole number: LilyPond does not accept fractions, and truncates them in
@@ -344,9 +372,11 @@ private:
                 }
             }
             if (!is_single) put("        \\voice{}\n", numbers[i % 4]);
+            cues_ = staff.cues;
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
                         i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
                         has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{});
+            cues_ = {};
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
         if (has_dynamics && !is_single && !staff.dynamics.empty()) {
@@ -354,16 +384,63 @@ private:
             write_dynamics(staff.dynamics);
             put("      }}\n");
         }
+        for (const Cue& cue : staff.cues) write_cue(cue);
         put("    >>\n");
+        if (is_single) write_syllables(staff.voices.front());
+    }
+
+    /// A skip of some ticks.
+    void skip(std::int64_t from, std::int64_t to) {
+        if (to > from) put(" s1*{}/{}", to - from, 4 * ticks_per_quarter);
+    }
+
+    /// Writes what is sung under a staff, each syllable as long as its note.
+    void write_syllables(const NotatedVoice& voice) {
+        const auto is_sung = [](const NotatedSymbol& symbol) { return !symbol.syllable.empty(); };
+        if (std::none_of(voice.symbols.begin(), voice.symbols.end(), is_sung)) return;
+        put("    \\new Lyrics \\lyricmode {{\n     ");
+        std::int64_t here = 0;
+        for (const NotatedSymbol& symbol : voice.symbols) {
+            if (!is_sung(symbol)) continue;
+            if (symbol.onset > here) put(" \\skip 1*{}/{}", symbol.onset - here, 4 * ticks_per_quarter);
+            put(" {}1*{}/{}", lilypond_string(symbol.syllable), symbol.length, 4 * ticks_per_quarter);
+            here = symbol.onset + symbol.length;
+        }
+        put("\n    }}\n");
+    }
+
+    /// Writes the names of chords above a staff.
+    void write_chords(const std::vector<ChordMark>& chords) {
+        if (chords.empty()) return;
+        const auto name = [](Pitch pitch) {
+            pitch.octave = 3;  // c without a mark
+            return pitch_name(pitch);
+        };
+        put("    \\new ChordNames \\chordmode {{\n     ");
+        skip(0, chords.front().onset);
+        for (std::size_t i = 0; i < chords.size(); ++i) {
+            const ChordMark& chord = chords[i];
+            const std::int64_t end =
+                i + 1 < chords.size() ? chords[i + 1].onset : notation_.bars * notation_.bar_length;
+            put(" {}1*{}/{}{}{}", name(chord.root), end - chord.onset, 4 * ticks_per_quarter,
+                chord_qualities()[static_cast<std::size_t>(chord.quality)].lilypond,
+                chord.bass ? "/+" + name(*chord.bass) : "");
+        }
+        put("\n    }}\n");
+    }
+
+    /// Writes a cue as a voice of its own, above the rests of the player.
+    void write_cue(const Cue& cue) {
+        put("      \\new CueVoice {{\n        \\voiceOne s1*{}/{} <>^\\markup \\tiny {}\n", cue.from,
+            4 * ticks_per_quarter, lilypond_string(cue.name));
+        write_voice(cue.voice, {}, {}, {});
+        put("\n      }}\n");
     }
 
     /// Writes dynamics that stand between the staves of two hands, or below several voices.
     void write_dynamics(const std::vector<DynamicMark>& marks) {
         if (marks.empty()) return;
         put("     ");
-        const auto skip = [&](std::int64_t from, std::int64_t to) {
-            if (to > from) put(" s1*{}/{}", to - from, 4 * ticks_per_quarter);
-        };
         skip(0, marks.front().onset);
         for (std::size_t i = 0; i < marks.size();) {
             const std::int64_t onset = marks[i].onset;
@@ -415,11 +492,13 @@ private:
             tuplet = symbol.tuplet;
             if (symbol.slows_down && symbol.onset > 0) put("\\tempo {}", rit);
             write_beam_counts(voice.symbols, i);
-            write_symbol(symbol);
+            const std::int64_t bars = is_whole_rest(symbol) ? notation_.bars_of_rest(symbol.onset) : 1;
+            write_symbol(symbol, bars);
             std::string end_marks = symbol.has_fermata ? "\\fermata" : "";
             for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
             put("{} ", end_marks);
-            const std::int64_t end = symbol.onset + symbol.length;
+            const std::int64_t end = symbol.onset + symbol.length + (bars - 1) * bar;
+            i += static_cast<std::size_t>(bars - 1);
             if (tuplet >= 0 && end == voice.tuplets[static_cast<std::size_t>(tuplet)].to) put("}} ");
             if (end % bar != 0) continue;
             const bool is_last = end / bar == notation_.bars;
@@ -473,7 +552,23 @@ private:
         put("{}", symbol.chord.empty() ? text : "<" + text + ">");
     }
 
-    void write_symbol(const NotatedSymbol& symbol) {
+    bool is_whole_rest(const NotatedSymbol& symbol) const {
+        return symbol.kind == SymbolKind::bar_rest ||
+               (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length);
+    }
+
+    /// A rest or a gap of some bars. Rests stand below a cue.
+    void write_bars(const NotatedSymbol& symbol, std::int64_t bars) {
+        const bool is_rest = symbol.kind == SymbolKind::bar_rest;
+        const bool is_below = is_rest && std::any_of(cues_.begin(), cues_.end(), [&](const Cue& cue) {
+                                  return cue.from <= symbol.onset && symbol.onset < cue.to;
+                              });
+        put("{}{}1*{}/{}{}{}", is_below ? "\\voiceTwo " : "", is_rest ? "R" : "s", head_.meter.beats,
+            head_.meter.unit, bars > 1 ? fmt::format("*{}", bars) : "", is_below ? " \\oneVoice" : "");
+    }
+
+    void write_symbol(const NotatedSymbol& symbol, std::int64_t bars) {
+        if (is_whole_rest(symbol)) return write_bars(symbol, bars);
         switch (symbol.kind) {
             case SymbolKind::note:
                 write_heads(symbol);
@@ -483,27 +578,25 @@ private:
                 if (symbol.leaves != 0) put("\\bendAfter #{:+}", 4 * symbol.leaves);
                 if (symbol.beams[0] == Beam::begin) put("[");
                 if (symbol.beams[0] == Beam::end) put("]");
+                if (symbol.ends_slur) put(")");
+                if (symbol.begins_slur) put("(");
                 if (symbol.is_accented) put("->");
+                if (symbol.is_staccato) put("-.");
                 write_cents(symbol);
                 break;
             case SymbolKind::rest:
                 put("r{}", length_name(symbol.value));
                 break;
             case SymbolKind::bar_rest:
-                put("R1*{}/{}", head_.meter.beats, head_.meter.unit);
-                break;
             case SymbolKind::gap:
-                if (symbol.length == notation_.bar_length) {
-                    put("s1*{}/{}", head_.meter.beats, head_.meter.unit);
-                } else {
-                    put("s{}", length_name(symbol.value));
-                }
+                put("s{}", length_name(symbol.value));
                 break;
         }
     }
 
     const Notation& notation_;
     const ScoreHead& head_;
+    std::span<const Cue> cues_;  ///< of the staff that is written
 };
 
 }  // namespace

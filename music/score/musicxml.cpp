@@ -1,6 +1,7 @@
 #include "music/score/score_formats.h"
 
 #include "engine/base/text.h"
+#include "music/score/chord_signs.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
@@ -60,6 +61,7 @@ struct StaffState {
     bool is_hairpin = false;
     std::size_t change = 0;
     std::size_t mark = 0;
+    std::size_t chord = 0;
 };
 
 class MusicXmlWriter : private TextWriter {
@@ -190,9 +192,18 @@ private:
                 write_key(keys[++key].key);
                 put("</attributes>\n");
             }
+            if (const std::int64_t rests = notation_.bars_of_rest(begin); rests > 1) {
+                put("<attributes><measure-style><multiple-rest>{}</multiple-rest></measure-style></attributes>\n",
+                    rests);
+            }
             if (bar == 0 && index == 0 && notation_.is_concert) {
                 put("<direction placement=\"above\"><direction-type><words>{}</words></direction-type></direction>\n",
                     concert_text);
+            }
+            if (bar == 0 && notation_.is_extracted) {
+                put("<direction placement=\"above\"><direction-type><words font-weight=\"bold\">{}</words>"
+                    "</direction-type></direction>\n",
+                    xml_escaped(part.name));
             }
             if (bar == 0 && index == 0) write_tempo();
             if (bar == 0 && part.part->part.swing.is_on()) {
@@ -206,6 +217,7 @@ private:
                     write_bar(part.staves[staff].voices[voice], next[staff][voice], bar,
                               voice == 0 ? &states[staff] : nullptr, part);
                 }
+                write_cues(part.staves[staff], bar);
             }
             // A bar ends where its last voice did.
             go_to((bar + 1) * notation_.bar_length);
@@ -229,6 +241,7 @@ private:
         write_key(part.part->keys.front().key);
         put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats_text(head_.meter), head_.meter.unit);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
+        if (part.part->has_pedal) put("<part-symbol top-staff=\"1\" bottom-staff=\"2\">brace</part-symbol>\n");
         for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
         if (part.staves.front().lines == 1) put("<staff-details><staff-lines>1</staff-lines></staff-details>\n");
         if (const auto& by = part.part->transposition) write_transposition(*by);
@@ -309,6 +322,12 @@ private:
             state.clef = change.clef;
             state.octaves = change.octaves;
         }
+        const std::vector<ChordMark>& chords = part.part->chords;
+        for (; &staff == &part.part->staves.front() && state.chord < chords.size() && chords[state.chord].onset < end;
+             ++state.chord) {
+            go_to(chords[state.chord].onset);
+            write_chord_mark(chords[state.chord]);
+        }
         for (; state.mark < staff.dynamics.size() && staff.dynamics[state.mark].onset < end; ++state.mark) {
             const DynamicMark& mark = staff.dynamics[state.mark];
             go_to(mark.onset);
@@ -324,10 +343,42 @@ private:
         }
     }
 
+    void write_chord_mark(const ChordMark& chord) {
+        const ChordQuality& quality = chord_qualities()[static_cast<std::size_t>(chord.quality)];
+        const auto pitch = [](std::string_view name, const Pitch& one) {
+            return fmt::format(
+                "<{0}><{0}-step>{1}</{0}-step>{2}</{0}>", name, "CDEFGAB"[one.letter],
+                one.quarters != 0 ? fmt::format("<{0}-alter>{1}</{0}-alter>", name, one.quarters / 2) : "");
+        };
+        put("<harmony placement=\"above\">{}<kind text=\"{}\">{}</kind>{}{}</harmony>\n", pitch("root", chord.root),
+            quality.printed, quality.musicxml, chord.bass ? pitch("bass", *chord.bass) : "",
+            staff_ > 0 ? fmt::format("<staff>{}</staff>", staff_) : "");
+    }
+
     void write_shift(const StaffState& state, std::string_view type, int octaves) {
         write_direction(fmt::format("<octave-shift type=\"{}\" size=\"{}\" number=\"{}\"/>", type,
                                     7 * std::abs(octaves) + 1, state.index % 16 + 1),
                         octaves > 0 ? "above" : "below");
+    }
+
+    /// Writes what a bar has of cues, in the voice after those of the staff.
+    void write_cues(const Staff& staff, std::int64_t bar) {
+        const std::int64_t begin = bar * notation_.bar_length;
+        for (const Cue& cue : staff.cues) {
+            if (begin < cue.from || begin >= cue.to) continue;
+            go_to(begin);
+            if (begin == cue.from) {
+                write_direction(fmt::format("<words font-size=\"7\">{}</words>", xml_escaped(cue.name)), "above");
+            }
+            ++voice_;
+            is_cue_ = true;
+            auto next = static_cast<std::size_t>(
+                std::find_if(cue.voice.symbols.begin(), cue.voice.symbols.end(),
+                             [&](const NotatedSymbol& symbol) { return symbol.onset >= begin; }) -
+                cue.voice.symbols.begin());
+            write_bar(cue.voice, next, bar, nullptr, {});
+            is_cue_ = false;
+        }
     }
 
     void write_bar(const NotatedVoice& voice, std::size_t& next, std::int64_t bar, StaffState* state,
@@ -363,6 +414,7 @@ private:
         symbol.pitch = note.pitch;
         symbol.drum = note.drum;
         symbol.has_sign = note.has_sign;
+        symbol.begins_slur = symbol.ends_slur = symbol.is_staccato = false;
         symbol.is_accented = symbol.begins_slide = symbol.ends_slide = symbol.has_fermata = false;
         symbol.leaves = 0;
         symbol.beams = {};
@@ -371,19 +423,21 @@ private:
 
     void write_symbol(const NotatedSymbol& symbol, const NotatedVoice& voice, bool is_chord = false) {
         const bool is_note = symbol.kind == SymbolKind::note;
-        put("<note{}>{}", symbol.kind == SymbolKind::gap ? " print-object=\"no\"" : "", is_chord ? "<chord/>" : "");
+        put("<note{}>{}{}", symbol.kind == SymbolKind::gap ? " print-object=\"no\"" : "", is_cue_ ? "<cue/>" : "",
+            is_chord ? "<chord/>" : "");
         if (is_note) {
             write_pitch(symbol);
         } else {
             put("{}", symbol.kind == SymbolKind::bar_rest ? "<rest measure=\"yes\"/>" : "<rest/>");
         }
         put("<duration>{}</duration>", symbol.length / unit_);
-        if (is_note && symbol.tied_back) put("<tie type=\"stop\"/>");
-        if (is_note && symbol.tied_forward) put("<tie type=\"start\"/>");
+        if (is_note && symbol.tied_back && !is_cue_) put("<tie type=\"stop\"/>");
+        if (is_note && symbol.tied_forward && !is_cue_) put("<tie type=\"start\"/>");
         if (symbol.drum > 0) put("<instrument id=\"P{}-I{}\"/>", part_, symbol.drum);
         put("<voice>{}</voice>", voice_);
         if (symbol.kind != SymbolKind::bar_rest) {
-            put("<type>{}</type>{}", type_name(symbol.value.divisor), symbol.value.dotted ? "<dot/>" : "");
+            put("<type{}>{}</type>{}", is_cue_ ? " size=\"cue\"" : "", type_name(symbol.value.divisor),
+                symbol.value.dotted ? "<dot/>" : "");
         }
         if (is_note && symbol.has_sign) put("<accidental>{}</accidental>", accidental_name(symbol.pitch.quarters));
         const TupletSpan* tuplet =
@@ -393,6 +447,7 @@ private:
                 "<normal-type>{}</normal-type></time-modification>",
                 tuplet->actual, tuplet->normal, type_name(tuplet->divisor));
         }
+        if (is_cue_ && is_note) put("<stem>up</stem>");
         if (symbol.drum > 0) {
             static constexpr std::array<std::string_view, 4> heads = {"normal", "x", "diamond", "triangle"};
             const NoteHead head = drum_of(symbol.drum).head;
@@ -401,6 +456,9 @@ private:
         if (staff_ > 0) put("<staff>{}</staff>", staff_);
         write_beams(symbol);
         write_notations(symbol, is_chord ? nullptr : tuplet);
+        if (!symbol.syllable.empty() && !is_chord) {
+            put("<lyric><syllabic>single</syllabic><text>{}</text></lyric>", symbol.syllable);
+        }
         put("</note>\n");
     }
 
@@ -416,7 +474,8 @@ private:
         const bool is_first = tuplet && tuplet->from == symbol.onset;
         const bool is_last = tuplet && tuplet->to == symbol.onset + symbol.length;
         if (!symbol.tied_back && !symbol.tied_forward && !is_first && !is_last && !symbol.is_accented &&
-            !symbol.begins_slide && !symbol.ends_slide && symbol.leaves == 0 && !symbol.has_fermata) {
+            !symbol.begins_slide && !symbol.ends_slide && symbol.leaves == 0 && !symbol.has_fermata &&
+            !symbol.begins_slur && !symbol.ends_slur && !symbol.is_staccato) {
             return;
         }
         put("<notations>{}{}", symbol.tied_back ? "<tied type=\"stop\"/>" : "",
@@ -426,8 +485,11 @@ private:
         const int slide = (voice_ - 1) % 6 + 1;
         if (symbol.ends_slide) put("<slide type=\"stop\" number=\"{}\"/>", slide);
         if (symbol.begins_slide) put("<slide type=\"start\" number=\"{}\" line-type=\"solid\"/>", slide);
-        if (symbol.is_accented || symbol.leaves != 0) {
-            put("<articulations>{}{}</articulations>", symbol.is_accented ? "<accent/>" : "",
+        if (symbol.ends_slur) put("<slur type=\"stop\" number=\"{}\"/>", slide);
+        if (symbol.begins_slur) put("<slur type=\"start\" number=\"{}\"/>", slide);
+        if (symbol.is_accented || symbol.is_staccato || symbol.leaves != 0) {
+            put("<articulations>{}{}{}</articulations>", symbol.is_accented ? "<accent/>" : "",
+                symbol.is_staccato ? "<staccato/>" : "",
                 symbol.leaves > 0   ? "<doit/>"
                 : symbol.leaves < 0 ? "<falloff/>"
                                     : "");
@@ -462,6 +524,7 @@ private:
     std::size_t part_ = 1;   ///< from 1
     std::size_t staff_ = 0;  ///< from 1; 0 if there is only one
     int voice_ = 1;
+    bool is_cue_ = false;
 };
 
 }  // namespace

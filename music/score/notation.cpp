@@ -9,6 +9,7 @@
 #include "music/score/spelling.h"
 #include "music/score/staves.h"
 #include "music/score/strokes.h"
+#include "music/score/syllables.h"
 #include "music/score/transposing.h"
 
 #include <fmt/format.h>
@@ -139,6 +140,10 @@ public:
                 symbol.ends_slide = note->ends_slide && !symbol.tied_back;
                 symbol.leaves = symbol.tied_forward ? 0 : note->leaves;
                 symbol.has_fermata = note->has_fermata && !symbol.tied_forward;
+                symbol.begins_slur = note->begins_slur && !symbol.tied_back;
+                symbol.ends_slur = note->ends_slur && !symbol.tied_forward;
+                symbol.is_staccato = note->is_staccato && !symbol.tied_back && !symbol.tied_forward;
+                if (!symbol.tied_back) symbol.syllable = note->syllable;
             }
         }
     }
@@ -184,6 +189,42 @@ void beam(NotatedVoice& voice, const Meter& meter) {
 int cents_above(double key, const Pitch& pitch) {
     const double away = key - pitch.key();
     return std::fabs(away) > unheard ? static_cast<int>(std::lround(100 * away)) : 0;
+}
+
+/// Indices of notes.
+struct Slur {
+    std::size_t first = 0;
+    std::size_t last = 0;
+};
+
+/// Slurs over what a phrase has between rests: at least two notes, not all of one pitch, in at most four bars.
+/// Players who swing shape their phrases themselves.
+std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, std::int64_t bar_length) {
+    constexpr std::int64_t most_bars_of_slur = 4;
+    std::vector<Slur> slurs;
+    if (!part.touch.has_phrases || part.swing.is_on() || part.touch.sounding < 1 || part.touch.is_by_depth ||
+        !has_slurs(part.program)) {
+        return slurs;
+    }
+    for (std::size_t first = 0; first < notes.size();) {
+        std::size_t last = first;
+        bool differs = false;
+        while (last + 1 < notes.size() && notes[last].onset + notes[last].duration == notes[last + 1].onset) {
+            ++last;
+            differs = differs || notes[last].key != notes[first].key;
+        }
+        const std::int64_t length = notes[last].onset - notes[first].onset;
+        if (differs && length < most_bars_of_slur * bar_length) slurs.push_back({first, last});
+        first = last + 1;
+    }
+    return slurs;
+}
+
+/// True for a note of at most a quarter of which less than two thirds sound.
+bool is_staccato(const Touch& touch, const Note& note) {
+    constexpr double most_sounding = 0.65, lost_each_bracket = 0.15;
+    const double sounding = touch.is_by_depth ? 1 - lost_each_bracket * note.depth : touch.sounding;
+    return sounding <= most_sounding && note.duration <= ticks_per_quarter && note.glide.semitones == 0;
 }
 
 void add_drums(const NotatedVoice& voice, std::set<int>& drums) {
@@ -254,6 +295,12 @@ const ClefForm& form_of(Clef clef) {
     return forms[static_cast<std::size_t>(clef)];
 }
 
+int middle_line(Clef clef) {
+    const ClefForm& form = form_of(clef);
+    const Pitch named = form.sign == 'G' ? Pitch{4, 4} : form.sign == 'F' ? Pitch{3, 3} : Pitch{0, 4};
+    return named.height() + 2 * (3 - form.line) + 7 * form.octaves;
+}
+
 std::string_view mode_name(Mode mode) {
     static constexpr std::array<std::string_view, 7> names = {"lydian", "major",    "mixolydian", "dorian",
                                                               "minor",  "phrygian", "locrian"};
@@ -279,6 +326,8 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
     : parts_(head.parts),
       meter_(head.meter),
       is_transposed_(head.is_transposed),
+      syllables_(head.syllables),
+      has_chord_signs_(head.has_chord_signs),
       ritardando_(head.ritardando),
       printed_bars_(bars) {
     std::size_t voices = 0;
@@ -298,6 +347,7 @@ void Notator::notes(std::span<const Note> notes) {
         }
         if (std::fabs(2 * note.key - std::round(2 * note.key)) > 2 * unheard) ++notation_.bent;
         voices_[static_cast<std::size_t>(note.voice)].push_back(note);
+        if (has_chord_signs_ && note.chord.quality >= 0) chord_signs_.try_emplace(note.onset, note.chord);
     }
 }
 
@@ -335,6 +385,7 @@ void Notator::finish(std::int64_t end) {
     find_outside();
     for (std::size_t i = 0; i < printed_.size() && is_transposed_; ++i) transpose_part(i);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
+    name_chords();
     mark_ending(end);
     set_labels(notation_.parts);
     std::vector<std::int64_t>& bars = notation_.double_bars;
@@ -421,6 +472,30 @@ void Notator::transpose_part(std::size_t index) {
     }
 }
 
+/// Names the chords of all parts above the first part with pitches.
+void Notator::name_chords() {
+    const auto first = std::find_if(printed_.begin(), printed_.end(), [](const PrintedPart& one) {
+        return !one.part.is_drums && !one.part.is_accompaniment;
+    });
+    if (first == printed_.end() || chord_signs_.empty()) return;
+    NotatedPart& part = notation_.parts[static_cast<std::size_t>(first - printed_.begin())];
+    const int up = part.transposition ? part.transposition->semitones : 0;
+    ChordSign before;
+    for (const auto& [strike, sign] : chord_signs_) {
+        if (sign == before) continue;
+        before = sign;
+        // A chord that is struck after the first beat belongs to the whole bar.
+        const std::int64_t bar_begin = strike / notation_.bar_length * notation_.bar_length;
+        const std::int64_t onset = strike - bar_begin < ticks_per_quarter ? bar_begin : strike;
+        const std::array<Spelling, 12>& spelling = first->key_at(onset).spelling;
+        const auto written = [&](int pitch_class) { return spelled(60 + pitch_class + up, spelling); };
+        ChordMark mark{onset, sign.quality, written(sign.root), {}};
+        if (sign.bass >= 0) mark.bass = written(sign.bass);
+        part.chords.push_back(mark);
+    }
+    part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.bars * notation_.bar_length);
+}
+
 /// Counts notes that their instrument cannot play.
 void Notator::find_outside() {
     for (const PrintedPart& printed : printed_) {
@@ -499,6 +574,7 @@ void Notator::notate_part(std::size_t index) {
     if (plan.staves.empty()) plan.staves.push_back({{{printed.first_voice, {}}}, {}});
     NotatedPart& notated = begin_part(printed);
     notated.bracket = plan.bracket;
+    notated.has_pedal = plan.has_pedal;
     std::vector<Note> together;  // notes of all staves for two hands
     for (const StaffPlan& planned : plan.staves) {
         Staff& staff = notated.staves.emplace_back();
@@ -569,6 +645,8 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
     VoiceWriter writer(grid, meter_, voice);
     const std::vector<bool> accents = accents_of(notes, notation_.bar_length);
     const bool is_loud_by_touch = !is_without_dynamics(part.part.program);
+    const std::vector<Slur> slurs = slurs_of(part.part, notes, notation_.bar_length);
+    auto slur = slurs.begin();
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];
         NotatedSymbol symbol;
@@ -593,8 +671,15 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
             writer.add_stroke(note.onset + note.duration, symbol);
             continue;
         }
-        const std::array<Spelling, 12>& spelling = part.key_at(note.onset).spelling;
+        const KeyOfBars& signature = part.key_at(note.onset);
+        const std::array<Spelling, 12>& spelling = signature.spelling;
         symbol.pitch = spelled(note.key, spelling);
+        if (!part.part.is_accompaniment && chords[i].empty())
+            symbol.syllable = syllable_of(syllables_, symbol.pitch, signature);
+        symbol.is_staccato = is_staccato(part.part.touch, note);
+        while (slur != slurs.end() && slur->last < i) ++slur;
+        symbol.begins_slur = slur != slurs.end() && slur->first == i;
+        symbol.ends_slur = slur != slurs.end() && slur->last == i;
         symbol.cents = cents_above(note.key, symbol.pitch);
         for (const double key : chords[i]) {
             const Pitch pitch = spelled(key, spelling);

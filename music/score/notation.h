@@ -2,6 +2,7 @@
 #pragma once
 
 #include "music/score/instruments.h"
+#include "music/score/pitch.h"
 #include "music/score/rhythm.h"
 #include "music/score/score.h"
 #include "music/score/turns.h"
@@ -19,19 +20,6 @@
 #include <vector>
 
 namespace sikku {
-
-/// A pitch as it is written. `quarters`: its sign in quarter tones, -4 (two flats) to 4 (two sharps).
-struct Pitch {
-    int letter = 0;  ///< 0 (C) to 6 (B)
-    int octave = 4;  ///< from C to B, that of middle C is 4; -2 to 9
-    int quarters = 0;
-
-    /// The MIDI key.
-    double key() const;
-    /// Letters above C0.
-    int height() const { return 7 * octave + letter; }
-    bool operator==(const Pitch&) const = default;
-};
 
 enum class SymbolKind {
     note,
@@ -63,12 +51,16 @@ struct NotatedSymbol {
     bool ends_slide = false;    ///< a line leads here from the note before
     bool has_fermata = false;   ///< set for notes and rests at the end
     bool slows_down = false;    ///< a ritardando begins here
-    int leaves = 0;             ///< it slides away without a goal: 1 up, -1 down; 0: not
-    int tuplet = -1;            ///< index in NotatedVoice::tuplets; -1: none
-    int cents = 0;              ///< to be printed: how much higher it sounds than written
-    Pitch pitch;                ///< pitch of a note; for drums the place on the staff, as in treble clef
-    int drum = 0;               ///< the key of a drum: see drums.h; 0: none
+    bool begins_slur = false;
+    bool ends_slur = false;
+    bool is_staccato = false;
+    int leaves = 0;   ///< it slides away without a goal: 1 up, -1 down; 0: not
+    int tuplet = -1;  ///< index in NotatedVoice::tuplets; -1: none
+    int cents = 0;    ///< to be printed: how much higher it sounds than written
+    Pitch pitch;      ///< pitch of a note; for drums the place on the staff, as in treble clef
+    int drum = 0;     ///< the key of a drum: see drums.h; 0: none
     std::array<Beam, 4> beams{};
+    std::string_view syllable{};   ///< under the note; static
     std::vector<ChordNote> chord;  ///< notes above `pitch` that sound with it
 };
 
@@ -83,6 +75,9 @@ struct ClefForm {
 
 /// The form of a clef; that of percussion is as in treble.
 const ClefForm& form_of(Clef clef);
+
+/// The height of the middle line: see Pitch::height().
+int middle_line(Clef clef);
 
 /// One voice on one staff. Its symbols fill the score from the first bar to the last, bar by bar.
 struct NotatedVoice {
@@ -113,11 +108,20 @@ struct DynamicMark {
     bool operator==(const DynamicMark&) const = default;
 };
 
+/// Notes of another part before an entry, printed small: a player who has rested long finds the place by them.
+struct Cue {
+    std::string name;  ///< abbreviation of the other part
+    std::int64_t from = 0;
+    std::int64_t to = 0;  ///< bar lines; the entry follows
+    NotatedVoice voice;   ///< its symbols fill these bars
+};
+
 struct Staff {
     int lines = 5;                     ///< 1 for a single drum
     std::vector<StaffChange> changes;  ///< the first is at 0
     std::vector<NotatedVoice> voices;  ///< 1 to 4
     std::vector<DynamicMark> dynamics;
+    std::vector<Cue> cues{};  ///< ascending
 };
 
 /// Sign that joins the staves of a part at the left.
@@ -129,6 +133,14 @@ struct KeyChange {
     std::optional<KeySignature> key;  ///< nullopt: no signs
 };
 
+/// A chord named above the staff from a tick on.
+struct ChordMark {
+    std::int64_t onset = 0;
+    int quality = 0;  ///< index in chord_qualities()
+    Pitch root{};
+    std::optional<Pitch> bass{};  ///< another bass than the root
+};
+
 struct NotatedPart {
     Part part;                                   ///< its instrument
     std::string name;                            ///< printed name; parts with the same name are numbered
@@ -137,6 +149,8 @@ struct NotatedPart {
     std::optional<Transposition> transposition;  ///< notes and keys are written this much higher than they sound
     std::vector<Staff> staves;                   ///< at least one
     Bracket bracket = Bracket::none;
+    std::vector<ChordMark> chords{};  ///< above the first staff, ascending
+    bool has_pedal = false;           ///< the last staff is for the pedal, below the brace of both hands
 };
 
 /// A score as it is printed; parts in the order of ScoreHead::parts, with those that take turns as one.
@@ -146,11 +160,19 @@ struct Notation {
     bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
     std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
-    std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
-    std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
-    std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
-    bool is_cut = false;       ///< bars follow that are not printed
-    bool is_concert = false;   ///< parts of transposing instruments are written as they sound
+    std::uint64_t moved = 0;    ///< notes that are not on the grid and were moved to the nearest point
+    std::uint64_t bent = 0;     ///< notes more than a cent away from every quarter tone, and written as the nearest
+    std::uint64_t merged = 0;   ///< notes left out because another voice has the same note
+    bool is_cut = false;        ///< bars follow that are not printed
+    bool is_concert = false;    ///< parts of transposing instruments are written as they sound
+    bool is_extracted = false;  ///< what one player reads
+    /// Numbers of bars of rest that are printed as one, by their first bar.
+    std::map<std::int64_t, std::int64_t> gathered_rests{};
+    /// Bars that a rest or gap of a whole bar stands for.
+    std::int64_t bars_of_rest(std::int64_t onset) const {
+        const auto found = gathered_rests.find(onset / bar_length);
+        return found == gathered_rests.end() ? 1 : found->second;
+    }
     /// Notes beyond the range of their instrument, by program.
     struct Outside {
         std::uint64_t notes = 0;
@@ -212,10 +234,13 @@ private:
     void agree_on_swing();
     void transpose_part(std::size_t index);
     void find_outside();
+    void name_chords();
 
     std::vector<Part> parts_;
     Meter meter_;
     bool is_transposed_;
+    Syllables syllables_;
+    bool has_chord_signs_;
     std::int64_t ritardando_;  ///< ticks before the end; 0: none
     Bars printed_bars_;
     std::int64_t all_bars_ = 1;
@@ -223,15 +248,13 @@ private:
     std::vector<PrintedPart> printed_;
     /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.
     std::map<ChordPlace, std::vector<double>> chords_;
+    std::map<std::int64_t, ChordSign> chord_signs_;  ///< by onset
     std::size_t count_ = 0;
     Notation notation_;
 };
 
 /// Stated at the head of a score whose transposing instruments are written as they sound.
 constexpr std::string_view concert_text = "Score in C";
-
-/// The letter, octave and sign of a key, by Part::spelling.
-Pitch spelled(double key, const std::array<Spelling, 12>& spelling);
 
 /// The keys of the drums on a staff, ascending.
 std::vector<int> drums_of(const Staff& staff);

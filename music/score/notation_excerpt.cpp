@@ -24,11 +24,26 @@ std::vector<Change> cut_changes(const std::vector<Change>& changes, std::int64_t
     return cut;
 }
 
+/// Begins a slur from before the cut at the first note, and ends one that leads out of it at the last.
+void close_slurs(std::vector<NotatedSymbol>& symbols, bool is_open) {
+    const auto is_note = [](const NotatedSymbol& symbol) { return symbol.kind == SymbolKind::note; };
+    const auto first = std::find_if(symbols.begin(), symbols.end(), is_note);
+    if (first == symbols.end()) return;
+    first->begins_slur = first->begins_slur || is_open;
+    for (const NotatedSymbol& symbol : symbols) is_open = (is_open || symbol.begins_slur) && !symbol.ends_slur;
+    if (is_open) std::find_if(symbols.rbegin(), symbols.rend(), is_note)->ends_slur = true;
+    for (NotatedSymbol& symbol : symbols) {
+        if (symbol.begins_slur && symbol.ends_slur) symbol.begins_slur = symbol.ends_slur = false;
+    }
+}
+
 void cut_voice(NotatedVoice& voice, std::int64_t from, std::int64_t to) {
     std::vector<NotatedSymbol> symbols;
     std::vector<TupletSpan> tuplets;
     std::map<int, int> numbers;  // of tuplets, by their numbers before
+    bool is_in_slur = false;     // where the cut begins
     for (NotatedSymbol& symbol : voice.symbols) {
+        if (symbol.onset < from) is_in_slur = (is_in_slur || symbol.begins_slur) && !symbol.ends_slur;
         if (symbol.onset < from || symbol.onset >= to) continue;
         if (symbol.tuplet >= 0) {
             const auto [number, is_new] = numbers.emplace(symbol.tuplet, static_cast<int>(tuplets.size()));
@@ -48,6 +63,7 @@ void cut_voice(NotatedVoice& voice, std::int64_t from, std::int64_t to) {
     }
     voice.symbols = std::move(symbols);
     voice.tuplets = std::move(tuplets);
+    close_slurs(voice.symbols, is_in_slur);
 }
 
 bool is_hairpin(const DynamicMark& mark) {
@@ -114,6 +130,10 @@ std::vector<DynamicMark> cut_dynamics(const std::vector<DynamicMark>& marks, con
 }
 
 }  // namespace
+
+std::vector<ChordMark> cut_chords(const std::vector<ChordMark>& chords, std::int64_t from, std::int64_t to) {
+    return cut_changes(chords, from, to);
+}
 
 void cut_bars(NotatedPart& part, std::int64_t from, std::int64_t to) {
     part.keys = cut_changes(part.keys, from, to);

@@ -12,4 +12,7 @@ namespace sikku {
 /// Second voices of a staff that are silent there are left out.
 void cut_bars(NotatedPart& part, std::int64_t from, std::int64_t to);
 
+/// The chords from one tick to another, with the one that is in force at its beginning.
+std::vector<ChordMark> cut_chords(const std::vector<ChordMark>& chords, std::int64_t from, std::int64_t to);
+
 }  // namespace sikku

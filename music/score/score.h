@@ -37,6 +37,14 @@ struct Emphasis {
     std::int8_t dynamic = -1;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff; -1: not stated
 };
 
+/// A chord as a symbol names it.
+struct ChordSign {
+    std::int8_t quality = -1;  ///< index in chord_qualities(); -1: no chord
+    std::int8_t root = 0;      ///< pitch class
+    std::int8_t bass = -1;     ///< pitch class of a bass that is not the root; -1: none
+    bool operator==(const ChordSign&) const = default;
+};
+
 /// One note of one voice.
 struct Note {
     std::int64_t onset = 0;
@@ -53,6 +61,7 @@ struct Note {
     Glide glide{};             ///< slide of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
     Emphasis emphasis{};
+    ChordSign chord{};  ///< chord that begins with this note, the bass of an accompaniment
 
     /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }
@@ -127,6 +136,16 @@ struct Swing {
     bool operator==(const Swing&) const = default;
 };
 
+/// What is printed under the notes: nothing, or their degrees of the scale.
+enum class Syllables : std::uint8_t { none, sargam, degrees, solfa };
+
+/// The share of each note that sounds, which print shows by slurs and dots.
+struct Touch {
+    double sounding = 1;       ///< of notes that are not in brackets
+    bool is_by_depth = false;  ///< less in each branch
+    bool has_phrases = false;  ///< it is made of phrases
+};
+
 /// One instrument: the voices of one pattern.
 struct Part {
     std::string name;
@@ -141,6 +160,8 @@ struct Part {
     bool is_accompaniment = false;  ///< its voices share a staff, and notes of one onset and length are a chord
     bool is_drums = false;          ///< percussion of General MIDI: keys are those of drums.h
     Swing swing{};                  ///< to be printed: the notes are written straight
+    Touch touch{};                  ///< likewise: the notes are written in full
+    double tonic = 60;              ///< MIDI key of the tonic
 };
 
 /// Contents of a score besides its notes. Voices are numbered through all parts in order.
@@ -155,6 +176,8 @@ struct ScoreHead {
     Meter meter;
     std::int64_t first_bar = 1;  ///< number of the first bar
     bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
+    Syllables syllables = Syllables::none;  ///< print: under the notes
+    bool has_chord_signs = false;           ///< print: chords are named above the first staff
     std::vector<Part> parts;
 
     /// The index of the part that contains a voice; 0 if none does.

@@ -10,6 +10,30 @@
 namespace sikku {
 namespace {
 
+void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
+    for (NotatedVoice& voice : staff.voices) {
+        std::int64_t current_bar = -1;
+        std::map<std::pair<int, int>, int> in_force;
+        for (NotatedSymbol& symbol : voice.symbols) {
+            if (symbol.kind != SymbolKind::note) continue;
+            if (!is_accompaniment && symbol.onset / bar != current_bar) {
+                current_bar = symbol.onset / bar;
+                in_force.clear();
+            }
+            const auto set = [&](const Pitch& pitch, int& printed) {
+                int& last = in_force[{pitch.height(), pitch.quarters}];
+                const int cents = printed;
+                if (symbol.tied_back || cents == last) printed = 0;
+                last = cents;
+            };
+            set(symbol.pitch, symbol.cents);
+            for (ChordNote& note : symbol.chord) set(note.pitch, note.cents);
+        }
+    }
+}
+
+}  // namespace
+
 void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t bar) {
     struct Head {
         std::int64_t onset;
@@ -42,30 +66,6 @@ void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t
         entry->second = pitch.quarters;
     }
 }
-
-void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
-    for (NotatedVoice& voice : staff.voices) {
-        std::int64_t current_bar = -1;
-        std::map<std::pair<int, int>, int> in_force;
-        for (NotatedSymbol& symbol : voice.symbols) {
-            if (symbol.kind != SymbolKind::note) continue;
-            if (!is_accompaniment && symbol.onset / bar != current_bar) {
-                current_bar = symbol.onset / bar;
-                in_force.clear();
-            }
-            const auto set = [&](const Pitch& pitch, int& printed) {
-                int& last = in_force[{pitch.height(), pitch.quarters}];
-                const int cents = printed;
-                if (symbol.tied_back || cents == last) printed = 0;
-                last = cents;
-            };
-            set(symbol.pitch, symbol.cents);
-            for (ChordNote& note : symbol.chord) set(note.pitch, note.cents);
-        }
-    }
-}
-
-}  // namespace
 
 void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, std::int64_t bar) {
     set_accidentals(staff, keys, bar);

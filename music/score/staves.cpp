@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t most_own_staves = 12;
 constexpr std::size_t voices_per_staff = 4;
 constexpr std::size_t most_shared_staves = 12;  // with two voices each
+constexpr int church_organ = 19;
 
 // ---- instruments
 
@@ -52,13 +53,6 @@ std::vector<Candidate> clefs_of(int program, bool is_high) {
     // Mallets are read in treble clef, too.
     const bool is_only_treble = is_treble || program == 9 || program == 11 || program == 13;
     return {{Clef::treble, 0}, {Clef::bass, is_only_treble ? 3.0 : 0.0}};
-}
-
-/// The height of the middle line.
-int middle_line(Clef clef) {
-    const ClefForm& form = form_of(clef);
-    const Pitch named = form.sign == 'G' ? Pitch{4, 4} : form.sign == 'F' ? Pitch{3, 3} : Pitch{0, 4};
-    return named.height() + 2 * (3 - form.line) + 7 * form.octaves;
 }
 
 /// Cost of the ledger lines of a note: small up to two, large from four on.
@@ -191,6 +185,25 @@ PartPlan divide_hands(std::vector<StaffVoice> voices) {
     return plan;
 }
 
+/// True if all notes are within the compass of the pedal of a pipe organ.
+bool fits_pedal(const std::vector<Note>& notes) {
+    constexpr double lowest = 36, highest = 65;
+    return std::all_of(notes.begin(), notes.end(),
+                       [](const Note& note) { return note.key >= lowest && note.key <= highest; });
+}
+
+/// Divides three or four voices of an organ between hands and pedal, if the lowest can be played by it.
+PartPlan divide_organ(std::vector<StaffVoice> voices) {
+    sort_by_height(voices);
+    if (!fits_pedal(voices.back().notes)) return divide_hands(std::move(voices));
+    StaffPlan pedal{{std::move(voices.back())}, Clef::bass};
+    voices.pop_back();
+    PartPlan plan = divide_hands(std::move(voices));
+    plan.staves.push_back(std::move(pedal));
+    plan.has_pedal = true;
+    return plan;
+}
+
 /// Merges notes that several voices share, and distributes the rest among few voices.
 PartPlan share_staves(const std::vector<StaffVoice>& voices) {
     PartPlan plan;
@@ -258,6 +271,7 @@ PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices
     }
     if (sounding.size() > most_own_staves) return share_staves(sounding);
     if (is_keyboard(part.program) && sounding.size() <= voices_per_staff) {
+        if (sounding.size() > 2 && part.program == church_organ) return divide_organ(std::move(sounding));
         if (sounding.size() > 1) return divide_hands(std::move(sounding));
         if (!fits_one_staff(part, sounding.front().notes)) {
             PartPlan hands = split_by_hand(part, sounding.front().notes, sounding.front().voice, bar_length);

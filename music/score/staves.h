@@ -22,6 +22,7 @@ struct StaffPlan {
 struct PartPlan {
     std::vector<StaffPlan> staves;  ///< from the highest; empty if no voice sounds
     Bracket bracket = Bracket::none;
+    bool has_pedal = false;    ///< the last staff is for the pedal of an organ, below those of the hands
     std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
 };
 
@@ -33,10 +34,11 @@ bool is_keyboard(int program);
 /// Up to four voices of an accompaniment share one staff.
 /// Each voice has a staff of its own; up to four voices of a part are ordered by their height. Parts for keyboards
 /// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
-/// low ones. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases change hands,
-/// where that saves ledger lines. If more than twelve voices sound, notes that several voices share are merged, and
-/// the rest is divided into as few lines as possible: up to twelve have staves of their own, more share them in
-/// pairs.
+/// low ones; the lowest of three and more voices of a pipe organ has a staff for the pedal, if it is within its
+/// compass, C2 to F4. A single voice for a keyboard has one staff if one clef is enough; otherwise whole phrases
+/// change hands, where that saves ledger lines. If more than twelve voices sound, notes that several voices share are
+/// merged, and the rest is divided into as few lines as possible: up to twelve have staves of their own, more share
+/// them in pairs.
 /// @param first_voice  number of the first voice in the score
 /// @throws ScoreError for more than 24 notes at once
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,

@@ -56,6 +56,7 @@ void transpose(PrintedPart& part, const Transposition& by) {
     for (KeyOfBars& key : part.keys) {
         key.key = moved(key.key, by, letters);
         key.spelling = moved(key.spelling, by.semitones, letters, key.key.has_value());
+        key.tonic = spelled(key.tonic.key() + by.semitones, key.spelling);
     }
     part.part.key = moved(part.part.key, by, letters);
     part.part.signature = moved(part.part.signature, by, letters);

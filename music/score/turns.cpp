@@ -13,6 +13,8 @@
 namespace sikku {
 namespace {
 
+constexpr std::size_t most_voices_of_keyboard = 4;
+
 /// Bars from the first to the last, both included.
 struct Stretch {
     std::int64_t first = 0;
@@ -150,7 +152,7 @@ std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, st
     const std::vector<Turn> turns = turns_of(line);
     const auto key_of = [&](const TurnSource& source, std::int64_t onset) {
         const Part& part = parts[source.index];
-        return KeyOfBars{onset, printed_key(part), part.spelling};
+        return KeyOfBars{onset, printed_key(part), part.spelling, spelled(std::round(part.tonic), part.spelling)};
     };
     std::vector<KeyOfBars> keys = {key_of(turns.empty() ? *line.sources.front() : *turns.front().source, 0)};
     for (std::size_t i = 1; i < turns.size(); ++i) {
@@ -214,22 +216,28 @@ bool has_same_keys(const PrintedPart& a, const PrintedPart& b) {
                       });
 }
 
-/// Joins two lines of one keyboard into a part for two hands.
+/// Joins two to four lines of one keyboard into a part for two hands, or for hands and pedal.
 void join_hands(std::vector<PrintedPart>& printed) {
     for (std::size_t i = 0; i < printed.size(); ++i) {
         PrintedPart& upper = printed[i];
         if (upper.part.is_drums || !is_keyboard(upper.part.program) || upper.voices.size() != 1) continue;
         std::vector<std::size_t> others;
+        bool fits = true;
         for (std::size_t k = 0; k < printed.size(); ++k) {
-            if (k != i && is_same_instrument(upper.part, printed[k].part)) others.push_back(k);
+            const PrintedPart& other = printed[k];
+            if (k == i || !is_same_instrument(upper.part, other.part)) continue;
+            fits = fits && k > i && other.voices.size() == 1 && has_same_keys(upper, other);
+            others.push_back(k);
         }
-        if (others.size() != 1 || others.front() < i) continue;
-        const PrintedPart& lower = printed[others.front()];
-        if (lower.voices.size() != 1 || !has_same_keys(upper, lower)) continue;
-        upper.voices.push_back(lower.voices.front());
-        upper.part.voices = 2;
-        upper.sources.insert(upper.sources.end(), lower.sources.begin(), lower.sources.end());
-        printed.erase(printed.begin() + static_cast<std::ptrdiff_t>(others.front()));
+        if (others.empty() || others.size() >= most_voices_of_keyboard || !fits) continue;
+        for (const std::size_t k : others) {
+            upper.voices.push_back(std::move(printed[k].voices.front()));
+            upper.sources.insert(upper.sources.end(), printed[k].sources.begin(), printed[k].sources.end());
+        }
+        upper.part.voices = static_cast<int>(upper.voices.size());
+        for (auto k = others.rbegin(); k != others.rend(); ++k) {
+            printed.erase(printed.begin() + static_cast<std::ptrdiff_t>(*k));
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 // music/score/turns.h: parts that take turns, as sections of an arrangement do, share staves in print.
 #pragma once
 
+#include "music/score/pitch.h"
 #include "music/score/score.h"
 
 #include <array>
@@ -17,6 +18,7 @@ struct KeyOfBars {
     std::int64_t onset = 0;           ///< ticks
     std::optional<KeySignature> key;  ///< nullopt: no signs
     std::array<Spelling, 12> spelling{};
+    Pitch tonic{};  ///< as written
 };
 
 /// A printed part: a part of the score, or several that take turns.
@@ -30,9 +32,9 @@ struct PrintedPart {
 };
 
 /// Combines parts of the same instrument (and name, if it is set) that never sound in the same bar, each with those
-/// of about its height. Two lines of one keyboard, of a voice each, become one part for two hands. Turns that can be
-/// written in the previous key without signs keep that key. Keys of several parts change at one bar line if their
-/// rests allow it. Cost: O(parts^2 + notes log notes).
+/// of about its height. Two to four lines of one keyboard, of a voice each, become one part for two hands. Turns that
+/// can be written in the previous key without signs keep that key. Keys of several parts change at one bar line if
+/// their rests allow it. Cost: O(parts^2 + notes log notes).
 /// @param voices  voices of all parts in order: notes by onset
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
                                      std::int64_t bar_length);
