@@ -378,7 +378,7 @@ bool has_windows(const Player& player) {
     const Melody& melody = player.melody;
     if (!grammar.is_plain() || grammar.whole_word_steps() > 0) return false;
     if (melody.branches != Branches::sequence && has_brackets(grammar)) return false;
-    if (melody.breathes_to_bar) return false;
+    if (melody.is_sequential()) return false;
     switch (melody.anchor) {
         case Anchor::first_note:
             return true;

@@ -99,6 +99,8 @@ Player bass_of(const Player& player) {
     bass.melody.cadence = Cadence::none;
     bass.melody.articulation = Articulation::legato;
     bass.melody.rhythm = {};
+    bass.melody.rhythms = {};
+    bass.melody.leaps = 0;
     bass.melody.swing = 0.5;
     bass.melody.program = acoustic_bass;
     bass.melody.phrase_order = std::max<std::int64_t>(0, melody.phrase_order - melody.bass_order);

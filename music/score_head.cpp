@@ -74,7 +74,7 @@ Part accompaniment_of(Part part, const Melody& melody) {
     part.touch = {};
     part.is_accompaniment = true;
     part.voices = melody.accompanying_voices();
-    part.program = melody.harmony == Harmony::drone ? sitar : strings;
+    part.program = melody.harmony == Harmony::drone ? sitar : melody.accompanist.value_or(strings);
     part.name = instrument_of(part.program).name;
     part.has_instrument_name = true;
     return part;

@@ -162,8 +162,10 @@ constexpr KeyInfo language[] = {
     {"change SYMBOL", music, "louder, softer, p, 90, octave up, octave down, up 2, down 2", "",
      "What a symbol changes for the notes after it, up to the end of its branch"},
     {"named notes", music, "no, yes", "no", "Whether symbols such as A, C4 and Bb3 sound the notes that they name"},
-    {"rhythm", music, "x..x..x., E(3,8), 4+2+2, adi, misra chapu, …; curve", "curve",
+    {"rhythm", music, "x..x..x., E(3,8), 4+2+2, adi, misra chapu, …; several by phrase: x.x. / x..x; curve", "curve",
      "Rhythm of the steps, slot by slot; curve: every step lasts the unit"},
+    {"leaps", music, "semitones such as 7, none", "none",
+     "Largest leap within a phrase; notes farther away move by octaves"},
     {"swing", music, "50 to 80 percent, and a note value such as 1/16", "50",
      "Share of the first of two eighths, or of two of that note value"},
     {"phrases", music, "an order k, none", "none", "Sub-curves of order k are phrases"},
@@ -176,6 +178,10 @@ constexpr KeyInfo language[] = {
     {"harmony", music, "none, drone, triads, bass, bass k, progression I-IV-V-I, progression blues", "none",
      "What sounds with the melody: tonic and fifth, the triad that fits a bar, the curve k orders coarser, or "
      "given chords"},
+    {"accompaniment", music,
+     "block, oom-pah, arpeggio, arpeggio down, alberti, strum, bossa, walking bass, silent; strokes such as bc5c; "
+     "perhaps on guitar",
+     "block", "How triads and progressions are played"},
     {"inversion", music, "no, yes", "no", "Whether up and down change places around the tonic"},
     {"retrograde", music, "no, yes", "no", "Whether the part is played from its end to its beginning"},
     {"augmentation", music, "2, 3, 1/2, 3/2, …", "1", "How many times longer all notes are"},

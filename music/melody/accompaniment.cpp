@@ -52,18 +52,89 @@ double Accompaniment::key_above(double cents, double lowest) const {
     return key;
 }
 
-std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord) const {
+std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord, bool is_last) const {
     if (melody_.harmony == Harmony::drone) return drone(begin);
     std::vector<Note> notes;
     if (!chord) return notes;
     const std::int64_t length = melody_.meter.bar();
     const Voicing keys = voicing_of(begin / length, *chord);
-    for (std::size_t voice = 0; voice < keys.size(); ++voice) {
-        if (keys[voice] == silent) continue;
-        notes.push_back({begin, length, keys[voice], static_cast<std::int16_t>(voice), soft});
+    const auto whole = [&] { strike({}, {begin, length, 60, 0, soft}, *chord, keys, notes); };
+    if (is_last) whole();
+    for (const Figure::Layer& layer : melody_.figure.layers) {
+        if (is_last) break;
+        const std::int64_t slot = length / layer.slots;
+        for (const Figure::Stroke& stroke : layer.strokes) {
+            strike(stroke, {begin + stroke.onset * slot, stroke.length * slot, 60, 0, soft}, *chord, keys, notes);
+        }
     }
+    if (notes.empty()) whole();
     notes.front().chord = sign_of(*chord, melody_.tonic + melody_.transpose);
     return notes;
+}
+
+/// Adds the notes of a stroke. @param note  its onset, duration and velocity
+void Accompaniment::strike(const Figure::Stroke& stroke, Note note, const Chord& chord, const Voicing& keys,
+                           std::vector<Note>& notes) const {
+    using enum Figure::Tone;
+    if (stroke.is_accented) {
+        note.velocity = soft + accent_velocity;
+        note.emphasis.is_accented = true;
+    }
+    const auto add = [&](std::size_t voice, double key) {
+        if (key == silent) return;
+        note.voice = static_cast<std::int16_t>(voice);
+        note.key = key;
+        notes.push_back(note);
+    };
+    const double top = keys[2] != silent ? keys[2] : keys[1];
+    switch (stroke.tone) {
+        case all:
+        case pair:
+            for (std::size_t voice = stroke.tone == all ? 0 : 1; voice < keys.size(); ++voice)
+                add(voice, keys[voice]);
+            return;
+        case bass:
+            return add(0, keys[0]);
+        case lower:
+            return add(1, keys[1] != silent ? keys[1] : keys[0]);
+        case upper:
+            return add(2, top != silent ? top : keys[0]);
+        case octave: {
+            double key = keys[0];
+            while (key <= top && key + 12 <= 127) key += 12;
+            return add(2, key);
+        }
+        case third:
+            return add(0, tone_above(chord, 400, keys[0]));
+        case fifth:
+            return add(0, tone_above(chord, 700, keys[0]));
+        case approach:
+            return add(0, approach_to_next(note.onset, chord, keys[0]));
+    }
+}
+
+/// The tone of a chord at about `cents` above its root, near the bass.
+double Accompaniment::tone_above(const Chord& chord, double cents, double bass) const {
+    constexpr double most_away = 160;
+    double best = bass;
+    double least = most_away;
+    for (const double tone : chord.cents) {
+        const double above = std::fmod(tone - chord.root + 2400, 1200);
+        if (std::fabs(above - cents) >= least) continue;
+        least = std::fabs(above - cents);
+        best = key_above(tone, bass_register);
+    }
+    return best;
+}
+
+/// A half step from the bass of the bar after `tick`, on the side of this one; the fifth if that bar is unknown.
+double Accompaniment::approach_to_next(std::int64_t tick, const Chord& chord, double bass) const {
+    if (progression_.empty()) return tone_above(chord, 700, bass);
+    const auto next =
+        static_cast<std::size_t>((tick / melody_.meter.bar() + 1) % static_cast<std::int64_t>(progression_.size()));
+    const double goal = progression_[next][0];
+    const double from = tone_above(chord, 700, bass);
+    return std::clamp(from < goal ? goal - 1 : goal + 1, 0.0, 127.0);
 }
 
 /// A bar of a tanpura: fifth, tonic and tonic over a sustained low tonic.

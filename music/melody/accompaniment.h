@@ -11,20 +11,25 @@ namespace sikku::mapping {
 
 /// Plays the drone or the chords of a melody, bar by bar. Chords have their root in the bass, and two voices above it
 /// that move as little as possible; no two voices move in parallel fifths or octaves where the chords permit. Chords
-/// of two tones have one voice above the bass, which may be their fifth.
+/// of two tones have one voice above the bass, which may be their fifth. The figure of the melody is their rhythm.
 class Accompaniment {
 public:
     explicit Accompaniment(const Melody& melody);
 
     /// The notes of a bar that begins at tick `begin`; voices are counted from 0.
     /// @param chord  chord of the bar; null for a drone
-    std::vector<Note> bar(std::int64_t begin, const Chord* chord) const;
+    /// @param is_last  the last bar of the melody, in which chords are held
+    std::vector<Note> bar(std::int64_t begin, const Chord* chord, bool is_last = false) const;
 
 private:
     /// Keys of the bass, the lower and the upper voice above it; voices without a tone of their own are silent.
     using Voicing = std::array<double, 3>;
 
     std::vector<Note> drone(std::int64_t begin) const;
+    void strike(const Figure::Stroke& stroke, Note note, const Chord& chord, const Voicing& keys,
+                std::vector<Note>& notes) const;
+    double tone_above(const Chord& chord, double cents, double bass) const;
+    double approach_to_next(std::int64_t tick, const Chord& chord, double bass) const;
     Voicing voicing_of(std::int64_t bar, const Chord& chord) const;
     std::vector<Voicing> voicings_of(const Chord& chord) const;
     void lead_progression();

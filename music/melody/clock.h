@@ -16,7 +16,8 @@ template <class Walk>
 class Clock {
 public:
     using Number = typename Walk::Number;
-    explicit Clock(const Melody& melody) : melody_(melody), has_rhythm_(!melody.rhythm.empty()) {}
+    explicit Clock(const Melody& melody)
+        : melody_(melody), rhythm_(&melody.rhythm), has_rhythm_(!melody.rhythm.empty()) {}
 
     std::int64_t ticks(Number steps) const {
         if (has_rhythm_) return slot_ticks(steps - begin_, false) + breaths_;
@@ -51,7 +52,7 @@ public:
         return end.convert_to<std::int64_t>();
     }
     bool is_accented(Number steps) const {
-        return has_rhythm_ && melody_.rhythm.hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
+        return has_rhythm_ && rhythm_->hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
     }
     /// Number of steps that certainly begin before `tick`, with the breaths of `phrases` still to come.
     /// @return below 0 if none
@@ -60,38 +61,42 @@ public:
         if (left < 0) return -1;
         const auto room = left.convert_to<std::int64_t>();
         if (!has_rhythm_) return room / melody_.unit;
-        const auto hits = static_cast<std::int64_t>(melody_.rhythm.hits.size());
-        return room / (melody_.rhythm.slots * melody_.unit) * hits - hits;
+        const auto hits = static_cast<std::int64_t>(rhythm_->hits.size());
+        return room / (rhythm_->slots * melody_.unit) * hits - hits;
     }
     /// Adds rests after phrases. @param steps  end of the last one
     void breathe(const Integer& phrases, Number steps) {
         phrases_ += (phrases & 1).convert_to<int>();
-        if (!melody_.breathes_to_bar) {
+        if (!melody_.restarts_rhythm()) {
             breaths_ += (phrases * melody_.breath).convert_to<std::int64_t>();
             return;
         }
-        // The next phrase begins with the rhythm, at a bar line.
-        const std::int64_t bar = melody_.meter.bar();
+        // The next phrase begins with its rhythm, perhaps at a bar line.
+        const std::int64_t bar = melody_.breathes_to_bar ? melody_.meter.bar() : 1;
         breaths_ = (end_ticks(steps) + melody_.breath + bar - 1) / bar * bar;
         begin_ = steps;
+        if (melody_.rhythms.empty()) return;
+        rhythm_number_ =
+            Integer((rhythm_number_ + phrases) % melody_.rhythms.size()).template convert_to<std::size_t>();
+        rhythm_ = &melody_.rhythms[rhythm_number_];
     }
     /// True if an odd number of phrases has ended.
     bool is_odd() const { return phrases_ % 2 != 0; }
 
 private:
     /// Steps in a cycle of the rhythm; cycle() is its duration in ticks.
-    Integer hits() const { return has_rhythm_ ? Integer(melody_.rhythm.hits.size()) : Integer(1); }
-    Integer cycle() const { return Integer(has_rhythm_ ? melody_.rhythm.slots : 1) * melody_.unit; }
+    Integer hits() const { return has_rhythm_ ? Integer(rhythm_->hits.size()) : Integer(1); }
+    Integer cycle() const { return Integer(has_rhythm_ ? rhythm_->slots : 1) * melody_.unit; }
     Integer exact_ticks(const Integer& steps) const {
         const auto index = Integer(steps % hits()).convert_to<std::int64_t>();
-        const std::int64_t onset = has_rhythm_ ? melody_.rhythm.onset(index) : 0;
+        const std::int64_t onset = has_rhythm_ ? rhythm_->onset(index) : 0;
         return steps / hits() * cycle() + Integer(onset) * melody_.unit;
     }
 
     std::int64_t slot_ticks(Number steps, bool is_end) const {
         const auto whole = static_cast<std::int64_t>(std::floor(static_cast<double>(steps) + 1e-6));
         const auto index = std::is_floating_point_v<Number> ? whole : static_cast<std::int64_t>(steps);
-        const RhythmTemplate& rhythm = melody_.rhythm;
+        const RhythmTemplate& rhythm = *rhythm_;
         const double part = static_cast<double>(steps) - static_cast<double>(index);
         if (index >= farthest / (rhythm.slots + 1)) return latest;
         if (!std::is_floating_point_v<Number> || part < 1e-6) {
@@ -103,6 +108,8 @@ private:
     }
 
     const Melody& melody_;
+    const RhythmTemplate* rhythm_;  // of the phrase
+    std::size_t rhythm_number_ = 0;
     bool has_rhythm_;
     std::int64_t breaths_ = 0;  // ticks
     Number begin_ = 0;          // step from which times count: the start of the phrase if it begins at a bar line

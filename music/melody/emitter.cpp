@@ -24,7 +24,27 @@ Emitter::Emitter(const Melody& melody, NoteSink& sink, const PlayOptions& option
     for (auto& keys : keys_) keys.assign(2 * cached_degrees, Placed{});
 }
 
+void Emitter::limit_leap(Line& line, Shaper::Draft& draft) const {
+    const auto period = static_cast<std::int64_t>(melody_.scale.size());
+    if (std::exchange(line.phrase, phrase_) != phrase_) {
+        line.leapt_to = unknown;
+        line.leapt_by = 0;
+    }
+    std::int64_t degree = draft.degree + line.leapt_by;
+    if (line.leapt_to != unknown) {
+        const auto from = melody_.key(line.leapt_to, false);
+        const auto to = melody_.key(degree, false);
+        const double leap = from && to ? *to - *from : 0;
+        if (std::fabs(leap) > melody_.leaps) degree -= std::llround(leap * 100 / melody_.scale.period) * period;
+    }
+    line.leapt_by = degree - draft.degree;
+    line.leapt_to = degree;
+    draft.goal += line.leapt_by;
+    draft.degree = degree;
+}
+
 void Emitter::end_phrase(int voice, bool is_odd) {
+    if (voice == 0) ++phrase_;
     if (!shaper_) return;
     shaper_->end_phrase(voice, is_odd);
     hand_on();
@@ -68,7 +88,8 @@ void Emitter::finish(std::int64_t end) {
         std::int64_t last = end;
         for (const std::int64_t busy : busy_until_) last = std::max(last, busy);
         for (std::int64_t at = options_.from / bar * bar; at < std::min(last, options_.to); at += bar) {
-            accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr);
+            const bool is_last = end < options_.to && at + bar >= last;
+            accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr, is_last);
         }
     }
     flush();
@@ -84,9 +105,9 @@ void Emitter::finish(std::int64_t end) {
     sink_.finish(end);
 }
 
-void Emitter::accompany(std::int64_t begin, const Chord* chord) {
+void Emitter::accompany(std::int64_t begin, const Chord* chord, bool is_last) {
     if (!accompaniment_) return;
-    for (Note note : accompaniment_->bar(begin, chord)) {
+    for (Note note : accompaniment_->bar(begin, chord, is_last)) {
         const std::int64_t from = std::max(note.onset, options_.from);
         const std::int64_t to = std::min(note.onset + note.duration, options_.to);
         if (from >= to) continue;

@@ -29,11 +29,16 @@ public:
         int voice = -1;
         std::int64_t last_degree = unknown;
         bool falling = false;
+        // With `leaps`: the last degree of a phrase, how far it was moved, and the phrase.
+        std::int64_t leapt_to = unknown;
+        std::int64_t leapt_by = 0;
+        std::uint64_t phrase = 0;
     };
 
     /// Passes on a note of the curve, whose degree is turned and moved as the melody states.
     void note(Line& line, Shaper::Draft draft) {
         draft.degree = moved(draft.degree);
+        if (melody_.leaps > 0) limit_leap(line, draft);
         describe(draft);
         shaper_ ? shape(line, draft) : place(line, draft);
     }
@@ -47,6 +52,7 @@ public:
     void gliding_note(Line& line, Shaper::Draft draft) {
         draft.degree = moved(draft.degree);
         draft.goal = moved(draft.goal);
+        if (melody_.leaps > 0) limit_leap(line, draft);
         take_time(line, draft.onset, draft.end);
         describe(draft);
         shaper_ ? shape(line, draft) : place_gliding(line, draft);
@@ -106,11 +112,13 @@ private:
         draft.level = level;
         draft.emphasis = emphasis;
     }
+    /// Moves a note by periods to within a leap of the one before it in the phrase, if it is farther away.
+    void limit_leap(Line& line, Shaper::Draft& draft) const;
     void shape(Line& line, Shaper::Draft& draft);
     /// Places the notes that are shaped.
     void hand_on();
     /// Plays the accompaniment of a bar.
-    void accompany(std::int64_t begin, const Chord* chord);
+    void accompany(std::int64_t begin, const Chord* chord, bool is_last = false);
     /// Places a note by its degree. Hot: the notes of most melodies come here.
     void place(Line& line, const Shaper::Draft& note);
     /// Places a note by its fixed key, or else by its degree.
@@ -157,6 +165,7 @@ private:
     std::optional<DegreeRange> range_;  // created once a note lies beyond it
     std::optional<Shaper> shaper_;
     std::optional<Accompaniment> accompaniment_;
+    std::uint64_t phrase_ = 0;               // phrases that have ended
     std::int64_t accompanied_ = 0;           // tick of the score up to which chords have been added
     std::vector<Line> shaped_;               // line of each voice
     std::vector<std::int64_t> busy_until_;   // by voice, from the notes already placed

@@ -130,10 +130,10 @@ public:
         const bool is_anchored = melody.mapping == Mapping::runs && has_anchor;
         if (options.from > 0 || is_anchored) fold_ = fold_of(grammar, melody, marks.phrase);
         if (options.ahead > 0 && (!fold_ || has_voices_ || melody.mapping != Mapping::runs ||
-                                  melody.vertical == Vertical::voice || melody.breathes_to_bar)) {
+                                  melody.vertical == Vertical::voice || melody.is_sequential())) {
             throw ScoreError(
-                "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without voices, and "
-                "without phrases that begin at bar lines");
+                "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without voices, without "
+                "phrases that begin at bar lines or with rhythms of their own, and without `leaps`");
         }
     }
 
@@ -148,8 +148,8 @@ public:
         }
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
-        // The beginning of a phrase at a bar line depends on all phrases before it.
-        if (fold_ && options_.from > 0 && !melody_.breathes_to_bar) {
+        // The beginning of a phrase at a bar line, for example, depends on all phrases before it.
+        if (fold_ && options_.from > 0 && !melody_.is_sequential()) {
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;
         }
@@ -179,8 +179,10 @@ private:
                     "the piece lies too far into the curve: more than {:.0f} nodes would be visited to reach its "
                     "end{}",
                     options_.budget,
-                    melody_.breathes_to_bar ? ", as phrases that begin at bar lines are read from the beginning"
-                                            : ""));
+                    melody_.is_sequential()
+                        ? ", as phrases that begin at bar lines or with rhythms of their own, and "
+                          "`leaps`, are read from the beginning"
+                        : ""));
             }
             if (options_.watch) options_.watch(symbols);
         };
@@ -395,7 +397,7 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     const auto fold = fold_of(with_marks.grammar, melody, with_marks.marks.phrase);
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
-    if (melody.breathes_to_bar && whole.marks > 0) return std::nullopt;
+    if (melody.leaps > 0 || (melody.restarts_rhythm() && whole.marks > 0)) return std::nullopt;
     MelodyCensus result;
     const auto notes_along = [&](std::size_t axis) {
         return melody.runs == Runs::each_step ? whole.steps[axis] : whole.runs[axis];

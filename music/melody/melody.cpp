@@ -81,6 +81,7 @@ public:
         read_expression(pattern_, melody_, diagnostics_);
         read_meter();
         read_instrument();
+        read_accompaniment();
         read_place();
         warn_of_what_has_no_meaning();
         return std::move(melody_);
@@ -249,11 +250,26 @@ private:
         melody_.unit = above * whole_note / below;
     }
 
+    /// Reads a rhythm, or several, separated by `/`.
+    void read_rhythms(const Key& key) {
+        std::string problem;
+        for (std::string_view rest = key.value.view();;) {
+            const std::size_t end = std::min(rest.find('/'), rest.size());
+            melody_.rhythms.push_back(read_rhythm_template(trimmed(rest.substr(0, end)), problem));
+            if (melody_.rhythms.back().empty()) {
+                melody_.rhythms.clear();
+                return fail(key, problem);
+            }
+            if (end == rest.size()) break;
+            rest.remove_prefix(end + 1);
+        }
+        melody_.rhythm = melody_.rhythms.front();
+        if (melody_.rhythms.size() == 1) melody_.rhythms.clear();
+    }
+
     void read_rhythm() {
         if (const Key* key = pattern_.find("rhythm"); key && lower_case(key->value.view()) != "curve") {
-            std::string problem;
-            melody_.rhythm = read_rhythm_template(key->value.view(), problem);
-            if (melody_.rhythm.empty()) fail(*key, problem);
+            read_rhythms(*key);
             if (melody_.branches == Branches::shares) {
                 fail(*key, "'rhythm:' cannot be combined with `brackets: shares`");
             }
@@ -290,9 +306,29 @@ private:
         if (const Key* key = pattern_.find("breath")) read_breath(*key);
         choose<Cadence>("cadence", melody_.cadence,
                         {{"none", Cadence::none}, {"tonic", Cadence::tonic}, {"alternate", Cadence::alternate}});
+        const Key* rhythm = pattern_.find("rhythm");
+        if (rhythm && !melody_.rhythms.empty() && melody_.phrase_order == 0) {
+            fail(*rhythm, "several rhythms need `phrases: k`: phrases take them in turn");
+        }
+        read_leaps();
         read_articulation();
         choose<Close>("ending", melody_.close,
                       {{"none", Close::none}, {"ritardando", Close::ritardando}, {"fermata", Close::fermata}});
+    }
+
+    /// Notes move by whole periods, so that half a period is always within reach.
+    void read_leaps() {
+        const Key* key = pattern_.find("leaps");
+        if (!key || lower_case(key->value.view()) == "none") return;
+        constexpr int widest = 127;
+        const auto least = static_cast<int>(std::ceil(std::fabs(melody_.scale.period) / 200));
+        const auto semitones = whole_number(key->value.view(), least, widest);
+        if (!semitones) {
+            return fail(*key, fmt::format("expected the largest leap in semitones, from {} (half a period of the "
+                                          "scale, by which notes move) to {}, or none",
+                                          least, widest));
+        }
+        melody_.leaps = static_cast<int>(*semitones);
     }
 
     /// Reads `1/8`, `bar` for a rest until the next bar line, or `1/8 bar` for one of at least an eighth.
@@ -437,13 +473,35 @@ private:
 
     void read_instrument() {
         const Key* key = pattern_.find("instrument");
+        if (key) read_program(*key, key->value.view(), melody_.program);
+    }
+
+    /// Reads `oom-pah` or `bossa on guitar`.
+    void read_accompaniment() {
+        const Key* key = pattern_.find("accompaniment");
         if (!key) return;
-        const std::string_view text = key->value.view();
+        std::string_view text = key->value.view();
+        const std::size_t on = lower_case(text).rfind(" on ");
+        if (on != std::string::npos) {
+            read_program(*key, trimmed(text.substr(on + 4)), melody_.accompanist.emplace(0));
+            text = trimmed(text.substr(0, on));
+        }
+        std::string problem;
+        melody_.figure = read_figure(text, melody_.meter, problem);
+        if (!problem.empty()) return fail(*key, problem);
+        if (!melody_.has_chords()) {
+            diagnostics_.warning(key->name_at,
+                                 "'accompaniment:' has no effect without `harmony: triads` or a progression");
+        }
+    }
+
+    /// Reads the name or the number of an instrument.
+    void read_program(const Key& key, std::string_view text, int& program) {
         if (const auto number = whole_number(text, INT_MIN, INT_MAX)) {
             if (*number < 1 || *number > 128) {
-                diagnostics_.error(key->value, "the programs of General MIDI are 1 to 128");
+                diagnostics_.error(key.value, "the programs of General MIDI are 1 to 128");
             } else {
-                melody_.program = static_cast<int>(*number) - 1;
+                program = static_cast<int>(*number) - 1;
             }
             return;
         }
@@ -451,12 +509,12 @@ private:
         std::vector<std::string> folded;
         for (const std::string_view name : instrument_names()) folded.push_back(lower_case(name));
         if (const auto same = std::find(folded.begin(), folded.end(), wanted); same != folded.end()) {
-            melody_.program = static_cast<int>(same - folded.begin());
+            program = static_cast<int>(same - folded.begin());
             return;
         }
         if (wanted == "piano") return;  // the first of all, and the default
         // Part of a name is enough: `guitar`, `strings`.
-        if (wanted.size() >= 3 && choose_by_word(*key, wanted, folded)) return;
+        if (wanted.size() >= 3 && choose_by_word(key, text, folded, program)) return;
         // The nearest name, or the one with the nearest word.
         std::string_view near = nearest(wanted, {folded.begin(), folded.end()});
         for (std::size_t i = 0; i < folded.size() && near.empty(); ++i) {
@@ -465,14 +523,15 @@ private:
             }
         }
         const std::string problem = text.empty() ? "" : fmt::format("unknown instrument '{}'; ", text);
-        fail(*key, near.empty() || text.empty()
-                       ? problem + "expected a General MIDI name such as flute or sitar, or a number from 1 to 128"
-                       : fmt::format("{}did you mean '{}'?", problem, near));
+        fail(key, near.empty() || text.empty()
+                      ? problem + "expected a General MIDI name such as flute or sitar, or a number from 1 to 128"
+                      : fmt::format("{}did you mean '{}'?", problem, near));
     }
 
     /// Selects the first name that contains the text, preferably as a whole word, and reports it. Three letters have
     /// to begin a word.
-    bool choose_by_word(const Key& key, const std::string& wanted, const std::vector<std::string>& names) {
+    bool choose_by_word(const Key& key, std::string_view text, const std::vector<std::string>& names, int& chosen) {
+        const std::string wanted = lower_case(text);
         for (const bool is_word : {true, false}) {
             const auto matches = [&](const std::string& name) {
                 const std::string padded = ' ' + name + ' ';
@@ -483,10 +542,10 @@ private:
             if (first == names.end()) continue;
             const auto program = static_cast<std::size_t>(first - names.begin());
             const auto others = std::count_if(names.begin(), names.end(), matches);
-            melody_.program = static_cast<int>(program);
+            chosen = static_cast<int>(program);
             diagnostics_.warning(
                 key.value,
-                fmt::format("instrument '{}' is taken to be {} ({}){}", key.value.view(), instrument_names()[program],
+                fmt::format("instrument '{}' is taken to be {} ({}){}", text, instrument_names()[program],
                             program + 1, others > 1 ? fmt::format(", the first of {} with this word", others) : ""));
             return true;
         }

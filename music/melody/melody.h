@@ -4,6 +4,7 @@
 
 #include "engine/language/pattern.h"
 #include "music/melody/expression.h"
+#include "music/melody/figure.h"
 #include "music/melody/harmony.h"
 #include "music/melody/layout.h"
 #include "music/melody/rhythm_template.h"
@@ -73,8 +74,10 @@ struct Melody {
     double lowest = 0.0;     ///< MIDI keys between which `range` keeps the melody
     double highest = 127.0;  ///< not below `lowest`
     Loudness loudness = Loudness::fixed;
-    RhythmTemplate rhythm;  ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
-    double swing = 0.5;     ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
+    int leaps = 0;  ///< semitones; a note farther from the one before it in its phrase moves by periods; 0: any
+    RhythmTemplate rhythm;                ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
+    std::vector<RhythmTemplate> rhythms;  ///< those that phrases take in turn, the first of them `rhythm`; or none
+    double swing = 0.5;                   ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
     std::int64_t phrase_order = 0;  ///< order of the sub-curves that are phrases; 0: none
     std::int64_t breath = 0;        ///< ticks of rest after a phrase, or their minimum
@@ -84,6 +87,8 @@ struct Melody {
     Cadence cadence = Cadence::none;
     Harmony harmony = Harmony::none;
     std::vector<Chord> progression;  ///< one for each bar, repeated
+    Figure figure;                   ///< how chords are played
+    std::optional<int> accompanist;  ///< General MIDI program of the chords; absent: strings
     std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
     Close close = Close::none;
     double tempo = 120.0;  ///< quarters a minute
@@ -97,6 +102,10 @@ struct Melody {
     Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
+    /// True if a phrase begins with its rhythm, perhaps at a bar line.
+    bool restarts_rhythm() const { return breathes_to_bar || !rhythms.empty(); }
+    /// True if what a phrase plays depends on all that came before it.
+    bool is_sequential() const { return restarts_rhythm() || leaps > 0; }
     /// True if notes are changed between the curve and the scale.
     bool is_shaped() const {
         return swing != 0.5 || cadence != Cadence::none || articulation != Articulation::legato || has_chords();
@@ -105,7 +114,10 @@ struct Melody {
     bool has_chords() const { return harmony == Harmony::triads || harmony == Harmony::progression; }
     /// Number of voices of drone or chords.
     int accompanying_voices() const {
-        return !is_accompanied ? 0 : has_chords() ? 3 : harmony == Harmony::drone ? 2 : 0;
+        return !is_accompanied || (has_chords() && figure.is_silent) ? 0
+               : has_chords()                                        ? 3
+               : harmony == Harmony::drone                           ? 2
+                                                                     : 0;
     }
     /// Number of voices of the melody itself, without those of branches.
     int own_voices() const {

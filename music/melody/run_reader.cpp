@@ -300,8 +300,8 @@ private:
         if (due_ == 0) return;
         const Number now = std::max(state_.time, state_.other_time);
         Base::end_phrases(melody_.vertical == Vertical::voice ? 2 : 1, now);
-        // Two voices begin together at a bar line.
-        if (melody_.breathes_to_bar) state_.time = state_.other_time = now;
+        // Two voices begin together.
+        if (melody_.restarts_rhythm()) state_.time = state_.other_time = now;
     }
 
     /// True if no note of the piece is held back.

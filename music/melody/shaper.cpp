@@ -132,9 +132,15 @@ void Shaper::release(Draft note) {
     harmonise(note);
 }
 
+/// Names a chord that nobody sounds.
+void Shaper::name(Draft& note, const Chord& chord) const {
+    if (melody_.figure.is_silent) note.chord = sign_of(chord, melody_.tonic + melody_.transpose);
+}
+
 void Shaper::harmonise(Draft note) {
     if (const Chord* chord = given_chord(note.onset)) {
         if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*chord, note.degree);
+        name(note, *chord);
         return perform(note);
     }
     if (note.voice != leader_) return perform(note);
@@ -174,6 +180,7 @@ void Shaper::close_bar() {
     sounding_until_ = bar_.back().end;
     for (Draft& note : bar_) {
         if (!note.is_fixed() && (is_strong(note) || note.is_last)) note.degree = tone_of(*best, note.degree);
+        name(note, *best);
         perform(note);
     }
     bar_.clear();

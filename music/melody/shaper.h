@@ -71,6 +71,7 @@ private:
     void cadence(std::vector<Draft>& notes, bool is_odd) const;
     void release(Draft note);
     void harmonise(Draft note);
+    void name(Draft& note, const Chord& chord) const;
     void close_bar();
     void go_on_until(std::int64_t tick);
     void perform(Draft note);

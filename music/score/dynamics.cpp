@@ -19,7 +19,7 @@ constexpr double least_slope = 2;           // change of velocity from bar to ba
 constexpr double accent = 14;
 constexpr std::int64_t least_rest = ticks_per_quarter / 2;  // shortest rest that a hairpin does not cross
 
-double centre(int level) {
+double middle_velocity(int level) {
     return step * (level + 1);
 }
 
@@ -73,7 +73,7 @@ void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& curr
         const double velocity = bars[i].velocity;
         // A few notes alone do not change the level.
         if (current >= 0 && 2 * bars[i].weight < static_cast<double>(bar_length)) continue;
-        if (current >= 0 && std::fabs(velocity - centre(current)) <= step / 2 + reluctance) continue;
+        if (current >= 0 && std::fabs(velocity - middle_velocity(current)) <= step / 2 + reluctance) continue;
         const int next = dynamic_level(velocity);
         if (next == current) continue;
         if (current >= 0) {

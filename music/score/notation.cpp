@@ -399,30 +399,41 @@ void Notator::finish(std::int64_t end) {
 }
 
 /// Moves notes into chords: those that begin with the same symbol as a note of an earlier voice, and in an
-/// accompaniment voices with the rhythm of the first.
+/// accompaniment voices with one rhythm.
 void Notator::gather_chords(std::size_t part, std::size_t first_voice) {
+    if (parts_[part].is_accompaniment) return gather_accompaniment(part, first_voice);
     std::map<ChordPlace, const Note*> first;
-    const auto has_rhythm_of_first = [&](const std::vector<Note>& voice) {
-        return std::equal(
-            voice.begin(), voice.end(), voices_[first_voice].begin(), voices_[first_voice].end(),
-            [](const Note& a, const Note& b) { return a.onset == b.onset && a.duration == b.duration; });
-    };
     for (std::size_t i = first_voice; i < first_voice + static_cast<std::size_t>(parts_[part].voices); ++i) {
         std::vector<Note> kept;
-        const bool is_chord = i == first_voice || has_rhythm_of_first(voices_[i]);
         for (const Note& note : voices_[i]) {
             const ChordPlace place(part, note.symbol, note.onset);
             const auto known = first.find(place);
-            const bool may_join = parts_[part].is_accompaniment ? is_chord : note.symbol != 0;
-            if (!may_join || known == first.end() || known->second->duration != note.duration) {
+            if (note.symbol == 0 || known == first.end() || known->second->duration != note.duration) {
                 kept.push_back(note);
             } else {
                 chords_[place].push_back(note.key);
             }
         }
         voices_[i] = std::move(kept);
-        if (!is_chord && parts_[part].is_accompaniment) continue;
         for (const Note& note : voices_[i]) first.try_emplace({part, note.symbol, note.onset}, &note);
+    }
+}
+
+void Notator::gather_accompaniment(std::size_t part, std::size_t first_voice) {
+    const auto has_one_rhythm = [](const std::vector<Note>& a, const std::vector<Note>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Note& one, const Note& other) {
+            return one.onset == other.onset && one.duration == other.duration;
+        });
+    };
+    const std::size_t end = first_voice + static_cast<std::size_t>(parts_[part].voices);
+    for (std::size_t i = first_voice; i < end; ++i) {
+        // Chords of several rhythms may begin together.
+        for (Note& note : voices_[i]) note.symbol = i + 1;
+        for (std::size_t k = i + 1; k < end && !voices_[i].empty(); ++k) {
+            if (!has_one_rhythm(voices_[i], voices_[k])) continue;
+            for (const Note& note : voices_[k]) chords_[{part, i + 1, note.onset}].push_back(note.key);
+            voices_[k].clear();
+        }
     }
 }
 

@@ -224,6 +224,7 @@ private:
     void finish_staff(Staff& staff, const NotatedPart& part) const;
     void mark_ending(std::int64_t end);
     void gather_chords(std::size_t part, std::size_t first_voice);
+    void gather_accompaniment(std::size_t part, std::size_t first_voice);
     void share_chords();
     void notate_drums(std::size_t index);
     NotatedPart& begin_part(const PrintedPart& printed);

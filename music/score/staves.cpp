@@ -263,7 +263,8 @@ PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices
         if (!voices[i].empty()) sounding.push_back({first_voice + static_cast<int>(i), voices[i]});
     }
     if (sounding.empty()) return {};
-    if (part.is_accompaniment && sounding.size() <= voices_per_staff) {
+    const bool has_hands = is_keyboard(part.program) && sounding.size() > 1;
+    if (part.is_accompaniment && !has_hands && sounding.size() <= voices_per_staff) {
         sort_by_height(sounding);
         PartPlan plan;
         plan.staves.push_back({std::move(sounding), std::nullopt});

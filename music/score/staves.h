@@ -31,7 +31,7 @@ bool is_keyboard(int program);
 
 /// Distributes the voices of a part over staves.
 ///
-/// Up to four voices of an accompaniment share one staff.
+/// Up to four voices of an accompaniment share one staff, except those of a keyboard.
 /// Each voice has a staff of its own; up to four voices of a part are ordered by their height. Parts for keyboards
 /// (pianos, organs, celesta, accordion, harp) of up to four voices have one staff for each hand, high voices above
 /// low ones; the lowest of three and more voices of a pipe organ has a staff for the pedal, if it is within its

@@ -248,6 +248,7 @@ TEST(LilyPond, DynamicsOfSeveralVoicesAreBelowTheirStaff) {
     TestScore score;
     score.head.parts = {plain_part("Strings", 2)};
     score.head.parts[0].is_accompaniment = true;
+    score.head.parts[0].program = 48;
     for (std::int16_t voice = 0; voice < 2; ++voice) {
         for (int i = 0; i < 4; ++i) {
             Note note{.onset = i * 960,

@@ -98,7 +98,8 @@ TEST(PlayerParts, RandomScoresKeepTheirNotes) {
         const auto notes_of = [](const NotatedVoice& voice) {
             std::vector<PlainNote> notes;
             for (const NotatedSymbol& symbol : voice.symbols) {
-                if (symbol.kind == SymbolKind::note) notes.push_back({symbol.onset, symbol.length, symbol.pitch.key()});
+                if (symbol.kind == SymbolKind::note)
+                    notes.push_back({symbol.onset, symbol.length, symbol.pitch.key()});
             }
             return notes;
         };
@@ -161,7 +162,8 @@ TEST(Keyboards, FourLinesOfAnOrganAreForHandsAndPedal) {
     EXPECT_EQ(keys_of(part.staves[2].voices.front()), (std::vector<double>{48, 53, 48, 43}));
     MemorySink xml, lilypond, abc;
     write_musicxml(notation, score.head, xml);
-    EXPECT_NE(xml.text.find("<part-symbol top-staff=\"1\" bottom-staff=\"2\">brace</part-symbol>"), std::string::npos);
+    EXPECT_NE(xml.text.find("<part-symbol top-staff=\"1\" bottom-staff=\"2\">brace</part-symbol>"),
+              std::string::npos);
     write_lilypond(notation, score.head, lilypond);
     EXPECT_NE(lilypond.text.find("instrumentName = \"Pedal\""), std::string::npos);
     write_abc(notation, score.head, abc);

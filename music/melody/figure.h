@@ -1,0 +1,40 @@
+// music/melody/figure.h: rhythms in which an accompaniment plays the chords of a melody.
+#pragma once
+
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sikku {
+
+/// What an accompaniment plays in each bar.
+struct Figure {
+    /// What a stroke plays: all voices; the upper two; the bass; the lower or the upper of the two; the bass an
+    /// octave above them; third and fifth of the chord in the register of the bass; a half step to the next bass.
+    enum class Tone { all, pair, bass, lower, upper, octave, third, fifth, approach };
+    struct Stroke {
+        std::int64_t onset = 0;   ///< slots from the beginning of the bar
+        std::int64_t length = 1;  ///< slots
+        Tone tone = Tone::all;
+        bool is_accented = false;
+    };
+    /// Voices that have a rhythm of their own.
+    struct Layer {
+        std::vector<Stroke> strokes;  ///< by onset, without overlap
+        std::int64_t slots = 1;       ///< of a bar, all of one length
+    };
+    std::vector<Layer> layers;  ///< none: all voices sound throughout the bar
+    bool is_silent = false;     ///< chords bend the melody, and are named in print, but do not sound
+};
+
+/// Reads a figure for a meter: `block`, `oom-pah`, `arpeggio`, `arpeggio down`, `alberti`, `strum`, `bossa`, `walking
+/// bass`, `silent`; or its strokes in equal slots of a bar, layers joined by `&`: `bc5c`, `b..5b..5 & ~.c.~c..`. In
+/// it a, c, b, l, u, o, 3, 5 and n are the tones of Figure::Tone in their order, capitals are accented, `.` holds and
+/// `~` is silent; blanks and | do not count.
+/// @param problem  receives the problem, or is empty
+Figure read_figure(std::string_view text, const Meter& meter, std::string& problem);
+
+}  // namespace sikku
