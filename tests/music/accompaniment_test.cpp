@@ -150,8 +150,8 @@ TEST(Figures, BadInput) {
 TEST(Leaps, MoveByOctavesWithinAPhrase) {
     // Notes of the plain curve as far apart as its runs are long.
     const std::string curve =
-        "title: C\naxiom: X\nderivation length: 4\nX --> YXY\nY --> F+FFFFFFFFFF-F-FFFFFFF+\nangle factor: 4\n"
-        "unit: 1/8\nheading: 0\ntonic: C3\n";
+        "title: C\naxiom: X\nderivation length: 8\nX --> YXY\nY --> F-FFFFF+\nangle factor: 4\n"
+        "unit: 1/8\nheading: 0\ntonic: C4\n";
     const auto greatest = [](const NoteList& list) {
         double most = 0;
         for (std::size_t i = 1; i < list.notes.size(); ++i) {
