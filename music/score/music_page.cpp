@@ -3,8 +3,10 @@
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
 #include "music/score/glides.h"
+#include "music/score/labels.h"
 #include "music/score/note_order.h"
 #include "music/score/text_writer.h"
+#include "music/score/turns.h"
 
 #include <embedded/music_page.h>
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -132,9 +135,10 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
     std::string text = fmt::format("{} {}, {} quarters a minute, {}/{}", melody.notes.size(),
                                    melody.notes.size() == 1 ? "note" : "notes", number(head.tempo, 2),
                                    head.meter.beats, head.meter.unit);
+    std::set<std::string> told;
     for (const Part& part : head.parts) {
-        text +=
-            part.scale.empty() ? fmt::format(" · {}", part.name) : fmt::format(" · {}, {}", part.name, part.scale);
+        const std::string words = part.scale.empty() ? part.name : fmt::format("{}, {}", part.name, part.scale);
+        if (told.insert(words).second) text += " · " + words;
     }
     return head.source.empty() ? text : fmt::format("{} · {}", shortened(head.source, 90), text);
 }
@@ -152,6 +156,41 @@ void write_curves(TextWriter& out, const Curves& curves, const std::vector<Tempo
         if (point.number != ControlPoint::pan && point.number != ControlPoint::bend) continue;
         out.put("{}[{},{},{},{}]", std::exchange(comma, ","), point.voice, point.tick, point.number,
                 number(point.value, 4));
+    }
+    out.put("],");
+}
+
+/// Writes what each player has, as in print: [name, voices].
+void write_parts(TextWriter& out, const ScoreHead& head, const Melody& melody) {
+    std::vector<std::vector<Note>> voices;
+    for (const Part& part : head.parts) voices.resize(voices.size() + static_cast<std::size_t>(part.voices));
+    for (const Note& note : melody.notes) {
+        if (static_cast<std::size_t>(note.voice) < voices.size()) {
+            voices[static_cast<std::size_t>(note.voice)].push_back(note);
+        }
+    }
+    const std::vector<PrintedPart> printed =
+        share_parts(head.parts, voices, std::max<std::int64_t>(head.meter.bar(), 1));
+    std::vector<Part> players;
+    for (const PrintedPart& one : printed) players.push_back(one.part);
+    const std::vector<Label> labels = labels_of(players);
+    std::vector<int> first_voice = {0};
+    for (const Part& part : head.parts) first_voice.push_back(first_voice.back() + part.voices);
+    out.put("\"parts\":[");
+    for (std::size_t i = 0; i < printed.size(); ++i) {
+        // The name stands within a script.
+        std::string name = json_string(labels[i].name);
+        for (std::size_t at = name.find('<'); at != std::string::npos; at = name.find('<', at)) {
+            name.replace(at, 1, "\\u003c");
+        }
+        out.put("{}[{},[", i > 0 ? "," : "", name);
+        std::string_view comma;
+        for (const std::size_t source : printed[i].sources) {
+            for (int voice = first_voice[source]; voice < first_voice[source + 1]; ++voice) {
+                out.put("{}{}", std::exchange(comma, ","), voice);
+            }
+        }
+        out.put("]]");
     }
     out.put("],");
 }
@@ -404,7 +443,12 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "<label class=\"long\">Position <input type=\"range\" id=\"place\" min=\"0\" max=\"1000\" step=\"any\" "
         "value=\"0\" aria-label=\"Position\"/> <span id=\"place-text\" aria-hidden=\"true\"></span></label>\n"
         "<label>Tempo <input type=\"range\" id=\"tempo\" min=\"{}\" max=\"{}\" step=\"any\" value=\"{}\"/> "
-        "<output id=\"tempo-text\"></output></label>\n</div>\n"
+        "<output id=\"tempo-text\"></output></label>\n"
+        "<span class=\"part\"><button type=\"button\" class=\"small\" id=\"loop\" "
+        "aria-pressed=\"false\">Loop</button>"
+        "<label>bars <input type=\"number\" id=\"loop-from\" min=\"1\" value=\"1\"/></label>"
+        "<label>to <input type=\"number\" id=\"loop-to\" min=\"1\" value=\"1\"/></label></span>\n</div>\n"
+        "<div class=\"bar\" id=\"parts\" role=\"group\" aria-label=\"Parts\" hidden=\"\"></div>\n"
         "<div class=\"panels\" id=\"panels\">\n"
         "<figure class=\"curve\"><canvas id=\"curve\" role=\"img\" aria-label=\"The curve, drawn note by note as "
         "they "
@@ -413,7 +457,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "upwards; a click goes there\"></canvas></figure>\n</div>\n"
         "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> move by one bar, "
         "<kbd>Home</kbd> "
-        "goes to the beginning.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n",
+        "goes to the beginning, <kbd>L</kbd> loops, <kbd>[</kbd> <kbd>]</kbd> begin and end the loop at this "
+        "bar.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n",
         xml_escaped(head.made), title, page_css, title, xml_escaped(subtitle(head, melody)), number(slowest, 4),
         number(fastest, 4), number(head.tempo, 4));
     if (!head.pattern.empty()) {
@@ -426,6 +471,7 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "id=\"score\">{{\"quarter\":{},\"bar\":{},\"end\":{},\"tempo\":{},",
         ticks_per_quarter, std::max<std::int64_t>(head.meter.bar(), 1), melody.end, number(head.tempo, 4));
     write_curves(out, curves, tempo_map(head, curves, end));
+    write_parts(out, head, melody);
     out.put("\"drums\":[{}],\"paper\":{},\"screen\":{},\"notes\":[", fmt::join(drum_voices(head), ","),
             ramp_text(paper_ramp), ramp_text(screen_ramp));
     std::string_view separator = "\n";

@@ -30,8 +30,17 @@ function eachWithin(begin, finish, f) {
   }
 }
 
+/* Parts: [name, voices]; some may be muted, or others play alone. */
+const parts = data.parts || [], partOfVoice = [], muted = new Set(), alone = new Set();
+parts.forEach(([, voices], part) => { for (const voice of voices) partOfVoice[voice] = part; });
+const partOf = note => partOfVoice[note[VOICE]];
+const isHeard = note => alone.size > 0 ? alone.has(partOf(note)) : !muted.has(partOf(note));
+/* Bars that repeat: ticks, or null. */
+let loop = null;
+
 /* Time: ticks against the clock of the sound, from an anchor that moves when tempo or place change. */
 let sound = null, playing = false, anchorTick = 0, anchorTime = 0, next = 0, timer = 0;
+let past = null;  // the anchor before the last, while a repeat of the loop is ahead
 let speed = data.tempo;
 const live = new Set();
 let pending = [];
@@ -52,8 +61,10 @@ function stretchAt(value, column) {
 }
 function even(tick) { const [first, before, factor] = stretchAt(tick, 0); return before + (tick - first) / factor; }
 function uneven(ticks) { const [first, before, factor] = stretchAt(ticks, 1); return first + (ticks - before) * factor; }
-const tickAt = time => playing ? Math.max(0, uneven(even(anchorTick) + (time - anchorTime) * ticksPerSecond()))
-                               : Math.max(0, anchorTick);
+function tickAt(time) {
+  const [tick, from] = past && time < anchorTime ? past : [anchorTick, anchorTime];
+  return Math.max(0, playing ? uneven(even(tick) + (time - from) * ticksPerSecond()) : anchorTick);
+}
 const timeAt = tick => anchorTime + (even(tick) - even(anchorTick)) / ticksPerSecond();
 const lasting = (from, to) => (even(to) - even(from)) / ticksPerSecond();
 /* Points of pan (number 10) and pitch (-1) by voice. */
@@ -77,7 +88,7 @@ function eachPoint(note, number, time, f) {
 }
 /* What is heard now was handed over a moment ago. */
 const latency = () => sound && playing ? Math.min(sound.context.outputLatency || 0, 0.5) : 0;
-const shownTick = () => Math.min(end, Math.max(Math.min(anchorTick, end), tickAt(clock() - latency())));
+const shownTick = () => Math.min(end, Math.max(past ? 0 : Math.min(anchorTick, end), tickAt(clock() - latency())));
 
 function openSound() {
   const Context = window.AudioContext || window.webkitAudioContext;
@@ -148,7 +159,7 @@ function slide(note, time, detune) {
 
 /* A soft pluck: a triangle, an octave above it a quiet sine, and a filter that closes as the note fades. */
 function strike(note, time, seconds) {
-  if (!sound) return;
+  if (!sound || !isHeard(note)) return;
   if (drumVoices.has(note[VOICE])) return beat(note, time);
   const {context, master} = sound;
   const frequency = 440 * Math.pow(2, (note[KEY] - 69) / 12);
@@ -210,31 +221,48 @@ function settle() {
 function ahead() {
   settle();
   const now = clock();
-  if (tickAt(now) >= end) { stop(); anchorTick = end; draw(); return; }
+  if (tickAt(now) >= end && !loop) { stop(); anchorTick = end; draw(); return; }
+  if (past && now >= anchorTime) past = null;
   /* A hidden page is called once a second only. */
-  const until = tickAt(now + (document.hidden ? 1.6 : 0.14));
-  for (; next < notes.length && notes[next][ONSET] <= until; ++next) {
-    const note = notes[next], time = Math.max(now, timeAt(note[ONSET]));
-    strike(note, time, lasting(note[ONSET], note[ONSET] + note[DURATION]));
-    pending.push({index: next, time});
+  const horizon = now + (document.hidden ? 1.6 : 0.14);
+  for (;;) {
+    const last = loop && anchorTick < loop.to ? loop.to : Infinity;
+    const until = uneven(even(anchorTick) + (horizon - anchorTime) * ticksPerSecond());
+    for (; next < notes.length && notes[next][ONSET] <= until && notes[next][ONSET] < last; ++next) {
+      const note = notes[next], time = Math.max(now, timeAt(note[ONSET]));
+      strike(note, time, lasting(note[ONSET], Math.min(last, note[ONSET] + note[DURATION])));
+      pending.push({index: next, time});
+    }
+    if (until < last) return;
+    /* The loop begins anew when its last bar ends, without a gap. */
+    const time = timeAt(last);
+    if (!past) past = [anchorTick, anchorTime];
+    anchorTick = loop.from; anchorTime = time;
+    enter(last);
   }
 }
 
-/* Begins to play at the anchor, in the midst of what sounds there. */
-function begin() {
-  anchorTime = clock() + 0.03;
+/* Enters at the anchor, in the midst of what sounds there. */
+function enter(last) {
   next = firstFrom(anchorTick);
   eachWithin(anchorTick, anchorTick + 1, note => {
     if (note[ONSET] < anchorTick) {
-      strike(note, anchorTime, lasting(anchorTick, note[ONSET] + note[DURATION]));
+      strike(note, anchorTime, lasting(anchorTick, Math.min(last, note[ONSET] + note[DURATION])));
     }
   });
+}
+
+function begin() {
+  past = null;
+  anchorTime = clock() + 0.03;
+  enter(loop && anchorTick < loop.to ? loop.to : Infinity);
   ahead();
 }
 
 function stop() {
   const tick = Math.min(end, tickAt(clock()));
   settle();
+  past = null;
   playing = false;
   pending = [];
   anchorTick = tick;
@@ -253,6 +281,7 @@ async function play() {
   }
   if (playing) return;
   if (anchorTick >= end) anchorTick = 0;
+  if (loop && (anchorTick < loop.from || anchorTick >= loop.to)) anchorTick = loop.from;
   playing = true;
   begin();
   timer = setInterval(ahead, 25);
@@ -272,22 +301,64 @@ function seek(tick) {
 }
 
 function setTempo(value) {
-  const tick = tickAt(clock());
+  const tick = tickAt(clock()), isAhead = past !== null;
   settle();
+  past = null;
   anchorTick = tick; anchorTime = clock();
   speed = value;
-  /* What was handed over and has not begun keeps its time. */
+  /* What was handed over and has not begun keeps its time, but a repeat of the loop does not. */
+  if (isAhead && playing) { silence(); begin(); }
   label();
+}
+
+/* What changes what is heard applies at once. */
+function playOn() {
+  if (!playing) return;
+  anchorTick = tickAt(clock());
+  settle();
+  pending = [];
+  silence();
+  begin();
+}
+function setLoop(from, to) {
+  const bars = Math.ceil(end / bar);
+  const first = Math.min(Math.max(1, Math.round(from) || 1), bars);
+  const last = Math.min(Math.max(first, Math.round(to) || first), bars);
+  loop = {from: (first - 1) * bar, to: Math.min(last * bar, end)};
+  loopFrom.value = first; loopTo.value = last;
+  loopButton.setAttribute("aria-pressed", "true");
+  if (playing) {
+    const tick = tickAt(clock());
+    if (tick < loop.from || tick >= loop.to) seek(loop.from); else playOn();
+  }
+  draw();
+}
+function endLoop() {
+  if (!loop) return;
+  loop = null;
+  loopButton.setAttribute("aria-pressed", "false");
+  playOn();
+  draw();
+}
+function toggleOf(set, part, isOn) {
+  if (isOn) set.add(part); else set.delete(part);
+  showParts();
+  playOn();
+  draw();
 }
 
 /* What is seen. */
 const curve = element("curve"), curveTop = element("curve-top"), roll = element("roll");
 const style = getComputedStyle(document.documentElement);
 const dark = matchMedia("(prefers-color-scheme: dark)");
-let colours = [], theme = {};
+let colours = [], theme = {}, isByPart = false;
+const partInks = [["#0b62a8", "#c2410c", "#047857", "#a21caf", "#8a6100", "#0e7490", "#6d28d9", "#52525b"],
+                  ["#6cb8ff", "#ff9c66", "#4fd6a5", "#f19bf5", "#e8c255", "#6fd8ea", "#b9a5ff", "#c3c3cc"]];
+const partColour = part => partInks[dark.matches ? 1 : 0][part % 8];
 function readTheme() {
   const ramp = dark.matches ? data.screen : data.paper;
   colours = notes.map(note => {
+    if (isByPart) return partColour(partOf(note));
     const at = (high > low ? (note[KEY] - low) / (high - low) : 0.5) * (ramp.length - 1);
     const below = Math.min(Math.floor(at), ramp.length - 2), part = at - below;
     const mixed = [0, 2, 4].map(i => {
@@ -296,7 +367,7 @@ function readTheme() {
     });
     return "#" + mixed.join("");
   });
-  for (const name of ["line", "stripe", "ghost", "faint", "mark", "panel"]) {
+  for (const name of ["line", "stripe", "ghost", "faint", "mark", "panel", "accent"]) {
     theme[name] = style.getPropertyValue("--" + name).trim();
   }
 }
@@ -477,7 +548,7 @@ function drawRoll(tick) {
     const from = x(note[ONSET]), full = (note[DURATION] - slides) / shownTicks * w;
     const long = Math.max(1, full > 3 ? full - 1.2 : full * 0.8);
     const now = note[ONSET] <= tick && note[ONSET] + note[DURATION] > tick && tick > 0;
-    context.globalAlpha = now || note[ONSET] + note[DURATION] <= tick ? 1 : 0.42;
+    context.globalAlpha = !isHeard(note) ? 0.12 : now || note[ONSET] + note[DURATION] <= tick ? 1 : 0.42;
     context.fillStyle = colours[i];
     context.beginPath();
     if (context.roundRect) context.roundRect(from, y(note[KEY]) - thick / 2, long, thick, Math.min(3, long / 3, thick / 3));
@@ -493,6 +564,12 @@ function drawRoll(tick) {
     }
   });
   context.globalAlpha = 1;
+  if (loop) {
+    context.fillStyle = theme.accent; context.globalAlpha = 0.1;
+    context.fillRect(x(loop.from), 6, x(loop.to) - x(loop.from), h + 10);
+    context.globalAlpha = 1;
+    for (const edge of [loop.from, loop.to]) context.fillRect(x(edge) - 1, 6, 2, h + 10);
+  }
   context.strokeStyle = theme.mark; context.lineWidth = 1.5;
   context.beginPath(); context.moveTo(x(tick), 6); context.lineTo(x(tick), 12 + h + 4); context.stroke();
   context.restore();
@@ -532,6 +609,50 @@ function frame() {
   requestAnimationFrame(frame);
 }
 
+/* The parts, each with its colour, mute and solo. */
+const partRows = [];
+function showParts() {
+  parts.forEach((unused, part) => {
+    const {swatch, mute, solo} = partRows[part];
+    swatch.style.background = isByPart ? partColour(part) : "transparent";
+    mute.setAttribute("aria-pressed", String(muted.has(part)));
+    solo.setAttribute("aria-pressed", String(alone.has(part)));
+  });
+}
+function button_(text, name, act) {
+  const made = document.createElement("button");
+  made.type = "button"; made.className = "small"; made.textContent = text;
+  made.setAttribute("aria-label", name); made.setAttribute("aria-pressed", "false"); made.title = name;
+  made.addEventListener("click", () => act(made.getAttribute("aria-pressed") !== "true"));
+  return made;
+}
+if (parts.length > 1) {
+  const bar_ = element("parts");
+  bar_.hidden = false;
+  parts.forEach(([name], part) => {
+    const row = document.createElement("span"), swatch = document.createElement("i");
+    row.className = "part";
+    const mute = button_("M", "Mute " + name, isOn => toggleOf(muted, part, isOn));
+    const solo = button_("S", "Solo " + name, isOn => toggleOf(alone, part, isOn));
+    row.append(swatch, name, mute, solo);
+    bar_.append(row);
+    partRows.push({swatch, mute, solo});
+  });
+  const colour = button_("Colour by part", "Colour by part", isOn => {
+    isByPart = isOn;
+    colour.setAttribute("aria-pressed", String(isOn));
+    showParts();
+    layout();
+  });
+  bar_.append(colour);
+}
+const loopButton = element("loop"), loopFrom = element("loop-from"), loopTo = element("loop-to");
+loopFrom.max = loopTo.max = loopTo.value = Math.ceil(end / bar);
+loopButton.addEventListener("click", () => loop ? endLoop() : setLoop(Number(loopFrom.value), Number(loopTo.value)));
+for (const input of [loopFrom, loopTo]) {
+  input.addEventListener("change", () => { if (loop) setLoop(Number(loopFrom.value), Number(loopTo.value)); });
+}
+
 let dragging = false;
 button.addEventListener("click", toggle);
 tempo.addEventListener("input", () => setTempo(Number(tempo.value)));
@@ -560,9 +681,16 @@ document.addEventListener("keydown", event => {
     seek(tickAt(clock()) + bar);
   } else if (event.key === "Home") {
     seek(0);
+  } else if (event.key === "l" || event.key === "L") {
+    if (loop) endLoop(); else setLoop(Number(loopFrom.value), Number(loopTo.value));
+  } else if (event.key === "[" || event.key === "]") {
+    /* The loop begins or ends with the bar that is played. */
+    const here = Math.floor(Math.min(tickAt(clock()), end - 1) / bar) + 1;
+    if (event.key === "[") setLoop(here, Math.max(here, Number(loopTo.value)));
+    else setLoop(Math.min(here, Number(loopFrom.value)), here);
   }
 });
-dark.addEventListener("change", layout);
+dark.addEventListener("change", () => { layout(); if (parts.length > 1) showParts(); });
 new ResizeObserver(layout).observe(element("panels"));
 tempo.value = speed;
 label();
@@ -573,7 +701,8 @@ window.sikku = {
   state() {
     settle();
     const time = clock();
-    return {playing, time, tick: Math.min(end, tickAt(time)), tempo: speed, sounded, recent: recent.slice()};
+    return {playing, time, tick: Math.min(end, tickAt(time)), tempo: speed, sounded, recent: recent.slice(),
+            loop: loop && [loop.from, loop.to], muted: [...muted], alone: [...alone], voices: live.size};
   },
   play, pause() { if (playing) { stop(); draw(); } }, seek, colour: index => colours[index]
 };

@@ -10,3 +10,5 @@ here=$(realpath "$(dirname "$0")")
 . "$here/browser.sh" "the page in a browser"
 "$program" --quiet play hilbert -n 3 -o x.html
 timeout 120 node "$here/page.mjs" "$folder" "$browser" x.html $screenshot
+"$program" --quiet play blues -o blues.html
+timeout 120 node "$here/parts.mjs" "$folder" "$browser" blues.html
