@@ -335,7 +335,7 @@ TEST(MusicPage, IsWellFormedAndNamesWhatItHas) {
     EXPECT_STREQ(body.child("details").child("pre").child_value(), "title: Hilbert curve\naxiom: X\n");
     // Every control has a name, every picture a text.
     const auto inputs = html.select_nodes("//input");
-    EXPECT_EQ(inputs.size(), 2U);
+    EXPECT_EQ(inputs.size(), 4U);
     // The time changes every second, and is no part of a name that a screen reader would read again.
     EXPECT_STREQ(html.select_node("//input[@id='place']").node().attribute("aria-label").value(), "Position");
     EXPECT_STREQ(html.select_node("//*[@id='place-text']").node().attribute("aria-hidden").value(), "true");
