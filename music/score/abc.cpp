@@ -102,10 +102,14 @@ public:
         if (head_.first_bar > 1 && head_.first_bar < INT32_MAX) put("%%setbarnb {}\n", head_.first_bar);
         if (notation_.is_concert) put("%%text {}\n", concert_text);
         int number = 0;
+        const bool has_transposition =
+            std::any_of(notation_.parts.begin(), notation_.parts.end(),
+                        [](const NotatedPart& part) { return part.transposition.has_value(); });
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
-            const std::string transposition =
-                notated.transposition ? fmt::format("\n%%MIDI transpose {}", -notated.transposition->semitones) : "";
+            // That of a voice would apply to those after it, too.
+            const int lower = notated.transposition ? notated.transposition->semitones : 0;
+            const std::string transposition = has_transposition ? fmt::format("\n%%MIDI transpose {}", -lower) : "";
             const VoiceMarks marks = marks_of(notated);
             for (const Staff& staff : notated.staves) {
                 // Both hands share one name.

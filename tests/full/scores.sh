@@ -70,7 +70,7 @@ hilbert() { "$program" play hilbert -n 3 -o "$1"; }
 peano() { "$program" play peano-pentatonic -n 3 --unit 1/16 --meter 7/8 -o "$1"; }
 keys() { "$program" play hilbert-in-c -n 4 --tonic Cb4 --meter 5/8 -o "$1"; }
 bilahari() { "$program" play sierpinski-bilahari -n 4 --meter 3/4 -o "$1"; }
-blues() { "$program" play dragon-blues -n 7 -o "$1"; }
+blues() { "$program" play dragon-blues -n 7 --swing 50 -o "$1"; }
 voices() {
     "$program" play tree-in-voices -n 2 --brackets voices --form curve --rhythm curve --phrases none --canon none \
         --counterpoint free -o "$1"
@@ -80,7 +80,7 @@ quintuplets() { "$program" play hilbert-in-c -n 4 --unit 1/20 --meter 3/4 -o "$1
 sextuplets() { "$program" play hilbert-in-c -n 4 --unit 1/24 --meter 6/8 -o "$1"; }
 groups() { "$program" play hilbert-todi --meter 3+2+2/8 -o "$1"; }
 hands() { "$program" play hilbert -n 5 --range "fold C1-C8" --velocity "by length" -o "$1"; }
-parts() { "$program" play hilbert-in-c peano-pentatonic -n 2 -o "$1"; }
+parts() { "$program" play hilbert-in-c peano-pentatonic -n 3 -o "$1"; }
 for score in "${scores[@]}"; do
     for ending in mid musicxml ly; do "$score" "$score.$ending" > log 2>&1 || { cat log; exit 1; }; done
 done
