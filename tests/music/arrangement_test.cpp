@@ -274,7 +274,7 @@ TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {
               (Remarks{"3 notes were beyond C4 to Db4 and held at the last key"}));
     EXPECT_EQ(remarks_of(track("transposition = -60\ninstrument = \"Violin\"\n") + track(""), "musicxml"),
               (Remarks{"4 notes were beyond C0 to G9 and folded back",
-                       "4 notes lie outside the range of Violin (G3 to A7); the lowest is C0"}));
+                       "4 notes lie outside the range of Violin (G3 to G7); the lowest is C0"}));
     // Also where parts are played to their ends before.
     EXPECT_EQ(remarks_of(track("") + track("range = \"fold C3-C4\"\nretrograde = true\n")),
               (Remarks{"3 notes were beyond C3 to C4 and folded back"}));
