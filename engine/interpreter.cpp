@@ -119,7 +119,7 @@ std::string make_in_memory(const Interpreter& interpreter, const Document& docum
     interpreter.plan(assigned.document, format, assigned.options)->make(memory, name, monitor);
     if (memory.outputs().size() != 1 || !memory.outputs().contains(name)) {
         throw std::runtime_error(std::to_string(memory.outputs().size()) +
-                                 " files instead of one: plan the work and make it into a destination");
+                                 " files instead of one: use plan() and make() with a destination");
     }
     return memory.take(name);
 }

@@ -60,8 +60,12 @@ bool is_soon_played(const Ensemble& ensemble, double most) {
 bool depends_on_whole(const Ensemble& ensemble) {
     if (ensemble.has_expression() || (ensemble.close != Close::none && !ensemble.ends_excerpts)) return true;
     // Notes cut at the end of an excerpt keep the loudness of their full length.
-    return std::any_of(ensemble.players.begin(), ensemble.players.end(),
-                       [](const Player& player) { return player.melody.loudness == Loudness::by_length; });
+    return std::any_of(ensemble.players.begin(), ensemble.players.end(), [](const Player& player) {
+        const Melody& melody = player.melody;
+        // The last bar of a progression is held.
+        const bool holds_last_bar = melody.harmony == Harmony::progression && !melody.figure.layers.empty();
+        return melody.loudness == Loudness::by_length || holds_last_bar;
+    });
 }
 
 Ensemble without_excerpts(Ensemble ensemble) {

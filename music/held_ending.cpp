@@ -11,7 +11,10 @@ int HeldEnding::line_of(int voice) const {
         const int within = voice - player.first_voice;
         const bool is_drum = player.has_drums && within >= player.drums_from;
         const bool is_chord = player.melody.accompanying_voices() > 0 && within >= player.chords_from;
-        line = is_drum ? -1 : 2 * player.first_voice + (is_chord ? 1 : 0);
+        // Sections before the last have ended already.
+        const bool is_over =
+            player.section != 0 && !ensemble_.form.empty() && player.section != 'A' + ensemble_.form.back().letter;
+        line = is_drum || is_over ? -1 : 2 * player.first_voice + (is_chord ? 1 : 0);
     }
     return line;
 }

@@ -25,7 +25,7 @@ public:
     /// Forwards the notes held back. The last notes of lines that ended within a bar of the end are extended to
     /// the end of the last bar, or of one more bar if the last of them would otherwise last less than half a bar.
     /// Voices of one line end together: their last notes are held if they sound when the last note of the line
-    /// begins. Drums are not held.
+    /// begins. Drums are not held, nor are sections before the last.
     /// @param end  end of the score, in ticks
     /// @param most  limit of the new end
     /// @return the end of the score
@@ -34,7 +34,7 @@ public:
     std::int64_t finish_as_cut(std::int64_t end);
 
 private:
-    /// The line of a voice, a melody or its accompaniment; -1 for drums.
+    /// The line of a voice, a melody or its accompaniment; -1 for drums, and for sections before the last.
     int line_of(int voice) const;
     void forward();
 

@@ -63,11 +63,12 @@ public:
 };
 
 /// Streams the score of documents or of an arrangement. A window takes memory for its bars only, and the part of a
-/// curve on the square grid before it is skipped; off the grid the curve is walked to the window. Scores whose notes
-/// depend on later ones (retrograde, forms, loops, strict parts, branches as voices, words with parameters, chance or
-/// contexts) are held in memory, with at most 4,000,000 notes. If curves of expression need the least and greatest
-/// values of their sources, the score is played once in advance, unless the fold provides them. `monitor` also stops
-/// the reading of windows.
+/// curve on the square grid before it is skipped; off the grid, and where phrases begin at bar lines or with rhythms
+/// of their own, or `leaps` are limited, the curve is walked to the window. Scores whose notes depend on later ones
+/// (retrograde, forms, loops, strict parts, branches as voices, words with parameters, chance or contexts) are held
+/// in memory, with at most 4,000,000 notes. If curves of expression need the least and greatest values of their
+/// sources, the score is played once in advance, unless the fold provides them. `monitor` also stops the reading of
+/// windows.
 /// @throws as plan_score(); ScoreError if the score has no notes
 std::unique_ptr<NoteStream> stream_notes(std::span<const Document> documents, const OptionValues& values,
                                          const Monitor& monitor = {}, const std::filesystem::path& folder = {});

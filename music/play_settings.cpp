@@ -93,8 +93,7 @@ std::vector<Option<S>> make_table() {
           .kind = flag},
          [](S& s, Text t) { s.has_chord_signs = t == "true"; }},
         {{.name = "parts",
-          .help = "print a part for each player, too, beside the score: the name of the file with a number and the "
-                  "player's instrument",
+          .help = "also print a part for each player, in files beside the score such as NAME-1-flute.pdf",
           .kind = flag,
           .is_alone = true},
          [](S& s, Text t) { s.has_parts = t == "true"; }},

@@ -231,6 +231,7 @@ private:
     Human human() const { return {settings_.humanise, settings_.seed}; }
     void check_size(const PlayOptions& playing) const;
     void report(const Rendition& rendition, Made& made) const;
+    void report_marks(const Notation& notation, Made& made) const;
     void write(Rendition& rendition, Output& output) const;
     Outputs write_parts(Destination& destination, const Rendition& rendition, Made& made) const;
 
@@ -258,6 +259,25 @@ void ScoreWork::check_size(const PlayOptions& playing) const {
     }
 }
 
+/// Reports names of chords and syllables that are missing.
+void ScoreWork::report_marks(const Notation& notation, Made& made) const {
+    const bool has_chords = std::any_of(notation.parts.begin(), notation.parts.end(),
+                                        [](const NotatedPart& part) { return !part.chords.empty(); });
+    if (settings_.has_chord_signs && !has_chords) {
+        made.warn_of_unused("chord-symbols", "no chord of the score has a name");
+    } else if (notation.nameless_chords > 0) {
+        made.warn(fmt::format(
+            "{} no name, and a dash above the staff",
+            notation.nameless_chords == 1 ? "1 chord has" : counted(notation.nameless_chords, "chord") + " have"));
+    }
+    bool has_syllables = false;
+    each_symbol(notation,
+                [&](const NotatedSymbol& symbol) { has_syllables = has_syllables || !symbol.syllable.empty(); });
+    if (settings_.syllables != Syllables::none && !has_syllables) {
+        made.warn_of_unused("syllables", "no staff has a single voice with pitches");
+    }
+}
+
 void ScoreWork::report(const Rendition& rendition, Made& made) const {
     if (!writer_.has_glides && ensemble_.has_glides()) {
         made.warn(fmt::format("the notes of {} do not slide: glissandi are held at the pitch they begin with",
@@ -266,6 +286,7 @@ void ScoreWork::report(const Rendition& rendition, Made& made) const {
     report_notes(ensemble_, rendition.playing, rendition.report, made);
     report_replaced(made);
     if (rendition.notation) report_notation(*rendition.notation, ensemble_, made);
+    if (rendition.notation) report_marks(*rendition.notation, made);
     if (rendition.notation && !settings_.is_transposed && !rendition.notation->is_concert) {
         made.warn_of_unused("score", "no part has a transposing instrument");
     }
@@ -345,7 +366,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
     Rendition rendition{ensemble_, playing, head, use(), human(), midi_, monitor, name, {}, {}, {}};
     const auto output = destination.open(name);
     if (settings_.has_parts && writer_.print && !output->can_insert()) {
-        throw SettingError("parts", "", "parts are files beside that of the score, and need one with a name");
+        throw SettingError("parts", "", "parts are written beside the score, which needs a regular file");
     }
     write(rendition, *output);
     const Outputs parts = write_parts(destination, rendition, made);
@@ -361,7 +382,7 @@ Cost ScoreWork::forecast() const {
     constexpr double nodes_read = 50'000;  // limit, for words whose length only a derivation determines
     ScoreCost each = writer_.cost;
     if (settings_.has_parts && writer_.print) {
-        // Each note is written twice; LilyPond runs once for each player, of whom a part may have several.
+        // Each note is written twice; LilyPond runs once for each player; a part may have several players.
         const auto files = static_cast<double>(1 + ensemble_.players.size());
         each.seconds *= files;
         each.bytes *= files;

@@ -180,8 +180,8 @@ constexpr KeyInfo language[] = {
      "given chords"},
     {"accompaniment", music,
      "block, oom-pah, arpeggio, arpeggio down, alberti, strum, bossa, walking bass, silent; strokes such as bc5c; "
-     "perhaps on guitar",
-     "block", "How triads and progressions are played"},
+     "optionally followed by on guitar",
+     "block", "Figure in which triads and progressions are played, and its instrument"},
     {"inversion", music, "no, yes", "no", "Whether up and down change places around the tonic"},
     {"retrograde", music, "no, yes", "no", "Whether the part is played from its end to its beginning"},
     {"augmentation", music, "2, 3, 1/2, 3/2, …", "1", "How many times longer all notes are"},

@@ -150,6 +150,8 @@ void trim_chords(Block& piece, const Melody& melody) {
     }
     std::erase_if(piece.notes,
                   [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset >= last; });
+    // Strokes of a figure are no chords.
+    if (!melody.figure.layers.empty()) return;
     if (next >= last || next >= melody.meter.bar() / melody.meter.beats) return;
     std::erase_if(piece.notes,
                   [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset < next; });
@@ -183,7 +185,7 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     std::erase_if(block.notes, [](const FormNote& one) { return one.note.duration <= 0; });
     const Chord chord = triad_on(melody.scale, is_open ? fifth_degree(melody.scale) : 0);
     const std::int64_t bar = melody.meter.bar();
-    for (Note note : mapping::Accompaniment(melody).bar(last.onset / bar * bar, &chord)) {
+    for (Note note : mapping::Accompaniment(melody).bar(last.onset / bar * bar, &chord, nullptr, true)) {
         note.onset = last.onset;
         note.duration = end - last.onset;
         note.voice = static_cast<std::int16_t>(note.voice + block.chords_from);

@@ -52,29 +52,32 @@ double Accompaniment::key_above(double cents, double lowest) const {
     return key;
 }
 
-std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord, bool is_last) const {
+std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord, const Chord* next, bool is_last) const {
     if (melody_.harmony == Harmony::drone) return drone(begin);
     std::vector<Note> notes;
     if (!chord) return notes;
     const std::int64_t length = melody_.meter.bar();
     const Voicing keys = voicing_of(begin / length, *chord);
-    const auto whole = [&] { strike({}, {begin, length, 60, 0, soft}, *chord, keys, notes); };
+    const double next_bass = next ? voicing_of(begin / length + 1, *next)[0] : silent;
+    const auto whole = [&] { strike({}, {begin, length, 60, 0, soft}, *chord, keys, next_bass, notes); };
     if (is_last) whole();
     for (const Figure::Layer& layer : melody_.figure.layers) {
         if (is_last) break;
         const std::int64_t slot = length / layer.slots;
         for (const Figure::Stroke& stroke : layer.strokes) {
-            strike(stroke, {begin + stroke.onset * slot, stroke.length * slot, 60, 0, soft}, *chord, keys, notes);
+            strike(stroke, {begin + stroke.onset * slot, stroke.length * slot, 60, 0, soft}, *chord, keys, next_bass,
+                   notes);
         }
     }
     if (notes.empty()) whole();
-    notes.front().chord = sign_of(*chord, melody_.tonic + melody_.transpose);
+    for (Note& note : notes) note.chord = sign_of(*chord, melody_.tonic + melody_.transpose);
     return notes;
 }
 
 /// Adds the notes of a stroke. @param note  its onset, duration and velocity
+/// @param next_bass  bass of the next bar, or silent
 void Accompaniment::strike(const Figure::Stroke& stroke, Note note, const Chord& chord, const Voicing& keys,
-                           std::vector<Note>& notes) const {
+                           double next_bass, std::vector<Note>& notes) const {
     using enum Figure::Tone;
     if (stroke.is_accented) {
         note.velocity = soft + accent_velocity;
@@ -108,8 +111,8 @@ void Accompaniment::strike(const Figure::Stroke& stroke, Note note, const Chord&
             return add(0, tone_above(chord, 400, keys[0]));
         case fifth:
             return add(0, tone_above(chord, 700, keys[0]));
-        case approach:
-            return add(0, approach_to_next(note.onset, chord, keys[0]));
+        case Figure::Tone::approach:
+            return add(0, half_step_to(next_bass, tone_above(chord, 700, keys[0])));
     }
 }
 
@@ -127,14 +130,10 @@ double Accompaniment::tone_above(const Chord& chord, double cents, double bass) 
     return best;
 }
 
-/// A half step from the bass of the bar after `tick`, on the side of this one; the fifth if that bar is unknown.
-double Accompaniment::approach_to_next(std::int64_t tick, const Chord& chord, double bass) const {
-    if (progression_.empty()) return tone_above(chord, 700, bass);
-    const auto next =
-        static_cast<std::size_t>((tick / melody_.meter.bar() + 1) % static_cast<std::int64_t>(progression_.size()));
-    const double goal = progression_[next][0];
-    const double from = tone_above(chord, 700, bass);
-    return std::clamp(from < goal ? goal - 1 : goal + 1, 0.0, 127.0);
+/// A half step to the next bass, from the side of `from`; that itself if there is none.
+double Accompaniment::half_step_to(double next_bass, double from) {
+    if (next_bass == silent) return from;
+    return std::clamp(from < next_bass ? next_bass - 1 : next_bass + 1, 0.0, 127.0);
 }
 
 /// A bar of a tanpura: fifth, tonic and tonic over a sustained low tonic.

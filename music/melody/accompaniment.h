@@ -19,17 +19,19 @@ public:
     /// The notes of a bar that begins at tick `begin`; voices are counted from 0.
     /// @param chord  chord of the bar; null for a drone
     /// @param is_last  the last bar of the melody, in which chords are held
-    std::vector<Note> bar(std::int64_t begin, const Chord* chord, bool is_last = false) const;
+    /// @param next  chord of the next bar; null if it is unknown
+    std::vector<Note> bar(std::int64_t begin, const Chord* chord, const Chord* next = nullptr,
+                          bool is_last = false) const;
 
 private:
     /// Keys of the bass, the lower and the upper voice above it; voices without a tone of their own are silent.
     using Voicing = std::array<double, 3>;
 
     std::vector<Note> drone(std::int64_t begin) const;
-    void strike(const Figure::Stroke& stroke, Note note, const Chord& chord, const Voicing& keys,
+    void strike(const Figure::Stroke& stroke, Note note, const Chord& chord, const Voicing& keys, double next_bass,
                 std::vector<Note>& notes) const;
     double tone_above(const Chord& chord, double cents, double bass) const;
-    double approach_to_next(std::int64_t tick, const Chord& chord, double bass) const;
+    static double half_step_to(double next_bass, double from);
     Voicing voicing_of(std::int64_t bar, const Chord& chord) const;
     std::vector<Voicing> voicings_of(const Chord& chord) const;
     void lead_progression();

@@ -73,7 +73,10 @@ public:
         }
         // The next phrase begins with its rhythm, perhaps at a bar line.
         const std::int64_t bar = melody_.breathes_to_bar ? melody_.meter.bar() : 1;
-        breaths_ = (end_ticks(steps) + melody_.breath + bar - 1) / bar * bar;
+        std::int64_t end = end_ticks(steps) + melody_.breath;
+        // Without a bar line, rests of the rhythm before its next note count.
+        if (!melody_.breathes_to_bar) end = std::max(end, ticks(steps));
+        breaths_ = (end + bar - 1) / bar * bar;
         begin_ = steps;
         if (melody_.rhythms.empty()) return;
         rhythm_number_ =

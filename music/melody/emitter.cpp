@@ -89,7 +89,8 @@ void Emitter::finish(std::int64_t end) {
         for (const std::int64_t busy : busy_until_) last = std::max(last, busy);
         for (std::int64_t at = options_.from / bar * bar; at < std::min(last, options_.to); at += bar) {
             const bool is_last = end < options_.to && at + bar >= last;
-            accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr, is_last);
+            accompany(at, shaper_ ? shaper_->given_chord(at) : nullptr,
+                      shaper_ ? shaper_->given_chord(at + bar) : nullptr, is_last);
         }
     }
     flush();
@@ -105,9 +106,9 @@ void Emitter::finish(std::int64_t end) {
     sink_.finish(end);
 }
 
-void Emitter::accompany(std::int64_t begin, const Chord* chord, bool is_last) {
+void Emitter::accompany(std::int64_t begin, const Chord* chord, const Chord* next, bool is_last) {
     if (!accompaniment_) return;
-    for (Note note : accompaniment_->bar(begin, chord, is_last)) {
+    for (Note note : accompaniment_->bar(begin, chord, next, is_last)) {
         const std::int64_t from = std::max(note.onset, options_.from);
         const std::int64_t to = std::min(note.onset + note.duration, options_.to);
         if (from >= to) continue;

@@ -118,7 +118,7 @@ private:
     /// Places the notes that are shaped.
     void hand_on();
     /// Plays the accompaniment of a bar.
-    void accompany(std::int64_t begin, const Chord* chord, bool is_last = false);
+    void accompany(std::int64_t begin, const Chord* chord, const Chord* next = nullptr, bool is_last = false);
     /// Places a note by its degree. Hot: the notes of most melodies come here.
     void place(Line& line, const Shaper::Draft& note);
     /// Places a note by its fixed key, or else by its degree.

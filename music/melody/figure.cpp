@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cstddef>
 #include <optional>
@@ -54,9 +55,9 @@ std::string in_groups(const std::vector<std::int64_t>& groups, std::string_view 
     return result;
 }
 
-/// Slots of about an eighth.
+/// Eighths of a bar, or its beats if they are shorter.
 std::int64_t eighths_of(const Meter& meter) {
-    return meter.unit >= 8 ? meter.beats : 2 * meter.beats;
+    return meter.unit >= 8 ? meter.beats : 8 / meter.unit * meter.beats;
 }
 
 /// The strokes of a named figure; empty if the meter has none.
@@ -93,6 +94,14 @@ std::string strokes_of(std::string_view name, const Meter& meter) {
     return is_in_four ? "b..55..b & c..c..c." : "";  // bossa
 }
 
+/// The voices that a layer plays, as bits: bass, lower, upper.
+unsigned voices_of(const Figure::Layer& layer) {
+    static constexpr std::array<unsigned, 9> voices = {7, 6, 1, 2, 4, 4, 1, 1, 1};
+    unsigned all = 0;
+    for (const Figure::Stroke& stroke : layer.strokes) all |= voices[static_cast<std::size_t>(stroke.tone)];
+    return all;
+}
+
 /// Reads one layer. @return false if it contains other letters
 bool read_layer(std::string_view text, Figure::Layer& layer) {
     layer.slots = 0;
@@ -111,7 +120,7 @@ bool read_layer(std::string_view text, Figure::Layer& layer) {
         }
         ++layer.slots;
     }
-    return !layer.strokes.empty();
+    return true;
 }
 
 }  // namespace
@@ -131,6 +140,7 @@ Figure read_figure(std::string_view text, const Meter& meter, std::string& probl
         problem = fmt::format("{} needs a meter of four quarters without groups", name);
         return figure;
     }
+    unsigned taken = 0;
     for (std::string_view rest = strokes;;) {
         const std::size_t end = std::min(rest.find('&'), rest.size());
         Figure::Layer& layer = figure.layers.emplace_back();
@@ -141,11 +151,27 @@ Figure read_figure(std::string_view text, const Meter& meter, std::string& probl
                 alternatives(names), did_you_mean(nearest(lower_case(text), {names.begin(), names.end()})));
             return figure;
         }
-        if (layer.slots > most_slots || meter.bar() % layer.slots != 0) {
-            problem =
-                fmt::format("{} slots do not divide a bar; expected up to {} of one length", layer.slots, most_slots);
+        if (layer.strokes.empty()) {
+            problem = "a figure, and each of its layers, needs a stroke; `silent` plays none";
             return figure;
         }
+        if (layer.slots > most_slots || meter.bar() % layer.slots != 0) {
+            problem = name.empty() ? fmt::format("a bar cannot be divided into {} equal slots; expected at most {}",
+                                                 layer.slots, most_slots)
+                                   : fmt::format("{} needs a bar of at most {} eighths", name, most_slots);
+            return figure;
+        }
+        const unsigned voices = voices_of(layer);
+        if ((taken & voices) != 0) {
+            static constexpr std::array<std::string_view, 3> voice_names = {"the bass", "the lower voice",
+                                                                            "the upper voice"};
+            problem = fmt::format(
+                "layer {} and one before it play {}; a plays all voices, 3, 5 and n the bass, o the "
+                "upper voice",
+                figure.layers.size(), voice_names[static_cast<std::size_t>(std::countr_zero(taken & voices))]);
+            return figure;
+        }
+        taken |= voices;
         if (end == rest.size()) return figure;
         rest.remove_prefix(end + 1);
     }

@@ -63,7 +63,7 @@ void mark_tones(Chord& chord, const Scale& scale) {
 ChordSign sign_of(const Chord& chord, double tonic) {
     constexpr double most_away = 0.3;
     const double root = tonic + chord.root / 100;
-    if (chord.quality < 0 || std::fabs(root - std::round(root)) > most_away) return {};
+    if (chord.quality < 0 || std::fabs(root - std::round(root)) > most_away) return {ChordSign::without_name, 0, -1};
     const auto class_of = [](double key) { return static_cast<std::int8_t>((std::lround(key) % 12 + 12) % 12); };
     ChordSign sign{static_cast<std::int8_t>(chord.quality), class_of(root),
                    class_of(tonic + chord.cents.front() / 100)};
@@ -116,7 +116,7 @@ std::vector<Chord> read_progression(std::string_view text, const Scale& scale, d
     std::vector<Chord> chords;
     for (;;) {
         const std::size_t end = std::min(text.find('-'), text.size());
-        const std::string_view name = text.substr(0, end);
+        const std::string_view name = trimmed(text.substr(0, end));
         if (name.empty()) return {};
         std::optional<Chord> chord = named_chord(name, scale, tonic);
         if (!chord) {

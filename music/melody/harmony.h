@@ -28,7 +28,7 @@ struct Chord {
     bool has(std::int64_t degree) const;
 };
 
-/// The sign of a chord; none for chords without a name, and for roots more than 30 cents from every key.
+/// The sign of a chord: without a name if there is none, or the root is more than 30 cents from every key.
 /// @param tonic  MIDI key of the scale's tonic
 ChordSign sign_of(const Chord& chord, double tonic);
 

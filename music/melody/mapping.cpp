@@ -148,7 +148,7 @@ public:
         }
         DerivationOptions derivation = derivation_options();
         std::optional<Seeker> seeker;
-        // The beginning of a phrase at a bar line, for example, depends on all phrases before it.
+        // Where a phrase depends on all phrases before it, none is skipped.
         if (fold_ && options_.from > 0 && !melody_.is_sequential()) {
             seeker.emplace(grammar_, *fold_, *reader);
             derivation.pruner = &*seeker;

@@ -316,7 +316,7 @@ private:
                       {{"none", Close::none}, {"ritardando", Close::ritardando}, {"fermata", Close::fermata}});
     }
 
-    /// Notes move by whole periods, so that half a period is always within reach.
+    /// Notes move by whole periods, so that the smallest limit is half a period.
     void read_leaps() {
         const Key* key = pattern_.find("leaps");
         if (!key || lower_case(key->value.view()) == "none") return;
@@ -532,9 +532,18 @@ private:
     /// to begin a word.
     bool choose_by_word(const Key& key, std::string_view text, const std::vector<std::string>& names, int& chosen) {
         const std::string wanted = lower_case(text);
-        for (const bool is_word : {true, false}) {
+        enum class How { word, part, all_words };
+        for (const How how : {How::word, How::part, How::all_words}) {
+            const bool is_word = how == How::word;
             const auto matches = [&](const std::string& name) {
-                const std::string padded = ' ' + name + ' ';
+                std::string padded = ' ' + name + ' ';
+                if (how == How::all_words) {
+                    for (char& letter : padded) letter = letter == '(' || letter == ')' ? ' ' : letter;
+                    const std::vector<std::string_view> words = split_words(wanted);
+                    return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
+                        return padded.find(fmt::format(" {} ", word)) != std::string::npos;
+                    });
+                }
                 const std::string part = (is_word || wanted.size() == 3 ? " " : "") + wanted + (is_word ? " " : "");
                 return padded.find(part) != std::string::npos;
             };

@@ -74,10 +74,11 @@ struct Melody {
     double lowest = 0.0;     ///< MIDI keys between which `range` keeps the melody
     double highest = 127.0;  ///< not below `lowest`
     Loudness loudness = Loudness::fixed;
-    int leaps = 0;  ///< semitones; a note farther from the one before it in its phrase moves by periods; 0: any
-    RhythmTemplate rhythm;                ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
-    std::vector<RhythmTemplate> rhythms;  ///< those that phrases take in turn, the first of them `rhythm`; or none
-    double swing = 0.5;                   ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
+    int leaps = 0;  ///< largest leap within a phrase, in semitones; farther notes move by periods; 0: no limit
+    RhythmTemplate rhythm;  ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
+    std::vector<RhythmTemplate>
+        rhythms;         ///< rhythms of successive phrases, cyclically; empty if there is only `rhythm`
+    double swing = 0.5;  ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
     std::int64_t phrase_order = 0;  ///< order of the sub-curves that are phrases; 0: none
     std::int64_t breath = 0;        ///< ticks of rest after a phrase, or their minimum
@@ -104,7 +105,7 @@ struct Melody {
 
     /// True if a phrase begins with its rhythm, perhaps at a bar line.
     bool restarts_rhythm() const { return breathes_to_bar || !rhythms.empty(); }
-    /// True if what a phrase plays depends on all that came before it.
+    /// True if a phrase depends on all phrases before it.
     bool is_sequential() const { return restarts_rhythm() || leaps > 0; }
     /// True if notes are changed between the curve and the scale.
     bool is_shaped() const {

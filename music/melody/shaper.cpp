@@ -132,7 +132,7 @@ void Shaper::release(Draft note) {
     harmonise(note);
 }
 
-/// Names a chord that nobody sounds.
+/// Attaches the name of a silent chord to a melody note.
 void Shaper::name(Draft& note, const Chord& chord) const {
     if (melody_.figure.is_silent) note.chord = sign_of(chord, melody_.tonic + melody_.transpose);
 }
@@ -190,7 +190,7 @@ void Shaper::perform(Draft note) {
     if (melody_.swing != 0.5) swing(note);
     if (!note.is_last && !note.is_drum && note.glide == 0 && melody_.articulation != Articulation::legato) {
         double share = melody_.sounding;
-        if (melody_.articulation == Articulation::by_depth) share = std::max(0.25, 1 - 0.15 * note.depth);
+        if (melody_.articulation == Articulation::by_depth) share = sounding_by_depth(note.depth);
         note.end =
             note.onset + std::max<std::int64_t>(1, std::llround(static_cast<double>(note.end - note.onset) * share));
     }

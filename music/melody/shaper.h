@@ -39,7 +39,7 @@ public:
         std::int64_t glide = 0;  ///< ticks at its end in which its pitch slides to the next note
         std::int64_t goal = 0;   ///< degree that it slides to if no note begins at its end
         float rise = 0;          ///< as in Glide
-        ChordSign chord{};       ///< chord that begins with it
+        ChordSign chord{};       ///< chord that it belongs to
         Emphasis emphasis{};     ///< velocities do not include accents yet
         bool is_fixed() const { return key == key; }
     };

@@ -188,7 +188,7 @@ private:
             draft.from = {onset, height};
             draft.to = {state_.time, height};
             draft.symbol = counted(position_);
-            if (i == 0) draft.chord = sign_of_row(row);
+            draft.chord = sign_of_row(row);
             emitter_.table_note(i == 0 ? state_.line : others[i - 1], draft);
         }
         for (const Emitter::Line& line : others) emitter_.release(line);
@@ -200,10 +200,12 @@ private:
         return static_cast<std::int8_t>(is_stated ? dynamic_level(velocity) : -1);
     }
 
-    /// The sign of a chord that sounds as it is named.
+    /// The sign of a chord, with a name if it sounds as it is named.
     ChordSign sign_of_row(const SymbolRow& row) const {
         const bool is_moved = state_.degree != 0 || melody_.shift != 0 || melody_.answer != 0 || melody_.is_inverted;
-        return row.named && !is_moved ? sign_of(*row.named, melody_.tonic + melody_.transpose) : ChordSign{};
+        if (row.kind != SymbolRow::Kind::chord) return {};
+        if (!row.named || is_moved) return {ChordSign::without_name, 0, -1};
+        return sign_of(*row.named, melody_.tonic + melody_.transpose);
     }
 
     static Shaper::Draft drum(const TablePitch& pitch) {

@@ -98,7 +98,9 @@ public:
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
         // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.
         if (notation_.is_held) put("%%MIDI fermatafixed\n");
-        put("%%MIDI chordattack 0\nK:{}\n", key_name(notation_.parts.front().keys.front().key));
+        put("%%MIDI chordattack 0\n");
+        write_chord_kinds();
+        put("K:{}\n", key_name(notation_.parts.front().keys.front().key));
         if (head_.first_bar > 1 && head_.first_bar < INT32_MAX) put("%%setbarnb {}\n", head_.first_bar);
         if (notation_.is_concert) put("%%text {}\n", concert_text);
         int number = 0;
@@ -107,7 +109,7 @@ public:
                         [](const NotatedPart& part) { return part.transposition.has_value(); });
         for (const NotatedPart& notated : notation_.parts) {
             const Part& part = notated.part;
-            // That of a voice would apply to those after it, too.
+            // A transposition stated for one voice would also apply to the voices after it.
             const int lower = notated.transposition ? notated.transposition->semitones : 0;
             const std::string transposition = has_transposition ? fmt::format("\n%%MIDI transpose {}", -lower) : "";
             const VoiceMarks marks = marks_of(notated);
@@ -115,11 +117,12 @@ public:
                 // Both hands share one name.
                 const bool is_other_hand = notated.bracket == Bracket::brace && &staff != &notated.staves.front();
                 for (std::size_t k = 0; k < staff.voices.size(); ++k) {
-                    const bool has_name = k == 0 && !is_other_hand && !notated.name.empty();
+                    const bool is_pedal = notated.has_pedal && &staff == &notated.staves.back();
+                    const bool has_name = k == 0 && (!is_other_hand || is_pedal) && !notated.name.empty();
                     const std::string_view clef = clef_name(staff.changes.front().clef);
                     // Keys without a clef would reset the octaves.
                     put("V:{} clef={}{}\n{}\n[K:{} clef={}] ", ++number, clef,
-                        has_name ? fmt::format(" name=\"{}\"", quoted(notated.name)) : "",
+                        has_name ? fmt::format(" name=\"{}\"", is_pedal ? "Pedal" : quoted(notated.name)) : "",
                         (part.is_drums ? drum_map() : fmt::format("%%MIDI program {}", part.program)) + transposition,
                         key_name(notated.keys.front().key), clef);
                     if (has_name && part.swing.is_on() && !swing) put("\"^{}\"", swing_words(part.swing));
@@ -266,7 +269,8 @@ private:
                 if (!hairpin.empty()) put("!{}(!", hairpin);
                 if (next.kind == level) put("!{}!", dynamic_name(next.level));
             }
-            for (; chord != chords.end() && chord->onset <= symbol.onset; ++chord) put("\"{}\"", chord_name(*chord));
+            for (; chord != chords.end() && chord->onset <= symbol.onset; ++chord)
+                put("\"{}\"", chord->quality < 0 ? "^\u2013" : chord_name(*chord));
             if (symbol.begins_slur) put("(");
             if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
             const bool is_whole_rest = symbol.length == bar && symbol.kind != SymbolKind::note;
@@ -302,6 +306,24 @@ private:
             if (sung.find_first_not_of(" *") != std::string::npos) put("w:{}\n", sung);
             sung.clear();
         }
+    }
+
+    /// Names of chords are read, not heard; abc2midi has to know them all the same.
+    void write_chord_kinds() {
+        std::set<int> used;
+        for (const NotatedPart& part : notation_.parts) {
+            for (const ChordMark& chord : part.chords) used.insert(chord.quality);
+        }
+        for (const int kind : used) {
+            if (kind < 0) continue;
+            const ChordQuality& quality = chord_qualities()[static_cast<std::size_t>(kind)];
+            put("%%MIDI chordname {}", quality.name == "maj" ? "" : quality.name);
+            for (const int tone : quality.tones) {
+                if (tone >= 0) put(" {}", tone);
+            }
+            put("\n");
+        }
+        if (!used.empty()) put("%%MIDI gchordoff\n");
     }
 
     /// `F#m7`, `C/G`.

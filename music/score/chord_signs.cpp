@@ -22,13 +22,13 @@ constexpr ChordQuality qualities[] = {
     {"mmaj7", {0, 3, 11, 7, -1}, "m(maj7)", "major-minor", ":m7+"},
     {"m7b5", {0, 3, 10, 6, -1}, "m7\u266D5", "half-diminished", ":m7.5-"},
     {"dim7", {0, 3, 9, 6, -1}, "dim7", "diminished-seventh", ":dim7"},
-    {"7sus4", {0, 5, 10, 7, -1}, "7sus4", "suspended-fourth", ":7sus4"},
-    {"add9", {0, 4, 2, 7, -1}, "add9", "major", ":5.9"},
+    {"7sus4", {0, 5, 10, 7, -1}, "7sus4", "suspended-fourth", ":7sus4", 7},
+    {"add9", {0, 4, 2, 7, -1}, "add9", "major", ":1.3.5.9", 9},
     {"9", {0, 4, 10, 7, 2}, "9", "dominant-ninth", ":9"},
     {"maj9", {0, 4, 11, 7, 2}, "maj9", "major-ninth", ":maj9"},
     {"m9", {0, 3, 10, 7, 2}, "m9", "minor-ninth", ":m9"},
-    {"madd9", {0, 3, 2, 7, -1}, "madd9", "minor", ":m5.9"},
-    {"mmaj9", {0, 3, 11, 7, 2}, "m(maj9)", "major-minor", ":m9.7+"},
+    {"madd9", {0, 3, 2, 7, -1}, "m(add9)", "minor", ":1.3-.5.9", 9},
+    {"mmaj9", {0, 3, 11, 7, 2}, "m(maj9)", "major-minor", ":m9.7+", 9},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// music/score/chord_signs.h: kinds of chords, and how symbols above a staff write them.
+// music/score/chord_signs.h: kinds of chords and their names in each format of print.
 #pragma once
 
 #include "music/score/score.h"
@@ -16,6 +16,7 @@ struct ChordQuality {
     std::string_view printed;   ///< what follows the root: nothing for major
     std::string_view musicxml;  ///< the `kind` of MusicXML
     std::string_view lilypond;  ///< in LilyPond's \chordmode, after the duration
+    int added = 0;              ///< degree of MusicXML that the `kind` lacks; 0: none
 };
 
 /// All kinds. The accompaniment sounds the first three tones, so that sevenths come before fifths.

@@ -416,13 +416,19 @@ private:
             pitch.octave = 3;  // c without a mark
             return pitch_name(pitch);
         };
-        put("    \\new ChordNames \\chordmode {{\n     ");
+        // A dash ends a name where a chord without one follows.
+        put("    \\new ChordNames \\with {{ noChordSymbol = \"\u2013\" }} \\chordmode {{\n     ");
         skip(0, chords.front().onset);
         for (std::size_t i = 0; i < chords.size(); ++i) {
             const ChordMark& chord = chords[i];
             const std::int64_t end =
                 i + 1 < chords.size() ? chords[i + 1].onset : notation_.bars * notation_.bar_length;
-            put(" {}1*{}/{}{}{}", name(chord.root), end - chord.onset, 4 * ticks_per_quarter,
+            const auto length = fmt::format("1*{}/{}", end - chord.onset, 4 * ticks_per_quarter);
+            if (chord.quality < 0) {
+                put(" r{}", length);
+                continue;
+            }
+            put(" {}{}{}{}", name(chord.root), length,
                 chord_qualities()[static_cast<std::size_t>(chord.quality)].lilypond,
                 chord.bass ? "/+" + name(*chord.bass) : "");
         }

@@ -160,7 +160,7 @@ void write_curves(TextWriter& out, const Curves& curves, const std::vector<Tempo
     out.put("],");
 }
 
-/// Writes what each player has, as in print: [name, voices].
+/// Writes the voices of each printed part: [name, voices].
 void write_parts(TextWriter& out, const ScoreHead& head, const Melody& melody) {
     std::vector<std::vector<Note>> voices;
     for (const Part& part : head.parts) voices.resize(voices.size() + static_cast<std::size_t>(part.voices));
@@ -457,8 +457,9 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
         "upwards; a click goes there\"></canvas></figure>\n</div>\n"
         "<p class=\"hint\"><kbd>Space</kbd> plays and pauses, <kbd>←</kbd> <kbd>→</kbd> move by one bar, "
         "<kbd>Home</kbd> "
-        "goes to the beginning, <kbd>L</kbd> loops, <kbd>[</kbd> <kbd>]</kbd> begin and end the loop at this "
-        "bar.</p>\n<noscript><p>To play, this page needs JavaScript.</p></noscript>\n",
+        "goes to the beginning, <kbd>L</kbd> loops, <kbd>[</kbd> <kbd>]</kbd> "
+        "set its first and last bar to the current one.</p>\n<noscript><p>To play, this page needs "
+        "JavaScript.</p></noscript>\n",
         xml_escaped(head.made), title, page_css, title, xml_escaped(subtitle(head, melody)), number(slowest, 4),
         number(fastest, 4), number(head.tempo, 4));
     if (!head.pattern.empty()) {

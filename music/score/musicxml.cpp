@@ -344,15 +344,28 @@ private:
     }
 
     void write_chord_mark(const ChordMark& chord) {
+        const std::string staff = staff_ > 0 ? fmt::format("<staff>{}</staff>", staff_) : "";
+        if (chord.quality < 0) {
+            // A dash ends a name where a chord without one follows.
+            return put(
+                "<harmony placement=\"above\"><root><root-step text=\"\">C</root-step></root>"
+                "<kind text=\"\u2013\">none</kind>{}</harmony>\n",
+                staff);
+        }
         const ChordQuality& quality = chord_qualities()[static_cast<std::size_t>(chord.quality)];
         const auto pitch = [](std::string_view name, const Pitch& one) {
             return fmt::format(
                 "<{0}><{0}-step>{1}</{0}-step>{2}</{0}>", name, "CDEFGAB"[one.letter],
                 one.quarters != 0 ? fmt::format("<{0}-alter>{1}</{0}-alter>", name, one.quarters / 2) : "");
         };
-        put("<harmony placement=\"above\">{}<kind text=\"{}\">{}</kind>{}{}</harmony>\n", pitch("root", chord.root),
-            quality.printed, quality.musicxml, chord.bass ? pitch("bass", *chord.bass) : "",
-            staff_ > 0 ? fmt::format("<staff>{}</staff>", staff_) : "");
+        const std::string added = quality.added == 0
+                                      ? ""
+                                      : fmt::format(
+                                            "<degree print-object=\"no\"><degree-value>{}</degree-value>"
+                                            "<degree-alter>0</degree-alter><degree-type>add</degree-type></degree>",
+                                            quality.added);
+        put("<harmony placement=\"above\">{}<kind text=\"{}\">{}</kind>{}{}{}</harmony>\n", pitch("root", chord.root),
+            quality.printed, quality.musicxml, chord.bass ? pitch("bass", *chord.bass) : "", added, staff);
     }
 
     void write_shift(const StaffState& state, std::string_view type, int octaves) {
@@ -361,7 +374,7 @@ private:
                         octaves > 0 ? "above" : "below");
     }
 
-    /// Writes what a bar has of cues, in the voice after those of the staff.
+    /// Writes the cues of a bar, as the voice after those of the staff.
     void write_cues(const Staff& staff, std::int64_t bar) {
         const std::int64_t begin = bar * notation_.bar_length;
         for (const Cue& cue : staff.cues) {

@@ -1,5 +1,6 @@
 #include "music/score/notation.h"
 
+#include "music/score/chord_signs.h"
 #include "music/score/drums.h"
 #include "music/score/dynamics.h"
 #include "music/score/labels.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -191,14 +193,31 @@ int cents_above(double key, const Pitch& pitch) {
     return std::fabs(away) > unheard ? static_cast<int>(std::lround(100 * away)) : 0;
 }
 
+/// The spelling of a key that a chord contains, by the letters from its root on, if the spelling of the scale has a
+/// sign there; else that of the scale. @param up  semitones by which the part is written higher
+Pitch spelled_in(const ChordSign& chord, double key, int up, const std::array<Spelling, 12>& spelling) {
+    const Pitch plain = spelled(key, spelling);
+    if (chord.quality < 0 || plain.quarters == 0 || std::fabs(key - std::round(key)) > unheard) return plain;
+    // Letters of the tones, by their semitones above the root: a third is two letters above it.
+    static constexpr std::array<int, 12> letters = {0, 1, 1, 2, 2, 3, 4, 4, 4, 5, 6, 6};
+    const Pitch root = spelled(60 + chord.root + up, spelling);
+    const int above = ((static_cast<int>(std::lround(key)) - static_cast<int>(root.key())) % 12 + 12) % 12;
+    const auto& tones = chord_qualities()[static_cast<std::size_t>(chord.quality)].tones;
+    if (std::find(tones.begin(), tones.end(), above) == tones.end()) return plain;
+    Pitch pitch{(root.letter + letters[static_cast<std::size_t>(above)]) % 7, plain.octave, 0};
+    pitch.octave += static_cast<int>(std::lround((key - pitch.key()) / 12));
+    pitch.quarters = static_cast<int>(std::lround(2 * (key - pitch.key())));
+    return std::abs(pitch.quarters) <= 2 ? pitch : plain;
+}
+
 /// Indices of notes.
 struct Slur {
     std::size_t first = 0;
     std::size_t last = 0;
 };
 
-/// Slurs over what a phrase has between rests: at least two notes, not all of one pitch, in at most four bars.
-/// Players who swing shape their phrases themselves.
+/// Slurs over the notes of a phrase from one rest to the next: at least two, not all of one pitch, in at most four
+/// bars. Players who swing shape their phrases themselves.
 std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, std::int64_t bar_length) {
     constexpr std::int64_t most_bars_of_slur = 4;
     std::vector<Slur> slurs;
@@ -220,11 +239,11 @@ std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, std
     return slurs;
 }
 
-/// True for a note of at most a quarter of which less than two thirds sound.
+/// True for a note of at most a quarter of which at most 65 % sound.
 bool is_staccato(const Touch& touch, const Note& note) {
-    constexpr double most_sounding = 0.65, lost_each_bracket = 0.15;
-    const double sounding = touch.is_by_depth ? 1 - lost_each_bracket * note.depth : touch.sounding;
-    return sounding <= most_sounding && note.duration <= ticks_per_quarter && note.glide.semitones == 0;
+    constexpr double most_sounding = 0.65;
+    return touch.share(note.depth) <= most_sounding && note.duration <= ticks_per_quarter &&
+           note.glide.semitones == 0;
 }
 
 void add_drums(const NotatedVoice& voice, std::set<int>& drums) {
@@ -333,6 +352,9 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
     std::size_t voices = 0;
     for (const Part& part : parts_) voices += static_cast<std::size_t>(part.voices);
     voices_.resize(voices);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        part_indices_.insert(part_indices_.end(), static_cast<std::size_t>(parts_[i].voices), i);
+    }
     notation_.bar_length = meter_.bar();
 }
 
@@ -347,7 +369,10 @@ void Notator::notes(std::span<const Note> notes) {
         }
         if (std::fabs(2 * note.key - std::round(2 * note.key)) > 2 * unheard) ++notation_.bent;
         voices_[static_cast<std::size_t>(note.voice)].push_back(note);
-        if (has_chord_signs_ && note.chord.quality >= 0) chord_signs_.try_emplace(note.onset, note.chord);
+        if (note.chord.quality == ChordSign::no_chord) continue;
+        auto& [until, sign] = chord_signs_[{part_indices_[static_cast<std::size_t>(note.voice)], note.onset}];
+        until = std::max(until, note.onset + note.duration);
+        sign = note.chord;
     }
 }
 
@@ -384,6 +409,7 @@ void Notator::finish(std::int64_t end) {
     agree_on_keys(printed_, others);
     find_outside();
     for (std::size_t i = 0; i < printed_.size() && is_transposed_; ++i) transpose_part(i);
+    for (const auto& [place, chord] : chord_signs_) chords_by_onset_.emplace(place.second, chord);
     for (std::size_t i = 0; i < printed_.size(); ++i) notate_part(i);
     name_chords();
     mark_ending(end);
@@ -483,28 +509,48 @@ void Notator::transpose_part(std::size_t index) {
     }
 }
 
-/// Names the chords of all parts above the first part with pitches.
+/// The chords of the score and their onsets: in each bar those of the first part that has any. One that is struck
+/// late in a bar, with nothing of the chord before it, belongs to the whole bar.
+std::vector<std::pair<std::int64_t, ChordSign>> Notator::changes_of_chords() const {
+    const std::int64_t bar = notation_.bar_length;
+    std::map<std::int64_t, std::size_t> part_of_bar;
+    for (const auto& [place, chord] : chord_signs_) part_of_bar.try_emplace(place.second / bar, place.first);
+    std::map<std::int64_t, std::pair<std::int64_t, ChordSign>> chords;  // by onset
+    for (const auto& [place, chord] : chord_signs_) {
+        if (part_of_bar.at(place.second / bar) == place.first) chords.emplace(place.second, chord);
+    }
+    std::vector<std::pair<std::int64_t, ChordSign>> changes;
+    std::int64_t sounds_until = 0;
+    ChordSign before;
+    for (const auto& [onset, chord] : chords) {
+        const auto& [end, sign] = chord;
+        const std::int64_t bar_begin = onset / bar * bar;
+        if (sign != before) changes.emplace_back(sounds_until <= bar_begin ? bar_begin : onset, sign);
+        sounds_until = std::max(sounds_until, end);
+        before = sign;
+    }
+    return changes;
+}
+
+/// Names the chords above the first part with pitches.
 void Notator::name_chords() {
     const auto first = std::find_if(printed_.begin(), printed_.end(), [](const PrintedPart& one) {
         return !one.part.is_drums && !one.part.is_accompaniment;
     });
-    if (first == printed_.end() || chord_signs_.empty()) return;
+    if (!has_chord_signs_ || first == printed_.end()) return;
     NotatedPart& part = notation_.parts[static_cast<std::size_t>(first - printed_.begin())];
     const int up = part.transposition ? part.transposition->semitones : 0;
-    ChordSign before;
-    for (const auto& [strike, sign] : chord_signs_) {
-        if (sign == before) continue;
-        before = sign;
-        // A chord that is struck after the first beat belongs to the whole bar.
-        const std::int64_t bar_begin = strike / notation_.bar_length * notation_.bar_length;
-        const std::int64_t onset = strike - bar_begin < ticks_per_quarter ? bar_begin : strike;
+    for (const auto& [onset, sign] : changes_of_chords()) {
         const std::array<Spelling, 12>& spelling = first->key_at(onset).spelling;
         const auto written = [&](int pitch_class) { return spelled(60 + pitch_class + up, spelling); };
         ChordMark mark{onset, sign.quality, written(sign.root), {}};
         if (sign.bass >= 0) mark.bass = written(sign.bass);
         part.chords.push_back(mark);
+        if (sign.quality < 0) ++notation_.nameless_chords;
     }
     part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.bars * notation_.bar_length);
+    // A score does not begin with the end of a chord.
+    while (!part.chords.empty() && part.chords.front().quality < 0) part.chords.erase(part.chords.begin());
 }
 
 /// Counts notes that their instrument cannot play.
@@ -522,6 +568,20 @@ void Notator::find_outside() {
             }
         }
     }
+}
+
+/// The chord that a note belongs to, or that sounds with it in any part.
+ChordSign Notator::chord_at(const Note& note) const {
+    if (note.chord.quality != ChordSign::no_chord || chords_by_onset_.empty()) return note.chord;
+    const auto after = chords_by_onset_.upper_bound(note.onset);
+    if (after == chords_by_onset_.begin()) return {};
+    const auto& [until, sign] = std::prev(after)->second;
+    return until > note.onset ? sign : ChordSign{};
+}
+
+int Notator::transposed_by(const Part& part) const {
+    const auto by = transposition_of(part.program);
+    return is_transposed_ && by && !part.is_drums ? by->semitones : 0;
 }
 
 NotatedPart& Notator::begin_part(const PrintedPart& printed) {
@@ -593,6 +653,11 @@ void Notator::notate_part(std::size_t index) {
         for (const StaffVoice& voice : planned.voices) {
             staff.voices.push_back(fill(voice.voice, voice.notes, index, chords_of(voice.notes, index)));
             together.insert(together.end(), voice.notes.begin(), voice.notes.end());
+        }
+        // Syllables of several voices would be confused.
+        for (NotatedVoice& voice : staff.voices) {
+            for (NotatedSymbol& symbol : voice.symbols)
+                symbol.syllable = staff.voices.size() > 1 ? "" : symbol.syllable;
         }
         staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
         sort_by_onset(together);
@@ -684,7 +749,10 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         }
         const KeyOfBars& signature = part.key_at(note.onset);
         const std::array<Spelling, 12>& spelling = signature.spelling;
-        symbol.pitch = spelled(note.key, spelling);
+        const ChordSign chord = chord_at(note);
+        const int up = transposed_by(part.part);
+        const auto written = [&](double key) { return spelled_in(chord, key, up, spelling); };
+        symbol.pitch = written(note.key);
         if (!part.part.is_accompaniment && chords[i].empty())
             symbol.syllable = syllable_of(syllables_, symbol.pitch, signature);
         symbol.is_staccato = is_staccato(part.part.touch, note);
@@ -693,7 +761,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         symbol.ends_slur = slur != slurs.end() && slur->last == i;
         symbol.cents = cents_above(note.key, symbol.pitch);
         for (const double key : chords[i]) {
-            const Pitch pitch = spelled(key, spelling);
+            const Pitch pitch = written(key);
             symbol.chord.push_back({pitch, 0, cents_above(key, pitch)});
         }
         writer.add(note.onset, nullptr);

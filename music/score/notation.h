@@ -108,7 +108,7 @@ struct DynamicMark {
     bool operator==(const DynamicMark&) const = default;
 };
 
-/// Notes of another part before an entry, printed small: a player who has rested long finds the place by them.
+/// Notes of another part before an entry, printed small, so that a player who has rested for long finds the place.
 struct Cue {
     std::string name;  ///< abbreviation of the other part
     std::int64_t from = 0;
@@ -136,7 +136,7 @@ struct KeyChange {
 /// A chord named above the staff from a tick on.
 struct ChordMark {
     std::int64_t onset = 0;
-    int quality = 0;  ///< index in chord_qualities()
+    int quality = 0;  ///< index in chord_qualities(); below 0: no chord from here on, or one without a name
     Pitch root{};
     std::optional<Pitch> bass{};  ///< another bass than the root
 };
@@ -160,12 +160,13 @@ struct Notation {
     bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
     std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
-    std::uint64_t moved = 0;    ///< notes that are not on the grid and were moved to the nearest point
-    std::uint64_t bent = 0;     ///< notes more than a cent away from every quarter tone, and written as the nearest
-    std::uint64_t merged = 0;   ///< notes left out because another voice has the same note
-    bool is_cut = false;        ///< bars follow that are not printed
-    bool is_concert = false;    ///< parts of transposing instruments are written as they sound
-    bool is_extracted = false;  ///< what one player reads
+    std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
+    std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
+    std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
+    std::uint64_t nameless_chords = 0;  ///< chords above the first staff that have no name
+    bool is_cut = false;                ///< bars follow that are not printed
+    bool is_concert = false;            ///< parts of transposing instruments are written as they sound
+    bool is_extracted = false;          ///< true for the part of one player
     /// Numbers of bars of rest that are printed as one, by their first bar.
     std::map<std::int64_t, std::int64_t> gathered_rests{};
     /// Bars that a rest or gap of a whole bar stands for.
@@ -236,6 +237,9 @@ private:
     void transpose_part(std::size_t index);
     void find_outside();
     void name_chords();
+    std::vector<std::pair<std::int64_t, ChordSign>> changes_of_chords() const;
+    ChordSign chord_at(const Note& note) const;
+    int transposed_by(const Part& part) const;
 
     std::vector<Part> parts_;
     Meter meter_;
@@ -245,11 +249,14 @@ private:
     std::int64_t ritardando_;  ///< ticks before the end; 0: none
     Bars printed_bars_;
     std::int64_t all_bars_ = 1;
+    std::vector<std::size_t> part_indices_;  ///< by voice
     std::vector<std::vector<Note>> voices_;
     std::vector<PrintedPart> printed_;
     /// Other notes of chords, by the part (of parts_, later of printed_), symbol and onset of their first note.
     std::map<ChordPlace, std::vector<double>> chords_;
-    std::map<std::int64_t, ChordSign> chord_signs_;  ///< by onset
+    /// Chords that sound, by part and onset, with their ends.
+    std::map<std::pair<std::size_t, std::int64_t>, std::pair<std::int64_t, ChordSign>> chord_signs_;
+    std::map<std::int64_t, std::pair<std::int64_t, ChordSign>> chords_by_onset_;  ///< those of the first part there
     std::size_t count_ = 0;
     Notation notation_;
 };

@@ -31,7 +31,7 @@ function eachWithin(begin, finish, f) {
 }
 
 /* Parts: [name, voices]; some may be muted, or others play alone. */
-const parts = data.parts || [], partOfVoice = [], muted = new Set(), alone = new Set();
+const parts = data.parts, partOfVoice = [], muted = new Set(), alone = new Set();
 parts.forEach(([, voices], part) => { for (const voice of voices) partOfVoice[voice] = part; });
 const partOf = note => partOfVoice[note[VOICE]];
 const isHeard = note => alone.size > 0 ? alone.has(partOf(note)) : !muted.has(partOf(note));
@@ -221,7 +221,7 @@ function settle() {
 function ahead() {
   settle();
   const now = clock();
-  if (tickAt(now) >= end && !loop) { stop(); anchorTick = end; draw(); return; }
+  if (tickAt(now) >= end && !(loop && anchorTick < loop.to)) { stop(); anchorTick = end; draw(); return; }
   if (past && now >= anchorTime) past = null;
   /* A hidden page is called once a second only. */
   const horizon = now + (document.hidden ? 1.6 : 0.14);
@@ -242,7 +242,7 @@ function ahead() {
   }
 }
 
-/* Enters at the anchor, in the midst of what sounds there. */
+/* Starts at the anchor, with the notes that already sound there. */
 function enter(last) {
   next = firstFrom(anchorTick);
   eachWithin(anchorTick, anchorTick + 1, note => {
@@ -306,12 +306,12 @@ function setTempo(value) {
   past = null;
   anchorTick = tick; anchorTime = clock();
   speed = value;
-  /* What was handed over and has not begun keeps its time, but a repeat of the loop does not. */
+  /* Scheduled notes keep their time, except those of the next pass of the loop. */
   if (isAhead && playing) { silence(); begin(); }
   label();
 }
 
-/* What changes what is heard applies at once. */
+/* Schedules anew what sounds, after a change of parts or loop. */
 function playOn() {
   if (!playing) return;
   anchorTick = tickAt(clock());
@@ -619,7 +619,7 @@ function showParts() {
     solo.setAttribute("aria-pressed", String(alone.has(part)));
   });
 }
-function button_(text, name, act) {
+function smallButton(text, name, act) {
   const made = document.createElement("button");
   made.type = "button"; made.className = "small"; made.textContent = text;
   made.setAttribute("aria-label", name); made.setAttribute("aria-pressed", "false"); made.title = name;
@@ -627,24 +627,24 @@ function button_(text, name, act) {
   return made;
 }
 if (parts.length > 1) {
-  const bar_ = element("parts");
-  bar_.hidden = false;
+  const box = element("parts");
+  box.hidden = false;
   parts.forEach(([name], part) => {
     const row = document.createElement("span"), swatch = document.createElement("i");
     row.className = "part";
-    const mute = button_("M", "Mute " + name, isOn => toggleOf(muted, part, isOn));
-    const solo = button_("S", "Solo " + name, isOn => toggleOf(alone, part, isOn));
+    const mute = smallButton("M", "Mute " + name, isOn => toggleOf(muted, part, isOn));
+    const solo = smallButton("S", "Solo " + name, isOn => toggleOf(alone, part, isOn));
     row.append(swatch, name, mute, solo);
-    bar_.append(row);
+    box.append(row);
     partRows.push({swatch, mute, solo});
   });
-  const colour = button_("Colour by part", "Colour by part", isOn => {
+  const colour = smallButton("Colour by part", "Colour by part", isOn => {
     isByPart = isOn;
     colour.setAttribute("aria-pressed", String(isOn));
     showParts();
     layout();
   });
-  bar_.append(colour);
+  box.append(colour);
 }
 const loopButton = element("loop"), loopFrom = element("loop-from"), loopTo = element("loop-to");
 loopFrom.max = loopTo.max = loopTo.value = Math.ceil(end / bar);

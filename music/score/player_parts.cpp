@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t fewest_rests_before_cue = 8;  // bars
 constexpr std::int64_t most_cue_bars = 2;
 
-/// A staff of the score as a player may hear it.
+/// A staff that may be quoted as a cue, with its abbreviation.
 struct Line {
     const NotatedPart* part = nullptr;
     const Staff* staff = nullptr;
@@ -60,7 +60,9 @@ std::span<const NotatedSymbol> symbols_within(const NotatedVoice& voice, std::in
         return std::lower_bound(voice.symbols.begin(), voice.symbols.end(), tick,
                                 [](const NotatedSymbol& symbol, std::int64_t at) { return symbol.onset < at; });
     };
-    return {find(from), find(to)};
+    const auto first = find(from);
+    return std::span(voice.symbols)
+        .subspan(static_cast<std::size_t>(first - voice.symbols.begin()), static_cast<std::size_t>(find(to) - first));
 }
 
 std::ptrdiff_t onsets_in(const NotatedVoice& voice, std::int64_t from, std::int64_t to) {
@@ -219,15 +221,38 @@ void gather_rests(Notation& player) {
     }
 }
 
-/// Removes the names of chords over bars of rest.
-void drop_silent_chords(Notation& player) {
+/// Moves the names of chords over bars of rest to the next entry.
+void move_silent_chords(Notation& player) {
     const std::vector<bool> silent = silent_bars(player.parts.front(), player);
-    std::erase_if(player.parts.front().chords, [&](const ChordMark& chord) {
-        return silent[static_cast<std::size_t>(chord.onset / player.bar_length)];
-    });
+    std::vector<ChordMark> kept;
+    const auto next_entry = [&](std::int64_t onset) {
+        auto bar = static_cast<std::size_t>(onset / player.bar_length);
+        while (bar < silent.size() && silent[bar]) ++bar;
+        return static_cast<std::int64_t>(bar) * player.bar_length;
+    };
+    for (ChordMark chord : player.parts.front().chords) {
+        const bool is_silent = silent[static_cast<std::size_t>(chord.onset / player.bar_length)];
+        if (is_silent) chord.onset = next_entry(chord.onset);
+        // The last one before an entry is in force there.
+        if (!kept.empty() && kept.back().onset == chord.onset) kept.pop_back();
+        if (chord.onset < player.bars * player.bar_length) kept.push_back(chord);
+    }
+    player.parts.front().chords = std::move(kept);
 }
 
-/// Begins the ritardando of the score, which its first part has.
+/// Gives a player the names of the score's chords, as this part writes them.
+void add_chords(const Notation& score, NotatedPart& part) {
+    const auto source = std::find_if(score.parts.begin(), score.parts.end(),
+                                     [](const NotatedPart& one) { return !one.chords.empty(); });
+    if (source == score.parts.end() || part.part.is_drums) return;
+    part.chords = source->chords;
+    for (ChordMark& chord : part.chords) {
+        chord.root = rewritten(chord.root, *source, part);
+        if (chord.bass) chord.bass = rewritten(*chord.bass, *source, part);
+    }
+}
+
+/// Copies the ritardando, which only the first part of the score carries.
 void slow_down(const Notation& score, Notation& player) {
     const std::vector<NotatedSymbol>& first = score.parts.front().staves.front().voices.front().symbols;
     const auto slow =
@@ -264,8 +289,9 @@ std::vector<PlayerPart> player_parts(const Notation& score, bool has_cues) {
                 own.staves = {part.staves[i]};
                 own.bracket = Bracket::none;
             }
+            add_chords(score, own);
             slow_down(score, notation);
-            drop_silent_chords(notation);
+            move_silent_chords(notation);
             if (has_cues && own.staves.size() == 1 && !own.part.is_drums) add_cues(notation, part.staves[i], lines);
             gather_rests(notation);
         }

@@ -9,7 +9,7 @@
 
 namespace sikku {
 
-/// What one player reads: a score with a single part, which has the player's name.
+/// The part of one player, as a score with a single part.
 struct PlayerPart {
     std::string name;
     Notation notation;
@@ -18,8 +18,8 @@ struct PlayerPart {
 /// The parts of all players, in the order of the score: one for each part, and for parts whose staves a bracket joins
 /// one for each staff. Bars of rest are gathered, except where the key or the tempo changes, at double bars and at a
 /// last bar that is held. After eight bars of rest and more, a player of one staff gets the last bars of another part
-/// as a cue: of the one with the most notes there, in the player's clef and transposition. Drums get none and give
-/// none.
+/// as a cue: of the one with the most notes there, in the player's clef and transposition. Drums neither
+/// receive nor provide cues.
 /// Cost: O(players * notes).
 std::vector<PlayerPart> player_parts(const Notation& score, bool has_cues = true);
 

@@ -39,9 +39,11 @@ struct Emphasis {
 
 /// A chord as a symbol names it.
 struct ChordSign {
-    std::int8_t quality = -1;  ///< index in chord_qualities(); -1: no chord
-    std::int8_t root = 0;      ///< pitch class
-    std::int8_t bass = -1;     ///< pitch class of a bass that is not the root; -1: none
+    std::int8_t quality = no_chord;  ///< index in chord_qualities(), or one of the following
+    static constexpr std::int8_t no_chord = -1;
+    static constexpr std::int8_t without_name = -2;
+    std::int8_t root = 0;   ///< pitch class
+    std::int8_t bass = -1;  ///< pitch class of a bass that is not the root; -1: none
     bool operator==(const ChordSign&) const = default;
 };
 
@@ -61,7 +63,7 @@ struct Note {
     Glide glide{};             ///< slide of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
     Emphasis emphasis{};
-    ChordSign chord{};  ///< chord that begins with this note, the bass of an accompaniment
+    ChordSign chord{};  ///< chord that the note of an accompaniment belongs to
 
     /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }
@@ -139,11 +141,17 @@ struct Swing {
 /// What is printed under the notes: nothing, or their degrees of the scale.
 enum class Syllables : std::uint8_t { none, sargam, degrees, solfa };
 
-/// The share of each note that sounds, which print shows by slurs and dots.
+/// Share of a note within `depth` brackets that sounds, if it is less in each.
+inline double sounding_by_depth(int depth) {
+    return std::max(0.25, 1 - 0.15 * depth);
+}
+
+/// Articulation, printed as slurs and staccato dots.
 struct Touch {
-    double sounding = 1;       ///< of notes that are not in brackets
-    bool is_by_depth = false;  ///< less in each branch
-    bool has_phrases = false;  ///< it is made of phrases
+    double sounding = 1;       ///< share of each note that sounds
+    bool is_by_depth = false;  ///< sounding_by_depth() instead
+    bool has_phrases = false;  ///< the melody has `phrases`
+    double share(int depth) const { return is_by_depth ? sounding_by_depth(depth) : sounding; }
 };
 
 /// One instrument: the voices of one pattern.
@@ -160,7 +168,7 @@ struct Part {
     bool is_accompaniment = false;  ///< its voices share a staff, and notes of one onset and length are a chord
     bool is_drums = false;          ///< percussion of General MIDI: keys are those of drums.h
     Swing swing{};                  ///< to be printed: the notes are written straight
-    Touch touch{};                  ///< likewise: the notes are written in full
+    Touch touch{};                  ///< printed as slurs and dots; notes keep their full length
     double tonic = 60;              ///< MIDI key of the tonic
 };
 

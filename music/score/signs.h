@@ -14,7 +14,7 @@ namespace sikku {
 /// @param keys  key signatures, ascending. @param bar  ticks
 void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, std::int64_t bar);
 
-/// The same for signs alone, without cents.
+/// Sets accidentals only, without cents.
 void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t bar);
 
 }  // namespace sikku

@@ -11,20 +11,44 @@ namespace {
 
 constexpr int most_dots = 2;
 
+/// A name with dots for its octave, -2 to 2 from `octave` 0 to 4. Fonts have some letters with a dot.
+std::string dotted(std::string_view name, std::size_t octave) {
+    struct Whole {
+        std::string_view name, below, above;
+    };
+    static constexpr std::array<Whole, 12> whole = {{{"S", "\u1E62", "\u1E60"},
+                                                     {"r", "\u1E5B", "\u1E59"},
+                                                     {"R", "\u1E5A", "\u1E58"},
+                                                     {"g", "", "\u0121"},
+                                                     {"G", "", "\u0120"},
+                                                     {"m", "\u1E43", "\u1E41"},
+                                                     {"M", "\u1E42", "\u1E40"},
+                                                     {"P", "", "\u1E56"},
+                                                     {"d", "\u1E0D", "\u1E0B"},
+                                                     {"D", "\u1E0C", "\u1E0A"},
+                                                     {"n", "\u1E47", "\u1E45"},
+                                                     {"N", "\u1E46", "\u1E44"}}};
+    static constexpr std::array<std::string_view, 5> dots = {"\u0323", "\u0323", "", "\u0307", "\u0307"};
+    std::string text(name);
+    text += dots[octave];
+    for (const Whole& one : whole) {
+        const std::string_view letter = octave < 2 ? one.below : one.above;
+        if (one.name == name && octave != 2 && !letter.empty()) text = letter;
+    }
+    return octave == 0 || octave == 4 ? text.append(dots[octave]) : text;
+}
+
 /// All syllables of a kind: by letter, octave and sign.
 class SyllableTable {
 public:
-    SyllableTable(const std::array<std::string_view, 7>& names, bool has_dots, bool has_signs) {
-        static constexpr std::array<std::string_view, 5> dots = {"\u0323\u0323", "\u0323", "", "\u0307",
-                                                                 "\u0307\u0307"};
-        static constexpr std::array<std::string_view, 3> signs = {"\u266D", "", "\u266F"};
+    /// Names with a flat, plain and with a sharp, as compared with the major scale.
+    using Names = std::array<std::array<std::string_view, 3>, 7>;
+    SyllableTable(const Names& names, bool has_dots) {
         for (std::size_t letter = 0; letter < 7; ++letter) {
-            for (std::size_t octave = 0; octave < dots.size(); ++octave) {
-                for (std::size_t sign = 0; sign < signs.size(); ++sign) {
-                    std::string& text = texts_[letter][octave][sign];
-                    if (has_signs) text += signs[sign];
-                    text += names[letter];
-                    if (has_dots) text += dots[octave];
+            for (std::size_t octave = 0; octave < 5; ++octave) {
+                for (std::size_t sign = 0; sign < 3; ++sign) {
+                    const std::string_view name = names[letter][sign];
+                    texts_[letter][octave][sign] = has_dots ? dotted(name, octave) : std::string(name);
                 }
             }
         }
@@ -40,9 +64,30 @@ private:
 };
 
 const SyllableTable& table_of(Syllables kind) {
-    static const SyllableTable sargam({"S", "R", "G", "M", "P", "D", "N"}, true, false);
-    static const SyllableTable degrees({"1", "2", "3", "4", "5", "6", "7"}, true, true);
-    static const SyllableTable solfa({"do", "re", "mi", "fa", "sol", "la", "ti"}, false, false);
+    static const SyllableTable sargam({{{"S", "S", "S"},
+                                        {"r", "R", "R"},
+                                        {"g", "G", "G"},
+                                        {"m", "m", "M"},
+                                        {"P", "P", "P"},
+                                        {"d", "D", "D"},
+                                        {"n", "N", "N"}}},
+                                      true);
+    static const SyllableTable degrees({{{"\u266D1", "1", "\u266F1"},
+                                         {"\u266D2", "2", "\u266F2"},
+                                         {"\u266D3", "3", "\u266F3"},
+                                         {"\u266D4", "4", "\u266F4"},
+                                         {"\u266D5", "5", "\u266F5"},
+                                         {"\u266D6", "6", "\u266F6"},
+                                         {"\u266D7", "7", "\u266F7"}}},
+                                       true);
+    static const SyllableTable solfa({{{"de", "do", "di"},
+                                       {"ra", "re", "ri"},
+                                       {"me", "mi", "mis"},
+                                       {"fe", "fa", "fi"},
+                                       {"se", "sol", "si"},
+                                       {"le", "la", "li"},
+                                       {"te", "ti", "tis"}}},
+                                     false);
     return kind == Syllables::sargam ? sargam : kind == Syllables::degrees ? degrees : solfa;
 }
 

@@ -1,4 +1,4 @@
-// music/score/syllables.h: what is sung under notes: the degrees of the scale.
+// music/score/syllables.h: syllables for degrees of the scale, printed under notes.
 #pragma once
 
 #include "music/score/notation.h"
@@ -8,9 +8,10 @@
 
 namespace sikku {
 
-/// The syllable of a written pitch: S R G M P D N, counted in letters from the tonic and with a dot for each octave
-/// above or below its own; 1 to 7, likewise, with a sign if it is not that of the major scale; do re mi fa sol la ti.
-/// Empty if nothing is sung. Static.
+/// The syllable of a written pitch, counted in letters from the tonic. Sargam: S r R g G m M P d D n N, small letters
+/// for lowered degrees and M for the raised fourth. Degrees: 1 to 7, with a sign where they differ from the major
+/// scale. Both have a dot for each octave above or below that of the tonic, up to two. Solfa: do re mi fa sol la ti,
+/// lowered ra me le te, raised di ri fi si li. Empty for Syllables::none. The text has static storage.
 std::string_view syllable_of(Syllables kind, const Pitch& pitch, const KeyOfBars& key);
 
 }  // namespace sikku

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pathlib
 import re
+import unicodedata
 import xml.etree.ElementTree
 from collections.abc import Iterator
 from typing import Any
@@ -58,7 +59,7 @@ def placed(part: Any) -> Iterator[tuple[int, float, Any]]:
 
 
 def told(part: Any, has_cues: bool = False) -> list[Any]:
-    """What a part has, but for what its file gathers."""
+    """The notes and rests of a part, regardless of gathered rests."""
     return [
         (
             bar,
@@ -155,7 +156,32 @@ def test_parts_of_one_player_and_of_other_formats(tmp_path: pathlib.Path) -> Non
 
 # --- chords, degrees, slurs -----------------------------------------------------------------------------------------
 
-KINDS = {"major": {0, 4, 7}, "minor": {0, 3, 7}, "dominant": {0, 4, 10, 7}, "diminished": {0, 3, 6}}
+KINDS = {
+    "major": {0, 4, 7},
+    "minor": {0, 3, 7},
+    "dominant": {0, 4, 10, 7},
+    "diminished": {0, 3, 6},
+    "minor-seventh": {0, 3, 10, 7},
+    "major-seventh": {0, 4, 11, 7},
+}
+
+
+def chords_in(part: Any) -> list[tuple[tuple[int, float], set[float] | None]]:
+    """The places at which names of chords stand, and the pitch classes that they mean."""
+    divisions = int(part.findtext("measure/attributes/divisions"))
+    found = []
+    for bar, measure in enumerate(part.iter("measure")):
+        here = 0
+        for item in measure:
+            length = int(item.findtext("duration") or 0)
+            if item.tag == "harmony":
+                kind = KINDS.get(item.findtext("kind"))
+                root = STEPS[item.findtext("root/root-step")] + float(item.findtext("root/root-alter") or 0)
+                sounding = {(root + tone - raised(part)) % 12 for tone in kind} if kind else None
+                found.append(((bar, here / divisions), sounding))
+            elif item.find("chord") is None:
+                here += -length if item.tag == "backup" else length
+    return found
 
 
 @pytest.mark.parametrize(
@@ -163,32 +189,45 @@ KINDS = {"major": {0, 4, 7}, "minor": {0, 3, 7}, "dominant": {0, 4, 10, 7}, "dim
     [
         (lambda: sikku.load("hilbert-chorale"), 1),
         (lambda: sikku.load_arrangement("blues"), 2),
+        (lambda: sikku.load("hilbert", harmony="progression I-V7-vi-IV", accompaniment="bluo"), 1),
         (lambda: sikku.load("hilbert", harmony="triads"), 1),
         (lambda: sikku.load("hilbert", harmony="triads", tonic="Eb4"), 1),
+        (lambda: sikku.load("hilbert", harmony="triads", accompaniment="~c~c", instrument="clarinet"), 1),
         (lambda: sikku.load("hilbert", harmony="progression Dm7-G7-Cmaj7-F/A"), 1),
+        (lambda: sikku.load("hilbert", harmony="progression C-F-G7-Am", accompaniment="bc5c", retrograde="yes"), 1),
+        (lambda: sikku.load("hilbert", harmony="progression C-F-G7-Am", accompaniment="bc5c", phrases="2", form="ABA"), 1),
+        (lambda: sikku.load("hilbert", harmony="progression C-F-G7-Am", loop="2", canon="1 -12"), 1),
     ],
 )
 def test_names_of_chords(load: Any, staff: int) -> None:
     parts = parts_of(load().play("musicxml", chord_symbols=True))
-    kinds = {**KINDS, "minor-seventh": {0, 3, 10, 7}, "major-seventh": {0, 4, 11, 7}}
-    named = {}
-    now = None
-    for bar, measure in enumerate(parts[0].iter("measure")):
-        chords = measure.findall("harmony")
-        assert len(chords) <= 1
-        if chords:
-            alter = float(chords[0].findtext("root/root-alter") or 0)
-            root = STEPS[chords[0].findtext("root/root-step")] + alter
-            now = {(root + tone) % 12 for tone in kinds[chords[0].findtext("kind")]}
-        named[bar] = now
+    named = chords_in(parts[0])
     assert all(part.find("measure/harmony") is None for part in parts[1:])
     checked = 0
-    for bar, _, note in placed(parts[staff]):
+    for bar, at, note in placed(parts[staff]):
         if key_of(note) is None:
             continue
-        assert key_of(note) % 12 in named[bar], bar + 1
+        meant = [chord for place, chord in named if place <= (bar, at)][-1]
+        assert (key_of(note) - raised(parts[staff])) % 12 in meant, (bar + 1, at)
         checked += 1
     assert checked > 20
+
+
+def test_tones_of_chords_are_spelled_from_their_roots() -> None:
+    for chord, key, step in [("A7", 1, "C"), ("E7", 8, "G"), ("Fm", 8, "A"), ("D7", 6, "F"), ("Ab", 3, "E")]:
+        (_, strings) = parts_of(sikku.load("hilbert-in-c").play("musicxml", harmony=f"progression C-{chord}"))
+        steps = {note.findtext("pitch/step") for _, _, note in placed(strings) if (key_of(note) or 0) % 12 == key}
+        assert steps == {step}, chord
+
+
+def test_chords_without_a_name_end_the_one_before() -> None:
+    pattern = sikku.load("hilbert", scale="todi-that", harmony="triads")
+    with pytest.warns(sikku.SikkuWarning, match="no name"):
+        part = parts_of(pattern.play("musicxml", chord_symbols=True))[0]
+    kinds = [kind.text for kind in part.iter("kind")]
+    assert "none" in kinds and set(kinds) - {"none"}
+    with pytest.warns(sikku.SikkuWarning, match="'chord_symbols' has no effect|'chord-symbols' has no effect"):
+        sikku.load("hilbert").play("musicxml", chord_symbols=True)
 
 
 @pytest.mark.parametrize(
@@ -196,6 +235,7 @@ def test_names_of_chords(load: Any, staff: int) -> None:
     [
         ("hilbert-kalyani", {}, "sargam", "S R G M P D N"),
         ("hilbert-in-c", {}, "solfa", "do re mi fa sol la ti"),
+        ("hilbert-in-c", {"scale": "minor", "tonic": "F#4"}, "sargam", "S R g m P d n"),
         ("hilbert-in-c", {"instrument": "clarinet"}, "degrees", "1 2 3 4 5 6 7"),
         ("hilbert-in-c", {"scale": "minor", "tonic": "F#4"}, "degrees", "1 2 ♭3 4 5 ♭6 ♭7"),
     ],
@@ -216,7 +256,7 @@ def test_degrees_under_notes(name: str, keys: dict[str, str], kind: str, names: 
         assert (text is not None) == is_onset
         if not is_onset:
             continue
-        plain = text.replace("\u0307", "").replace("\u0323", "")
+        plain = unicodedata.normalize("NFD", text).replace("\u0307", "").replace("\u0323", "")
         above = (key_of(note) - raised(part) - tonic) % 12
         assert plain == words[steps.index(above)]
         sung += 1

@@ -23,7 +23,7 @@ CHOICES = {
     "unit": ["1/8", "1/16", "1/4", "1/12", "3/16", "1/20"],
     "meter": ["4/4", "3/4", "6/8", "7/8", "5/4", "2+2+3/8", "9/8"],
     "instrument": ["flute", "clarinet", "violin", "church organ", "harpsichord", "cello", "tenor sax", "piano"],
-    "rhythm": ["x..x..x.", "E(5,8)", "x.x.~x.x", "adi"],
+    "rhythm": ["x..x..x.", "E(5,8)", "x.x.~x.x", "adi", "x.x.x.~~ / X..x"],
     "harmony": ["drone", "triads", "progression I-vi-ii-V7", "progression C-Am7-F/A-Gsus4"],
     "accompaniment": ["oom-pah on piano", "arpeggio on harp", "alberti on piano", "strum on nylon guitar"],
     "canon": ["1 -12", "2 fifth below, 1 octave below"],
@@ -32,6 +32,9 @@ CHOICES = {
     "phrases": ["2"],
     "articulation": ["detached"],
     "range": ["reflect C3-C6", "fold C2-C7"],
+    "leaps": ["7"],
+    "form": ["A B A"],
+    "retrograde": ["yes"],
 }
 FLAGS = {"syllables": ["degrees", "sargam"], "score": ["concert"]}
 
@@ -39,8 +42,10 @@ FLAGS = {"syllables": ["degrees", "sargam"], "score": ["concert"]}
 def make(program: str, folder: pathlib.Path, count: int) -> None:
     chance = random.Random(300)
     jobs = []
-    number = 0
+    number = tries = 0
     while number < count:
+        tries += 1
+        assert tries < 20 * count, "hardly any score can be made"
         arguments = ["play", chance.choice(PIECES), "--bars", str(chance.randrange(2, 9))]
         for name, values in CHOICES.items():
             if chance.random() < 0.3:
@@ -52,8 +57,10 @@ def make(program: str, folder: pathlib.Path, count: int) -> None:
             arguments.append("--chord-symbols")
         file = folder / f"{number}.musicxml"
         made = subprocess.run([program, "--quiet", *arguments, "-o", file], capture_output=True, check=False)
+        # Some keys exclude each other.
+        assert made.returncode in (0, 1, 2), (arguments, made)
         if made.returncode != 0:
-            continue  # keys that exclude each other
+            continue
         (folder / f"{number}.txt").write_text(" ".join(arguments))
         jobs.append({"in": str(file), "out": str(folder / f"{number}.read.musicxml")})
         number += 1

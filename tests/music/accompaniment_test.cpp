@@ -115,6 +115,31 @@ TEST(Figures, SilentChordsBendTheMelody) {
     EXPECT_EQ(silent.parts.size(), 1u);
 }
 
+/// No voice plays two notes at once, whatever is done with the part.
+TEST(Figures, KeepTheirVoicesInForms) {
+    int count = 0;
+    for (const std::string meter : {"4/4", "3/4", "7/8"}) {
+        for (const std::string figure : {"oom-pah", "alberti", "strum", "walking bass"}) {
+            for (const std::string layout : {"form: A1 B2", "form: ABA\ncadence: tonic", "form: A B\nretrograde: yes",
+                                             "loop: 2", "retrograde: yes", "counterpoint: strict", "canon: 1 -12",
+                                             "speed: 3:2", "augmentation: 2", "cadence: alternate\nbreath: bar"}) {
+                for (const std::string harmony : {"triads", "progression I-IV-V7-vi", "progression C5-G5"}) {
+                    const NoteList list = notes_of(
+                        fmt::format("{}harmony: {}\naccompaniment: {}\nmeter: {}\nphrases: 2\n{}\n",
+                                    hilbert.substr(0, hilbert.rfind("harmony")), harmony, figure, meter, layout));
+                    std::map<int, std::int64_t> until;
+                    for (const Note& note : list.notes) {
+                        EXPECT_GE(note.onset, until[note.voice]) << meter << figure << layout << harmony;
+                        until[note.voice] = note.onset + note.duration;
+                    }
+                    ++count;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(count, 360);
+}
+
 TEST(Figures, InstrumentsAndAccents) {
     const NoteList list = notes_of(hilbert + "accompaniment: A.c. on nylon\n");
     ASSERT_EQ(list.parts.size(), 2u);
@@ -130,14 +155,18 @@ TEST(Figures, BadInput) {
     for (const auto& [text, meter, part] : std::vector<std::tuple<std::string, Meter, std::string>>{
              {"waltz", {4, 4}, "expected block, oom-pah"},
              {"bosa", {4, 4}, "did you mean 'bossa'"},
-             {"", {4, 4}, "expected"},
-             {"....", {4, 4}, "expected"},
-             {"b & ", {4, 4}, "expected"},
+             {"", {4, 4}, "needs a stroke"},
+             {"....", {4, 4}, "needs a stroke"},
+             {"b & ", {4, 4}, "needs a stroke"},
+             {"a...&bbbb", {4, 4}, "layer 2 and one before it play the bass"},
+             {"b...&3535", {4, 4}, "play the bass"},
+             {"u & l & oo", {4, 4}, "layer 3 and one before it play the upper voice"},
+             {"alberti", {33, 4}, "alberti needs a bar of at most 64 eighths"},
              {"bossa", {7, 8}, "needs a meter of four quarters"},
              {"bossa", {4, 4, {2, 1, 1}}, "needs a meter of four quarters"},
-             {"bcccccc", {4, 4}, "7 slots do not divide a bar"},
-             {std::string(65, 'b'), {4, 4}, "65 slots"},
-             {std::string(100'000, 'b'), {4, 4}, "100000 slots"}}) {
+             {"bcccccc", {4, 4}, "cannot be divided into 7 equal slots"},
+             {std::string(65, 'b'), {4, 4}, "65 equal slots"},
+             {std::string(100'000, 'b'), {4, 4}, "100000 equal slots"}}) {
         std::string problem;
         read_figure(text, meter, problem);
         EXPECT_NE(problem.find(part), std::string::npos) << text.substr(0, 20) << ": " << problem;
@@ -217,7 +246,9 @@ TEST(Rhythms, FollowOneAnotherByPhrase) {
                 EXPECT_EQ(note.onset, begin + 240 * (8 * cycle + hits[i % hits.size()])) << phrase << " " << i;
                 end = note.onset + note.duration;
             }
-            begin = to_bar ? (end + 1919) / 1920 * 1920 : end + 240;
+            const auto cycles = static_cast<std::int64_t>(steps / hits.size());
+            const std::int64_t following = begin + 240 * (8 * cycles + hits[steps % hits.size()]);
+            begin = to_bar ? (end + 1919) / 1920 * 1920 : std::max(end + 240, following);
         }
         EXPECT_EQ(next, list.notes.size());
     }

@@ -64,7 +64,7 @@ TEST(Play, BundledMelodiesAreCleanAndTheSameEveryTime) {
         }
         ++melodies;
     }
-    EXPECT_EQ(melodies, 13u);
+    EXPECT_EQ(melodies, 15u);
 }
 
 TEST(Play, ValuesOfPartsAreRefused) {
