@@ -88,6 +88,7 @@ public:
         if (!head_.source.empty()) put("  copyright = {}\n", text_lines(head_.source, source_width));
         put("  tagline = ##f\n}}\n\n");
         write_drum_table();
+        if (has_chords()) write_chord_exceptions();
         write_paper();
         put("\\score {{\n  <<\n");
         for (std::size_t i = 0; i < notation_.parts.size(); ++i) write_part(i);
@@ -113,6 +114,14 @@ private:
             put("  {}  ; {}\n", drum_row(key, place), drum.name);
         }
         put(")))\n\n");
+    }
+
+    /// LilyPond names an added ninth like one with a seventh.
+    void write_chord_exceptions() {
+        put("sikkuChords = #(append (sequential-music-to-chord-exceptions #{{ {{\n"
+            "  <c e g d'>1-\\markup \\super \"add9\"\n"
+            "  <c es g d'>1-\\markup {{ m \\super \"add9\" }}\n"
+            "}} #}} #t) ignatzekExceptions)\n\n");
     }
 
     /// Sets systems farther apart than their staves, and keeps the foot of the page free.
@@ -417,7 +426,8 @@ private:
             return pitch_name(pitch);
         };
         // A dash ends a name where a chord without one follows.
-        put("    \\new ChordNames \\with {{ noChordSymbol = \"\u2013\" }} \\chordmode {{\n     ");
+        put("    \\new ChordNames \\with {{ noChordSymbol = \"\u2013\" chordNameExceptions = #sikkuChords }} "
+            "\\chordmode {{\n     ");
         skip(0, chords.front().onset);
         for (std::size_t i = 0; i < chords.size(); ++i) {
             const ChordMark& chord = chords[i];
