@@ -156,7 +156,7 @@ private:
                 std::string& group = part.has_pedal && &staff == &part.staves.back() ? pedal : staves;
                 group += (staves.empty() ? "" : " ") + (staff.voices.size() > 1 ? "(" + voices + ")" : voices);
             }
-            text += part.bracket == Bracket::brace     ? " {" + staves + "}" + pedal
+            text += part.bracket == Bracket::brace     ? fmt::format(" {{{}}}{}", staves, pedal)
                     : part.bracket == Bracket::bracket ? " [" + staves + "]"
                                                        : " " + staves;
         }
