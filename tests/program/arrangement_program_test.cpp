@@ -140,8 +140,8 @@ TEST(ArrangementProgram, ExtremeValuesAreRefusedWithTheirPlaces) {
 TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
     const ScratchFolder folder;
     const Outcome names = run(Arguments{"patterns", "arrangements", "--names"});
-    EXPECT_EQ(names.output, "blues\ncanon\ngamelan\ninvention\nraga\n");
-    for (const char* name : {"blues", "canon", "gamelan", "invention", "raga"}) {
+    EXPECT_EQ(names.output, "blues\ncanon\nfugue\ngamelan\ninvention\nmohanam\nraga\nseven\n");
+    for (const char* name : {"blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "seven"}) {
         const std::string score = folder.file(std::string(name) + ".mid");
         const Outcome played = run(Arguments{"play", name, "-o", score});
         EXPECT_EQ(played.status, 0) << played.errors;
