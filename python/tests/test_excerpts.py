@@ -13,7 +13,7 @@ import pytest
 import sikku
 
 PIECES = [pattern.name for pattern in sikku.patterns() if pattern.kind == "melodies"]
-ARRANGEMENTS = ["blues", "canon", "gamelan", "invention", "raga"]
+ARRANGEMENTS = ["blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "seven"]
 PIECES += ["hilbert", "peano", "quadratic-gosper", "arrowhead", "dragon"]
 KEYS = [
     {},
