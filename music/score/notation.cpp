@@ -546,11 +546,12 @@ void Notator::name_chords() {
         ChordMark mark{onset, sign.quality, written(sign.root), {}};
         if (sign.bass >= 0) mark.bass = written(sign.bass);
         part.chords.push_back(mark);
-        if (sign.quality < 0) ++notation_.nameless_chords;
     }
     part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.bars * notation_.bar_length);
     // A score does not begin with the end of a chord.
     while (!part.chords.empty() && part.chords.front().quality < 0) part.chords.erase(part.chords.begin());
+    notation_.nameless_chords = static_cast<std::uint64_t>(std::count_if(
+        part.chords.begin(), part.chords.end(), [](const ChordMark& chord) { return chord.quality < 0; }));
 }
 
 /// Counts notes that their instrument cannot play.
