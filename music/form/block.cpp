@@ -150,7 +150,7 @@ void trim_chords(Block& piece, const Melody& melody) {
     }
     std::erase_if(piece.notes,
                   [&](const FormNote& one) { return is_chord(one, piece, melody) && one.note.onset >= last; });
-    // Strokes of a figure are no chords.
+    // The rest is about chords that last a bar, not about strokes of a figure.
     if (!melody.figure.layers.empty()) return;
     if (next >= last || next >= melody.meter.bar() / melody.meter.beats) return;
     std::erase_if(piece.notes,

@@ -58,19 +58,20 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord, con
     if (!chord) return notes;
     const std::int64_t length = melody_.meter.bar();
     const Voicing keys = voicing_of(begin / length, *chord);
-    const double next_bass = next ? voicing_of(begin / length + 1, *next)[0] : silent;
-    const auto whole = [&] { strike({}, {begin, length, 60, 0, soft}, *chord, keys, next_bass, notes); };
-    if (is_last) whole();
-    for (const Figure::Layer& layer : melody_.figure.layers) {
-        if (is_last) break;
-        const std::int64_t slot = length / layer.slots;
-        for (const Figure::Stroke& stroke : layer.strokes) {
-            strike(stroke, {begin + stroke.onset * slot, stroke.length * slot, 60, 0, soft}, *chord, keys, next_bass,
-                   notes);
+    if (is_last || melody_.figure.layers.empty()) {
+        strike({}, {begin, length, 60, 0, soft}, *chord, keys, silent, notes);
+    } else {
+        const double next_bass = next ? voicing_of(begin / length + 1, *next)[0] : silent;
+        for (const Figure::Layer& layer : melody_.figure.layers) {
+            const std::int64_t slot = length / layer.slots;
+            for (const Figure::Stroke& stroke : layer.strokes) {
+                strike(stroke, {begin + stroke.onset * slot, stroke.length * slot, 60, 0, soft}, *chord, keys,
+                       next_bass, notes);
+            }
         }
     }
-    if (notes.empty()) whole();
-    for (Note& note : notes) note.chord = sign_of(*chord, melody_.tonic + melody_.transpose);
+    const ChordSign sign = sign_of(*chord, melody_.tonic + melody_.transpose);
+    for (Note& note : notes) note.chord = sign;
     return notes;
 }
 

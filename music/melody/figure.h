@@ -10,7 +10,7 @@
 
 namespace sikku {
 
-/// What an accompaniment plays in each bar.
+/// The rhythm in which an accompaniment plays the chord of each bar.
 struct Figure {
     enum class Tone {
         all,   ///< bass, lower and upper voice

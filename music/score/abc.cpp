@@ -273,8 +273,7 @@ private:
                 put("\"{}\"", chord->quality < 0 ? "^\u2013" : chord_name(*chord));
             if (symbol.begins_slur) put("(");
             if (symbol.tuplet >= 0) write_tuplet(voice, symbol);
-            const bool is_whole_rest = symbol.length == bar && symbol.kind != SymbolKind::note;
-            const std::int64_t bars = is_whole_rest ? notation_.bars_of_rest(symbol.onset) : 1;
+            const std::int64_t bars = notation_.bars_of(symbol);
             if (bars > 1) {
                 if (symbol.slows_down) put("\"^rit.\"");
                 put("{}{}", symbol.kind == SymbolKind::gap ? "X" : "Z", bars);
@@ -317,7 +316,8 @@ private:
         for (const int kind : used) {
             if (kind < 0) continue;
             const ChordQuality& quality = chord_qualities()[static_cast<std::size_t>(kind)];
-            put("%%MIDI chordname {}", quality.name == "maj" ? "" : quality.name);
+            if (quality.name == "maj") continue;  // written without a name
+            put("%%MIDI chordname {}", quality.name);
             for (const int tone : quality.tones) {
                 if (tone >= 0) put(" {}", tone);
             }

@@ -508,7 +508,7 @@ private:
             tuplet = symbol.tuplet;
             if (symbol.slows_down && symbol.onset > 0) put("\\tempo {}", rit);
             write_beam_counts(voice.symbols, i);
-            const std::int64_t bars = is_whole_rest(symbol) ? notation_.bars_of_rest(symbol.onset) : 1;
+            const std::int64_t bars = notation_.bars_of(symbol);
             write_symbol(symbol, bars);
             std::string end_marks = symbol.has_fermata ? "\\fermata" : "";
             for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
@@ -568,11 +568,6 @@ private:
         put("{}", symbol.chord.empty() ? text : "<" + text + ">");
     }
 
-    bool is_whole_rest(const NotatedSymbol& symbol) const {
-        return symbol.kind == SymbolKind::bar_rest ||
-               (symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length);
-    }
-
     /// A rest or a gap of some bars. Rests stand below a cue.
     void write_bars(const NotatedSymbol& symbol, std::int64_t bars) {
         const bool is_rest = symbol.kind == SymbolKind::bar_rest;
@@ -584,7 +579,7 @@ private:
     }
 
     void write_symbol(const NotatedSymbol& symbol, std::int64_t bars) {
-        if (is_whole_rest(symbol)) return write_bars(symbol, bars);
+        if (notation_.is_whole_rest(symbol)) return write_bars(symbol, bars);
         switch (symbol.kind) {
             case SymbolKind::note:
                 write_heads(symbol);

@@ -169,7 +169,14 @@ struct Notation {
     bool is_extracted = false;          ///< true for the part of one player
     /// Numbers of bars of rest that are printed as one, by their first bar.
     std::map<std::int64_t, std::int64_t> gathered_rests{};
-    /// Bars that a rest or gap of a whole bar stands for.
+    bool is_whole_rest(const NotatedSymbol& symbol) const {
+        return symbol.kind == SymbolKind::bar_rest || (symbol.kind == SymbolKind::gap && symbol.length == bar_length);
+    }
+    /// Bars that a symbol stands for: several for rests and gaps of a whole bar that are gathered.
+    std::int64_t bars_of(const NotatedSymbol& symbol) const {
+        return is_whole_rest(symbol) ? bars_of_rest(symbol.onset) : 1;
+    }
+    /// Bars of rest that are printed as one from a bar line on.
     std::int64_t bars_of_rest(std::int64_t onset) const {
         const auto found = gathered_rests.find(onset / bar_length);
         return found == gathered_rests.end() ? 1 : found->second;

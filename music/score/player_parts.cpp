@@ -43,9 +43,8 @@ std::vector<bool> silent_bars(const NotatedPart& part, const Notation& score) {
     for (const Staff& staff : part.staves) {
         for (const NotatedVoice& voice : staff.voices) {
             for (const NotatedSymbol& symbol : voice.symbols) {
-                const bool is_whole = symbol.kind == SymbolKind::bar_rest ||
-                                      (symbol.kind == SymbolKind::gap && symbol.length == score.bar_length);
-                if (!is_whole) silent[static_cast<std::size_t>(symbol.onset / score.bar_length)] = false;
+                if (!score.is_whole_rest(symbol))
+                    silent[static_cast<std::size_t>(symbol.onset / score.bar_length)] = false;
             }
         }
     }

@@ -138,7 +138,7 @@ struct Swing {
     bool operator==(const Swing&) const = default;
 };
 
-/// What is printed under the notes: nothing, or their degrees of the scale.
+/// Names of degrees, printed under the notes.
 enum class Syllables : std::uint8_t { none, sargam, degrees, solfa };
 
 /// Share of a note within `depth` brackets that sounds, if it is less in each.

@@ -18,7 +18,7 @@ const data = await page.evaluate(() => JSON.parse(document.getElementById("score
 const {bar, notes, parts} = data;
 assert.ok(parts.length > 1);
 
-// Bars 2 to 3 again and again: the clock goes on evenly, and only their notes sound, each round in order.
+// A loop over bars 2 and 3: time runs evenly, and only the notes of these bars sound, in order in each pass.
 await page.locator("#loop-from").fill("2");
 await page.locator("#loop-to").fill("3");
 await page.getByRole("button", {name: "Loop"}).click();
