@@ -192,6 +192,10 @@ private:
 
     void read_form_of_piece(const FileValue& form) {
         result_.form = read_form(text_of("form", form));
+        const bool is_changed = std::any_of(result_.form.begin(), result_.form.end(),
+                                            [](const FormSection& section) { return section.is_changed(); });
+        if (is_changed)
+            fail(form, "form: sections of a piece are played as they are; the `form` of a track can change its own");
         if (!result_.form.empty()) return;
         fail(form, "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) endings");
     }
@@ -275,7 +279,7 @@ private:
 
     static char section_of(const std::string& key, const FileValue& value) {
         const auto letters = read_form(text_of(key, value));
-        if (letters.size() != 1 || letters.front().ending != Ending::none) {
+        if (letters.size() != 1 || letters.front().ending != Ending::none || letters.front().is_changed()) {
             fail(value, "section: expected a letter from A to Z");
         }
         return static_cast<char>('A' + letters.front().letter);
@@ -413,7 +417,10 @@ private:
         Diagnostics diagnostics;
         const Melody melody = read_melody(head.pattern(), {}, diagnostics);
         for (const PlacedSetting& one : shared_) {
-            if (one.setting.key == "tempo") result_.tempo = melody.tempo;
+            if (one.setting.key == "tempo") {
+                result_.tempo = melody.tempo;
+                result_.tempo_words = melody.tempo_words;
+            }
             if (one.setting.key == "meter") result_.meter = melody.meter;
         }
     }

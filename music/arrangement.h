@@ -31,6 +31,7 @@ struct Arrangement {
     std::string composer;
     std::string source;
     std::optional<double> tempo;  ///< quarters a minute; nullopt: that of the first track
+    std::string tempo_words;      ///< printed before it; may be empty
     std::optional<Meter> meter;   ///< nullopt: that of the first track
     std::vector<FormSection> form;
     std::vector<Track> tracks;

@@ -214,12 +214,12 @@ private:
                 part.block = play_block(*player.playable, alone, options, one);
             } catch (const BudgetError& error) {
                 if (options.to < INT64_MAX) throw;
-                throw BudgetError(
-                    fmt::format("parts in forms, reversed, repeated or strict are read as a whole, but "
-                                "{}; `excerpt: 1-64` reads a part of it",
-                                error.what()));
+                throw BudgetError(fmt::format(
+                    "parts in forms, with a climax, reversed, repeated or strict are read as a whole, but "
+                    "{}; `excerpt: 1-64` reads a part of it",
+                    error.what()));
             }
-            if (one.past && has_excerpt(player) && !layout.form.empty()) refuse_excerpt(player);
+            if (one.past && has_excerpt(player) && (!layout.form.empty() || layout.climax)) refuse_excerpt(player);
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
@@ -228,6 +228,9 @@ private:
             } else {
                 part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form,
                                      player.is_bass ? sections : std::vector<std::int64_t>());
+            }
+            if (layout.climax && !part.block.notes.empty()) {
+                raise_to_climax(part.block, player.melody, *layout.climax);
             }
             if (!player.is_bass) sections = part.block.ends;
             if (has_drone) add_drone(part.block, player.melody, options.chords_from);

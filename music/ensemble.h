@@ -14,6 +14,7 @@ struct Ensemble {
     std::vector<Player> players;
     std::vector<FormSection> form;  ///< sections of the score; empty: all parts play from the beginning
     double tempo = 120;             ///< quarters a minute
+    std::string tempo_words;        ///< printed before it; may be empty
     Meter meter;
     Close close = Close::none;
     bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole

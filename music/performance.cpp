@@ -214,8 +214,8 @@ void ExpressionSink::express(Line& line, Note& note, std::vector<ControlPoint>& 
             continue;
         }
         const double value = curve.at((part.first + part.second) / 2);
-        const int accent = note.emphasis.is_accented ? accent_velocity : 0;
-        note.velocity = static_cast<std::uint8_t>(std::clamp<long>(std::lround(value) + accent, 1, 127));
+        note.velocity =
+            static_cast<std::uint8_t>(std::clamp<long>(std::lround(value) + note.emphasis.velocity(), 1, 127));
         note.emphasis.dynamic = -1;
     }
     if (has_turns_[line.player] != 0) line.before = note;

@@ -100,6 +100,8 @@ Player bass_of(const Player& player) {
     bass.melody.articulation = Articulation::legato;
     bass.melody.rhythm = {};
     bass.melody.rhythms = {};
+    bass.melody.has_rhythms_by_level = false;
+    bass.melody.layout.climax.reset();
     bass.melody.leaps = 0;
     bass.melody.swing = 0.5;
     bass.melody.program = acoustic_bass;
@@ -216,6 +218,8 @@ std::string reason_of_silence(const Player& player, std::uint64_t lost) {
     if (!has_steps && melody.table.empty()) return ": the word has no steps such as F";
     if (melody.mapping == Mapping::symbols && !melody.table.empty())
         return ": no symbol of the word sounds; rows such as `note A: C4` name those that do";
+    if (melody.rhythm.has_chance())
+        return ": chance silences all of them; another `seed` or a higher percentage helps";
     if (melody.mapping != Mapping::runs) return {};
     return std::string(": the curve has no horizontal run there") +
            (melody.vertical != Vertical::voice ? "; try `vertical: voice`, another `heading:` or `mapping: symbols`"
@@ -283,12 +287,14 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         }
         const auto out = std::back_inserter(text);
         fmt::format_to(out, "{}, n = {}\n", name_of(player.document), player.document.grammar().steps());
-        const Integer notes = played ? Integer(played->notes) : known->notes;
+        const std::string notes = played              ? std::to_string(played->notes)
+                                  : known->has_chance ? "at most " + known->notes.str()
+                                                      : known->notes.str();
         const Integer ticks = played ? Integer(played->end) : known->ticks;
         // Several parts slow down together.
         const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(
-            out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes.str(),
+            out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes,
             bars_of(ticks, melody.meter).str(),
             slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
@@ -296,7 +302,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
             fmt::format_to(out, "the melody contains no notes{}\n", reason_of_silence(player, played->lost));
         }
         if (played && !played->skipped.empty()) {
-            fmt::format_to(out, "skipped   {}\n", skipped_text(played->skipped));
+            fmt::format_to(out, "no sound  {}\n", skipped_text(played->skipped));
         }
         if (known) fmt::format_to(out, "height    {}\n", counted(known->height.str(), "degree"));
     }

@@ -113,6 +113,7 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
                   const PlayOptions& playing, int most) {
     ScoreHead head;
     head.tempo = ensemble.tempo;
+    head.tempo_words = ensemble.tempo_words;
     head.ritardando = ensemble.has_ending(playing) ? 2 * ensemble.meter.bar() : 0;
     head.meter = ensemble.meter;
     head.is_transposed = settings.is_transposed;

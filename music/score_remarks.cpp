@@ -171,7 +171,7 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
     if (report.lost > 0) {
         made.warn(counted(report.lost, "note") + " too short for a tick, or without a key, left out");
     }
-    if (!report.skipped.empty()) made.fact("skipped: " + skipped_text(report.skipped));
+    if (!report.skipped.empty()) made.fact("symbols without a sound: " + skipped_text(report.skipped));
     for (const std::string& symbol : report.unused) {
         made.warn(fmt::format("the pattern does not contain the symbol '{}' of the table{}", printable(symbol),
                               symbol.size() > 1 ? "; names are listed under `symbols:`" : ""));

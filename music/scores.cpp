@@ -199,11 +199,15 @@ private:
     void complete() {
         const Melody& first = ensemble_.players.front().melody;
         ensemble_.tempo = first.tempo;
+        ensemble_.tempo_words = first.tempo_words;
         ensemble_.meter = first.meter;
         ensemble_.close = first.close;
         ensemble_.ends_excerpts = is_option("ending");
         take_excerpt();
-        if (arrangement_ && arrangement_->tempo && !is_option("tempo")) ensemble_.tempo = *arrangement_->tempo;
+        if (arrangement_ && arrangement_->tempo && !is_option("tempo")) {
+            ensemble_.tempo = *arrangement_->tempo;
+            ensemble_.tempo_words = arrangement_->tempo_words;
+        }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
         for (const Player& player : ensemble_.players) {
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();

@@ -86,6 +86,50 @@ Shape drawn_shape(const DotGrid& grid, std::uint32_t number, GapState state, con
     return shape;
 }
 
+double distance_to(const Curve& curve, glm::dvec2 point) {
+    double least = 1e300;
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+        const glm::dvec2 way = curve[i] - curve[i - 1];
+        const double along =
+            std::clamp(glm::dot(point - curve[i - 1], way) / std::max(glm::dot(way, way), 1e-12), 0.0, 1.0);
+        const glm::dvec2 off = curve[i - 1] + along * way - point;
+        least = std::min(least, glm::dot(off, off));
+    }
+    return std::sqrt(least);
+}
+
+/// Distances of the places of a window from the strands of a shape that is displaced.
+std::vector<float> distances_of(const Shape& shape, const GapWindow& window, glm::dvec2 displacement) {
+    std::vector<float> distances;
+    distances.reserve(window.places.size());
+    for (const glm::dvec2 place : window.places) {
+        double least = 1e300;
+        for (const Curve& strand : shape.strands) {
+            least = std::min(least, distance_to(strand, place - displacement));
+        }
+        distances.push_back(static_cast<float>(least));
+    }
+    return distances;
+}
+
+/// Leaves out shapes that differ little from one before, as the mirror images of symmetric gaps do.
+std::vector<Shape> distinct(std::vector<Shape> shapes) {
+    constexpr float little = 0.01F;  // spacings, less than lines are wide
+    const GapWindow window(DotLattice::triangular, 0.053);
+    std::vector<std::pair<GapState, std::vector<float>>> kept;
+    std::erase_if(shapes, [&](const Shape& shape) {
+        std::vector<float> distances = distances_of(shape, window, glm::dvec2(0.0));
+        const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const auto& other) {
+            return other.first == shape.state &&
+                   std::equal(distances.begin(), distances.end(), other.second.begin(),
+                              [](float a, float b) { return std::fabs(a - b) < little; });
+        });
+        if (!is_known) kept.emplace_back(shape.state, std::move(distances));
+        return is_known;
+    });
+    return shapes;
+}
+
 /// Rounded lines run through a gap as the gaps around it permit: the strands in the gaps of some kolams.
 std::vector<Shape> drawn_rounded_shapes() {
     std::vector<Shape> shapes;
@@ -122,7 +166,7 @@ std::vector<Shape> drawn_rounded_shapes() {
             }
         }
     }
-    return shapes;
+    return distinct(std::move(shapes));
 }
 
 /// The same for all pictures and sizes of dots, and made once.
@@ -173,18 +217,6 @@ std::vector<Shape> shapes_of(DotLattice lattice, double height) {
     return shapes;
 }
 
-double distance_to(const Curve& curve, glm::dvec2 point) {
-    double least = 1e300;
-    for (std::size_t i = 1; i < curve.size(); ++i) {
-        const glm::dvec2 way = curve[i] - curve[i - 1];
-        const double along =
-            std::clamp(glm::dot(point - curve[i - 1], way) / std::max(glm::dot(way, way), 1e-12), 0.0, 1.0);
-        const glm::dvec2 off = curve[i - 1] + along * way - point;
-        least = std::min(least, glm::dot(off, off));
-    }
-    return std::sqrt(least);
-}
-
 /// A shape as ink at the places of a window, with a mean of 0 and a length of 1.
 struct GapTemplate {
     GapState state;
@@ -199,26 +231,24 @@ struct Placed {
     std::vector<float> distances;
 };
 
-std::vector<Placed> placed_shapes(const std::vector<Shape>& shapes, const GapWindow& window) {
-    std::vector<Placed> all;
-    for (const Shape& shape : shapes) {
+/// Number of displacements of a shape, of which the fifth is zero.
+constexpr std::size_t displacements = 9;
+
+/// All shapes, each with its displacements in turn.
+std::vector<Placed> placed_shapes(const std::vector<Shape>& shapes, const GapWindow& window, const Monitor& monitor) {
+    std::vector<Placed> all(displacements * shapes.size());
+    for_each_index(shapes.size(), [&](std::size_t number) {
+        monitor.check();
+        const Shape& shape = shapes[number];
         const double along = shape.state == GapState::turned ? 0.012 : 0.035;
         const double aside = shape.state == GapState::joined ? 0.012 : 0.035;
+        Placed* next = &all[displacements * number];
         for (const double dy : {-aside, 0.0, aside}) {
             for (const double dx : {-along, 0.0, along}) {
-                Placed placed{shape.state, shape.apart, dx == 0 && dy == 0, {}};
-                placed.distances.reserve(window.places.size());
-                for (const glm::dvec2 place : window.places) {
-                    double least = 1e300;
-                    for (const Curve& strand : shape.strands) {
-                        least = std::min(least, distance_to(strand, place - glm::dvec2(dx, dy)));
-                    }
-                    placed.distances.push_back(static_cast<float>(least));
-                }
-                all.push_back(std::move(placed));
+                *next++ = {shape.state, shape.apart, dx == 0 && dy == 0, distances_of(shape, window, {dx, dy})};
             }
         }
-    }
+    });
     return all;
 }
 
@@ -280,9 +310,6 @@ void normalise(std::vector<float>& values, const std::vector<float>& weights) {
     const auto factor = static_cast<float>(1 / std::sqrt(std::max(squares, 1e-12)));
     for (float& value : values) value *= factor;
 }
-
-/// Number of displacements of a shape, of which the fifth is zero.
-constexpr std::size_t displacements = 9;
 
 /// Shapes of one width, each with its displacements in turn.
 struct TemplateSet {
@@ -388,7 +415,7 @@ struct GapTemplates::Set {
     std::array<TemplateSet, half_widths.size()> widths;
 
     Set(DotLattice lattice, double radius, const Monitor& monitor) : window(lattice, radius) {
-        const std::vector<Placed> shapes = placed_shapes(shapes_of(lattice, window.height), window);
+        const std::vector<Placed> shapes = placed_shapes(shapes_of(lattice, window.height), window, monitor);
         // Interlaced dots leave less room.
         const double least_apart = lattice == DotLattice::square ? 1.5 : 1.25;
         for_each_index(half_widths.size(), [&](std::size_t i) {

@@ -3,6 +3,7 @@
 #include "art/reading/dot_symmetry.h"
 #include "art/reading/ink_pieces.h"
 #include "art/reading/kolam_edge.h"
+#include "engine/base/threads.h"
 #include "engine/geometry/box.h"
 
 #include <glm/geometric.hpp>
@@ -56,6 +57,7 @@ public:
         find_offset(monitor);
         is_given_ = true;
         dots_ = {places.begin(), places.end()};
+        read_gaps(monitor);
         for (const GridDot place : dots_) {
             if (!found_.map.has_seen(place)) added_.insert(place);
         }
@@ -64,6 +66,7 @@ public:
 
     std::vector<LineReading> read(const Monitor& monitor) {
         find_offset(monitor);
+        read_gaps(monitor);
         for (int round = 0; round < 6 && !is_hopeless_ && add_encircled(monitor); ++round) {
         }
         std::vector<LineReading> readings;
@@ -106,17 +109,17 @@ private:
         double most = here + 0.03;
         for (const double size : {0.09, 0.045}) {
             monitor.check();
-            const glm::dvec2 middle = best;
             const int reach = size > 0.05 ? 2 : 1;
+            std::vector<glm::dvec2> offsets;
             for (int y = -reach; y <= reach; ++y) {
-                for (int x = -reach; x <= reach; ++x) {
-                    const glm::dvec2 offset = middle + size * glm::dvec2(x, y);
-                    const double found = agreement(offset);
-                    if (found <= most) continue;
-                    most = found;
-                    best = offset;
-                }
+                for (int x = -reach; x <= reach; ++x) offsets.push_back(best + size * glm::dvec2(x, y));
             }
+            std::vector<double> found(offsets.size());
+            for_each_index(offsets.size(), [&](std::size_t i) { found[i] = agreement(offsets[i]); });
+            const auto highest = std::max_element(found.begin(), found.end());
+            if (*highest <= most) continue;
+            most = *highest;
+            best = offsets[static_cast<std::size_t>(highest - found.begin())];
         }
         for (LatticeMap* map : {&found_.map, &regular_, &exact_}) map->offset(best);
         is_hopeless_ = most < hopeless;
@@ -170,16 +173,34 @@ private:
             return evidence(next(from, side), side - half);
         }
         const auto [found, is_new] = evidence_.try_emplace({from, side});
-        if (is_new) {
-            // Lines may follow each dot as drawn by hand, its rows, or the intended lattice.
-            for (const LatticeMap* map : {&found_.map, &exact_, &regular_}) {
-                const GapEvidence seen = reader_.read(*map, from, next(from, side));
-                if (map == &found_.map || best_of(seen) > best_of(found->second)) found->second = seen;
-                if (best_of(seen) >= certain || is_hopeless_) break;
-            }
-            if (best_of(found->second) < 0.88 && !is_hopeless_) look_around(found->second, from, side);
-        }
+        if (is_new) found->second = read_gap(from, side);
         return found->second;
+    }
+    /// Reads all gaps between the dots, in parallel.
+    void read_gaps(const Monitor& monitor) {
+        std::vector<std::pair<GridDot, std::uint32_t>> gaps;
+        for (const GridDot place : dots_) {
+            for (std::uint32_t side = 0; side < grid().sides() / 2; ++side) {
+                if (dots_.contains(next(place, side))) gaps.emplace_back(place, side);
+            }
+        }
+        std::vector<GapEvidence> read(gaps.size());
+        for_each_index(gaps.size(), [&](std::size_t i) {
+            if (i % 64 == 0) monitor.check();
+            read[i] = read_gap(gaps[i].first, gaps[i].second);
+        });
+        for (std::size_t i = 0; i < gaps.size(); ++i) evidence_.insert_or_assign(gaps[i], read[i]);
+    }
+    GapEvidence read_gap(GridDot from, std::uint32_t side) const {
+        GapEvidence gap;
+        // Lines may follow each dot as drawn by hand, its rows, or the intended lattice.
+        for (const LatticeMap* map : {&found_.map, &exact_, &regular_}) {
+            const GapEvidence seen = reader_.read(*map, from, next(from, side));
+            if (map == &found_.map || best_of(seen) > best_of(gap)) gap = seen;
+            if (best_of(seen) >= certain || is_hopeless_) break;
+        }
+        if (best_of(gap) < 0.88 && !is_hopeless_) look_around(gap, from, side);
+        return gap;
     }
     /// Strands drawn by hand may pass beside the middle between two dots.
     void look_around(GapEvidence& gap, GridDot from, std::uint32_t side) const {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace sikku {
@@ -23,9 +24,11 @@ public:
     BlockSink(Block& block, const std::vector<std::int64_t>& degrees) : block_(block), degrees_(degrees) {}
     void notes(std::span<const Note> notes) override {
         if (notes.size() > most_block_notes - block_.notes.size()) {
-            throw ScoreError(fmt::format(
-                "reversed, repeated and strict parts have at most {} notes; `excerpt` or a smaller n has fewer",
-                most_block_notes));
+            throw ScoreError(
+                fmt::format("parts in forms, with a climax, reversed, repeated or strict have at most {} notes; "
+                            "`excerpt` or a smaller "
+                            "n has fewer",
+                            most_block_notes));
         }
         for (const Note& note : notes) {
             const std::int64_t degree = degrees_[block_.notes.size()];
@@ -206,6 +209,63 @@ void reverse_section(Block& piece, const Melody& melody) {
     piece.length = length;
 }
 
+/// The key of a degree that a note is moved to, within the range. `degree` becomes the one that sounds.
+/// @throws ScoreError for degrees without a key, or beyond a range that refuses them
+double key_moved_to(const Melody& melody, const std::optional<mapping::DegreeRange>& range, std::int64_t& degree,
+                    bool falling) {
+    if (range) degree = range->inside(degree - melody.answer) + melody.answer;
+    const auto raw = melody.key(degree - melody.answer, falling);
+    if (!raw) throw ScoreError(fmt::format("a note is moved to degree {} of the scale, which has no key", degree));
+    if (melody.range == Range::refuse && (*raw < melody.lowest || *raw > melody.highest)) {
+        throw ScoreError(
+            fmt::format("a note is moved to degree {} of the scale, beyond the keys {:.0f} to {:.0f}: "
+                        "`range: fold` or a smaller interval helps",
+                        degree, melody.lowest, melody.highest));
+    }
+    return key_within(melody, degree, falling);
+}
+
+std::optional<mapping::DegreeRange> bounds_of(const Melody& melody) {
+    const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
+    return is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
+}
+
+/// Moves notes to other degrees; those whose degree stays are left alone.
+/// @param degree_of  gives the new degree of a note
+template <class DegreeOf>
+void move_notes(std::vector<FormNote>& notes, const Melody& melody, const DegreeOf& degree_of) {
+    struct Line {
+        std::int64_t last = 0;
+        bool falling = false;
+    };
+    std::map<int, Line> lines;  // by voice
+    const auto range = bounds_of(melody);
+    for (FormNote& one : notes) {
+        if (!one.has_degree) continue;
+        std::int64_t degree = degree_of(one);
+        auto [line, is_new] = lines.try_emplace(one.note.voice, Line{degree});
+        if (degree != line->second.last) line->second.falling = degree < line->second.last;
+        line->second.last = degree;
+        if (degree == one.degree) continue;
+        one.note.key = key_moved_to(melody, range, degree, line->second.falling);
+        one.degree = degree;
+    }
+}
+
+/// Applies the changes that a form states for a section.
+void change_section(Block& piece, const Melody& melody, const FormSection& section) {
+    if (section.is_retrograde) reverse_section(piece, melody);
+    scale_times(piece, section.augmentation);
+    if (!section.has_other_degrees()) return;
+    const auto first =
+        std::find_if(piece.notes.begin(), piece.notes.end(), [](const FormNote& one) { return one.has_degree; });
+    if (first == piece.notes.end()) return;
+    const std::int64_t axis = first->degree;
+    move_notes(piece.notes, melody, [&](const FormNote& one) {
+        return (section.is_inverted ? 2 * axis - one.degree : one.degree) + section.degrees;
+    });
+}
+
 /// The ending of a section; the last of a form ends on the tonic if cadences alternate.
 Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
     if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
@@ -309,6 +369,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
         Block piece = cut(block, borders[at], borders[at + 1]);
         if (melody.layout.is_retrograde) reverse_section(piece, melody);
+        change_section(piece, melody, section);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
         trim_chords(piece, melody);
         end_on(piece, melody, ending_of(piece, melody, section, &section == &order.back()));
@@ -329,10 +390,76 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     }
     const std::size_t last = borders.size() - 2;
     if (ends.empty() && static_cast<std::size_t>(order.back().letter) == last) {
-        result.length -= std::max<std::int64_t>(0, borders.back() - block.length);
+        const std::int64_t rest = std::max<std::int64_t>(0, borders.back() - block.length);
+        result.length -= order.back().augmentation.of(rest);
         result.ends.back() = result.length;
     }
     return result;
+}
+
+void raise_to_climax(Block& block, const Melody& melody, double share) {
+    std::vector<std::int64_t> begins = {0};
+    for (const std::int64_t end : block.ends) {
+        if (end > begins.back() && end < block.length) begins.push_back(end);
+    }
+    const auto phrase_at = [&](std::int64_t tick) {
+        return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), tick) - begins.begin()) - 1;
+    };
+    std::vector<std::set<std::int64_t>> degrees(begins.size());
+    for (const FormNote& one : block.notes) {
+        if (one.has_degree) degrees[phrase_at(one.note.onset)].insert(one.degree);
+    }
+    const auto phrase_after = [&](double part) {
+        const auto last = static_cast<double>(std::max<std::int64_t>(block.length - 1, 0));
+        return phrase_at(static_cast<std::int64_t>(std::clamp(part, 0.0, 1.0) * last));
+    };
+    // The phrase near the place that is highest already.
+    std::size_t goal = phrase_after(share);
+    for (std::size_t i = phrase_after(share - 0.05); i <= phrase_after(share + 0.05); ++i) {
+        if (degrees[i].empty()) continue;
+        if (degrees[goal].empty() || *degrees[i].rbegin() > *degrees[goal].rbegin()) goal = i;
+    }
+    if (degrees[goal].empty()) {
+        throw ScoreError(fmt::format(
+            "climax: no note that can move lies {:.0f} % into the part; another place may help", 100 * share));
+    }
+    const std::size_t farthest = std::max(goal, begins.size() - 1 - goal) + 1;
+    const auto raised_by = [&](std::size_t phrase, std::int64_t most) {
+        const std::size_t apart = phrase > goal ? phrase - goal : goal - phrase;
+        const auto near = static_cast<std::int64_t>(farthest - apart), far = static_cast<std::int64_t>(2 * farthest);
+        return apart == 0 ? most : most * near / far;
+    };
+    const auto range = bounds_of(melody);
+    const auto highest_key = [&](std::size_t phrase, std::int64_t most) {
+        double highest = -1;
+        for (std::int64_t degree : degrees[phrase]) {
+            degree += raised_by(phrase, most);
+            for (const bool falling : {false, true}) {
+                highest = std::max(highest, key_moved_to(melody, range, degree, falling));
+            }
+        }
+        return highest;
+    };
+    const auto is_climax = [&](std::int64_t most) {
+        const double top = highest_key(goal, most);
+        for (std::size_t i = 0; i < degrees.size(); ++i) {
+            if (i != goal && highest_key(i, most) >= top) return false;
+        }
+        return true;
+    };
+    const auto period = static_cast<std::int64_t>(melody.scale.size());
+    // At most 48 trials, also in scales of many notes.
+    const std::int64_t step = std::max<std::int64_t>(1, period / 24);
+    std::int64_t most = 0;
+    while (most <= 2 * period && !is_climax(most)) most += step;
+    if (most > 2 * period) {
+        throw ScoreError(
+            fmt::format("climax: the phrase {:.0f} % into the part cannot have the highest note, even two octaves "
+                        "higher; a wider `range` or another place may help",
+                        100 * share));
+    }
+    move_notes(block.notes, melody,
+               [&](const FormNote& one) { return one.degree + raised_by(phrase_at(one.note.onset), most); });
 }
 
 void add_drone(Block& block, const Melody& melody, int first_voice) {
@@ -365,8 +492,7 @@ void end_on(Block& block, const Melody& melody, Ending ending) {
     const std::int64_t place = ending == Ending::open ? fifth_degree(melody.scale) : 0;
     const std::int64_t nearest = mapping::goal_near(last[0]->degree, place, period, std::nullopt);
     const std::int64_t side = last.size() > 1 && last[1]->degree < nearest ? -1 : 1;
-    const bool is_bounded = melody.range == Range::reflect || melody.range == Range::clamp;
-    const auto range = is_bounded ? std::optional<mapping::DegreeRange>(melody) : std::nullopt;
+    const auto range = bounds_of(melody);
     // Answers of a canon lie within the range moved by the interval.
     const std::int64_t answer = melody.answer;
     const std::int64_t goal = mapping::goal_near(last[0]->degree, place, period, range, answer);

@@ -50,6 +50,12 @@ void reverse(Block& block);
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
               std::span<const std::int64_t> ends = {});
 
+/// Moves phrases or sections up by degrees, so that one near a place has the highest note: that one by as little as
+/// it takes, at most two periods of the scale, the others by up to half of it, the less the farther away they are.
+/// @param share  of the block before that place, 0 to 1; up to a twentieth more or less
+/// @throws ScoreError if the range of the melody leaves no room
+void raise_to_climax(Block& block, const Melody& melody, double share);
+
 /// Adds the drone of a melody bar by bar, and extends the block to the end of a bar.
 /// @param first_voice  voice of the drone; 0: the one after the voices of the melody
 void add_drone(Block& block, const Melody& melody, int first_voice);

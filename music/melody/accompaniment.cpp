@@ -82,7 +82,7 @@ void Accompaniment::strike(const Figure::Stroke& stroke, Note note, const Chord&
     using enum Figure::Tone;
     if (stroke.is_accented) {
         note.velocity = soft + accent_velocity;
-        note.emphasis.is_accented = true;
+        note.emphasis.stress = Stress::accent;
     }
     const auto add = [&](std::size_t voice, double key) {
         if (key == silent) return;

@@ -1,6 +1,7 @@
 // music/melody/clock.h: the ticks at which steps of a melody begin and end.
 #pragma once
 
+#include "engine/base/chance.h"
 #include "music/melody/melody.h"
 #include "music/melody/walks.h"
 
@@ -51,8 +52,15 @@ public:
         phrases_ += (phrases & 1).convert_to<int>();
         return end.convert_to<std::int64_t>();
     }
-    bool is_accented(Number steps) const {
-        return has_rhythm_ && rhythm_->hit(static_cast<std::int64_t>(steps - begin_)).is_accented;
+    Stress stress(Number steps) const { return has_rhythm_ ? hit(steps).stress : Stress::plain; }
+    /// False if chance silences the note that begins with a step: the same in an excerpt as in the whole, and in all
+    /// augmentations.
+    /// @param before  as PlayOptions::ahead
+    bool sounds(Number steps, std::uint64_t seed, const Integer& before) const {
+        if (!has_rhythm_ || hit(steps).percent == 100) return true;
+        const Integer slot = (before + ticks(steps)) / melody_.unit;
+        const auto place = Integer(slot & UINT64_MAX).convert_to<std::uint64_t>();
+        return axiom_place(seed, place) % 100 < hit(steps).percent;
     }
     /// Number of steps that certainly begin before `tick`, with the breaths of `phrases` still to come.
     /// @return below 0 if none
@@ -64,29 +72,48 @@ public:
         const auto hits = static_cast<std::int64_t>(rhythm_->hits.size());
         return room / (rhythm_->slots * melody_.unit) * hits - hits;
     }
-    /// Adds rests after phrases. @param steps  end of the last one
-    void breathe(const Integer& phrases, Number steps) {
+    /// Adds rests after phrases.
+    /// @param steps  end of the last one
+    /// @param above  orders by which the largest sub-curve that ends with them is larger than a phrase
+    void breathe(const Integer& phrases, Number steps, int above = 0) {
         phrases_ += (phrases & 1).convert_to<int>();
+        const std::int64_t breath = melody_.breath * (melody_.breathes_by_level ? 1 + above : 1);
         if (!melody_.restarts_rhythm()) {
-            breaths_ += (phrases * melody_.breath).convert_to<std::int64_t>();
+            breaths_ += (phrases * breath).convert_to<std::int64_t>();
             return;
         }
         // The next phrase begins with its rhythm, perhaps at a bar line.
         const std::int64_t bar = melody_.breathes_to_bar ? melody_.meter.bar() : 1;
-        std::int64_t end = end_ticks(steps) + melody_.breath;
+        std::int64_t end = end_ticks(steps) + breath;
         // Without a bar line, rests of the rhythm before its next note count.
         if (!melody_.breathes_to_bar) end = std::max(end, ticks(steps));
         breaths_ = (end + bar - 1) / bar * bar;
         begin_ = steps;
         if (melody_.rhythms.empty()) return;
+        if (melody_.has_rhythms_by_level) return choose_rhythm(above);
         rhythm_number_ =
             Integer((rhythm_number_ + phrases) % melody_.rhythms.size()).template convert_to<std::size_t>();
         rhythm_ = &melody_.rhythms[rhythm_number_];
+    }
+    /// Takes the rhythm of a phrase that begins a sub-curve larger by some orders.
+    void choose_rhythm(int above) {
+        if (!melody_.has_rhythms_by_level || melody_.rhythms.empty()) return;
+        const auto last = static_cast<int>(melody_.rhythms.size()) - 1;
+        rhythm_ = &melody_.rhythms[static_cast<std::size_t>(std::clamp(above, 0, last))];
     }
     /// True if an odd number of phrases has ended.
     bool is_odd() const { return phrases_ % 2 != 0; }
 
 private:
+    const RhythmTemplate::Hit& hit(Number steps) const { return rhythm_->hit(index_of(steps - begin_)); }
+    /// The whole number of steps, which sums of lengths may miss slightly.
+    static std::int64_t index_of(Number steps) {
+        if constexpr (std::is_floating_point_v<Number>) {
+            return static_cast<std::int64_t>(std::floor(static_cast<double>(steps) + 1e-6));
+        } else {
+            return static_cast<std::int64_t>(steps);
+        }
+    }
     /// Steps in a cycle of the rhythm; cycle() is its duration in ticks.
     Integer hits() const { return has_rhythm_ ? Integer(rhythm_->hits.size()) : Integer(1); }
     Integer cycle() const { return Integer(has_rhythm_ ? rhythm_->slots : 1) * melody_.unit; }
@@ -97,8 +124,7 @@ private:
     }
 
     std::int64_t slot_ticks(Number steps, bool is_end) const {
-        const auto whole = static_cast<std::int64_t>(std::floor(static_cast<double>(steps) + 1e-6));
-        const auto index = std::is_floating_point_v<Number> ? whole : static_cast<std::int64_t>(steps);
+        const std::int64_t index = index_of(steps);
         const RhythmTemplate& rhythm = *rhythm_;
         const double part = static_cast<double>(steps) - static_cast<double>(index);
         if (index >= farthest / (rhythm.slots + 1)) return latest;

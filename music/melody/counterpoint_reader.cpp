@@ -52,6 +52,7 @@ public:
                     break;
                 case Kind::level:
                     level_ = std::max(level_, marks_.level(symbol));
+                    this->end_level(marks_.level(symbol));
                     break;
                 case Kind::not_finite:
                     fault(position_, "its parameter is not finite");
@@ -112,6 +113,7 @@ private:
     /// Moves the turtle; the note of its new position sounds during this step.
     void step(const Step& step, bool is_drawn) {
         end_phrases();
+        this->begin_note();
         advance(at_, step);
         note_vertex(at_);
         const Number length = Walk::length(step);

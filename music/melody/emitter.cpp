@@ -130,14 +130,13 @@ void Emitter::put(const Note& note, std::int64_t degree) {
 
 void Emitter::put(const Shaper::Draft& draft, const Placed& placed, int voice, std::int64_t degree,
                   const Glide& glide) {
-    const int accent = draft.emphasis.is_accented ? accent_velocity : 0;
     report.moved += placed.is_moved ? 1 : 0;
     ++report.notes;
     Note note{draft.onset,
               draft.end - draft.onset,
               placed.key,
               static_cast<std::int16_t>(voice),
-              static_cast<std::uint8_t>(std::clamp(draft.velocity + accent, 1, 127)),
+              static_cast<std::uint8_t>(std::clamp(draft.velocity + draft.emphasis.velocity(), 1, 127)),
               draft.from,
               draft.to,
               draft.symbol,

@@ -37,6 +37,7 @@ public:
 
     /// Passes on a note of the curve, whose degree is turned and moved as the melody states.
     void note(Line& line, Shaper::Draft draft) {
+        if (is_rest(line, draft)) return;
         draft.degree = moved(draft.degree);
         if (melody_.leaps > 0) limit_leap(line, draft);
         describe(draft);
@@ -44,12 +45,14 @@ public:
     }
     /// Passes on a note of a table of symbols; a fixed key sounds as stated.
     void table_note(Line& line, Shaper::Draft draft) {
+        if (is_rest(line, draft)) return;
         take_time(line, draft.onset, draft.end);
         describe(draft);
         shaper_ ? shape(line, draft) : place_fixed(line, draft);
     }
     /// Passes on a note of the curve whose pitch slides.
     void gliding_note(Line& line, Shaper::Draft draft) {
+        if (is_rest(line, draft)) return;
         draft.degree = moved(draft.degree);
         draft.goal = moved(draft.goal);
         if (melody_.leaps > 0) limit_leap(line, draft);
@@ -107,6 +110,12 @@ private:
     };
 
     std::int64_t moved(std::int64_t degree) const { return (melody_.is_inverted ? -degree : degree) + melody_.shift; }
+    /// Notes that chance silences keep their voice.
+    bool is_rest(Line& line, const Shaper::Draft& draft) {
+        if (!draft.is_silent) return false;
+        shaper_ ? take_time(line, draft.onset, draft.end) : reserve(line, draft.onset, draft.end);
+        return true;
+    }
     void describe(Shaper::Draft& draft) const {
         draft.depth = depth;
         draft.level = level;

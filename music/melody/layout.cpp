@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -46,6 +47,44 @@ std::string_view next_word(std::string_view& text) {
     return word;
 }
 
+/// Reads what follows the letter of a section: its ending, or one change.
+/// @param at  after `sign`; set to the end of its number
+bool change(FormSection& section, char sign, std::string_view text, std::size_t& at) {
+    const auto number = [&](std::int64_t most) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789", at), text.size());
+        const auto found = whole_number(text.substr(at, end - at), 1, most);
+        at = end;
+        return found.value_or(0);
+    };
+    constexpr std::int64_t most_degrees = 127;
+    constexpr std::int64_t most_times_longer = 16;
+    switch (sign) {
+        case '1':
+        case '2':
+            if (section.ending != Ending::none) return false;
+            section.ending = sign == '1' ? Ending::open : Ending::closed;
+            return true;
+        case 'i':
+            return !std::exchange(section.is_inverted, true);
+        case 'r':
+            return !std::exchange(section.is_retrograde, true);
+        case '+':
+        case '-':
+            if (section.degrees != 0) return false;
+            section.degrees = (sign == '+' ? 1 : -1) * number(most_degrees);
+            return section.degrees != 0;
+        case '*':
+        case '/': {
+            if (!section.augmentation.is_one()) return false;
+            const std::int64_t times = number(most_times_longer);
+            section.augmentation = sign == '*' ? Ratio{times, 1} : Ratio{1, times};
+            return times > 1;
+        }
+        default:
+            return false;
+    }
+}
+
 class LayoutReader : private KeyReader {
 public:
     LayoutReader(const Pattern& pattern, Diagnostics& diagnostics) : KeyReader(pattern, diagnostics) {}
@@ -60,6 +99,15 @@ public:
         read_excerpt();
         read_flag("retrograde", {"no", "yes"}, layout_.is_retrograde);
         read_form_key();
+        read_key("climax",
+                 "expected the share of the part before its highest phrase, from 0 to 1, such as 0.6, or none",
+                 [&](std::string_view text) {
+                     if (lower_case(text) == "none") return true;
+                     double share = 0;
+                     const bool is_good = read_number(text, share) && share >= 0 && share <= 1;
+                     if (is_good) layout_.climax = share;
+                     return is_good;
+                 });
         read_loop();
         read_key("canon",
                  "expected bars and an interval for each voice that follows, such as `2 -12`, `1 fifth below` or "
@@ -105,8 +153,9 @@ private:
     void read_form_key() {
         read_key(
             "form",
-            "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending, "
-            "and perhaps `order 2` after it",
+            "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending; "
+            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer) and A/2 change one; perhaps "
+            "`order 2` after it",
             [&](std::string_view text) {
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");
@@ -192,13 +241,12 @@ Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics) {
 
 std::vector<FormSection> read_form(std::string_view text) {
     std::vector<FormSection> form;
-    for (const char letter : text) {
-        if (letter == ' ' && !form.empty()) continue;
-        if (letter >= 'A' && letter <= 'Z') {
-            form.push_back({letter - 'A', Ending::none});
-        } else if ((letter == '1' || letter == '2') && !form.empty() && form.back().ending == Ending::none) {
-            form.back().ending = letter == '1' ? Ending::open : Ending::closed;
-        } else {
+    for (std::size_t at = 0; at < text.size();) {
+        const char sign = text[at++];
+        if (sign == ' ' && !form.empty()) continue;
+        if (sign >= 'A' && sign <= 'Z') {
+            form.emplace_back().letter = sign - 'A';
+        } else if (form.empty() || !change(form.back(), sign, text, at)) {
             return {};
         }
         if (form.size() > most_sections) return {};

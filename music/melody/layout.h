@@ -4,6 +4,8 @@
 #include "engine/language/pattern.h"
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace sikku {
@@ -20,10 +22,17 @@ struct Ratio {
 /// Goal of the last notes of a section, approached by step: none, the fifth, or the tonic.
 enum class Ending { none, open, closed };
 
-/// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one.
+/// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one; `A+2` in sequence, two degrees higher;
+/// `Ai` inverted, `Ar` reversed; `A*2` and `A/2` with longer or shorter notes.
 struct FormSection {
     int letter = 0;  ///< 0 is A
     Ending ending = Ending::none;
+    std::int64_t degrees = 0;  ///< added to each note
+    bool is_inverted = false;  ///< mirrored at its first note
+    bool is_retrograde = false;
+    Ratio augmentation;
+    bool has_other_degrees() const { return is_inverted || degrees != 0; }
+    bool is_changed() const { return has_other_degrees() || is_retrograde || !augmentation.is_one(); }
 };
 
 /// A voice that repeats a part.
@@ -46,6 +55,7 @@ struct Layout {
     bool is_retrograde = false;
     std::vector<FormSection> form;     ///< sub-curves in the order in which they are played; empty: as in the curve
     std::int64_t form_order = 0;       ///< order of the sub-curves
+    std::optional<double> climax;      ///< share of the part after which its highest phrase or section comes
     bool is_order_of_phrases = false;  ///< form_order is set by the key `phrases`
     Loop loop = Loop::none;
     std::int64_t times = 1;
@@ -53,14 +63,14 @@ struct Layout {
     bool is_strict = false;  ///< notes yield to earlier parts: see counterpoint.h
 
     /// True if all notes must be known before the first one is played.
-    bool needs_whole() const { return is_retrograde || !form.empty() || loop != Loop::none || is_strict; }
+    bool needs_whole() const { return is_retrograde || !form.empty() || climax || loop != Loop::none || is_strict; }
 };
 
 /// Reads the keys start, speed, augmentation, excerpt, retrograde, form, loop, canon and counterpoint. Errors go to
 /// `diagnostics`.
 Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics);
 
-/// Reads `A1 A2 B A2` or `AABA`: up to 26 letters in up to 256 sections. Empty for other text.
+/// Reads `A1 A2 B A2`, `AABA` or `A A+1 Ai2`: up to 26 letters in up to 256 sections. Empty for other text.
 std::vector<FormSection> read_form(std::string_view text);
 
 }  // namespace sikku

@@ -80,7 +80,7 @@ struct Marked {
 Marked marked(Grammar grammar, const Melody& melody) {
     constexpr std::int64_t most_levels = 64;
     const std::int64_t steps = grammar.steps();
-    const std::int64_t levels = melody.expression.uses(ExpressionSource::level) ? std::min(steps, most_levels) : 0;
+    const std::int64_t levels = melody.follows_levels() ? std::min(steps, most_levels) : 0;
     const std::int64_t order = order_of_phrases(melody, steps);
     Marked result{std::move(grammar), {}};
     if (order == 0 && levels == 0) return result;
@@ -133,7 +133,8 @@ public:
                                   melody.vertical == Vertical::voice || melody.is_sequential())) {
             throw ScoreError(
                 "bars beyond 2^60 ticks need `mapping: runs` of a curve on the square grid, without voices, without "
-                "phrases that begin at bar lines or with rhythms of their own, and without `leaps`");
+                "phrases that begin at bar lines or with rhythms of their own, without breaths by level, and without "
+                "`leaps`");
         }
     }
 
@@ -180,8 +181,8 @@ private:
                     "end{}",
                     options_.budget,
                     melody_.is_sequential()
-                        ? ", as phrases that begin at bar lines or with rhythms of their own, and "
-                          "`leaps`, are read from the beginning"
+                        ? ", as phrases that begin at bar lines or with rhythms of their own, breaths by level and "
+                          "`leaps` are read from the beginning"
                         : ""));
             }
             if (options_.watch) options_.watch(symbols);
@@ -377,7 +378,7 @@ bool has_brackets(const Grammar& grammar) {
 std::string problem_of(const Grammar& grammar, const Melody& melody) {
     const std::int64_t order = order_of_phrases(melody, grammar.steps());
     const bool marks_phrases = order > 0 && order <= grammar.steps();
-    const bool marks_levels = melody.expression.uses(ExpressionSource::level) && grammar.steps() > 0;
+    const bool marks_levels = melody.follows_levels() && grammar.steps() > 0;
     if ((marks_phrases || marks_levels) && !shorten(grammar).with_marks(1)) return unmarkable(order > 0);
     const bool has_voices = melody.branches == Branches::voices && has_brackets(grammar);
     return has_voices && has_phrases(melody) ? phrases_of_voices : std::string();
@@ -397,8 +398,10 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
     const auto fold = fold_of(with_marks.grammar, melody, with_marks.marks.phrase);
     if (!fold) return std::nullopt;
     const GridStretch& whole = fold->whole();
-    if (melody.leaps > 0 || (melody.restarts_rhythm() && whole.marks > 0)) return std::nullopt;
+    const bool is_sequential = (melody.restarts_rhythm() || melody.breathes_by_level) && whole.marks > 0;
+    if (melody.leaps > 0 || is_sequential) return std::nullopt;
     MelodyCensus result;
+    result.has_chance = melody.rhythm.has_chance();
     const auto notes_along = [&](std::size_t axis) {
         return melody.runs == Runs::each_step ? whole.steps[axis] : whole.runs[axis];
     };

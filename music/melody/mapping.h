@@ -88,13 +88,14 @@ Integer period(const Melody& melody);
 
 /// Properties of a melody computed without playing it.
 struct MelodyCensus {
-    Integer notes = 0;  ///< number of notes, for `mapping: runs`
+    Integer notes = 0;        ///< number of notes, for `mapping: runs`, including those that chance silences
+    bool has_chance = false;  ///< the rhythm silences notes by chance
     Integer ticks = 0;
     Integer height = 0;  ///< degrees between the lowest and the highest note of the horizontal runs
 };
 
 /// Computes them by composition, for any derivation length. Nullopt for other mappings than runs, curves off the
-/// square grid, brackets and contexts, and phrases that begin at bar lines.
+/// square grid, brackets and contexts, and phrases that depend on those before them.
 std::optional<MelodyCensus> census(const Grammar& grammar, const Melody& melody);
 
 /// Ranges of the runs of a curve that are notes, in turtle steps.

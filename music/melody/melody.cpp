@@ -250,10 +250,20 @@ private:
         melody_.unit = above * whole_note / below;
     }
 
+    /// Removes ` by level` from the end of a text; false if it does not end so.
+    static bool take_by_level(std::string_view& text) {
+        constexpr std::string_view words = " by level";
+        if (!lower_case(text).ends_with(words)) return false;
+        text = trimmed(text.substr(0, text.size() - words.size()));
+        return true;
+    }
+
     /// Reads a rhythm, or several, separated by `/`.
     void read_rhythms(const Key& key) {
         std::string problem;
-        for (std::string_view rest = key.value.view();;) {
+        std::string_view rest = key.value.view();
+        melody_.has_rhythms_by_level = take_by_level(rest);
+        for (;;) {
             const std::size_t end = std::min(rest.find('/'), rest.size());
             melody_.rhythms.push_back(read_rhythm_template(trimmed(rest.substr(0, end)), problem));
             if (melody_.rhythms.back().empty()) {
@@ -264,7 +274,9 @@ private:
             rest.remove_prefix(end + 1);
         }
         melody_.rhythm = melody_.rhythms.front();
-        if (melody_.rhythms.size() == 1) melody_.rhythms.clear();
+        if (melody_.rhythms.size() > 1) return;
+        melody_.rhythms.clear();
+        if (melody_.has_rhythms_by_level) fail(key, "expected several rhythms: `x.x. / X..x by level`");
     }
 
     void read_rhythm() {
@@ -308,7 +320,7 @@ private:
                         {{"none", Cadence::none}, {"tonic", Cadence::tonic}, {"alternate", Cadence::alternate}});
         const Key* rhythm = pattern_.find("rhythm");
         if (rhythm && !melody_.rhythms.empty() && melody_.phrase_order == 0) {
-            fail(*rhythm, "several rhythms need `phrases: k`: phrases take them in turn");
+            fail(*rhythm, "several rhythms need `phrases: k`, as each phrase takes one");
         }
         read_leaps();
         read_articulation();
@@ -334,22 +346,53 @@ private:
     /// Reads `1/8`, `bar` for a rest until the next bar line, or `1/8 bar` for one of at least an eighth.
     void read_breath(const Key& key) {
         std::string_view text = key.value.view();
+        const bool is_by_level = take_by_level(text);
         const bool is_to_bar = text == "bar" || text.ends_with(" bar");
         if (is_to_bar) text = trimmed(text.substr(0, text.size() - 3));
         const bool is_none = text == "none" || (is_to_bar && text.empty());
         const auto ticks = is_none ? std::optional<std::int64_t>(0) : note_value(text);
         if (!ticks) {
-            fail(key, "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar or none");
+            fail(key, "expected a note value such as 1/8, up to 16 whole notes, bar, 1/8 bar, 1/8 by level or none");
         } else if (melody_.phrase_order == 0) {
             diagnostics_.warning(key.name_at, "'breath:' has no effect without 'phrases:'");
+        } else if (is_by_level && *ticks == 0) {
+            fail(key, "a rest that grows with the level has a note value: `1/8 by level`");
         } else {
             melody_.breath = *ticks;
             melody_.breathes_to_bar = is_to_bar;
+            melody_.breathes_by_level = is_by_level;
+        }
+    }
+
+    /// Checks what changes the pitch of sections and phrases.
+    void check_changed_sections() {
+        const Layout& layout = melody_.layout;
+        const bool moves = std::any_of(layout.form.begin(), layout.form.end(),
+                                       [](const FormSection& section) { return section.has_other_degrees(); });
+        if (moves && melody_.has_chords()) {
+            fail(*pattern_.find("form"), "sections with chords cannot be moved or inverted: the chords would stay");
+        } else if (moves && melody_.vertical == Vertical::glissando) {
+            fail(*pattern_.find("form"), "sections with `vertical: glissando` cannot be moved or inverted");
+        }
+        for (const FormSection& section : layout.form) {
+            if (melody_.unit % section.augmentation.below == 0) continue;
+            fail(*pattern_.find("form"), "the notes would be no whole numbers of ticks; a larger `unit` helps");
+            break;
+        }
+        if (!layout.climax) return;
+        const Key& climax = *pattern_.find("climax");
+        if (melody_.has_chords()) {
+            fail(climax, "phrases with chords cannot be moved: the chords would stay");
+        } else if (melody_.vertical == Vertical::glissando) {
+            fail(climax, "phrases with `vertical: glissando` cannot be moved");
+        } else if (melody_.phrase_order == 0 && layout.form.empty()) {
+            fail(climax, "'climax:' needs 'phrases:' or 'form:', as it moves phrases or sections");
         }
     }
 
     /// Sets the order of the sub-curves of a form, which are marked like phrases.
     void read_sections() {
+        check_changed_sections();
         Layout& layout = melody_.layout;
         const Key* key = pattern_.find("form");
         if (layout.form.empty() || !key) return;
@@ -449,14 +492,55 @@ private:
     }
 
     void read_tempo() {
-        read_key("tempo", "expected quarter notes a minute, from 4 to 1000", [&](std::string_view text) {
-            // A curve follows after a blank.
-            const std::string_view number = states_curve(text) ? text.substr(0, text.find(' ')) : text;
-            double tempo = 0;
-            const bool is_good = read_number(number, tempo) && tempo >= 4 && tempo <= most_tempo;
-            if (is_good) melody_.tempo = tempo;
-            return is_good;
-        });
+        read_key("tempo",
+                 "expected quarter notes a minute, from 4 to 1000: `96`, `96 Andante` (up to 60 letters without "
+                 "digits and "
+                 "quotation marks), or a word such as `Andante`",
+                 [&](std::string_view text) {
+                     // A curve, or words, follow after a blank.
+                     const std::size_t end = std::min(text.find(' '), text.size());
+                     double tempo = 0;
+                     if (!read_number(text.substr(0, end), tempo)) return read_tempo_word(text);
+                     if (!(tempo >= 4 && tempo <= most_tempo)) return false;
+                     melody_.tempo = tempo;
+                     return states_curve(text) || read_tempo_words(trimmed(text.substr(end)));
+                 });
+    }
+
+    /// Reads a word that states a tempo.
+    bool read_tempo_word(std::string_view text) {
+        struct TempoWord {
+            std::string_view word;
+            double tempo;
+        };
+        static constexpr std::array<TempoWord, 13> words = {{{"grave", 40},
+                                                             {"largo", 50},
+                                                             {"larghetto", 63},
+                                                             {"lento", 54},
+                                                             {"adagio", 69},
+                                                             {"andante", 84},
+                                                             {"andantino", 92},
+                                                             {"moderato", 104},
+                                                             {"allegretto", 116},
+                                                             {"allegro", 138},
+                                                             {"vivace", 160},
+                                                             {"presto", 184},
+                                                             {"prestissimo", 208}}};
+        const std::string first = lower_case(text.substr(0, text.find(' ')));
+        const auto* found =
+            std::find_if(words.begin(), words.end(), [&](const TempoWord& one) { return one.word == first; });
+        if (found == words.end() || states_curve(text)) return false;
+        melody_.tempo = found->tempo;
+        return read_tempo_words(text);
+    }
+
+    /// Reads words that are printed above the first bar.
+    bool read_tempo_words(std::string_view text) {
+        constexpr std::size_t longest = 60;
+        const bool is_good = text.size() <= longest && text.find_first_of("\"0123456789") == std::string_view::npos &&
+                             printable(text) == text;
+        if (is_good) melody_.tempo_words = text;
+        return is_good;
     }
 
     /// Reads `4/4`, `7/8`, or with groups `3+2+2/8`.

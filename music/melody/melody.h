@@ -77,12 +77,14 @@ struct Melody {
     int leaps = 0;  ///< largest leap within a phrase, in semitones; farther notes move by periods; 0: no limit
     RhythmTemplate rhythm;  ///< rhythm of the steps, in slots of `unit`; empty: each step lasts `unit`
     std::vector<RhythmTemplate>
-        rhythms;         ///< rhythms of successive phrases, cyclically; empty if there is only `rhythm`
-    double swing = 0.5;  ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
+        rhythms;  ///< rhythms of successive phrases, cyclically; empty if there is only `rhythm`
+    bool has_rhythms_by_level = false;  ///< instead by how much larger the sub-curve is that begins with the phrase
+    double swing = 0.5;                 ///< share of the first of two notes of `swing_unit`, 0.5 to 0.8
     std::int64_t swing_unit = ticks_per_quarter / 2;
-    std::int64_t phrase_order = 0;  ///< order of the sub-curves that are phrases; 0: none
-    std::int64_t breath = 0;        ///< ticks of rest after a phrase, or their minimum
-    bool breathes_to_bar = false;   ///< the rest lasts until a bar line
+    std::int64_t phrase_order = 0;   ///< order of the sub-curves that are phrases; 0: none
+    std::int64_t breath = 0;         ///< ticks of rest after a phrase, or their minimum
+    bool breathes_to_bar = false;    ///< the rest lasts until a bar line
+    bool breathes_by_level = false;  ///< times 1 plus the orders by which the sub-curve is larger that ends with it
     Articulation articulation = Articulation::legato;
     double sounding = 0.6;  ///< share of a note that sounds, if detached
     Cadence cadence = Cadence::none;
@@ -92,7 +94,8 @@ struct Melody {
     std::optional<int> accompanist;  ///< General MIDI program of the chords; absent: strings
     std::int64_t bass_order = 2;     ///< orders by which the bass is coarser
     Close close = Close::none;
-    double tempo = 120.0;  ///< quarters a minute
+    double tempo = 120.0;     ///< quarters a minute
+    std::string tempo_words;  ///< printed before it; may be empty
     Meter meter;
     int program = 0;             ///< General MIDI, 0 to 127
     double transpose = 0;        ///< semitones, added to every key
@@ -106,7 +109,11 @@ struct Melody {
     /// True if a phrase begins with its rhythm, perhaps at a bar line.
     bool restarts_rhythm() const { return breathes_to_bar || !rhythms.empty(); }
     /// True if a phrase depends on all phrases before it.
-    bool is_sequential() const { return restarts_rhythm() || leaps > 0; }
+    bool is_sequential() const { return restarts_rhythm() || breathes_by_level || leaps > 0; }
+    /// True if it depends on the ends of all sub-curves.
+    bool follows_levels() const {
+        return has_rhythms_by_level || breathes_by_level || expression.uses(ExpressionSource::level);
+    }
     /// True if notes are changed between the curve and the scale.
     bool is_shaped() const {
         return swing != 0.5 || cadence != Cadence::none || articulation != Articulation::legato || has_chords();

@@ -159,7 +159,9 @@ protected:
           options_(reading.options),
           kinds_(kinds_of(grammar_, marks_, moves_sound)),
           clock_(melody_),
-          may_stop_(!reading.has_voices) {}
+          may_stop_(!reading.has_voices) {
+        clock_.choose_rhythm(above(marks_.whole));
+    }
 
     std::int64_t ticks(Number steps) const { return clock_.ticks(steps); }
     /// Position of the symbol in the word for Note::symbol; 0 after parts that were skipped.
@@ -168,8 +170,9 @@ protected:
     /// A note from one step to another, with its accent.
     Shaper::Draft draft_of(std::int64_t degree, Number onset, Number end, const Sound& sound) const {
         emitter_.level = sound.level;
-        emitter_.emphasis = {clock_.is_accented(onset)};
+        emitter_.emphasis = {clock_.stress(onset)};
         Shaper::Draft draft;
+        draft.is_silent = !sounds(onset);
         draft.degree = degree;
         draft.onset = ticks(onset);
         draft.end = clock_.end_ticks(end);
@@ -180,18 +183,25 @@ protected:
         return draft;
     }
 
+    /// False if the rhythm silences a note that begins with a step.
+    bool sounds(Number onset) const { return clock_.sounds(onset, grammar_.seed(), options_.ahead); }
+
     /// Ends the phrases that are due in the first voices, and takes their breath.
     void end_phrases(int voices, Number now) {
         for (int voice = 0; voice < voices; ++voice) emitter_.end_phrase(voice, clock_.is_odd());
-        clock_.breathe(due_, now);
+        clock_.breathe(due_, now, above(ended_));
         emitter_.begin_phrase(ticks(now));
         due_ = 0;
     }
+    /// Records that a sub-curve of some order ends.
+    void end_level(int order) { ended_ = std::max(ended_, order); }
+    /// Sub-curves that end after further notes end without a phrase.
+    void begin_note() { ended_ = 0; }
 
     /// Ends the word: its last phrases end like all others, with a breath. @param last  tick of the end
     void finish_at(Number end, std::int64_t last, int due) {
         if (due > 0) {
-            clock_.breathe(due, end);
+            clock_.breathe(due, end, above(ended_));
             emitter_.begin_phrase(ticks(end));
         }
         emitter_.finish(last);
@@ -205,9 +215,13 @@ protected:
     const std::vector<Kind> kinds_;  // by symbol
     Clock<Walk> clock_;
     bool may_stop_;
-    int due_ = 0;  // phrases that end before the next note
+    int due_ = 0;    // phrases that end before the next note
+    int ended_ = 0;  // order of the largest sub-curve that has ended since the last note; 0: not known
     std::uint64_t position_ = 0;
     bool is_counted_ = true;  // nothing was skipped
+
+private:
+    int above(int order) const { return std::max(0, order - static_cast<int>(melody_.phrase_order)); }
 };
 
 /// The common state of readers of the curve.

@@ -62,22 +62,120 @@ std::string euclidean(int notes, int slots) {
     return text;
 }
 
-/// @param text  of x, X, . and ~ only
-RhythmTemplate from_slots(std::string_view text) {
-    RhythmTemplate result;
-    bool sounds = false;
-    for (const char slot : text) {
-        if (slot == 'x' || slot == 'X') {
-            result.hits.push_back({result.slots, 1, slot == 'X'});
-            sounds = true;
-        } else if (slot == '~') {
-            sounds = false;
-        } else if (sounds) {
-            ++result.hits.back().length;
-        }
-        ++result.slots;
+/// Reads slots, of which parts may be repeated.
+class SlotReader {
+public:
+    explicit SlotReader(std::string_view text) : text_(text) {}
+
+    /// @param problem  receives the problem if the result is empty
+    RhythmTemplate read(std::string& problem) {
+        const bool is_good = read_part(0) && at_ == text_.size() && problem_.empty();
+        if (is_good && result_.hits.empty()) problem = limits();
+        if (!problem_.empty()) problem = problem_;
+        if (is_good && !result_.hits.empty()) return std::move(result_);
+        return {};
     }
-    return result;
+
+private:
+    static constexpr int deepest = 8;
+
+    bool fail(std::string problem) {
+        problem_ = std::move(problem);
+        return false;
+    }
+    /// Reads digits; `absent` if there are none.
+    int number(int absent) {
+        int value = absent;
+        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+        if (error == std::errc()) at_ = static_cast<std::size_t>(end - text_.data());
+        return error == std::errc::result_out_of_range ? most_slots + 1 : value;
+    }
+
+    /// Reads up to the end or a `)`.
+    bool read_part(int depth) {
+        for (; at_ < text_.size() && text_[at_] != ')';) {
+            const char slot = text_[at_++];
+            if (slot == ' ' || slot == '|') continue;
+            if (slot == '(') {
+                if (!repeat(depth)) return false;
+                continue;
+            }
+            if (std::string_view("xXo.~").find(slot) == std::string_view::npos) return false;
+            if (!add(slot)) return false;
+        }
+        return true;
+    }
+
+    bool repeat(int depth) {
+        const std::int64_t first = result_.slots;
+        const std::size_t hits = result_.hits.size();
+        if (depth == deepest) return fail(fmt::format("parentheses nest deeper than {}", deepest));
+        if (!read_part(depth + 1)) return false;
+        if (at_ == text_.size()) return fail("this `(` is not closed");
+        ++at_;
+        const int times = number(0);
+        const std::int64_t slots = result_.slots - first;
+        if (result_.hits.size() == hits || result_.hits[hits].onset != first) {
+            return fail("what is repeated begins with a note: x, X or o");
+        }
+        if (times < 1 || first + times * slots > most_slots) {
+            return fail(fmt::format("a part is repeated 1 to {0} times, as in (x.)3, within {0} slots", most_slots));
+        }
+        const std::vector<RhythmTemplate::Hit> part(result_.hits.begin() + static_cast<std::ptrdiff_t>(hits),
+                                                    result_.hits.end());
+        for (int i = 1; i < times; ++i) {
+            for (RhythmTemplate::Hit hit : part) {
+                hit.onset += i * slots;
+                result_.hits.push_back(hit);
+            }
+        }
+        result_.slots = first + times * slots;
+        return true;
+    }
+
+    bool add(char slot) {
+        if (result_.slots == most_slots || (result_.slots == 0 && (slot == '.' || slot == '~'))) {
+            return fail(limits());
+        }
+        if (slot == '~') {
+            sounds_ = false;
+        } else if (slot != '.') {
+            const Stress stress = slot == 'X' ? Stress::accent : slot == 'o' ? Stress::ghost : Stress::plain;
+            result_.hits.push_back({result_.slots, 1, stress});
+            sounds_ = true;
+            if (!read_chance(result_.hits.back())) return false;
+        } else if (sounds_) {
+            ++result_.hits.back().length;
+        }
+        ++result_.slots;
+        return true;
+    }
+
+    bool read_chance(RhythmTemplate::Hit& hit) {
+        if (at_ == text_.size() || text_[at_] != '?') return true;
+        ++at_;
+        const int percent = number(50);
+        if (percent < 1 || percent > 99)
+            return fail("a note sounds with a probability of 1 to 99 percent, as in x?30");
+        hit.percent = static_cast<std::uint8_t>(percent);
+        return true;
+    }
+
+    static std::string limits() {
+        return fmt::format("a template begins with x, X or o and has up to {} slots", most_slots);
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    bool sounds_ = false;
+    RhythmTemplate result_;
+    std::string problem_;
+};
+
+/// @param text  of slots that are correct
+RhythmTemplate from_slots(std::string_view text) {
+    std::string problem;
+    return SlotReader(text).read(problem);
 }
 
 RhythmTemplate from_groups(const std::vector<int>& groups) {
@@ -129,17 +227,7 @@ RhythmTemplate read_rhythm_template(std::string_view text, std::string& problem)
         if (groups->size() < 2) return {};
         return from_groups(*groups);
     }
-    std::string slots;
-    for (const char slot : text) {
-        if (slot == ' ' || slot == '|') continue;
-        if (slot != 'x' && slot != 'X' && slot != '.' && slot != '~') return {};
-        slots += slot;
-    }
-    if (slots.empty() || (slots[0] != 'x' && slots[0] != 'X') || slots.size() > most_slots) {
-        problem = fmt::format("a template begins with x or X and has up to {} slots", most_slots);
-        return {};
-    }
-    return from_slots(slots);
+    return SlotReader(text).read(problem);
 }
 
 }  // namespace sikku

@@ -293,6 +293,7 @@ private:
             state_.run.level = std::max(state_.run.level, order);
             return;
         }
+        this->end_level(order);
         for (int& level : levels_) level = std::max(level, order);
     }
 
@@ -368,6 +369,7 @@ private:
             release_held();
             end_phrases();
         }
+        this->begin_note();
         steps = lasting(steps);
         const bool may_slide = melody_.vertical == Vertical::glissando;
         if (may_slide) release_held();
@@ -429,6 +431,7 @@ private:
                 steps = lasting(steps);
                 const std::int64_t degree = Walk::degree(2 * state_.at.x);
                 end_phrases();
+                this->begin_note();
                 const Sound sound{velocity, std::exchange(levels_[1], 0), point(run.from), point(state_.at),
                                   run.symbol};
                 emitter_.note(state_.other,
@@ -448,6 +451,7 @@ private:
         if (!goes_on) {
             release_held();
             end_phrases();
+            this->begin_note();
             held = {};
             held.is_open = true;
             held.twice = 2 * run.from.y;

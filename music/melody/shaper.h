@@ -36,6 +36,7 @@ public:
         bool is_moved = false;   ///< its degree was brought into the range
         double key = by_degree;  ///< fixed key, which cadences and chords do not change; else by_degree
         bool is_drum = false;
+        bool is_silent = false;  ///< a rest by chance
         std::int64_t glide = 0;  ///< ticks at its end in which its pitch slides to the next note
         std::int64_t goal = 0;   ///< degree that it slides to if no note begins at its end
         float rise = 0;          ///< as in Glide

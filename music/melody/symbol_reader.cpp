@@ -37,16 +37,17 @@ public:
             switch (kind) {
                 case Kind::mark:
                     ++due_;
-                    if (state_.sounding == unknown) end_phrases();
                     break;
                 case Kind::level:
                     level_ = std::max(level_, marks_.level(symbol));
+                    end_level(marks_.level(symbol));
                     break;
                 case Kind::draw:
                     sound(std::fabs(command.value));
                     break;
                 case Kind::move:
                     end_note();
+                    end_phrases();
                     state_.time += std::fabs(command.value) * state_.pace;
                     end_ = 0;
                     stop_if_done();
@@ -141,11 +142,11 @@ private:
         const SymbolRow& row = entry.row;
         if (row.kind == SymbolRow::Kind::change) return change(row);
         end_note();
+        end_phrases();
         const double onset = state_.time;
         state_.time += row.steps * state_.pace;
         end_ = 0;
         if (row.is_sounding()) sound_row(row, onset);
-        if (due_ > 0) end_phrases();
         stop_if_done();
     }
 
@@ -170,17 +171,19 @@ private:
 
     /// Plays the notes of a row: the first in the voice of the branch, others in free voices.
     void sound_row(const SymbolRow& row, double onset) {
+        begin_note();
         const double steps = state_.time - onset;
         int velocity = row.velocity > 0   ? row.velocity
                        : state_.level > 0 ? state_.level
                                           : loudness(melody_, state_.turned, steps, stack_.depth(), ticks(onset));
         velocity += state_.louder;
-        emitter_.emphasis = {clock_.is_accented(onset), stated_dynamic(row, velocity)};
+        emitter_.emphasis = {clock_.stress(onset), stated_dynamic(row, velocity)};
         emitter_.depth = static_cast<int>(stack_.depth());
         emitter_.level = std::exchange(level_, 0);
         std::vector<Emitter::Line> others(row.pitches.size() - 1);
         for (std::size_t i = 0; i < row.pitches.size(); ++i) {
             Shaper::Draft draft = row.is_drum() ? drum(row.pitches[i]) : pitched(row.pitches[i]);
+            draft.is_silent = !sounds(onset);
             const double height = row.is_drum() ? (*row.pitches[i].key - 60) / 2 : static_cast<double>(draft.degree);
             draft.onset = ticks(onset);
             draft.end = clock_.end_ticks(state_.time);
@@ -263,6 +266,8 @@ private:
     void sound(double length) {
         if (state_.sounding != state_.degree || melody_.runs == Runs::each_step) {
             end_note();
+            end_phrases();
+            begin_note();
             state_.sounding = state_.degree;
             state_.onset = state_.time;
             state_.symbol = counted(position_);

@@ -92,8 +92,9 @@ public:
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
         const BeatUnit beat = beat_unit(head_.meter);
         const auto swing = common_swing(notation_);
+        const std::string words = words_of_tempo(notation_, head_);
         put("M:{}\nL:1/8\nQ:{}{}/{}={}\n{}", meter_name(head_.meter),
-            swing ? fmt::format("\"{}\" ", swing_words(*swing)) : "", beat.value.dotted ? 3 : 1,
+            words.empty() ? "" : fmt::format("\"{}\" ", field(words)), beat.value.dotted ? 3 : 1,
             beat.value.divisor * (beat.value.dotted ? 2 : 1),
             std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
         // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.

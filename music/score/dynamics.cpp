@@ -39,7 +39,7 @@ std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t b
             bars.push_back({bar, note.onset, 0, 0});
         }
         const auto duration = static_cast<double>(note.duration);
-        const int velocity = note.velocity - (note.emphasis.is_accented ? accent_velocity : 0);
+        const int velocity = note.velocity - note.emphasis.velocity();
         bars.back().weight += duration;
         bars.back().velocity += (velocity - bars.back().velocity) * duration / bars.back().weight;
     }
@@ -196,11 +196,11 @@ std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t b
 std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_length) {
     std::vector<bool> accents(notes.size(), false);
     const bool is_stated = std::any_of(notes.begin(), notes.end(), [](const Note& note) {
-        return note.emphasis.is_accented || note.emphasis.dynamic >= 0;
+        return note.emphasis.stress != Stress::plain || note.emphasis.dynamic >= 0;
     });
     if (is_stated) {
         std::transform(notes.begin(), notes.end(), accents.begin(),
-                       [](const Note& note) { return note.emphasis.is_accented; });
+                       [](const Note& note) { return note.emphasis.is_accented(); });
         return accents;
     }
     const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);

@@ -348,8 +348,8 @@ private:
     std::string tempo_mark() const {
         const BeatUnit beat = beat_unit(head_.meter);
         const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();
-        const auto swing = common_swing(notation_);
-        const std::string words = swing ? fmt::format("\"{}\" ", swing_words(*swing)) : "";
+        std::string words = words_of_tempo(notation_, head_);
+        if (!words.empty()) words = lilypond_string(words) + " ";
         const std::string text = !first.slows_down ? words
                                  : words.empty()   ? std::string(rit)
                                                    : fmt::format("\\markup {{ {}{} }} ", words, rit.substr(8));
@@ -563,8 +563,11 @@ private:
         const auto name = [](const Pitch& pitch, int drum) {
             return drum > 0 ? std::string(drum_of(drum).lilypond) : pitch_name(pitch);
         };
-        std::string text = name(symbol.pitch, symbol.drum);
-        for (const ChordNote& note : symbol.chord) text += " " + name(note.pitch, note.drum);
+        const std::string_view parentheses = symbol.is_ghost ? "\\parenthesize " : "";
+        std::string text = fmt::format("{}{}", parentheses, name(symbol.pitch, symbol.drum));
+        for (const ChordNote& note : symbol.chord) {
+            text += fmt::format(" {}{}", parentheses, name(note.pitch, note.drum));
+        }
         put("{}", symbol.chord.empty() ? text : "<" + text + ">");
     }
 

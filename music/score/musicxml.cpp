@@ -271,9 +271,14 @@ private:
         const BeatUnit beat = beat_unit(head_.meter);
         const double tempo =
             beat.quarters == 1 ? head_.tempo : std::max(1.0, std::round(head_.tempo / beat.quarters));
-        put("<direction placement=\"above\"><direction-type><metronome><beat-unit>{}</beat-unit>{}"
+        const std::string words =
+            head_.tempo_words.empty()
+                ? ""
+                : fmt::format("<direction-type><words font-weight=\"bold\">{} </words></direction-type>",
+                              xml_escaped(head_.tempo_words));
+        put("<direction placement=\"above\">{}<direction-type><metronome><beat-unit>{}</beat-unit>{}"
             "<per-minute>{}</per-minute></metronome></direction-type><sound tempo=\"{}\"/></direction>\n",
-            type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, head_.tempo);
+            words, type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, head_.tempo);
     }
 
     /// Programs play eighths and sixteenths with swing. @param has_words  prints it, too
@@ -461,10 +466,11 @@ private:
                 tuplet->actual, tuplet->normal, type_name(tuplet->divisor));
         }
         if (is_cue_ && is_note) put("<stem>up</stem>");
-        if (symbol.drum > 0) {
-            static constexpr std::array<std::string_view, 4> heads = {"normal", "x", "diamond", "triangle"};
-            const NoteHead head = drum_of(symbol.drum).head;
-            if (head != NoteHead::normal) put("<notehead>{}</notehead>", heads[static_cast<std::size_t>(head)]);
+        static constexpr std::array<std::string_view, 4> heads = {"normal", "x", "diamond", "triangle"};
+        const NoteHead head = symbol.drum > 0 ? drum_of(symbol.drum).head : NoteHead::normal;
+        if (symbol.is_ghost || head != NoteHead::normal) {
+            put("<notehead{}>{}</notehead>", symbol.is_ghost ? " parentheses=\"yes\"" : "",
+                heads[static_cast<std::size_t>(head)]);
         }
         if (staff_ > 0) put("<staff>{}</staff>", staff_);
         write_beams(symbol);

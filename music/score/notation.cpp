@@ -138,6 +138,7 @@ public:
                 symbol.tied_back = symbol.onset > begin;
                 symbol.tied_forward = symbol.onset + symbol.length < end;
                 symbol.is_accented = note->is_accented && !symbol.tied_back;
+                symbol.is_ghost = note->is_ghost && !symbol.tied_back;
                 symbol.begins_slide = note->begins_slide && !symbol.tied_forward;
                 symbol.ends_slide = note->ends_slide && !symbol.tied_back;
                 symbol.leaves = symbol.tied_forward ? 0 : note->leaves;
@@ -727,7 +728,8 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];
         NotatedSymbol symbol;
-        symbol.is_accented = is_loud_by_touch ? accents[i] : note.emphasis.is_accented;
+        symbol.is_accented = is_loud_by_touch ? accents[i] : note.emphasis.is_accented();
+        symbol.is_ghost = note.emphasis.is_ghost();
         symbol.has_fermata = note.has_fermata;
         const auto meets = [&](std::size_t one) {
             return one + 1 < notes.size() && notes[one].is_sliding &&

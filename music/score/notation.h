@@ -47,6 +47,7 @@ struct NotatedSymbol {
     bool tied_forward = false;  ///< continues in the next one
     bool has_sign = false;      ///< its accidental, which may be a natural, is printed
     bool is_accented = false;   ///< much louder than the notes around it
+    bool is_ghost = false;      ///< much softer: printed in parentheses
     bool begins_slide = false;  ///< a line leads to the next note
     bool ends_slide = false;    ///< a line leads here from the note before
     bool has_fermata = false;   ///< set for notes and rests at the end

@@ -28,13 +28,21 @@ struct Glide {
     float rise = 0;          ///< turtle steps up the curve, from `to` of the note, that it comes from
 };
 
-/// Velocity added to notes that a rhythm accents.
+/// Velocity added to notes that a rhythm accents, and subtracted from its ghost notes.
 constexpr int accent_velocity = 16;
+constexpr int ghost_velocity = 32;
 
-/// Accent and dynamic that the pattern states for a note; they are printed.
+/// How a rhythm stresses a note.
+enum class Stress : std::int8_t { plain, accent, ghost };
+
+/// Stress and dynamic that the pattern states for a note; they are printed.
 struct Emphasis {
-    bool is_accented = false;  ///< accented by the rhythm; its velocity includes accent_velocity
+    Stress stress = Stress::plain;
     std::int8_t dynamic = -1;  ///< 0 ppp, 1 pp, 2 p, 3 mp, 4 mf, 5 f, 6 ff, 7 fff; -1: not stated
+    bool is_accented() const { return stress == Stress::accent; }
+    bool is_ghost() const { return stress == Stress::ghost; }
+    /// The part of the note's velocity that comes from its stress.
+    int velocity() const { return is_accented() ? accent_velocity : is_ghost() ? -ghost_velocity : 0; }
 };
 
 /// A chord as a symbol names it.
@@ -180,6 +188,7 @@ struct ScoreHead {
     std::string pattern;          ///< the text of the pattern file, so that the score can be made again
     std::string made;             ///< the recipe of the score: `sikku 0.2.0, -n 4`
     double tempo = 120.0;         ///< quarters a minute
+    std::string tempo_words;      ///< printed before it: `Andante`; may be empty
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
     std::int64_t first_bar = 1;  ///< number of the first bar

@@ -33,6 +33,12 @@ int height_of(const Note& note) {
     return Pitch{drum.letter, drum.octave, 0}.height();
 }
 
+/// The stress of two strokes at once: ghost notes have parentheses only by themselves.
+Stress louder(Stress a, Stress b) {
+    if (a == Stress::accent || b == Stress::accent) return Stress::accent;
+    return a == b ? a : Stress::plain;
+}
+
 /// Joins strokes that begin together. @param notes  in any order @param merged  incremented for each merged stroke
 StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& merged) {
     sort_by_onset(notes);
@@ -47,7 +53,7 @@ StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& m
         std::vector<double>& others = line.others.back();
         first.duration = std::max(first.duration, note.duration);
         first.velocity = std::max(first.velocity, note.velocity);
-        first.emphasis.is_accented = first.emphasis.is_accented || note.emphasis.is_accented;
+        first.emphasis.stress = louder(first.emphasis.stress, note.emphasis.stress);
         first.emphasis.dynamic = std::max(first.emphasis.dynamic, note.emphasis.dynamic);
         const double key = drum_key(note);
         if (drum_key(first) == drum_key(note) || std::find(others.begin(), others.end(), key) != others.end()) {

@@ -36,6 +36,12 @@ std::string swing_words(const Swing& swing) {
     }
 }
 
+std::string words_of_tempo(const Notation& notation, const ScoreHead& head) {
+    const auto swing = common_swing(notation);
+    if (!swing) return head.tempo_words;
+    return head.tempo_words.empty() ? swing_words(*swing) : head.tempo_words + ", " + swing_words(*swing);
+}
+
 std::pair<int, int> swing_ratio(const Swing& swing) {
     const auto percent = static_cast<int>(std::lround(100 * swing.share));
     if (percent == 66 || percent == 67) return {2, 1};

@@ -16,6 +16,9 @@ std::optional<Swing> common_swing(const Notation& notation);
 /// eighths with their name.
 std::string swing_words(const Swing& swing);
 
+/// The words before the tempo: those of the score, then those of common_swing().
+std::string words_of_tempo(const Notation& notation, const ScoreHead& head);
+
 /// The ratio of the two notes in small numbers: 2 to 1 from 66 to 67 %, otherwise that of the percent.
 std::pair<int, int> swing_ratio(const Swing& swing);
 

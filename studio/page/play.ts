@@ -166,7 +166,8 @@ class PlayPanel implements Panel {
     private async load(facts: Opened, work: Work): Promise<void> {
         // The tempo does not change the notes.
         const isTimed = optionOf(work.play, "seconds") !== undefined;
-        const options = isTimed ? work.play : withOption(work.play, "tempo", null);
+        const isNumber = Number(optionOf(work.play, "tempo")) > 0;
+        const options = isTimed || !isNumber ? work.play : withOption(work.play, "tempo", null);
         const pattern = this.played(work);
         const what = JSON.stringify([pattern, options]);
         if (what === this.loaded) {

@@ -726,9 +726,9 @@ std::string slots_of(const std::string& text) {
     std::string problem;
     const RhythmTemplate rhythm = read_rhythm_template(text, problem);
     std::string slots(static_cast<std::size_t>(rhythm.slots), '~');
-    for (const auto& [onset, length, is_accented] : rhythm.hits) {
+    for (const auto& [onset, length, stress, percent] : rhythm.hits) {
         for (std::int64_t i = 0; i < length; ++i) slots[static_cast<std::size_t>(onset + i)] = '.';
-        slots[static_cast<std::size_t>(onset)] = is_accented ? 'X' : 'x';
+        slots[static_cast<std::size_t>(onset)] = stress == Stress::accent ? 'X' : 'x';
     }
     return slots;
 }

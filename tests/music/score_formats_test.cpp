@@ -380,4 +380,40 @@ TEST(ScoreFormats, LossesOfCommentsAreReported) {
     for (const char* lost : {"// \u2028\n", "// \x1b[0m\n"}) EXPECT_FALSE(is_reported(plain + lost, "mid"));
 }
 
+/// Ghost notes have parentheses; drums that are struck together only if all are ghost notes.
+TEST(ScoreFormats, GhostNotesHaveParentheses) {
+    const auto made = [](const std::string& text, const std::string& format) {
+        return made_work(scores(), parse("a.lsys", text), format).bytes();
+    };
+    const std::string melody = "axiom: F+F+F+F\nmapping: symbols\nrhythm: xo\n";
+    EXPECT_TRUE(has(made(melody, "ly"), "c'8["));
+    EXPECT_EQ(count_of(made(melody, "ly"), "\\parenthesize "), 2u);
+    EXPECT_EQ(count_of(made(melody, "musicxml"), "<notehead parentheses=\"yes\">normal</notehead>"), 2u);
+    const std::string drums =
+        "mapping: symbols\nunit: 1/8\ndrum s: acoustic snare\ndrum h: closed hi-hat\nrhythm: xo\n";
+    EXPECT_EQ(count_of(made("axiom: ssss\n" + drums, "ly"), "\\parenthesize "), 2u);
+    EXPECT_EQ(count_of(made("axiom: hhhh\n" + drums, "musicxml"), "<notehead parentheses=\"yes\">x</notehead>"), 2u);
+}
+
+/// Words before the tempo are printed as they are written; some state a tempo.
+TEST(ScoreFormats, TempoHasWords) {
+    const auto made = [](const std::string& tempo, const std::string& format, const std::string& more = "") {
+        return made_work(scores(), parse("a.lsys", "axiom: F+F\nangle factor: 4\ntempo: " + tempo + "\n" + more),
+                         format)
+            .bytes();
+    };
+    const std::string more = "96 Con moto <e> %";
+    EXPECT_TRUE(has(made(more, "ly"), "\\tempo \"Con moto <e> %\" 4 = 96\n"));
+    EXPECT_TRUE(has(made(more, "abc"), "Q:\"Con moto <e> \\%\" 1/4=96\n"));
+    EXPECT_TRUE(
+        has(made(more, "musicxml"), ">Con moto &lt;e&gt; % </words></direction-type><direction-type><metronome>"));
+    EXPECT_TRUE(has(made(more, "ly", "swing: 67\n"), "\\tempo \"Con moto <e> %, Swing\" 4 = 96\n"));
+    EXPECT_TRUE(has(made("Allegro con brio", "ly"), "\\tempo \"Allegro con brio\" 4 = 138\n"));
+    EXPECT_TRUE(has(made("96", "ly"), "\\tempo 4 = 96\n"));
+    for (const std::string& bad : std::vector<std::string>{"Slowly", "96 a\"b", "3 Largo", "Allegro by y",
+                                                           "Andante 96", "96 84-108", "96 " + std::string(61, 'a')}) {
+        EXPECT_NE(error_of([&] { made(bad, "ly"); }), "") << bad;
+    }
+}
+
 }  // namespace sikku::score_formats_test

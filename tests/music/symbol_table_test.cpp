@@ -276,15 +276,16 @@ TEST(SymbolTable, WhatIsSkippedAndUnusedIsReportedOnce) {
         parse("d.lsys", head + "note A: C4\nnote Q: D4\naxiom: XAYXA\nX --> XY\nderivation length: 2\n");
     const Made made = remarks_about(scores(), document, "mid");
     ASSERT_EQ(made.remarks.size(), 3u);
-    EXPECT_EQ(made.remarks[1].text, "skipped: 5 Y, 2 X");
+    EXPECT_EQ(made.remarks[1].text, "symbols without a sound: 5 Y, 2 X");
     EXPECT_EQ(made.remarks[2].text, "the pattern does not contain the symbol 'Q' of the table");
-    EXPECT_TRUE(has(describe_score(std::span(&document, 1), {}, {}), "skipped   5 Y, 2 X\n"));
+    EXPECT_TRUE(has(describe_score(std::span(&document, 1), {}, {}), "no sound  5 Y, 2 X\n"));
 }
 
 TEST(SymbolTable, SkippedSymbolsAreReportedWithoutATable) {
     const Made made = remarks_about(scores(), parse("d.lsys", head + "axiom: F+(3)F!;CDF-(90)+(2.5)\n"), "mid");
     ASSERT_EQ(made.remarks.size(), 2u);
-    EXPECT_EQ(made.remarks[1].text, "skipped: 1 !, 1 ;, 1 C, 1 D, 1 parameter of +, 1 parameter of -");
+    EXPECT_EQ(made.remarks[1].text,
+              "symbols without a sound: 1 !, 1 ;, 1 C, 1 D, 1 parameter of +, 1 parameter of -");
     const Document plain = parse("d.lsys", head + "axiom: F+F-F[+F]f\n");
     EXPECT_EQ(remarks_about(scores(), plain, "mid").remarks.size(), 1u);
 }

@@ -1,0 +1,227 @@
+// tests/music/development_test.cpp: sections of a form that are changed, and the place of the highest note.
+#include "music/scores.h"
+
+#include "engine/check.h"
+#include "music/arrangement.h"
+#include "tests/checks.h"
+#include "tests/midi_tools.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sikku::development_test {
+
+const std::string hilbert =
+    "title: H\naxiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nderivation length: 4\n"
+    "phrases: 2\nbreath: none\n";
+
+NoteList notes_of(const std::string& text) {
+    const Document document = parse("d.lsys", text);
+    return list_notes({&document, 1}, {}, {});
+}
+
+/// Degrees above C4 in C major.
+std::int64_t degree_of(double key) {
+    const auto semitones = static_cast<std::int64_t>(std::lround(key)) - 60;
+    const std::int64_t octave = (semitones >= 0 ? semitones : semitones - 11) / 12;
+    static const std::map<std::int64_t, std::int64_t> major = {{0, 0}, {2, 1}, {4, 2}, {5, 3},
+                                                               {7, 4}, {9, 5}, {11, 6}};
+    return 7 * octave + major.at(semitones - 12 * octave);
+}
+
+/// Onset, end and degree of each note.
+using Told = std::vector<std::tuple<std::int64_t, std::int64_t, std::int64_t>>;
+Told told(const NoteList& list) {
+    Told all;
+    for (const Note& note : list.notes) all.emplace_back(note.onset, note.onset + note.duration, degree_of(note.key));
+    std::sort(all.begin(), all.end());
+    return all;
+}
+Told form(const std::string& sections, const std::string& more = "") {
+    return told(notes_of(hilbert + "form: " + sections + "\n" + more));
+}
+
+/// What `change` makes of each note.
+template <class Change>
+Told changed(Told notes, Change change) {
+    for (auto& [onset, end, degree] : notes) change(onset, end, degree);
+    std::sort(notes.begin(), notes.end());
+    return notes;
+}
+
+TEST(Sections, AreMovedInvertedReversedAndStretched) {
+    for (const char* section : {"A", "B", "F"}) {
+        const Told plain = form(section);
+        ASSERT_GT(plain.size(), 5u);
+        const std::int64_t first = std::get<2>(plain.front());
+        const std::int64_t last = std::get<1>(plain.back());
+        EXPECT_EQ(form(fmt::format("{}+2", section)),
+                  changed(plain, [](auto&, auto&, auto& degree) { degree += 2; }));
+        EXPECT_EQ(form(fmt::format("{}-9", section)),
+                  changed(plain, [](auto&, auto&, auto& degree) { degree -= 9; }));
+        EXPECT_EQ(form(fmt::format("{}i", section)),
+                  changed(plain, [&](auto&, auto&, auto& degree) { degree = 2 * first - degree; }));
+        EXPECT_EQ(form(fmt::format("{}r", section)), changed(plain, [&](auto& onset, auto& end, auto&) {
+                      onset = last - std::exchange(end, last - onset);
+                  }));
+        EXPECT_EQ(form(fmt::format("{}*3", section)), changed(plain, [](auto& onset, auto& end, auto&) {
+                      onset *= 3;
+                      end *= 3;
+                  }));
+        EXPECT_EQ(form(fmt::format("{}/2", section)), changed(plain, [](auto& onset, auto& end, auto&) {
+                      onset /= 2;
+                      end /= 2;
+                  }));
+        // All at once: reversed, then mirrored at the note that is first now, and moved.
+        const std::int64_t axis = std::get<2>(plain.back());
+        EXPECT_EQ(form(fmt::format("{}ri*2+3", section)), changed(plain, [&](auto& onset, auto& end, auto& degree) {
+                      onset = 2 * (last - std::exchange(end, 2 * (last - onset)));
+                      degree = 2 * axis - degree + 3;
+                  }));
+    }
+}
+
+TEST(Sections, FollowOneAnotherAtBarLines) {
+    // A sequence: each a degree higher than the one before, a whole number of bars later.
+    const Told all = form("A A+1 A+2");
+    const Told one = form("A");
+    ASSERT_EQ(all.size(), 3 * one.size());
+    const std::int64_t bars = (std::get<1>(one.back()) + 1919) / 1920;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto times = static_cast<std::int64_t>(i / one.size());
+        const auto& [onset, end, degree] = one[i % one.size()];
+        EXPECT_EQ(std::get<0>(all[i]), onset + times * bars * 1920) << i;
+        EXPECT_EQ(std::get<2>(all[i]), degree + times) << i;
+    }
+    // Endings come after changes; a form in retrograde reverses what is reversed.
+    for (const char* sections : {"Ai", "A+1 ", "Ar", "A/2 ", "A"}) {
+        EXPECT_EQ((std::get<2>(form(sections + std::string("2")).back()) + 70) % 7, 0) << sections;
+        EXPECT_EQ((std::get<2>(form(sections + std::string("1")).back()) + 70) % 7, 4) << sections;
+    }
+    EXPECT_EQ(form("Ar", "retrograde: yes\n"), form("A"));
+    // A range holds.
+    for (const auto& [onset, end, degree] : form("A+5 A+9 Ai", "range: fold C4-C5\n")) {
+        EXPECT_GE(degree, 0);
+        EXPECT_LE(degree, 7);
+    }
+    for (const char* range : {"reflect C4-D5", "clamp C4-D5"}) {
+        const Told bounded = form("A+13", fmt::format("range: {}\n", range));
+        for (const auto& [onset, end, degree] : bounded) {
+            EXPECT_GE(degree, 0);
+            EXPECT_LE(degree, 8);
+        }
+        // All are beyond the range: mirrored they still move, clamped they do not.
+        std::set<std::int64_t> degrees;
+        for (const auto& [onset, end, degree] : bounded) degrees.insert(degree);
+        EXPECT_EQ(degrees.size() == 1, range[0] == 'c') << range;
+    }
+    EXPECT_NE(error_of([] { form("A+13", "range: refuse C4-D5\n"); }).find("beyond the keys 60 to 74"),
+              std::string::npos);
+}
+
+TEST(Sections, KeepTheDirectionOfRagas) {
+    // Melodic minor: a repeated note sounds like the one before it.
+    const std::string text =
+        "axiom: X\nX --> F-FF+F-F+F\nmapping: symbols\nruns: each step\nderivation length: 1\n"
+        "scale: melodic minor\ntonic: C4\n";
+    const auto keys = [&](const std::string& more) {
+        std::vector<double> all;
+        for (const Note& note : notes_of(text + more).notes) all.push_back(note.key);
+        return all;
+    };
+    std::vector<double> higher = keys("form: A order 1\n");
+    EXPECT_EQ(higher, keys(""));
+    for (double& key : higher) key += 12;
+    EXPECT_EQ(keys("form: A+7 order 1\n"), higher);
+    EXPECT_EQ(keys("phrases: 1\nclimax: 0\n"), keys(""));
+}
+
+TEST(Sections, OtherFormsAreRefused) {
+    for (const char* bad : {"A+", "A+0", "A+128", "Aii", "Arr", "A*1", "A/0", "A*17", "A*2/2", "+1", "A+1-1", "a"}) {
+        EXPECT_NE(error_of([&] { form(bad); }).find("expected the order of sub-curves"), std::string::npos) << bad;
+    }
+    EXPECT_NE(error_of([] { form("A A+1", "harmony: triads\n"); }).find("the chords would stay"), std::string::npos);
+    EXPECT_NE(form("A Ar", "harmony: triads\n").size(), 0u);
+    const auto read = [](const std::string& sections) {
+        return read_arrangement("p.toml",
+                                "form = \"" + sections +
+                                    "\"\n[[track]]\npattern = \"h\"\nsection = \"A\"\n[[pattern]]\nname = \"h\"\n"
+                                    "text = '''\naxiom: F\n'''\n",
+                                [](const std::string&) -> NamedPattern { throw std::runtime_error("no file"); });
+    };
+    EXPECT_NE(error_of([&] { read("A A+1"); }).find("the `form` of a track"), std::string::npos);
+    EXPECT_EQ(error_of([&] { read("A A2"); }), "");
+}
+
+/// The phrase that has the highest note, if no other has one as high; and the number of phrases.
+std::pair<int, int> highest_phrase(const Told& notes, std::int64_t phrase) {
+    std::map<std::int64_t, std::int64_t> highest;
+    for (const auto& [onset, end, degree] : notes) {
+        highest[onset / phrase] = std::max(highest.try_emplace(onset / phrase, degree).first->second, degree);
+    }
+    std::vector<std::pair<std::int64_t, std::int64_t>> order;
+    for (const auto& [number, degree] : highest) order.emplace_back(degree, number);
+    std::sort(order.rbegin(), order.rend());
+    const bool is_one = order.size() < 2 || order[0].first > order[1].first;
+    return {is_one ? static_cast<int>(order[0].second) : -1, static_cast<int>(highest.size())};
+}
+
+TEST(Climax, ComesAtItsPlace) {
+    // Phrases of four bars each, with 16 notes: one for each step.
+    const std::string text =
+        "title: S\naxiom: F\nF --> F+F-F-F+F\nangle increment: 90\nmapping: symbols\nruns: each step\nunit: 1/8\n"
+        "derivation length: 3\nphrases: 1\nbreath: none\n";
+    const Told plain = told(notes_of(text));
+    constexpr std::int64_t phrase = std::int64_t{5} * 240;
+    for (const double share : {0.0, 0.2, 0.5, 0.6, 0.85, 1.0}) {
+        const Told raised = told(notes_of(text + fmt::format("climax: {}\n", share)));
+        ASSERT_EQ(raised.size(), plain.size());
+        const auto [place, count] = highest_phrase(raised, phrase);
+        ASSERT_EQ(count, 25);
+        EXPECT_GE(place, std::floor((share - 0.05) * count) - 1) << share;
+        EXPECT_LE(place, std::ceil((share + 0.05) * count)) << share;
+        // A phrase keeps its shape, and no note sinks.
+        std::map<std::int64_t, std::set<std::int64_t>> moved;
+        for (std::size_t i = 0; i < plain.size(); ++i) {
+            EXPECT_EQ(std::get<0>(plain[i]), std::get<0>(raised[i]));
+            moved[std::get<0>(plain[i]) / phrase].insert(std::get<2>(raised[i]) - std::get<2>(plain[i]));
+        }
+        for (const auto& [number, by] : moved) {
+            EXPECT_EQ(by.size(), 1u) << number;
+            EXPECT_GE(*by.begin(), 0) << number;
+            EXPECT_LE(2 * *by.begin(), number == place ? 28 : *moved[place].begin()) << number;
+        }
+    }
+    EXPECT_EQ(told(notes_of(text + "climax: none\n")), plain);
+    const Told sections = form("A B A B", "climax: 0.3\n");
+    EXPECT_EQ(highest_phrase(sections, 1920).first, 1);
+}
+
+TEST(Climax, IsRefusedWhereItCannotBe) {
+    const auto said = [](const std::string& more) { return error_of([&] { notes_of(hilbert + more); }); };
+    EXPECT_NE(said("climax: 2\n").find("from 0 to 1"), std::string::npos);
+    EXPECT_NE(said("climax: nan\n").find("from 0 to 1"), std::string::npos);
+    EXPECT_NE(said("climax: 0.5\nharmony: triads\n").find("the chords would stay"), std::string::npos);
+    EXPECT_NE(said("climax: 0.5\nrange: fold C4-D4\n").find("a wider `range`"), std::string::npos);
+    EXPECT_NE(error_of([] { notes_of("axiom: F+F\nclimax: 0.5\n"); }).find("needs 'phrases:'"), std::string::npos);
+    // A single phrase is the highest.
+    EXPECT_EQ(told(notes_of("axiom: F+F\nphrases: 1\nheading: 0\nclimax: 0.5\n")),
+              told(notes_of("axiom: F+F\nphrases: 1\nheading: 0\n")));
+    // No notes, no climax.
+    EXPECT_NE(error_of([] { notes_of("axiom: +\nphrases: 1\nclimax: 1\n"); }), "");
+    EXPECT_NE(said("climax: 1\nexcerpt: 400-500\n").find("the excerpt contains no notes"), std::string::npos);
+    EXPECT_NE(said("climax: 1\nvertical: glissando\n").find("cannot be moved"), std::string::npos);
+    EXPECT_NE(said("form: A/7\n").find("whole numbers of ticks"), std::string::npos);
+}
+
+}  // namespace sikku::development_test
