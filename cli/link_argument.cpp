@@ -30,17 +30,19 @@ bool sets_scale(const std::string& name) {
     return row && row->sets_scale;
 }
 
+constexpr const char* pattern_of_link = "the pattern of the link";
+
+}  // namespace
+
 bool names_file(const Key& key) {
     const KeyInfo* row = find_language_key(key.name);
     return row && row->names_file && row->names_file(key.value.view());
 }
 
-[[noreturn]] void refuse_key(const Key& key, const char* remedy) {
-    throw UsageError(fmt::format("the pattern of the link names a file of this machine: {} '{}'; {}", key.name,
+void refuse_key(const Key& key, const char* whole, const char* remedy) {
+    throw UsageError(fmt::format("{} names a file of this machine: {} '{}'{}", whole, key.name,
                                  printable(key.value.view(), 80), remedy));
 }
-
-}  // namespace
 
 bool has_option(const OptionValues& values, std::string_view name) {
     return std::any_of(values.begin(), values.end(), [&](const OptionValue& value) { return value.name == name; });
@@ -89,20 +91,25 @@ void check_pattern_of_link(const SharedWork& link, const std::string& variant, c
     apply_overrides(pattern, variant, settings_of(link, options), diagnostics);
     const std::set<std::string> replaced = replaced_names(options);
     for (const Key& key : pattern.keys) {
-        if (!replaced.contains(key.name) && names_file(key)) refuse_key(key, "--trust-link allows it");
+        if (!replaced.contains(key.name) && names_file(key))
+            refuse_key(key, pattern_of_link, "; --trust-link allows it");
     }
 }
 
-void check_text_of_link(const SharedWork& link) {
+void check_text(const SharedWork& work, const char* whole, const char* remedy) {
     Diagnostics diagnostics;
-    const Pattern pattern = parse_pattern(link.name, link.text, diagnostics);
-    const auto check = [](const std::vector<Key>& keys) {
+    const Pattern pattern = parse_pattern(work.name, work.text, diagnostics);
+    const auto check = [&](const std::vector<Key>& keys) {
         for (const Key& key : keys) {
-            if (names_file(key)) refuse_key(key, "`sikku show` prints the pattern");
+            if (names_file(key)) refuse_key(key, whole, remedy);
         }
     };
     check(pattern.keys);
     for (const Variant& variant : pattern.variants) check(variant.settings);
+}
+
+void check_text_of_link(const SharedWork& link) {
+    check_text(link, pattern_of_link, "; `sikku show` prints the pattern");
 }
 
 void check_options_of_link(std::span<const OptionInfo* const> table, const OptionValues& shared,

@@ -30,6 +30,12 @@ void check_pattern_of_link(const SharedWork& link, const std::string& variant, c
 
 /// Refuses such links for commands without options: variants may not name files either. @throws UsageError
 void check_text_of_link(const SharedWork& link);
+/// The same for any text from outside. @param whole  what the text is  @param remedy  ends the message
+void check_text(const SharedWork& work, const char* whole, const char* remedy);
+/// True if the value of the key is the name of a file.
+bool names_file(const Key& key);
+/// @throws UsageError as check_text()
+[[noreturn]] void refuse_key(const Key& key, const char* whole, const char* remedy);
 
 /// Refuses links with draw or play options that name files or set commands for machines, in the same cases.
 /// @param table  table of the options  @param shared  options of the link  @param given  options on the command line

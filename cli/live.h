@@ -1,4 +1,4 @@
-// cli/live.h: `sikku play --port`: music on a MIDI port, in time.
+// cli/live.h: `sikku play --port`: music on a MIDI port or by OSC messages, in time.
 #pragma once
 
 #include "engine/base/monitor.h"
@@ -7,7 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,15 @@ void add_live_options(CLI::App& command, LiveOptions& options);
 /// @param output  file of `-o`, or empty
 bool is_live(const LiveOptions& options, const std::string& output);
 
-/// The score that is played, read again after each change of a file.
+/// What messages have changed in the first pattern.
+struct LiveChanges {
+    std::optional<std::string> text;            ///< replaces that of the file
+    std::map<std::string, std::string> values;  ///< replace those of its keys, and of options
+};
+
+/// The score that is played, read again after each change of a file, and after messages with changes.
 struct LiveScore {
-    std::function<std::unique_ptr<NoteStream>(const Monitor& monitor)> open;
+    std::function<std::unique_ptr<NoteStream>(const LiveChanges& changes, const Monitor& monitor)> open;
     std::function<std::vector<std::filesystem::path>()> files;  ///< files whose changes are heard
 };
 

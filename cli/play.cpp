@@ -12,10 +12,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 
 namespace sikku {
 namespace {
+
+constexpr const char* pattern_message_address = "/sikku/pattern";
+constexpr const char* set_message_address = "/sikku/set";
 
 struct PlayCommand {
     PatternOptions pattern;  ///< except its name
@@ -133,7 +138,44 @@ struct Parts {
     OptionValues shared;  ///< those of the link
 };
 
-Parts read_parts(const PlayCommand& command, const OptionValues& given, bool quiet) {
+/// What live music reads instead of files.
+struct LiveTexts {
+    LiveChanges changes;                    ///< those wanted now
+    std::optional<std::string> input = {};  ///< standard input, once it was read
+};
+
+/// The text that is read instead of a pattern, if there is one.
+std::optional<SharedWork> text_instead(const LiveTexts& texts, const std::string& name, bool is_first,
+                                       const SharedWork* link) {
+    SharedWork work = link ? *link : SharedWork();
+    if (is_first && texts.changes.text) {
+        work.name = pattern_message_address;
+        work.text = *texts.changes.text;
+        check_text(work, pattern_message_address, "");
+        return work;
+    }
+    if (name != "-" || !texts.input) return std::nullopt;
+    work.name = name;
+    work.text = *texts.input;
+    return work;
+}
+
+/// Sets keys by messages; the options of these keys no longer count. @throws UsageError if one names a file
+void set_keys(const std::map<std::string, std::string>& values, Document& document, OptionValues& options) {
+    std::vector<Setting> settings;
+    for (const auto& [key, value] : values) {
+        settings.push_back(Setting::assignment(set_message_address, key, value));
+    }
+    if (!settings.empty()) document = document.with(settings);
+    for (const Key& key : document.pattern().keys) {
+        if (key.value.source->setting() != set_message_address) continue;
+        if (names_file(key)) refuse_key(key, set_message_address, "");
+        std::erase_if(options, [&](const OptionValue& option) { return option.name == key.name; });
+    }
+}
+
+/// @param live  null for files
+Parts read_parts(const PlayCommand& command, const OptionValues& given, bool quiet, LiveTexts* live = nullptr) {
     Parts parts;
     parts.values = given;
     std::vector<Document>& documents = parts.documents;
@@ -152,7 +194,14 @@ Parts read_parts(const PlayCommand& command, const OptionValues& given, bool qui
         }
         const auto link = read_link_argument(name);
         const SharedWork* work = link ? &*link : nullptr;
-        documents.push_back(load(one, work, quiet));
+        if (const auto instead = live ? text_instead(*live, name, documents.empty(), work) : std::nullopt) {
+            PatternOptions trusting = one;  // the text was checked, or is that of the user
+            trusting.trusts_link = true;
+            documents.push_back(load(trusting, &*instead, quiet));
+        } else {
+            documents.push_back(load(one, work, quiet));
+            if (live && name == "-") live->input = documents.back().source().text();
+        }
         for (const Setting& setting : own) {
             if (setting.key == "variant") continue;
             try {
@@ -173,6 +222,7 @@ Parts read_parts(const PlayCommand& command, const OptionValues& given, bool qui
         if (documents.size() == 1) {
             add_seed(one, parts.values);
             if (work) parts.shared = work->play;
+            if (live) set_keys(live->changes.values, documents.back(), parts.values);
         }
     }
     return parts;
@@ -197,9 +247,13 @@ void play_to_port(const PlayCommand& command, const OptionValues& given, bool qu
     const bool has_arrangement = is_arrangement(command.patterns.front());
     if (has_arrangement) check_arrangement(command, given);
     LiveScore score;
+    LiveTexts texts;
     score.files = [&] { return files_of(command); };
-    score.open = [&, has_arrangement](const Monitor& monitor) {
+    score.open = [&, has_arrangement](const LiveChanges& changes, const Monitor& monitor) {
         if (has_arrangement) {
+            if (changes.text || !changes.values.empty()) {
+                throw UsageError("messages change patterns; arrangements change with their files");
+            }
             try {
                 const auto [arrangement, folder] = read_arrangement_argument(command.patterns.front());
                 return stream_notes(arrangement, given, monitor, folder);
@@ -207,7 +261,8 @@ void play_to_port(const PlayCommand& command, const OptionValues& given, bool qu
                 throw UsageError(error.what());
             }
         }
-        const Parts parts = read_parts(command, given, quiet);
+        texts.changes = changes;
+        const Parts parts = read_parts(command, given, quiet, &texts);
         return blaming_link(parts.shared, given,
                             [&] { return stream_notes(parts.documents, parts.values, monitor); });
     };
@@ -262,6 +317,7 @@ void add_play(CLI::App& app, bool& quiet) {
         "  sikku play hilbert-in-c --canon \"2 -12, 4 -24\" -o canon.mid\n"
         "  sikku play piece.toml -o piece.mid\n"
         "  sikku play hilbert --port FLUID --repeat\n"
+        "  sikku play hilbert --port osc://localhost:57120,listen=9001 --repeat\n"
         "  sikku play dragon --mapping counterpoint --scale blues -o dragon.html\n"
         "  sikku play hilbert -n 40 --anchor piece --from-bar 1000000000 --bars 16 -o piece.musicxml");
     command->callback([options, &quiet] { run(*options, quiet); });

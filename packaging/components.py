@@ -28,6 +28,7 @@ LICENCES = {
     "libdeflate": "MIT",
     "libheif": "LGPL-3.0-or-later",
     "libjpeg-turbo": "IJG AND BSD-3-Clause AND Zlib",
+    "liblo": "LGPL-2.1-or-later",
     "libpng1.6": "libpng-2.0",
     "libwebp": "BSD-3-Clause",
     "libzstd": "BSD-3-Clause OR GPL-2.0-only",

@@ -2,7 +2,7 @@
 
 build_packages=(g++ cmake ninja-build libopenimageio-dev libheif-dev libglm-dev libboost-dev libfmt-dev libcli11-dev
     libtbb-dev zlib1g-dev liblcms2-dev libtomlplusplus-dev nlohmann-json3-dev libpugixml-dev
-    libasound2-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev)
+    libasound2-dev liblo-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev)
 # For tests: the framework, independent readers of the program's outputs, the linters, and the Python module.
 test_packages=(libgtest-dev libxml2-utils librsvg2-bin openimageio-tools qpdf poppler-utils pngcheck
     ghostscript libtiff-tools libimage-exiftool-perl libharfbuzz-bin fonts-lohit-taml fonts-noto-core

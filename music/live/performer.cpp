@@ -104,6 +104,7 @@ public:
     const ScoreHead& head() const { return stream_->head(); }
     Voices& voices() { return voices_; }
     std::int64_t bar() const { return head().meter.bar(); }
+    std::int64_t beat() const { return bar() / head().meter.beats; }
 
 private:
     std::unique_ptr<NoteStream> stream_;
@@ -119,6 +120,7 @@ public:
           port_(port),
           options_(options),
           hooks_(hooks),
+          tells_places_(port.wants_places()),
           ahead_(follows() ? 0 : port.ahead()) {}
 
     PerformReport perform() {
@@ -134,6 +136,8 @@ public:
 private:
     bool follows() const { return options_.clock == ClockMode::follow; }
     bool sends_clock() const { return options_.clock == ClockMode::send; }
+    /// Start, stop and continue; those who lead know them.
+    bool sends_start() const { return sends_clock() || (tells_places_ && !follows()); }
 
     void play() {
         fill();  // the first notes are ready before the time begins
@@ -141,7 +145,7 @@ private:
         begin_pass();
         own_.begin(clock_.now() + ahead_);
         if (follows()) tell("waiting for the clock to start");
-        if (sends_clock()) messages_.push_back({start_byte});
+        if (sends_start()) messages_.push_back({start_byte});
         flush();
         while (!is_done_) {
             hooks_.monitor.check();
@@ -156,7 +160,7 @@ private:
     /// Ends all notes, after the messages already sent.
     void stop() {
         version_->voices().silence(now_, messages_);
-        if (sends_clock()) messages_.push_back({stop_byte});
+        if (sends_start()) messages_.push_back({stop_byte});
         flush();
         if (ahead_ == 0) return;
         for (const Nanoseconds end = own_.time_of(now_); clock_.now() < end;) clock_.sleep_until(end);
@@ -175,9 +179,12 @@ private:
         if (hooks_.report) hooks_.report(text);
     }
 
+    /// When the messages of the last tick are due, for the port.
+    Nanoseconds due() const { return ahead_ > 0 ? own_.time_of(now_) : Port::at_once; }
+
     /// Sends the messages due with the last tick.
     void flush() {
-        if (!messages_.empty()) port_.send(messages_, ahead_ > 0 ? own_.time_of(now_) : Port::at_once);
+        if (!messages_.empty()) port_.send(messages_, due());
         messages_.clear();
     }
 
@@ -249,6 +256,7 @@ private:
         if (fall_ < falls_.size()) tick = std::min(tick, pass_ + falls_[fall_].tick);
         if (end_ && is_last_) tick = std::min(tick, pass_end());
         if (sends_clock()) tick = std::min(tick, clock_tick_);
+        if (tells_places_) tick = std::min(tick, beat_tick_);
         if (next_) tick = std::min(tick, change_);
         return std::max(tick, now_);
     }
@@ -314,9 +322,9 @@ private:
                     followed_.start(std::max(followed_.position(), now_));
                     break;
                 case Received::Kind::stop:
-                    followed_.stop();
                     silence();
-                    tell("stopped by the clock");
+                    if (followed_.has_started()) tell("stopped by the clock");
+                    followed_.stop();
                     break;
                 case Received::Kind::position:
                     if (followed_.has_started()) break;
@@ -347,6 +355,7 @@ private:
         pass_ = now_ - tick;
         forget_window();
         reset_tempo(now_);
+        aim_at_beat(now_);
     }
 
     void forget_window() {
@@ -366,7 +375,7 @@ private:
         const Nanoseconds begin = clock_.now();
         hooks_.pause();
         own_.shift(clock_.now() + ahead_ - begin);
-        if (sends_clock()) messages_.push_back({continue_byte});
+        if (sends_start()) messages_.push_back({continue_byte});
         flush();
     }
 
@@ -411,6 +420,7 @@ private:
         pass_ = tick - next_bar_ * version_->bar();
         version_->voices().prepare(messages_);
         reset_tempo(tick);
+        aim_at_beat(tick);
         if (hooks_.changed) hooks_.changed(next_bar_ + 1);
         take(std::move(first));
         fill();
@@ -435,8 +445,25 @@ private:
         if (end_ && is_last_ && note_ == window_.notes.size() && pass_end() <= tick) end_pass(tick);
         if (!is_done_) fill();
         change_tempo(tick);  // tempo of a window or a pass that begins here
-        if (!is_done_) play_notes(tick);
+        if (!is_done_) {
+            tell_place(tick);
+            play_notes(tick);
+        }
         flush();
+    }
+
+    /// The next beat is the first one from `tick` on.
+    void aim_at_beat(std::int64_t tick) {
+        const std::int64_t beat = version_->beat();
+        beat_tick_ = pass_ + (tick - pass_ + beat - 1) / beat * beat;
+    }
+
+    void tell_place(std::int64_t tick) {
+        if (!tells_places_ || beat_tick_ > tick) return;
+        const std::int64_t place = beat_tick_ - pass_;
+        const std::int64_t bar = version_->bar();
+        port_.send_place({place / bar + 1, static_cast<int>(place % bar / version_->beat()) + 1}, due());
+        aim_at_beat(tick + 1);
     }
 
     void change_tempo(std::int64_t tick) {
@@ -492,6 +519,7 @@ private:
         pass_ = tick;
         forget_window();
         begin_pass();
+        aim_at_beat(tick);
         fill();
     }
 
@@ -505,6 +533,7 @@ private:
     Port& port_;
     PerformOptions options_;
     const PerformHooks& hooks_;
+    bool tells_places_;
     Nanoseconds ahead_;  // time that messages wait in the port
     PerformReport report_;
     OwnTime own_;
@@ -514,6 +543,7 @@ private:
     std::int64_t now_ = 0;         // the last tick that was played
     std::int64_t pass_ = 0;        // tick at which the score begins, or would have begun
     std::int64_t clock_tick_ = 0;  // tick of the next clock message to send
+    std::int64_t beat_tick_ = 0;   // tick of the next beat
     NoteWindow window_;
     bool is_window_ = false;
     bool is_last_ = false;  // no window of this pass follows

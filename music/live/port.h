@@ -45,12 +45,18 @@ struct Received {
     int position = 0;  ///< in sixteenths from the beginning
 };
 
+/// The place of a beat in the score: bar and beat, both counted from 1.
+struct Place {
+    std::int64_t bar = 1;
+    int beat = 1;
+};
+
 /// Thrown if a port cannot be opened, or has disappeared.
 class PortError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A destination of MIDI messages.
+/// A destination of MIDI messages, and perhaps of places.
 class Port {
 public:
     virtual ~Port() = default;
@@ -60,6 +66,10 @@ public:
     /// earlier. `at_once` for ports without ahead(); a port receives it always or never. @throws PortError
     virtual void send(std::span<const Message> messages, Nanoseconds time) = 0;
     static constexpr Nanoseconds at_once = 0;
+    /// True if the port is told each beat, and start, stop and continue also where no clock is sent.
+    virtual bool wants_places() const { return false; }
+    /// Announces a beat. @param time  as for send(), which follows with the notes of that time @throws PortError
+    virtual void send_place(const Place& /*place*/, Nanoseconds /*time*/) {}
     /// Waits until `time`, a message or a signal. @return the messages received since the last call
     /// @throws PortError
     virtual std::vector<Received> wait(Clock& clock, Nanoseconds time) = 0;

@@ -42,8 +42,14 @@ public:
     std::vector<Received> script;      ///< times from the beginning
     Nanoseconds vanishes = INT64_MAX;  ///< after this time
     std::vector<Sent> sent;            ///< times from the beginning
+    bool tells_places = false;
+    std::vector<std::pair<Nanoseconds, std::pair<std::int64_t, int>>> places;  ///< times, bars and beats
 
     Nanoseconds ahead() const override { return ahead_; }
+    bool wants_places() const override { return tells_places; }
+    void send_place(const Place& place, Nanoseconds due) override {
+        places.push_back({ahead_ > 0 ? due - begin_ - ahead_ : time(), {place.bar, place.beat}});
+    }
     void send(std::span<const Message> messages, Nanoseconds due) override {
         if (time() >= vanishes) throw PortError("it has vanished");
         EXPECT_EQ(due == at_once, ahead_ == 0);
@@ -533,6 +539,32 @@ TEST(Performer, ANewVersionBeginsAtTheNextBar) {
 }
 
 /// Until it is ready the old version plays on, without a gap.
+TEST(Performer, BeatsAreToldWithStartAndStop) {
+    for (const Nanoseconds ahead : {Nanoseconds{0}, second / 10}) {
+        Performance one(ahead);
+        one.port.tells_places = true;
+        one.options.times = 2;
+        bool is_given = false;
+        one.hooks.newer = [&]() -> std::unique_ptr<NoteStream> {
+            if (is_given || one.port.time() < 500 * millisecond) return nullptr;
+            is_given = true;
+            MidiScore score = quarters(7, 80);
+            score.head.meter = {7, 8, {}};
+            return stream(score);
+        };
+        one.play(stream(quarters(8)));
+        // A bar of 4/4; then, from the second bar on, of 7/8; then the second pass.
+        std::vector<std::pair<Nanoseconds, std::pair<std::int64_t, int>>> expected;
+        for (int i = 0; i < 4; ++i) expected.push_back({i * second / 2, {1, i + 1}});
+        for (int i = 0; i < 7; ++i) expected.push_back({2 * second + i * second / 4, {2, i + 1}});
+        for (int i = 0; i < 14; ++i) expected.push_back({15 * second / 4 + i * second / 4, {i / 7 + 1, i % 7 + 1}});
+        EXPECT_EQ(one.port.places, expected);
+        EXPECT_EQ(times_of(one.port.sent, start_byte), std::vector<Nanoseconds>{0});
+        EXPECT_EQ(times_of(one.port.sent, stop_byte), std::vector<Nanoseconds>{29 * second / 4});
+        EXPECT_TRUE(times_of(one.port.sent, clock_byte).empty());
+    }
+}
+
 TEST(Performer, ANewVersionThatIsNotReadyWaits) {
     Performance one;
     bool is_given = false;

@@ -120,7 +120,7 @@ const std::vector<Room>& rooms() {
         {"music/melody", "engine/* music/scale music/score", ""},
         {"music/form", "engine/* music/scale music/score music/melody", ""},
         {"music", "engine engine/* music/*", ""},
-        {"music/live", "engine/* music music/score", "alsa posix"},
+        {"music/live", "engine/* music music/score", "alsa liblo posix"},
         {"cli", "engine engine/* art art/* music music/*", "cli11 json toml posix"},
         {"python",
          "engine engine/* art art/gallery art/kolam art/provenance art/reading art/workbook music music/score",
@@ -144,6 +144,7 @@ bool allows(const std::string& rooms, const std::string& room) {
 std::string library_of(const std::string& name) {
     static const std::map<std::string, std::string> folders = {{"alsa", "alsa"},
                                                                {"boost", "boost"},
+                                                               {"lo", "liblo"},
                                                                {"fmt", "fmt"},
                                                                {"glm", "glm"},
                                                                {"oneapi", "tbb"},
@@ -159,14 +160,28 @@ std::string library_of(const std::string& name) {
                                                                {"linux", "posix"},
                                                                {"pybind11", "pybind11"},
                                                                {"fontconfig", "fontconfig"}};
-    static const std::map<std::string, std::string> files = {
-        {"zlib.h", "zlib"},    {"lcms2.h", "lcms"},     {"fcntl.h", "posix"},
-        {"unistd.h", "posix"}, {"dlfcn.h", "posix"},    {"pugixml.hpp", "pugixml"},
-        {"link.h", "posix"},   {"signal.h", "posix"},   {"spawn.h", "posix"},
-        {"sched.h", "posix"},  {"poll.h", "posix"},     {"termios.h", "posix"},
-        {"immintrin.h", ""},   {"emmintrin.h", ""},     {"lcms2_plugin.h", "lcms"},
-        {"dirent.h", "posix"}, {"pthread.h", "posix"},  {"emscripten.h", "emscripten"},
-        {"hb.h", "harfbuzz"},  {"hb-ot.h", "harfbuzz"}, {"fribidi.h", "fribidi"}};
+    static const std::map<std::string, std::string> files = {{"zlib.h", "zlib"},
+                                                             {"lcms2.h", "lcms"},
+                                                             {"fcntl.h", "posix"},
+                                                             {"unistd.h", "posix"},
+                                                             {"dlfcn.h", "posix"},
+                                                             {"pugixml.hpp", "pugixml"},
+                                                             {"link.h", "posix"},
+                                                             {"signal.h", "posix"},
+                                                             {"spawn.h", "posix"},
+                                                             {"sched.h", "posix"},
+                                                             {"poll.h", "posix"},
+                                                             {"termios.h", "posix"},
+                                                             {"immintrin.h", ""},
+                                                             {"emmintrin.h", ""},
+                                                             {"lcms2_plugin.h", "lcms"},
+                                                             {"netdb.h", "posix"},
+                                                             {"dirent.h", "posix"},
+                                                             {"pthread.h", "posix"},
+                                                             {"emscripten.h", "emscripten"},
+                                                             {"hb.h", "harfbuzz"},
+                                                             {"hb-ot.h", "harfbuzz"},
+                                                             {"fribidi.h", "fribidi"}};
     if (const auto file = files.find(name); file != files.end()) return file->second;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos) return name.find('.') == std::string::npos ? "" : name;
