@@ -23,7 +23,7 @@ CHOICES = {
     "unit": ["1/8", "1/16", "1/4", "1/12", "3/16", "1/20"],
     "meter": ["4/4", "3/4", "6/8", "7/8", "5/4", "2+2+3/8", "9/8"],
     "instrument": ["flute", "clarinet", "violin", "church organ", "harpsichord", "cello", "tenor sax", "piano"],
-    "rhythm": ["x..x..x.", "E(5,8)", "x.x.~x.x", "adi", "x.x.x.~~ / X..x"],
+    "rhythm": ["x..x..x.", "E(5,8)", "x.x.~x.x", "adi", "x.x.x.~~ / X..x", "(x.o.)3 x?x?60Xx", "xo.x / X..o by level"],
     "harmony": ["drone", "triads", "progression I-vi-ii-V7", "progression C-Am7-F/A-Gsus4"],
     "accompaniment": ["oom-pah on piano", "arpeggio on harp", "alberti on piano", "strum on nylon guitar"],
     "canon": ["1 -12", "2 fifth below, 1 octave below"],
@@ -33,7 +33,10 @@ CHOICES = {
     "articulation": ["detached"],
     "range": ["reflect C3-C6", "fold C2-C7"],
     "leaps": ["7"],
-    "form": ["A B A"],
+    "form": ["A B A", "A A+2 Ai", "B2 Ar A*2"],
+    "breath": ["1/8 by level", "bar"],
+    "climax": ["0.6"],
+    "tempo": ["84 Andante con moto", "Allegro"],
 }
 FLAGS = {"syllables": ["degrees", "sargam"], "score": ["concert"]}
 
@@ -98,6 +101,17 @@ def has_silent_bar(file: pathlib.Path) -> bool:
     return any(all(measure.find("note/pitch") is None for measure in bar) for bar in zip(*parts))
 
 
+def has_crossing_beam(file: pathlib.Path) -> bool:
+    """True if a beam leads over the border of a tuplet."""
+    for note in xml.etree.ElementTree.parse(file).iter("note"):
+        beam = note.findtext("beam[@number='1']")
+        ends = note.find("notations/tuplet[@type='stop']") is not None and beam in ("begin", "continue")
+        begins = note.find("notations/tuplet[@type='start']") is not None and beam in ("continue", "end")
+        if ends or begins:
+            return True
+    return False
+
+
 def compare(folder: pathlib.Path, count: int) -> None:
     notes = left_out = 0
     for number in range(count):
@@ -106,8 +120,10 @@ def compare(folder: pathlib.Path, count: int) -> None:
         notes += sum(ours.values())
         theirs = notes_of(folder / f"{number}.read.musicxml")
         assert ours == theirs, f"MuseScore, sikku {what}: {list((ours - theirs).items())[:4]} became {list((theirs - ours).items())[:4]}"
-        # In additive meters, Verovio gives no time to rests of a whole bar.
-        if "+" in what.partition("--meter=")[2].partition(" ")[0] and has_silent_bar(folder / f"{number}.musicxml"):
+        # In additive meters, Verovio gives no time to rests of a whole bar; it misreads beams that cross tuplets.
+        own = folder / f"{number}.musicxml"
+        is_additive = "+" in what.partition("--meter=")[2].partition(" ")[0]
+        if (is_additive and has_silent_bar(own)) or has_crossing_beam(own):
             left_out += 1
             continue
         verovio: Counter[Any] = Counter()
@@ -115,6 +131,7 @@ def compare(folder: pathlib.Path, count: int) -> None:
             # Verovio counts in binary fractions.
             verovio[(Fraction(onset).limit_denominator(240), step, alter, octave)] += 1
         assert ours == verovio, f"Verovio, sikku {what}: {list((ours - verovio).items())[:4]} became {list((verovio - ours).items())[:4]}"
+    assert 4 * left_out < count, f"{left_out} scores are left out for Verovio"
     print(f"readers: MuseScore and Verovio read the onset, letter, sign and octave of {notes} notes in {count} random scores ({left_out} of them without Verovio)")
 
 
