@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import random
 import xml.etree.ElementTree
 from collections.abc import Iterator
@@ -31,6 +32,8 @@ KEYS = [
     {"harmony": "progression I-vi-ii-V7", "accompaniment": "walking bass on acoustic bass"},
     {"leaps": "6", "velocity": "by y"},
     {"rhythm": "x.x. / X..x", "phrases": "2"},
+    {"rhythm": "xo.x?X?30. / x.x?~~ / X... by level", "phrases": "2", "breath": "1/8 by level"},
+    {"rhythm": "(x.o?)2 x?x", "seed": "7"},
     {"vertical": "glissando", "velocity": "by y"},
     {"vertical": "voice", "velocity": "by y"},
     {"mapping": "counterpoint", "velocity": "by y"},
@@ -52,9 +55,10 @@ def cases() -> Iterator[tuple[str, dict[str, str], sikku.Pattern | sikku.Arrange
     chance = random.Random(36)
     found = 0
     accepted = set()
+    wanted = itertools.cycle(KEYS)
     while found < WINDOWS:
         name = chance.choice(PIECES + ARRANGEMENTS)
-        keys = {} if name in ARRANGEMENTS else chance.choice(KEYS)
+        keys = {} if name in ARRANGEMENTS else next(wanted)
         pattern = sikku.load_arrangement(name) if name in ARRANGEMENTS else sikku.load(name)
         try:
             whole = pattern.play("mid", **keys)
