@@ -174,8 +174,8 @@ std::int64_t times_of(const LiveOptions& options) {
     return times;
 }
 
-std::unique_ptr<live::Port> open_port(const std::string& name, bool has_input, live::ChangeSink change) {
-    if (live::is_osc_address(name)) return live::open_osc_port(live::read_osc_address(name), std::move(change));
+std::unique_ptr<live::Port> open_port(const std::string& name, bool has_input, const live::ChangeSink& change) {
+    if (live::is_osc_address(name)) return live::open_osc_port(live::read_osc_address(name), change);
     std::error_code error;
     const bool is_pipe = std::filesystem::is_fifo(name, error);
     if (is_pipe || name.find('/') != std::string::npos) return live::open_device(name, has_input);

@@ -7,7 +7,7 @@ bool has_osc() {
     return false;
 }
 
-std::unique_ptr<Port> open_osc_port(const OscAddress&, ChangeSink) {
+std::unique_ptr<Port> open_osc_port(const OscAddress&, const ChangeSink&) {
     throw PortError("this program was built without liblo: install liblo-dev and build it again");
 }
 

@@ -177,8 +177,8 @@ bool has_osc() {
     return true;
 }
 
-std::unique_ptr<Port> open_osc_port(const OscAddress& address, ChangeSink change) {
-    return std::make_unique<OscPort>(address, std::move(change));
+std::unique_ptr<Port> open_osc_port(const OscAddress& address, const ChangeSink& change) {
+    return std::make_unique<OscPort>(address, change);
 }
 
 }  // namespace sikku::live

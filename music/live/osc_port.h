@@ -44,6 +44,6 @@ bool has_osc();
 /// Opens a port that sends messages in bundles with time tags, and receives clock messages and changes if the address
 /// says where it listens. It does not matter whether a program receives them. @param change  called by wait()
 /// @throws PortError for unknown hosts, if it cannot listen there, or if the program was built without liblo
-std::unique_ptr<Port> open_osc_port(const OscAddress& address, ChangeSink change);
+std::unique_ptr<Port> open_osc_port(const OscAddress& address, const ChangeSink& change);
 
 }  // namespace sikku::live
