@@ -29,7 +29,7 @@ void add_live_options(CLI::App& command, LiveOptions& options);
 /// @param output  file of `-o`, or empty
 bool is_live(const LiveOptions& options, const std::string& output);
 
-/// What messages have changed in the first pattern.
+/// Changes that messages made to the first pattern.
 struct LiveChanges {
     std::optional<std::string> text;            ///< replaces that of the file
     std::map<std::string, std::string> values;  ///< replace those of its keys, and of options

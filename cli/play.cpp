@@ -138,7 +138,7 @@ struct Parts {
     OptionValues shared;  ///< those of the link
 };
 
-/// What live music reads instead of files.
+/// Texts that live music reads instead of files.
 struct LiveTexts {
     LiveChanges changes;                    ///< those wanted now
     std::optional<std::string> input = {};  ///< standard input, once it was read

@@ -26,8 +26,7 @@ public:
         if (notes.size() > most_block_notes - block_.notes.size()) {
             throw ScoreError(
                 fmt::format("parts in forms, with a climax, reversed, repeated or strict have at most {} notes; "
-                            "`excerpt` or a smaller "
-                            "n has fewer",
+                            "`excerpt` or a smaller n has fewer",
                             most_block_notes));
         }
         for (const Note& note : notes) {
@@ -197,6 +196,15 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     sort(block.notes);
 }
 
+/// The ticks at which sub-curves begin.
+std::vector<std::int64_t> begins_of(const Block& block) {
+    std::vector<std::int64_t> begins = {0};
+    for (const std::int64_t end : block.ends) {
+        if (end > begins.back() && end < block.length) begins.push_back(end);
+    }
+    return begins;
+}
+
 /// Reverses a section, whose breath stays at its end.
 void reverse_section(Block& piece, const Melody& melody) {
     const std::int64_t length = piece.length;
@@ -348,10 +356,7 @@ void reverse(Block& block) {
 
 Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, const std::vector<FormSection>& form,
               std::span<const std::int64_t> ends) {
-    std::vector<std::int64_t> borders = {0};
-    for (const std::int64_t end : block.ends) {
-        if (end > borders.back() && end < block.length) borders.push_back(end);
-    }
+    std::vector<std::int64_t> borders = begins_of(block);
     // The last sub-curve breathes like the others if more follows it.
     borders.push_back(block.next);
     // A rest after the last sub-curve is not a section.
@@ -398,10 +403,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
 }
 
 void raise_to_climax(Block& block, const Melody& melody, double share) {
-    std::vector<std::int64_t> begins = {0};
-    for (const std::int64_t end : block.ends) {
-        if (end > begins.back() && end < block.length) begins.push_back(end);
-    }
+    const std::vector<std::int64_t> begins = begins_of(block);
     const auto phrase_at = [&](std::int64_t tick) {
         return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), tick) - begins.begin()) - 1;
     };

@@ -19,7 +19,7 @@ public:
     /// @param time  by the clock of the system, since 1970; 0: at once
     explicit OscBundles(Nanoseconds time);
     void add(const char* address, std::initializer_list<std::variant<int, float>> values = {});
-    /// One for each packet; empty if there are no messages.
+    /// The bundles, each for a packet of its own; none if no message was added.
     const std::vector<std::string>& bundles() const { return bundles_; }
 
 private:

@@ -147,7 +147,7 @@ private:
         const Nanoseconds now = clock.now();
         for (int i = 0; i < most_packets; ++i) {
             const ssize_t size = recv(listener_->get(), packet_.data(), packet_.size(), MSG_DONTWAIT);
-            if (size < 0) return;  // there is no other, or a packet was damaged
+            if (size < 0) return;  // the queue is empty, or the packet was damaged
             std::vector<Received> received;
             read_osc(std::span(packet_).first(static_cast<std::size_t>(size)), received, change_);
             for (const Received& one : received) hold(one, now);

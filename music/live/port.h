@@ -66,7 +66,7 @@ public:
     /// earlier. `at_once` for ports without ahead(); a port receives it always or never. @throws PortError
     virtual void send(std::span<const Message> messages, Nanoseconds time) = 0;
     static constexpr Nanoseconds at_once = 0;
-    /// True if the port is told each beat, and start, stop and continue also where no clock is sent.
+    /// True if the port takes every beat, and takes start, stop and continue even if no clock is sent.
     virtual bool wants_places() const { return false; }
     /// Announces a beat. @param time  as for send(), which follows with the notes of that time @throws PortError
     virtual void send_place(const Place& /*place*/, Nanoseconds /*time*/) {}

@@ -494,8 +494,7 @@ private:
     void read_tempo() {
         read_key("tempo",
                  "expected quarter notes a minute, from 4 to 1000: `96`, `96 Andante` (up to 60 letters without "
-                 "digits and "
-                 "quotation marks), or a word such as `Andante`",
+                 "digits and quotation marks), or a word such as `Andante`",
                  [&](std::string_view text) {
                      // A curve, or words, follow after a blank.
                      const std::size_t end = std::min(text.find(' '), text.size());

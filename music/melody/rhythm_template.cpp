@@ -69,10 +69,10 @@ public:
 
     /// @param problem  receives the problem if the result is empty
     RhythmTemplate read(std::string& problem) {
-        const bool is_good = read_part(0) && at_ == text_.size() && problem_.empty();
-        if (is_good && result_.hits.empty()) problem = limits();
+        const bool is_read = read_part(0) && at_ == text_.size();
+        if (is_read && !result_.hits.empty()) return std::move(result_);
+        if (is_read) fail(limits());
         if (!problem_.empty()) problem = problem_;
-        if (is_good && !result_.hits.empty()) return std::move(result_);
         return {};
     }
 

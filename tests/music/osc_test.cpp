@@ -341,7 +341,7 @@ struct OwnPort {
                       [this](PatternChange change) { changes.push_back(std::move(change)); });
     MonotonicClock clock;
 
-    /// What the port receives in a tenth of a second.
+    /// Messages that the port receives within a tenth of a second.
     std::vector<Received> received() {
         std::vector<Received> all;
         for (const Nanoseconds end = clock.now() + second / 10; clock.now() < end;) {
