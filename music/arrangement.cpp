@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -107,6 +108,8 @@ public:
                 tracks = &value;
             } else if (name == "form") {
                 form = &value;
+            } else if (name == "section") {
+                collect([&, &value = value] { read_sections(value); });
             } else {
                 collect([&, &key = key, &value = value] { read_head(name, key, value); });
             }
@@ -122,7 +125,8 @@ public:
         throw_if_any();
         add_remarks();
         check_sections(*tracks, form);
-        read_frame();
+        throw_if_any();
+        read_frames();
         return std::move(result_);
     }
 
@@ -210,6 +214,28 @@ private:
         fail(value, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(near)));
     }
 
+    /// Reads the keys of sections.
+    void read_sections(const FileValue& value) {
+        if (value.type != FileValue::Type::list) fail(value, "section: expected [[section]] tables");
+        for (const FileValue& one : value.list) {
+            if (one.type != FileValue::Type::table) fail(value, "section: expected [[section]] tables");
+            const auto name = std::find_if(one.table.begin(), one.table.end(),
+                                           [](const auto& entry) { return entry.key == "name"; });
+            if (name == one.table.end()) fail(one, "this section has no name, a letter such as name = \"B\"");
+            const char letter = section_of("name", name->value);
+            const auto [section, is_new] = sections_.try_emplace(letter);
+            if (!is_new) fail(one, fmt::format("two sections are named {}", letter));
+            section->second.place = &name->value;
+            for (const auto& [key, inner] : one.table) {
+                const std::string known = folded(key);
+                if (key == "name") continue;
+                if (known == "ending") fail(inner, "ending belongs to the whole piece, above the first track");
+                if (!music_key(known)) refuse_key(inner, key, false);
+                section->second.settings.push_back({part_setting(known, text_of(known, inner)), &inner});
+            }
+        }
+    }
+
     void read_patterns(const FileValue& value) {
         if (value.type != FileValue::Type::list) fail(value, "pattern: expected [[pattern]] tables");
         for (const FileValue& one : value.list) {
@@ -280,7 +306,7 @@ private:
     static char section_of(const std::string& key, const FileValue& value) {
         const auto letters = read_form(text_of(key, value));
         if (letters.size() != 1 || letters.front().ending != Ending::none || letters.front().is_changed()) {
-            fail(value, "section: expected a letter from A to Z");
+            fail(value, key + ": expected a letter from A to Z");
         }
         return static_cast<char>('A' + letters.front().letter);
     }
@@ -315,10 +341,18 @@ private:
         if (value.type != FileValue::Type::table) fail(value, "track: expected [[track]] tables");
         TrackKeys track;
         const std::size_t before = errors_.size();
-        track.settings = shared_;
         for (const auto& [key, one] : value.table) {
             collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
+        std::vector<PlacedSetting> settings = shared_;
+        // The tempo of a section is that of the score.
+        if (const auto section = sections_.find(track.section); section != sections_.end()) {
+            std::copy_if(section->second.settings.begin(), section->second.settings.end(),
+                         std::back_inserter(settings),
+                         [](const PlacedSetting& one) { return one.setting.key != "tempo"; });
+        }
+        settings.insert(settings.end(), track.settings.begin(), track.settings.end());
+        track.settings = std::move(settings);
         if (track.pattern.empty() && errors_.size() > before) return;
         if (track.pattern.empty()) fail(value, "this track has no pattern");
         const NamedPattern& found = pattern(track.pattern, *track.pattern_value);
@@ -402,6 +436,12 @@ private:
                          : fmt::format("section {} is not in the form of the piece", section));
             }
         }
+        for (const auto& [letter, section] : sections_) {
+            const bool is_played =
+                std::any_of(result_.form.begin(), result_.form.end(),
+                            [&, &letter = letter](const FormSection& one) { return one.letter == letter - 'A'; });
+            if (!is_played) fail(*section.place, fmt::format("section {} is not in the form of the piece", letter));
+        }
         for (const FormSection& one : result_.form) {
             const bool has_tracks =
                 std::any_of(result_.tracks.begin(), result_.tracks.end(),
@@ -410,18 +450,38 @@ private:
         }
     }
 
-    /// Reads tempo and meter of the head.
-    void read_frame() {
-        Document head = result_.tracks.front().document;
-        for (const PlacedSetting& one : shared_) head = head.with({one.setting});
-        Diagnostics diagnostics;
-        const Melody melody = read_melody(head.pattern(), {}, diagnostics);
-        for (const PlacedSetting& one : shared_) {
-            if (one.setting.key == "tempo") {
-                result_.tempo = melody.tempo;
-                result_.tempo_words = melody.tempo_words;
+    /// Tempo and meter, as far as settings state them.
+    static SectionFrame frame_of(const std::vector<PlacedSetting>& settings) {
+        static const Document plain = parse("frame", "axiom: F\n");
+        SectionFrame frame;
+        for (const PlacedSetting& one : settings) {
+            const std::string& key = one.setting.key;
+            if (key != "tempo" && key != "meter") continue;
+            Diagnostics diagnostics;
+            const Melody melody = read_melody(with(plain, one).pattern(), {}, diagnostics);
+            if (key == "meter") {
+                frame.meter = melody.meter;
+            } else {
+                frame.tempo = melody.tempo;
+                frame.tempo_words = melody.tempo_words;
             }
-            if (one.setting.key == "meter") result_.meter = melody.meter;
+        }
+        return frame;
+    }
+
+    /// Reads tempo and meter of the piece and its sections.
+    void read_frames() {
+        const SectionFrame piece = frame_of(shared_);
+        result_.tempo = piece.tempo;
+        result_.tempo_words = piece.tempo_words;
+        result_.meter = piece.meter;
+        for (const auto& [letter, section] : sections_) {
+            for (const PlacedSetting& one : section.settings) {
+                const bool follows = one.setting.key == "tempo" && one.setting.value.find(" by ") != std::string::npos;
+                if (follows) fail(*one.value, "tempo: only the tempo of the whole piece can follow a curve");
+            }
+            const SectionFrame frame = frame_of(section.settings);
+            if (frame.tempo || frame.meter) result_.frames.emplace(letter, frame);
         }
     }
 
@@ -432,6 +492,11 @@ private:
     std::vector<std::string> inner_;
     std::map<std::string, std::vector<std::string>> replaced_;  ///< keys by pattern
     std::vector<PlacedSetting> shared_;
+    struct Section {
+        std::vector<PlacedSetting> settings;
+        const FileValue* place = nullptr;
+    };
+    std::map<char, Section> sections_;
     std::vector<FileError> errors_;
     Arrangement result_;
 };

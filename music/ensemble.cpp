@@ -185,6 +185,22 @@ public:
         return report_;
     }
 
+    std::vector<FrameChange> changes() {
+        read();
+        repeat();
+        std::vector<FrameChange> changes;
+        std::int64_t at = 0;
+        Frame before = ensemble_.frame(0);
+        for (const FormSection& section : ensemble_.form) {
+            const auto letter = static_cast<char>('A' + section.letter);
+            const Frame frame = ensemble_.frame_of_section(letter);
+            if (at > 0 && frame != before) changes.push_back({at, frame});
+            before = frame;
+            at += section_length(letter);
+        }
+        return changes;
+    }
+
 private:
     void read() {
         std::int64_t leading = 0;            // length of the last part other than a bass, in its own ticks
@@ -193,7 +209,7 @@ private:
             const Layout& layout = player.melody.layout;
             WholePart part;
             part.player = &player;
-            part.start = start_of(player, ensemble_.meter);
+            part.start = start_of(player, ensemble_.meter_of(player));
             PlayOptions options = playing_;
             options.drums_from = player.drums_from;
             options.chords_from = player.chords_from;
@@ -219,7 +235,8 @@ private:
                     "{}; `excerpt: 1-64` reads a part of it",
                     error.what()));
             }
-            if (one.past && has_excerpt(player) && (!layout.form.empty() || layout.climax)) refuse_excerpt(player);
+            if (one.past && has_excerpt(player) && (!layout.form.empty() || layout.thinning > 0 || layout.climax))
+                refuse_excerpt(player);
             add(report_, one);
             report_.moved_of.push_back(one.moved);
             if (!player.is_bass) leading = part.block.length;
@@ -229,6 +246,7 @@ private:
                 part.block = in_form(part.block, player.document.grammar(), player.melody, layout.form,
                                      player.is_bass ? sections : std::vector<std::int64_t>());
             }
+            if (layout.thinning > 0) thin_out(part.block, player.melody, layout.thinning);
             if (layout.climax && !part.block.notes.empty()) {
                 raise_to_climax(part.block, player.melody, *layout.climax);
             }
@@ -252,7 +270,7 @@ private:
             std::int64_t& end = longest[part.player->section];
             if (layout.loop == Loop::fill) continue;
             if (layout.loop == Loop::common && part.period > 0) {
-                common[part.player->section].meet(part.start, part.period, ensemble_.meter.bar());
+                common[part.player->section].meet(part.start, part.period, ensemble_.meter_of(*part.player).bar());
                 continue;
             }
             end = std::max(end, part.repeats > 1 ? part.last() : part.start + part.block.length);
@@ -294,7 +312,7 @@ private:
             end =
                 std::max(end, std::min(part.until, part.repeats > 1 ? part.last() : part.start + part.block.length));
         }
-        const std::int64_t bar = ensemble_.meter.bar();
+        const std::int64_t bar = ensemble_.frame_of_section(section).meter.bar();
         return (end + bar - 1) / bar * bar;
     }
 
@@ -361,7 +379,7 @@ private:
                                                  [&](const FormNote& note) { return !is_drum(parts_[i], note); });
         const std::vector<FormNote> drums(first, notes.end());
         notes.erase(first, notes.end());
-        report_.moved_by_strictness += sikku::make_strict(fixed, notes, melody, ensemble_.meter);
+        report_.moved_by_strictness += sikku::make_strict(fixed, notes, melody, ensemble_.bar_lines());
         notes.insert(notes.end(), drums.begin(), drums.end());
         report_.is_strict = true;
     }
@@ -442,6 +460,22 @@ PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOp
     return options;
 }
 
+Frame Ensemble::frame_of_section(char section) const {
+    Frame frame{tempo, tempo_words, meter};
+    const auto stated = frames.find(section);
+    if (stated == frames.end()) return frame;
+    if (stated->second.tempo) {
+        frame.tempo = *stated->second.tempo;
+        frame.tempo_words = stated->second.tempo_words;
+    }
+    if (stated->second.meter) frame.meter = *stated->second.meter;
+    return frame;
+}
+
+std::vector<FrameChange> frame_changes(const Ensemble& ensemble, const PlayOptions& whole) {
+    return ensemble.frames.empty() ? std::vector<FrameChange>() : WholeScore(ensemble, whole).changes();
+}
+
 bool Ensemble::needs_whole() const {
     return !form.empty() || std::any_of(players.begin(), players.end(),
                                         [](const Player& player) { return player.melody.layout.needs_whole(); });
@@ -477,6 +511,27 @@ bool Ensemble::has_tempo_ratio() const {
                        [](const Player& player) { return !player.melody.layout.tempo.is_one(); });
 }
 
+namespace {
+
+/// The ticks that last some seconds from a tick on.
+double ticks_after(const Ensemble& ensemble, std::int64_t from, double seconds) {
+    const auto ticks_in = [](double time, double tempo) {
+        return time * tempo / 60 * static_cast<double>(ticks_per_quarter);
+    };
+    double tempo = ensemble.frame(from).tempo;
+    double ticks = 0;
+    for (const FrameChange& change : changes_after(ensemble.changes, from)) {
+        const double until = static_cast<double>(change.onset) - ticks;
+        if (ticks_in(seconds, tempo) <= until) break;
+        seconds -= until / ticks_in(1, tempo);
+        ticks = static_cast<double>(change.onset);
+        tempo = change.frame.tempo;
+    }
+    return ticks + ticks_in(seconds, tempo);
+}
+
+}  // namespace
+
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor) {
     PlayOptions playing;
     playing.most_voices = most_voices;
@@ -500,9 +555,19 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
         from -= playing.ahead;
     }
     playing.from = from.convert_to<std::int64_t>();
-    if (options.bars > 0) playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
+    if (!ensemble.changes.empty()) {
+        const BarLines bars = ensemble.bar_lines();
+        std::int64_t longest = bar;
+        for (const FrameChange& change : ensemble.changes) longest = std::max(longest, change.frame.meter.bar());
+        const std::int64_t most_bars = (INT64_MAX / 8) / longest;
+        const std::int64_t first = std::min(options.from_bar - 1, most_bars);
+        playing.from = bars.onset(first);
+        if (options.bars > 0) playing.to = bars.onset(first + std::min(options.bars, most_bars));
+    } else if (options.bars > 0) {
+        playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
+    }
     if (options.seconds > 0) {
-        const double ticks = options.seconds * ensemble.tempo / 60 * static_cast<double>(ticks_per_quarter);
+        const double ticks = ticks_after(ensemble, playing.from, options.seconds);
         playing.to = std::min(playing.to, playing.from + static_cast<std::int64_t>(std::min(ticks, 4e18)));
     }
     return playing;
@@ -517,8 +582,9 @@ EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, 
     EnsembleReport report = play_into(ending);
     const std::int64_t most = playing.to < INT64_MAX ? playing.to - playing.from : INT64_MAX;
     // An excerpt has an ending only if it contains the end of the whole, or if one is requested.
-    report.end = report.end < most || ensemble.ends_excerpts ? ending.finish(report.end, ensemble.meter, most)
-                                                             : ending.finish_as_cut(report.end);
+    report.end = report.end < most || ensemble.ends_excerpts
+                     ? ending.finish(report.end, ensemble.bar_lines().from(playing.from), most)
+                     : ending.finish_as_cut(report.end);
     return report;
 }
 

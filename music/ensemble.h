@@ -3,8 +3,11 @@
 
 #include "music/melody/layout.h"
 #include "music/players.h"
+#include "music/score/bar_lines.h"
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace sikku {
@@ -16,9 +19,20 @@ struct Ensemble {
     double tempo = 120;             ///< quarters a minute
     std::string tempo_words;        ///< printed before it; may be empty
     Meter meter;
+    std::map<char, SectionFrame> frames{};  ///< tempo and meter of sections that state them
+    std::vector<FrameChange> changes{};     ///< of tempo and meter, at the bar lines where sections begin
     Close close = Close::none;
     bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole
 
+    BarLines bar_lines() const { return {meter, changes}; }
+    /// Tempo and meter from a tick on.
+    Frame frame(std::int64_t tick) const { return frame_at({tempo, tempo_words, meter}, changes, tick); }
+    /// Tempo and meter of a section; 0: those of the score.
+    Frame frame_of_section(char section) const;
+    /// The meter in which the bars of a player are counted.
+    Meter meter_of(const Player& player) const { return frame_of_section(player.section).meter; }
+    /// Ticks before the end in which the tempo falls: two bars.
+    std::int64_t ritardando() const { return 2 * (changes.empty() ? meter : changes.back().frame.meter).bar(); }
     /// True if what is played ends with `close`, whatever it contains.
     bool has_ending(const PlayOptions& playing) const;
     /// True if whole parts must be known before the first note is played.
@@ -47,10 +61,14 @@ struct EnsembleReport : PlayReport {
     bool has_own_ranges = false;
 };
 
+/// The changes of tempo and meter in a score of sections. The parts are read for it, whose lengths it depends on, if
+/// sections state any. @param whole  the whole score. @throws as play_all()
+std::vector<FrameChange> frame_changes(const Ensemble& ensemble, const PlayOptions& whole);
+
 /// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);
 
-/// Tick of the score at which a part begins.
+/// Tick of the score, or of its section, at which a part begins. @param meter  of the score or the section
 std::int64_t start_of(const Player& player, const Meter& meter);
 
 /// The piece of the score in ticks of a part. If `from` is not below `to`, the part is silent there.

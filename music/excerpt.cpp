@@ -77,18 +77,24 @@ Ensemble without_excerpts(Ensemble ensemble) {
 }
 
 ExcerptContext bars_around(const Ensemble& ensemble, const PlayOptions& excerpt) {
-    constexpr std::int64_t bars = 8;  // hairpins have four
+    constexpr std::int64_t around = 8;  // hairpins have four
+    const BarLines bars = ensemble.bar_lines();
+    std::int64_t first = std::max<std::int64_t>(0, bars.number(excerpt.from) - around);
     // Where a quarter begins, too, as the tempo follows quarters.
-    const std::int64_t step = std::lcm(ensemble.meter.bar(), ticks_per_quarter);
-    const std::int64_t lead = (bars * ensemble.meter.bar() + step - 1) / step * step;
+    while (bars.onset(first) % ticks_per_quarter != 0) --first;
     ExcerptContext context{excerpt, false};
-    context.playing.from = std::max<std::int64_t>(0, excerpt.from / step * step - lead);
-    if (excerpt.to < INT64_MAX - lead) context.playing.to = excerpt.to + lead;
+    context.playing.from = bars.onset(first);
+    const std::int64_t after = around * bars.length(excerpt.to);
+    if (excerpt.to < INT64_MAX - after) context.playing.to = excerpt.to + after;
     return context;
 }
 
 ExcerptContext context_of(const Ensemble& ensemble, const PlayOptions& excerpt, double most_symbols) {
-    if (excerpt.ahead != 0 || !is_soon_played(ensemble, most_symbols)) return bars_around(ensemble, excerpt);
+    // The bars of sections are known only with the whole.
+    const bool has_sections = !ensemble.changes.empty();
+    if (!has_sections && (excerpt.ahead != 0 || !is_soon_played(ensemble, most_symbols))) {
+        return bars_around(ensemble, excerpt);
+    }
     ExcerptContext context{excerpt};
     context.playing.from = 0;
     context.playing.to = INT64_MAX;

@@ -29,8 +29,8 @@ void HeldEnding::notes(std::span<const Note> notes) {
     if (!passing_.empty()) sink_.notes(passing_);
 }
 
-std::int64_t HeldEnding::finish(std::int64_t end, const Meter& meter, std::int64_t most) {
-    const std::int64_t bar = meter.bar();
+std::int64_t HeldEnding::finish(std::int64_t end, const BarLines& bars, std::int64_t most) {
+    const std::int64_t bar = bars.length(std::max<std::int64_t>(0, end - 1));
     std::map<int, std::int64_t> onsets;  // onset of the last note, by line
     std::int64_t last_onset = 0;
     for (const auto& [voice, note] : last_) {
@@ -39,7 +39,7 @@ std::int64_t HeldEnding::finish(std::int64_t end, const Meter& meter, std::int64
         onsets[line] = std::max(onsets[line], note->onset);
         last_onset = std::max(last_onset, note->onset);
     }
-    std::int64_t until = (end + bar - 1) / bar * bar;
+    std::int64_t until = bars.next(end);
     if (2 * (until - last_onset) < bar) until += bar;
     until = std::max(end, std::min(until, most));
     for (auto& [voice, last] : last_) {

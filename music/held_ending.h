@@ -29,7 +29,7 @@ public:
     /// @param end  end of the score, in ticks
     /// @param most  limit of the new end
     /// @return the end of the score
-    std::int64_t finish(std::int64_t end, const Meter& meter, std::int64_t most);
+    std::int64_t finish(std::int64_t end, const BarLines& bars, std::int64_t most);
     /// Forwards the notes held back as they are. @return `end`
     std::int64_t finish_as_cut(std::int64_t end);
 

@@ -92,7 +92,9 @@ ExpressionSink::ExpressionSink(const Ensemble& ensemble, Use use) : ensemble_(en
         };
         follow(expression.velocity, velocity);
         auto& bender = benders_.emplace_back();
-        if (!expression.gamakas.empty()) bender.emplace(player.melody, ensemble.tempo);
+        if (!expression.gamakas.empty()) {
+            bender.emplace(player.melody, ensemble.frame_of_section(player.section).tempo);
+        }
         if (use == Use::print) continue;
         follow(expression.pan, ControlPoint::pan);
         follow(expression.control, expression.controller);
@@ -327,7 +329,7 @@ EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& co
     const bool slows = whole.close != Close::none && use != ExpressionSink::Use::print &&
                        (context.playing.to == INT64_MAX || end < context.playing.to - context.playing.from);
     ScoreHead head;
-    head.ritardando = slows ? 2 * whole.meter.bar() : 0;
+    head.ritardando = slows ? whole.ritardando() : 0;
     curves.tempo = cut_tempo(tempo_map(head, {expressive.tempos(end), {}}, end), from, to);
     if (!curves.tempo.empty()) sink.curves(curves);
 
@@ -349,7 +351,7 @@ EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& co
     report.notes = excerpt.count();
     if (is_held) {
         const std::int64_t most = playing.to < INT64_MAX ? playing.to - playing.from : INT64_MAX;
-        report.end = ending.finish(report.end, ensemble.meter, most);
+        report.end = ending.finish(report.end, ensemble.bar_lines().from(playing.from), most);
         human_or_not.finish(report.end);
     }
     report.seconds = seconds_of(ensemble, playing, report.end, use, curves.tempo);
@@ -387,7 +389,7 @@ EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, Exp
                    : perform_all(ensemble, playing, use, human, to);
     };
     if (!ensemble.is_strict()) return play_into(sink);
-    StrictCheck check(ensemble, sink);
+    StrictCheck check(ensemble, ensemble.bar_lines().from(playing.from), sink);
     EnsembleReport report = play_into(check);
     report.strict_faults = check.faults(human.amount > 0 ? Humaniser::latest : 0);
     return report;
@@ -397,9 +399,11 @@ double seconds_of(const Ensemble& ensemble, const PlayOptions& playing, std::int
                   const std::vector<TempoPoint>& curve) {
     ScoreHead times;
     if (ensemble.has_ending(playing) && use != ExpressionSink::Use::print) {
-        times.ritardando = 2 * ensemble.meter.bar();
+        times.ritardando = ensemble.ritardando();
     }
-    return seconds_at(end, ensemble.tempo, tempo_map(times, {curve, {}}, end));
+    times.tempo = ensemble.frame(playing.from).tempo;
+    times.changes = changes_after(ensemble.changes, playing.from);
+    return seconds_at(end, times.tempo, tempo_map(times, {curve, {}}, end));
 }
 
 }  // namespace sikku

@@ -102,6 +102,7 @@ Player bass_of(const Player& player) {
     bass.melody.rhythms = {};
     bass.melody.has_rhythms_by_level = false;
     bass.melody.layout.climax.reset();
+    bass.melody.layout.thinning = 0;
     bass.melody.leaps = 0;
     bass.melody.swing = 0.5;
     bass.melody.program = acoustic_bass;

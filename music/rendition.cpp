@@ -36,8 +36,7 @@ const Notation& Rendition::print_excerpt() {
     ExcerptContext context = context_of(ensemble, playing, most_symbols);
     // Whole bars are printed.
     PlayOptions bars = playing;
-    const std::int64_t bar = ensemble.meter.bar();
-    if (bars.to < INT64_MAX) bars.to = bars.from + (bars.to - bars.from + bar - 1) / bar * bar;
+    if (bars.to < INT64_MAX) bars.to = ensemble.bar_lines().next(bars.to);
     Notator alone(head);
     report = perform(ensemble, bars, use, {}, alone);  // for the counts
     try {
@@ -62,15 +61,19 @@ Notation Rendition::print_within(const ExcerptContext& context) const {
     const std::int64_t length =
         context.playing.to < INT64_MAX ? context.playing.to - context.playing.from : INT64_MAX;
     ScoreHead whole_head = head;
+    whole_head.meter = ensemble.frame(context.playing.from).meter;
+    whole_head.changes = changes_after(ensemble.changes, context.playing.from);
     if (ensemble.close != Close::none) {
         NullSink nobody;
         const bool has_end = context.is_whole || play_parts(whole, context.playing, nobody).end < length;
-        if (has_end) whole_head.ritardando = 2 * ensemble.meter.bar();
+        if (has_end) whole_head.ritardando = ensemble.ritardando();
     }
-    const std::int64_t bar = ensemble.meter.bar();
+    const BarLines lines = ensemble.bar_lines();
     Notator::Bars bars;
-    bars.first = (playing.from - context.playing.from) / bar;
-    if (playing.to < INT64_MAX) bars.count = std::max<std::int64_t>(1, (playing.to - playing.from + bar - 1) / bar);
+    bars.first = lines.number(playing.from) - lines.number(context.playing.from);
+    if (playing.to < INT64_MAX) {
+        bars.count = std::max<std::int64_t>(1, lines.count(playing.to) - lines.number(playing.from));
+    }
     Notator notator(whole_head, bars);
     perform_all(whole, context.playing, use, {}, notator);
     return notator.notation();

@@ -112,10 +112,16 @@ void add_parts(Player& player, const PlayOptions& playing, VoiceCount& voices, s
 ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrangement* arrangement,
                   const PlayOptions& playing, int most) {
     ScoreHead head;
-    head.tempo = ensemble.tempo;
-    head.tempo_words = ensemble.tempo_words;
-    head.ritardando = ensemble.has_ending(playing) ? 2 * ensemble.meter.bar() : 0;
-    head.meter = ensemble.meter;
+    const Frame frame = ensemble.frame(playing.from);
+    head.tempo = frame.tempo;
+    head.tempo_words = frame.tempo_words;
+    head.meter = frame.meter;
+    head.changes = changes_after(ensemble.changes, playing.from);
+    if (playing.to < INT64_MAX) {
+        std::erase_if(head.changes,
+                      [&](const FrameChange& change) { return change.onset >= playing.to - playing.from; });
+    }
+    head.ritardando = ensemble.has_ending(playing) ? ensemble.ritardando() : 0;
     head.is_transposed = settings.is_transposed;
     head.syllables = settings.syllables;
     head.has_chord_signs = settings.has_chord_signs;

@@ -125,11 +125,12 @@ std::vector<std::string> parts_controlled_together(const Ensemble& ensemble, con
 }
 
 /// `, in bars 9, 13 and 21`
-std::string bars_with_faults(const std::vector<std::int64_t>& ticks, std::int64_t bar, std::int64_t first_bar) {
+std::string bars_with_faults(const std::vector<std::int64_t>& ticks, const BarLines& lines) {
     constexpr std::size_t most_named = 4;
     std::vector<std::int64_t> bars;
     for (const std::int64_t tick : ticks) {
-        if (bars.empty() || bars.back() != first_bar + tick / bar) bars.push_back(first_bar + tick / bar);
+        const std::int64_t bar = lines.number(tick) + 1;
+        if (bars.empty() || bars.back() != bar) bars.push_back(bar);
     }
     if (bars.empty()) return "";
     const std::size_t named = std::min(bars.size(), most_named);
@@ -152,15 +153,16 @@ void report_shared_channels(const Ensemble& ensemble, const ScoreHead& head, boo
 void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const EnsembleReport& report, Made& made) {
     const Melody& first = ensemble.players.front().melody;
     made.fact(fmt::format("{}, {}, {}, {}", counted(report.notes, "note"),
-                          counted(bars_of(report.end, ensemble.meter).str(), "bar"),
+                          counted(ensemble.bar_lines().from(playing.from).count(report.end), "bar"),
                           report.seconds > 0 ? time_text(report.seconds) : time_of(report.end, ensemble.tempo),
                           range_of(report, first)));
     if (report.is_strict) {
-        const std::int64_t bar = ensemble.meter.bar();
+        std::vector<std::int64_t> faults = report.strict_faults;
+        for (std::int64_t& tick : faults) tick += playing.from;
         made.fact(fmt::format("counterpoint: {} moved{}, {} left{}", counted(report.moved_by_strictness, "note"),
                               playing.is_excerpt() ? " in the whole score" : "",
                               counted(report.strict_faults.size(), "fault"),
-                              bars_with_faults(report.strict_faults, bar, playing.from / bar + 1)));
+                              bars_with_faults(faults, ensemble.bar_lines())));
     }
     if (report.has_own_ranges) {
         made.warn(
@@ -179,7 +181,8 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
     for (const Player& player : ensemble.players) {
         const Melody& melody = player.melody;
         if (player.is_bass || player.is_follower) continue;
-        const bool has_meter = melody.meter.beats == ensemble.meter.beats && melody.meter.unit == ensemble.meter.unit;
+        const Meter meter = ensemble.meter_of(player);
+        const bool has_meter = melody.meter.beats == meter.beats && melody.meter.unit == meter.unit;
         if (melody.tempo != ensemble.tempo || (!has_meter && !player.document.has_override("meter"))) {
             made.warn(printable(player.document.text("title")) +
                       " is played in the tempo and meter of the first pattern");

@@ -53,16 +53,16 @@ public:
     Made make(Destination& destination, const std::filesystem::path& name, const Monitor& monitor,
               int threads) override;
     NoteList list(const Monitor& monitor) {
-        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        const PlayOptions playing = begin(monitor);
         const ScoreHead head = make_head(playing, most_voices);  // numbers the voices of the parts
         NoteCollector collector(static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)));
         perform(ensemble_, playing, use(), human(), collector);
-        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter, head.parts};
+        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter, head.changes, head.parts};
         sort_by_time(result.notes);
         return result;
     }
     std::unique_ptr<NoteStream> stream(const Monitor& monitor) {
-        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        const PlayOptions playing = begin(monitor);
         StreamedScore score;
         const bool is_limited = midi_.microtonal && midi_.tuning != Tuning::mpe;
         score.head = make_head(playing, is_limited ? most_channels : most_voices);
@@ -74,7 +74,7 @@ public:
         return stream_notes(std::move(score), ensemble_, playing);
     }
     std::string describe(const Monitor& monitor) {
-        const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+        const PlayOptions playing = begin(monitor);
         const bool is_arranged = arrangement_ || ensemble_.needs_whole();
         if (is_arranged) make_head(playing, most_voices);  // numbers the voices of the parts
         std::string text = description(ensemble_.players, playing,
@@ -101,6 +101,16 @@ public:
     }
 
 private:
+    /// Finds where sections begin. @return the requested piece
+    PlayOptions begin(const Monitor& monitor) {
+        if (!ensemble_.frames.empty()) {
+            PlaySettings whole;
+            whole.budget = settings_.budget;
+            ensemble_.changes = frame_changes(ensemble_, piece_of(whole, ensemble_, monitor));
+        }
+        return piece_of(settings_, ensemble_, monitor);
+    }
+
     /// Warns of options that this format cannot express.
     void warn_of_unused(Made& made) const {
         const auto warn = [&](const std::string& option, const char* reason) { made.warn_of_unused(option, reason); };
@@ -209,6 +219,11 @@ private:
             ensemble_.tempo_words = arrangement_->tempo_words;
         }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
+        if (arrangement_) ensemble_.frames = arrangement_->frames;
+        for (auto& [section, frame] : ensemble_.frames) {
+            if (is_option("tempo")) frame.tempo.reset();
+            if (is_option("meter")) frame.meter.reset();
+        }
         for (const Player& player : ensemble_.players) {
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
         }
@@ -359,7 +374,7 @@ Made ScoreWork::make(Destination& destination, const std::filesystem::path& name
             made.warn(ensemble_.players.size() > 1 ? fmt::format("{}: {}", pattern, no_steps) : no_steps);
     }
     warn_of_unused(made);
-    const PlayOptions playing = piece_of(settings_, ensemble_, monitor);
+    const PlayOptions playing = begin(monitor);
     monitor.expect(0);
     check_size(playing);
     const bool is_mpe = midi_.tuning == Tuning::mpe;

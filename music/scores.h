@@ -51,6 +51,7 @@ struct NoteList {
     std::int64_t end = 0;     ///< end of the score in ticks, rests included
     double tempo = 120.0;     ///< quarter notes per minute
     Meter meter;
+    std::vector<FrameChange> changes;  ///< of tempo and meter after the beginning
     std::vector<Part> parts;
 };
 

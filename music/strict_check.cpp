@@ -32,7 +32,7 @@ std::vector<std::int64_t> StrictCheck::faults(std::int64_t late) {
         for (int i = 0; i < chords; ++i) add(player.first_voice + player.chords_from + i, false);
         for (int i = 0; i < player.chords_from; ++i) add(player.first_voice + i, player.melody.layout.is_strict);
     }
-    return sounding_faults(voices, ensemble_.meter, late);
+    return sounding_faults(voices, bars_, late);
 }
 
 }  // namespace sikku

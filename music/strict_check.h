@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sikku {
@@ -13,8 +14,9 @@ namespace sikku {
 /// the deviations of a player. Memory: O(notes).
 class StrictCheck : public NoteSink {
 public:
-    /// `ensemble` has to outlive it.
-    StrictCheck(const Ensemble& ensemble, NoteSink& sink) : ensemble_(ensemble), sink_(sink) {}
+    /// `ensemble` has to outlive it. @param bars  counted as the notes are
+    StrictCheck(const Ensemble& ensemble, BarLines bars, NoteSink& sink)
+        : ensemble_(ensemble), bars_(std::move(bars)), sink_(sink) {}
     void curves(const Curves& curves) override { sink_.curves(curves); }
     void controls(std::span<const ControlPoint> points) override { sink_.controls(points); }
     void notes(std::span<const Note> notes) override;
@@ -25,6 +27,7 @@ public:
 
 private:
     const Ensemble& ensemble_;
+    BarLines bars_;
     NoteSink& sink_;
     std::vector<std::vector<Note>> voices_;
 };

@@ -111,7 +111,12 @@ py::array to_array(DrawnPixels pixels) {
 }
 
 py::tuple to_tuple(const NoteList& list) {
-    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit);
+    py::list changes;
+    for (const FrameChange& change : list.changes) {
+        const Meter& meter = change.frame.meter;
+        changes.append(py::make_tuple(change.onset, change.frame.tempo, py::make_tuple(meter.beats, meter.unit)));
+    }
+    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit, changes);
 }
 
 py::tuple to_arrays(const std::vector<Note>& notes) {

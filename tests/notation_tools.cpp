@@ -59,6 +59,18 @@ TestScore held_score(const Meter& meter) {
     return score;
 }
 
+std::vector<std::int64_t> bar_onsets(const ScoreHead& head, std::int64_t end) {
+    std::vector<std::int64_t> onsets;
+    Meter meter = head.meter;
+    for (std::int64_t at = 0; at <= end; at += meter.bar()) {
+        for (const FrameChange& change : head.changes) {
+            if (change.onset == at) meter = change.frame.meter;
+        }
+        onsets.push_back(at);
+    }
+    return onsets;
+}
+
 TestScore random_score(unsigned seed, bool quarter_tones) {
     std::mt19937 random(seed);
     const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
@@ -103,6 +115,17 @@ TestScore random_score(unsigned seed, bool quarter_tones) {
             }
             score.end = std::max(score.end, here);
         }
+    }
+    if (seed % 2 == 0) return score;
+    std::int64_t at = 0;
+    Frame frame{score.head.tempo, {}, score.head.meter};
+    for (std::size_t i = 0; i < below(4); ++i) {
+        at += frame.meter.bar() * static_cast<std::int64_t>(1 + below(6));
+        if (at >= score.end) break;
+        frame.meter = meters[below(meters.size())];
+        if (below(2)) frame.tempo = 40.0 + static_cast<double>(below(200));
+        frame.tempo_words = below(3) ? "" : "Andante";
+        score.head.changes.push_back({at, frame});
     }
     return score;
 }

@@ -56,4 +56,7 @@ TestScore held_score(const Meter& meter);
 /// `quarter_tones`: some keys lie between two semitones.
 TestScore random_score(unsigned seed, bool quarter_tones);
 
+/// The ticks at which bars begin, up to `end`, one after the other.
+std::vector<std::int64_t> bar_onsets(const ScoreHead& head, std::int64_t end);
+
 }  // namespace sikku

@@ -192,9 +192,12 @@ constexpr KeyInfo language[] = {
     {"speed", music, "3:2, 2, …", "1", "Tempo of the part, compared with that of the score"},
     {"start", music, "a number of bars", "0", "Bars of the score before the part begins"},
     {"excerpt", music, "bars such as 1-8 or 9-, all", "all", "Bars of the melody that are played"},
-    {"form", music, "AABA, A1 A2 B A2, A A+1 Ai Ar A*2, AB order 2; curve", "curve",
+    {"form", music, "AABA, A1 A2 B A2, A A+1 Ai Ar A*2 Ak, AB order 2; curve", "curve",
      "Order of the sub-curves; 1 ends on the fifth, 2 on the tonic; +1 moves a section by degrees, i inverts it, r "
-     "reverses it, *2 and /2 make its notes longer or shorter"},
+     "reverses it, *2 and /2 make its notes longer or shorter, k plays it three times before a first beat"},
+    {"thinning", music, "a share of the phrase, 0 to 1; none", "none",
+     "Last part of each phrase or section, in which only notes on beats remain, and in its second half only those on "
+     "strong beats"},
     {"climax", music, "a share of the part, 0 to 1; none", "none",
      "Place of the phrase or section with the highest note: all are moved up by degrees, less the farther they are "
      "from it"},

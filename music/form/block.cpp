@@ -4,6 +4,7 @@
 #include "music/melody/accompaniment.h"
 #include "music/melody/degree_range.h"
 #include "music/score/glides.h"
+#include "music/score/rhythm.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -205,6 +207,26 @@ std::vector<std::int64_t> begins_of(const Block& block) {
     return begins;
 }
 
+/// The phrases or sections of a block.
+class Phrases {
+public:
+    explicit Phrases(const Block& block) : begins_(begins_of(block)), end_(block.length) {}
+    std::size_t count() const { return begins_.size(); }
+    /// The phrase in which a tick lies.
+    std::size_t at(std::int64_t tick) const {
+        return static_cast<std::size_t>(std::upper_bound(begins_.begin(), begins_.end(), tick) - begins_.begin()) - 1;
+    }
+    /// The ticks at which a phrase begins and ends.
+    std::pair<std::int64_t, std::int64_t> span(std::size_t phrase) const {
+        return {begins_[phrase],
+                phrase + 1 < begins_.size() ? begins_[phrase + 1] : std::max(end_, begins_[phrase] + 1)};
+    }
+
+private:
+    std::vector<std::int64_t> begins_;
+    std::int64_t end_;
+};
+
 /// Reverses a section, whose breath stays at its end.
 void reverse_section(Block& piece, const Melody& melody) {
     const std::int64_t length = piece.length;
@@ -260,10 +282,59 @@ void move_notes(std::vector<FormNote>& notes, const Melody& melody, const Degree
     }
 }
 
+/// Plays a section three times, with equal pauses after the first and the second, as short as possible from the unit
+/// on, so that the third ends at a bar line; if no pause does that, after a rest. Chords are repeated, too.
+/// Source: P. Sambamoorthy, "South Indian Music", book 4: korvai.
+void repeat_as_korvai(Block& piece, const Melody& melody) {
+    constexpr int times = 3;
+    const std::int64_t bar = melody.meter.bar();
+    std::int64_t sounding = 0;
+    for (const FormNote& one : piece.notes) {
+        if (!is_chord(one, piece, melody)) sounding = std::max(sounding, one.note.onset + one.note.duration);
+    }
+    if (sounding == 0) return;
+    std::int64_t pause = 0;
+    std::int64_t rest = bar;
+    for (std::int64_t tried = melody.unit; tried < std::max(bar, 2 * melody.unit) && rest > 0; tried += melody.unit) {
+        const std::int64_t over = (times * sounding + (times - 1) * tried) % bar;
+        const std::int64_t needed = (bar - over) % bar;
+        if (needed >= rest) continue;
+        rest = needed;
+        pause = tried;
+    }
+    const Block once = cut(piece, 0, sounding);
+    piece.notes.clear();
+    for (int i = 0; i < times; ++i) {
+        for (FormNote one : once.notes) {
+            one.note.onset += rest + i * (sounding + pause);
+            piece.notes.push_back(one);
+        }
+    }
+    piece.length = rest + times * sounding + (times - 1) * pause;
+}
+
+/// Ends a korvai with the tonic on the first beat of the next bar, held for a bar.
+void land(Block& piece, const Melody& melody) {
+    const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
+                                   [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
+    if (last == piece.notes.rend()) return;
+    FormNote goal = *last;
+    const auto period = static_cast<std::int64_t>(melody.scale.size());
+    goal.degree = mapping::goal_near(last->degree, 0, period, bounds_of(melody), melody.answer);
+    goal.note.key = key_within(melody, goal.degree, goal.degree < last->degree);
+    goal.note.onset = piece.length;
+    goal.note.duration = melody.meter.bar();
+    goal.note.glide = {};
+    goal.note.is_sliding = false;
+    piece.notes.push_back(goal);
+    piece.length += goal.note.duration;
+}
+
 /// Applies the changes that a form states for a section.
 void change_section(Block& piece, const Melody& melody, const FormSection& section) {
     if (section.is_retrograde) reverse_section(piece, melody);
     scale_times(piece, section.augmentation);
+    if (section.is_korvai) repeat_as_korvai(piece, melody);
     if (!section.has_other_degrees()) return;
     const auto first =
         std::find_if(piece.notes.begin(), piece.notes.end(), [](const FormNote& one) { return one.has_degree; });
@@ -377,7 +448,9 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         change_section(piece, melody, section);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
         trim_chords(piece, melody);
-        end_on(piece, melody, ending_of(piece, melody, section, &section == &order.back()));
+        const bool is_last = &section == &order.back();
+        end_on(piece, melody, ending_of(piece, melody, section, is_last));
+        if (section.is_korvai && is_last && ends.empty()) land(piece, melody);
         if (piece.notes.size() > most_block_notes - result.notes.size()) {
             throw ScoreError(fmt::format("the form would have more than {} notes", most_block_notes));
         }
@@ -387,14 +460,14 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
         }
         result.length += piece.length;
         // The next section begins at a bar line. The sections of a bass have the length of those above it.
-        if (ends.empty() && &section != &order.back()) {
+        if (ends.empty() && !is_last) {
             const std::int64_t bar = melody.meter.bar();
             result.length = (result.length + bar - 1) / bar * bar;
         }
         result.ends.push_back(result.length);
     }
     const std::size_t last = borders.size() - 2;
-    if (ends.empty() && static_cast<std::size_t>(order.back().letter) == last) {
+    if (ends.empty() && static_cast<std::size_t>(order.back().letter) == last && !order.back().is_korvai) {
         const std::int64_t rest = std::max<std::int64_t>(0, borders.back() - block.length);
         result.length -= order.back().augmentation.of(rest);
         result.ends.back() = result.length;
@@ -402,12 +475,55 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     return result;
 }
 
+void thin_out(Block& block, const Melody& melody, double share) {
+    const Phrases phrases(block);
+    const std::int64_t bar = melody.meter.bar();
+    const auto beat = std::llround(beat_unit(melody.meter).quarters * static_cast<double>(ticks_per_quarter));
+    std::set<std::int64_t> strong, beats;
+    for (const std::int64_t tick : strong_beats(melody.meter)) strong.insert(tick);
+    std::int64_t group_begin = 0;
+    for (const std::int64_t group : groups_of(melody.meter)) {
+        // Beats of additive meters begin with their groups.
+        for (std::int64_t tick = 0; tick < group; tick += std::max<std::int64_t>(beat, 1)) {
+            if (tick == 0 || !has_groups(melody.meter)) beats.insert(group_begin + tick);
+        }
+        group_begin += group;
+    }
+    const auto moves = [&](const FormNote& one) { return one.has_degree && !is_chord(one, block, melody); };
+    std::map<std::pair<int, std::size_t>, std::int64_t> last;  // onset of the last note of a voice in a phrase
+    for (const FormNote& one : block.notes) {
+        if (moves(one)) last[{one.note.voice, phrases.at(one.note.onset)}] = one.note.onset;
+    }
+    std::map<int, std::pair<std::size_t, std::size_t>> before;  // by voice: note kept before, its phrase
+    std::vector<FormNote> kept;
+    for (const FormNote& one : block.notes) {
+        if (!moves(one)) {
+            kept.push_back(one);
+            continue;
+        }
+        const Note& note = one.note;
+        const std::size_t phrase = phrases.at(note.onset);
+        const auto [begin, end] = phrases.span(phrase);
+        const double left = static_cast<double>(end - note.onset) / static_cast<double>(end - begin);
+        const bool stays = left > share || note.onset == last[{note.voice, phrase}] ||
+                           (left > share / 2 ? beats : strong).contains(note.onset % bar);
+        const auto held = before.find(note.voice);
+        const bool continues = held != before.end() && held->second.second == phrase;
+        if (!stays && continues) {
+            Note& longer = kept[held->second.first].note;
+            if (longer.onset + longer.duration == note.onset) longer.duration += note.duration;
+        }
+        if (!stays) continue;
+        before[note.voice] = {kept.size(), phrase};
+        kept.push_back(one);
+    }
+    block.notes = std::move(kept);
+}
+
 void raise_to_climax(Block& block, const Melody& melody, double share) {
-    const std::vector<std::int64_t> begins = begins_of(block);
-    const auto phrase_at = [&](std::int64_t tick) {
-        return static_cast<std::size_t>(std::upper_bound(begins.begin(), begins.end(), tick) - begins.begin()) - 1;
-    };
-    std::vector<std::set<std::int64_t>> degrees(begins.size());
+    const Phrases phrases(block);
+    const auto phrase_at = [&](std::int64_t tick) { return phrases.at(tick); };
+    std::vector<std::set<std::int64_t>> degrees(phrases.count());
     for (const FormNote& one : block.notes) {
         if (one.has_degree) degrees[phrase_at(one.note.onset)].insert(one.degree);
     }
@@ -425,7 +541,7 @@ void raise_to_climax(Block& block, const Melody& melody, double share) {
         throw ScoreError(fmt::format(
             "climax: no note that can move lies {:.0f} % into the part; another place may help", 100 * share));
     }
-    const std::size_t farthest = std::max(goal, begins.size() - 1 - goal) + 1;
+    const std::size_t farthest = std::max(goal, phrases.count() - 1 - goal) + 1;
     const auto raised_by = [&](std::size_t phrase, std::int64_t most) {
         const std::size_t apart = phrase > goal ? phrase - goal : goal - phrase;
         const auto near = static_cast<std::int64_t>(farthest - apart), far = static_cast<std::int64_t>(2 * farthest);

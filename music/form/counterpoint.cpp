@@ -52,8 +52,7 @@ using Lines = std::map<int, Line>;
 class Checker {
 public:
     /// @param late  ticks by which notes may begin after their beat
-    explicit Checker(const Meter& meter, std::int64_t late = 0)
-        : bar_(meter.bar()), beats_(strong_beats(meter)), late_(late) {}
+    explicit Checker(const BarLines& bars, std::int64_t late = 0) : bars_(bars), late_(late) {}
 
     struct Faults {
         int dissonances = 0;  ///< on strong beats
@@ -64,8 +63,8 @@ public:
         Faults found;
         const std::int64_t begin = note.onset - late_;
         const std::int64_t end = note.onset + note.duration;
-        for (std::int64_t bar = std::max<std::int64_t>(0, begin) / bar_ * bar_; bar < end; bar += bar_) {
-            for (const std::int64_t beat : beats_) {
+        for (std::int64_t bar = bars_.begin(std::max<std::int64_t>(0, begin)); bar < end; bar = bars_.end(bar)) {
+            for (const std::int64_t beat : strong_beats(bars_.meter(bar))) {
                 const std::int64_t tick = bar + beat;
                 if (tick >= begin && tick < end) found.dissonances += dissonances(note.key, tick, lines);
             }
@@ -98,8 +97,7 @@ private:
         }));
     }
 
-    std::int64_t bar_;
-    std::vector<std::int64_t> beats_;
+    const BarLines& bars_;
     std::int64_t late_;
 };
 
@@ -166,9 +164,9 @@ bool is_consonant(double low, double high) {
 }
 
 std::uint64_t make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
-                          const Meter& meter) {
+                          const BarLines& bars) {
     std::uint64_t moved = 0;
-    const Checker checker(meter);
+    const Checker checker(bars);
     Lines lines;
     for (const FormNote& one : fixed) lines[one.note.voice].add(one.note);
     std::map<int, std::vector<FormNote*>> voices;
@@ -199,9 +197,9 @@ std::uint64_t make_strict(std::span<const FormNote> fixed, std::vector<FormNote>
     return moved;
 }
 
-std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const Meter& meter,
+std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const BarLines& bars,
                                           std::int64_t late) {
-    const Checker checker(meter, late);
+    const Checker checker(bars, late);
     std::vector<std::int64_t> ticks;
     Lines lines;
     for (const SoundingVoice& voice : voices) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "music/form/block.h"
+#include "music/score/bar_lines.h"
 
 #include <cstdint>
 #include <span>
@@ -21,7 +22,7 @@ bool is_consonant(double low, double high);
 /// @param fixed  by onset; times as in `part`
 /// @return number of notes moved
 std::uint64_t make_strict(std::span<const FormNote> fixed, std::vector<FormNote>& part, const Melody& melody,
-                          const Meter& meter);
+                          const BarLines& bars);
 
 /// A voice as it sounds, by onset.
 struct SoundingVoice {
@@ -32,7 +33,7 @@ struct SoundingVoice {
 /// The faults of led voices with the voices before them: the onset of a note for each dissonance on a strong beat and
 /// each parallel, as make_strict() counts them. Cost: O(notes x voices).
 /// @param late  ticks by which a player may begin notes after their beat
-std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const Meter& meter,
+std::vector<std::int64_t> sounding_faults(std::span<const SoundingVoice> voices, const BarLines& bars,
                                           std::int64_t late);
 
 }  // namespace sikku

@@ -1,6 +1,7 @@
 #include "music/live/performer.h"
 
 #include "music/live/voices.h"
+#include "music/score/bar_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,17 +99,19 @@ private:
 class Version {
 public:
     explicit Version(std::unique_ptr<NoteStream> stream)
-        : stream_(std::move(stream)), voices_(stream_->head(), stream_->midi()) {}
+        : stream_(std::move(stream)), voices_(stream_->head(), stream_->midi()), bars_(stream_->head()) {}
 
     NoteStream& stream() { return *stream_; }
     const ScoreHead& head() const { return stream_->head(); }
     Voices& voices() { return voices_; }
-    std::int64_t bar() const { return head().meter.bar(); }
-    std::int64_t beat() const { return bar() / head().meter.beats; }
+    const BarLines& bars() const { return bars_; }
+    /// Length of a beat of the bar in which a tick lies.
+    std::int64_t beat(std::int64_t tick) const { return bars_.length(tick) / bars_.meter(tick).beats; }
 
 private:
     std::unique_ptr<NoteStream> stream_;
     Voices voices_;
+    BarLines bars_;
 };
 
 class Performer {
@@ -231,8 +234,7 @@ private:
 
     void set_end(std::int64_t end) {
         end_ = end;
-        const std::int64_t bar = version_->bar();
-        length_ = (end + bar - 1) / bar * bar;
+        length_ = version_->bars().next(end);
         falls_ = tempo_map(version_->head(), {}, end);
         fall_ = 0;
     }
@@ -391,17 +393,17 @@ private:
 
     /// Schedules the next version for the first bar line from `tick` on.
     void aim_at(std::int64_t tick) {
-        const std::int64_t bar = version_->bar();
-        const std::int64_t bars = (std::max<std::int64_t>(0, tick - pass_) + bar - 1) / bar;
-        change_ = pass_ + bars * bar;
-        next_bar_ = bars;
-        next_->stream().seek(bars * next_->bar());
+        const BarLines& bars = version_->bars();
+        const std::int64_t line = bars.next(std::max<std::int64_t>(0, tick - pass_));
+        change_ = pass_ + line;
+        next_bar_ = bars.number(line);
+        next_->stream().seek(next_->bars().onset(next_bar_));
     }
 
     void change_version(std::int64_t tick) {
         if (!next_->stream().is_ready()) {
             patience_ *= 2;  // bars for its preparation
-            return aim_at(tick + (patience_ - 1) * version_->bar() + 1);
+            return aim_at(tick + (patience_ - 1) * version_->bars().length(tick - pass_) + 1);
         }
         NoteWindow first;
         try {
@@ -417,7 +419,7 @@ private:
         ends_.clear();
         pitches_.clear();
         forget_window();
-        pass_ = tick - next_bar_ * version_->bar();
+        pass_ = tick - version_->bars().onset(next_bar_);
         version_->voices().prepare(messages_);
         reset_tempo(tick);
         aim_at_beat(tick);
@@ -454,15 +456,17 @@ private:
 
     /// The next beat is the first one from `tick` on.
     void aim_at_beat(std::int64_t tick) {
-        const std::int64_t beat = version_->beat();
-        beat_tick_ = pass_ + (tick - pass_ + beat - 1) / beat * beat;
+        const std::int64_t beat = version_->beat(tick - pass_);
+        const std::int64_t place = version_->bars().place(tick - pass_);
+        beat_tick_ = tick - place + (place + beat - 1) / beat * beat;
     }
 
     void tell_place(std::int64_t tick) {
         if (!tells_places_ || beat_tick_ > tick) return;
         const std::int64_t place = beat_tick_ - pass_;
-        const std::int64_t bar = version_->bar();
-        port_.send_place({place / bar + 1, static_cast<int>(place % bar / version_->beat()) + 1}, due());
+        const BarLines& bars = version_->bars();
+        port_.send_place({bars.number(place) + 1, static_cast<int>(bars.place(place) / version_->beat(place)) + 1},
+                         due());
         aim_at_beat(tick + 1);
     }
 

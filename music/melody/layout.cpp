@@ -68,6 +68,8 @@ bool change(FormSection& section, char sign, std::string_view text, std::size_t&
             return !std::exchange(section.is_inverted, true);
         case 'r':
             return !std::exchange(section.is_retrograde, true);
+        case 'k':
+            return !std::exchange(section.is_korvai, true);
         case '+':
         case '-':
             if (section.degrees != 0) return false;
@@ -99,15 +101,10 @@ public:
         read_excerpt();
         read_flag("retrograde", {"no", "yes"}, layout_.is_retrograde);
         read_form_key();
-        read_key("climax",
-                 "expected the share of the part before its highest phrase, from 0 to 1, such as 0.6, or none",
-                 [&](std::string_view text) {
-                     if (lower_case(text) == "none") return true;
-                     double share = 0;
-                     const bool is_good = read_number(text, share) && share >= 0 && share <= 1;
-                     if (is_good) layout_.climax = share;
-                     return is_good;
-                 });
+        if (const auto share = read_share("thinning", "each phrase, at its end, in which notes thin out")) {
+            layout_.thinning = *share;
+        }
+        layout_.climax = read_share("climax", "the part before its highest phrase");
         read_loop();
         read_key("canon",
                  "expected bars and an interval for each voice that follows, such as `2 -12`, `1 fifth below` or "
@@ -135,6 +132,20 @@ private:
         });
     }
 
+    /// Reads a share from 0 to 1. @param whole  what it is a share of
+    std::optional<double> read_share(std::string_view name, std::string_view whole) {
+        std::optional<double> found;
+        read_key(name, fmt::format("expected the share of {}, from 0 to 1, such as 0.6, or none", whole),
+                 [&](std::string_view text) {
+                     if (lower_case(text) == "none") return true;
+                     double share = 0;
+                     const bool is_good = read_number(text, share) && share >= 0 && share <= 1;
+                     if (is_good) found = share;
+                     return is_good;
+                 });
+        return found;
+    }
+
     /// Reads `9-16`, or `9-` for all bars from 9.
     void read_excerpt() {
         read_key("excerpt", "expected bars of the melody, such as 1-8, up to 1000000", [&](std::string_view text) {
@@ -154,8 +165,8 @@ private:
         read_key(
             "form",
             "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending; "
-            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer) and A/2 change one; perhaps "
-            "`order 2` after it",
+            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 and Ak (a korvai) change one; "
+            "perhaps `order 2` after it",
             [&](std::string_view text) {
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");

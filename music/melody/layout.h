@@ -23,7 +23,7 @@ struct Ratio {
 enum class Ending { none, open, closed };
 
 /// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one; `A+2` in sequence, two degrees higher;
-/// `Ai` inverted, `Ar` reversed; `A*2` and `A/2` with longer or shorter notes.
+/// `Ai` inverted, `Ar` reversed; `A*2` and `A/2` with longer or shorter notes; `Ak` three times, as a korvai.
 struct FormSection {
     int letter = 0;  ///< 0 is A
     Ending ending = Ending::none;
@@ -31,8 +31,9 @@ struct FormSection {
     bool is_inverted = false;  ///< mirrored at its first note
     bool is_retrograde = false;
     Ratio augmentation;
+    bool is_korvai = false;  ///< played three times, so that the next section begins on the first beat of a bar
     bool has_other_degrees() const { return is_inverted || degrees != 0; }
-    bool is_changed() const { return has_other_degrees() || is_retrograde || !augmentation.is_one(); }
+    bool is_changed() const { return has_other_degrees() || is_retrograde || !augmentation.is_one() || is_korvai; }
 };
 
 /// A voice that repeats a part.
@@ -55,6 +56,7 @@ struct Layout {
     bool is_retrograde = false;
     std::vector<FormSection> form;     ///< sub-curves in the order in which they are played; empty: as in the curve
     std::int64_t form_order = 0;       ///< order of the sub-curves
+    double thinning = 0;               ///< share of each phrase or section, at its end, in which notes thin out
     std::optional<double> climax;      ///< share of the part after which its highest phrase or section comes
     bool is_order_of_phrases = false;  ///< form_order is set by the key `phrases`
     Loop loop = Loop::none;
@@ -63,11 +65,13 @@ struct Layout {
     bool is_strict = false;  ///< notes yield to earlier parts: see counterpoint.h
 
     /// True if all notes must be known before the first one is played.
-    bool needs_whole() const { return is_retrograde || !form.empty() || climax || loop != Loop::none || is_strict; }
+    bool needs_whole() const {
+        return is_retrograde || !form.empty() || thinning > 0 || climax || loop != Loop::none || is_strict;
+    }
 };
 
-/// Reads the keys start, speed, augmentation, excerpt, retrograde, form, loop, canon and counterpoint. Errors go to
-/// `diagnostics`.
+/// Reads the keys start, speed, augmentation, excerpt, retrograde, form, thinning, climax, loop, canon and
+/// counterpoint. Errors go to `diagnostics`.
 Layout read_layout(const Pattern& pattern, Diagnostics& diagnostics);
 
 /// Reads `A1 A2 B A2`, `AABA` or `A A+1 Ai2`: up to 26 letters in up to 256 sections. Empty for other text.

@@ -379,6 +379,15 @@ private:
             fail(*pattern_.find("form"), "the notes would be no whole numbers of ticks; a larger `unit` helps");
             break;
         }
+        if (layout.thinning > 0) {
+            const Key& thinning = *pattern_.find("thinning");
+            if (melody_.vertical == Vertical::glissando) {
+                fail(thinning,
+                     "phrases with `vertical: glissando` cannot thin out: the goals of slides would be missing");
+            } else if (melody_.phrase_order == 0 && layout.form.empty()) {
+                fail(thinning, "'thinning:' needs 'phrases:' or 'form:'");
+            }
+        }
         if (!layout.climax) return;
         const Key& climax = *pattern_.find("climax");
         if (melody_.has_chords()) {

@@ -90,13 +90,9 @@ public:
         put("%abc-2.1\n\n{}\nX:1\nT:{}\n", head_comments(head_, "%"), field(head_.title));
         if (!head_.composer.empty()) put("C:{}\n", field(head_.composer));
         if (!head_.source.empty()) put("S:{}\n", field(head_.source));
-        const BeatUnit beat = beat_unit(head_.meter);
         const auto swing = common_swing(notation_);
-        const std::string words = words_of_tempo(notation_, head_);
-        put("M:{}\nL:1/8\nQ:{}{}/{}={}\n{}", meter_name(head_.meter),
-            words.empty() ? "" : fmt::format("\"{}\" ", field(words)), beat.value.dotted ? 3 : 1,
-            beat.value.divisor * (beat.value.dotted ? 2 : 1),
-            std::max<long long>(1, std::llround(head_.tempo / beat.quarters)), score());
+        put("M:{}\nL:1/8\nQ:{}\n{}", meter_name(head_.meter),
+            tempo_mark(head_.tempo, head_.meter, words_of_tempo(notation_, head_)), score());
         // Otherwise abc2midi doubles the length of fermatas, which are held already, and arpeggiates chords slightly.
         if (notation_.is_held) put("%%MIDI fermatafixed\n");
         put("%%MIDI chordattack 0\n");
@@ -137,6 +133,23 @@ public:
     }
 
 private:
+    /// `"Andante" 1/4=72`.
+    static std::string tempo_mark(double tempo, const Meter& meter, const std::string& words) {
+        const BeatUnit beat = beat_unit(meter);
+        return fmt::format("{}{}/{}={}", words.empty() ? "" : fmt::format("\"{}\" ", field(words)),
+                           beat.value.dotted ? 3 : 1, beat.value.divisor * (beat.value.dotted ? 2 : 1),
+                           std::max<long long>(1, std::llround(tempo / beat.quarters)));
+    }
+
+    /// Writes what changes where a section begins; the tempo in the first voice.
+    void write_frame(const FrameChange& change, bool is_first) {
+        const Frame& frame = change.frame;
+        const Frame before = frame_at(frame_of(head_), head_.changes, change.onset - 1);
+        if (frame.meter != before.meter) put("[M:{}] ", meter_name(frame.meter));
+        if (!is_first || !has_other_tempo(before, frame)) return;
+        put("[Q:{}] ", tempo_mark(frame.tempo, frame.meter, frame.tempo_words));
+    }
+
     static std::string quoted(std::string_view text) {
         std::string result = field(text);
         std::replace(result.begin(), result.end(), '"', '\'');
@@ -183,7 +196,7 @@ private:
         each_voice(notation_, [&](const NotatedVoice& voice) {
             std::map<std::int64_t, std::ptrdiff_t> count;
             for (const NotatedSymbol& symbol : voice.symbols) {
-                most = std::max(most, ++count[symbol.onset / notation_.bar_length]);
+                most = std::max(most, ++count[notation_.bar_lines.number(symbol.onset)]);
             }
         });
         return most <= 12 ? 4 : most <= 24 ? 2 : 1;
@@ -235,7 +248,9 @@ private:
     void write_voice(const Staff& staff, std::size_t index, const std::vector<KeyChange>& keys,
                      const std::vector<DynamicMark>& marks, std::span<const ChordMark> chords) {
         const NotatedVoice& voice = staff.voices[index];
-        const std::int64_t bar = notation_.bar_length;
+        const BarLines& bar_lines = notation_.bar_lines;
+        const bool is_first_of_score = &voice == &notation_.parts.front().staves.front().voices.front();
+        auto frame = head_.changes.begin();
         std::array<int, 7> signs = signs_of(keys.front().key);
         auto key = keys.begin() + 1;
         const bool is_first = index == 0;
@@ -252,6 +267,9 @@ private:
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 signs = signs_of(key->key);
                 put("[K:{} clef={}] ", key_name(key->key), clef_name(clef));
+            }
+            for (; frame != head_.changes.end() && frame->onset <= symbol.onset; ++frame) {
+                write_frame(*frame, is_first_of_score);
             }
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {
@@ -288,21 +306,18 @@ private:
             const std::int64_t end = symbol.onset + bars * symbol.length;
             i += static_cast<std::size_t>(bars - 1);
             const bool is_beamed = symbol.beams[0] == Beam::begin || symbol.beams[0] == Beam::inside;
-            if (end % bar != 0) {
+            if (bar_lines.place(end) != 0) {
                 put("{}", is_beamed ? "" : " ");
                 continue;
             }
             altered.clear();
-            const bool is_last = end / bar == notation_.bars;
+            const bool is_last = end == notation_.end();
+            const bool ends_line = is_last || bar_lines.number(end) % bars_on_a_line_ == 0;
             if (is_last) put("{}", line_of_octaves(octaves, ')'));
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             const bool is_double = std::binary_search(doubled.begin(), doubled.end(), end);
-            put(" {}{}",
-                is_last     ? (notation_.is_cut ? "|" : "|]")
-                : is_double ? "||"
-                            : "|",
-                is_last || end / bar % bars_on_a_line_ == 0 ? "\n" : " ");
-            if (!is_last && end / bar % bars_on_a_line_ != 0) continue;
+            put(" {}{}", is_last ? (notation_.is_cut ? "|" : "|]") : is_double ? "||" : "|", ends_line ? "\n" : " ");
+            if (!ends_line) continue;
             if (sung.find_first_not_of(" *") != std::string::npos) put("w:{}\n", sung);
             sung.clear();
         }
@@ -368,7 +383,8 @@ private:
     /// @param octaves  octaves that players add for the clef
     void write_symbol(const NotatedSymbol& symbol, int octaves, const std::array<int, 7>& signs,
                       std::set<int>& altered) {
-        const bool is_bar = symbol.length == notation_.bar_length && symbol.kind != SymbolKind::note;
+        const bool is_bar =
+            symbol.length == notation_.bar_lines.length(symbol.onset) && symbol.kind != SymbolKind::note;
         const std::string length = length_of(is_bar ? symbol.length : symbol.value.ticks());
         if (symbol.slows_down) put("\"^rit.\"");
         if (symbol.has_fermata) put("!fermata!");

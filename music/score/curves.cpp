@@ -34,26 +34,39 @@ std::span<const ControlPoint> Curves::of_voice(int voice) const {
 std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, std::int64_t end) {
     constexpr int steps = 8;
     constexpr double slowest = 0.6;
-    if (head.ritardando == 0) return curves.tempo;
-    const std::int64_t begin = std::max<std::int64_t>(0, end - head.ritardando);
-    std::vector<TempoPoint> falling;
-    for (int step = 0; step < steps; ++step) {
-        falling.push_back({begin + (end - begin) * step / steps, 1 - (1 - slowest) * (step + 1) / steps});
+    if (!head.changes_tempo()) return curves.tempo;
+    struct Change {
+        TempoPoint point;
+        bool is_fall;  ///< of the ritardando, else of a section
+    };
+    std::vector<Change> changes;
+    for (const FrameChange& change : head.changes) {
+        changes.push_back({{change.onset, change.frame.tempo / head.tempo}, false});
     }
-    // Combines both; the number of points does not depend on the end.
+    const std::int64_t begin = std::max<std::int64_t>(0, end - head.ritardando);
+    for (int step = 0; step < steps && head.ritardando > 0; ++step) {
+        changes.push_back({{begin + (end - begin) * step / steps, 1 - (1 - slowest) * (step + 1) / steps}, true});
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const Change& a, const Change& b) { return a.point.tick < b.point.tick; });
+    // Combines all; the number of points does not depend on the end.
     std::vector<TempoPoint> map;
     double curve = 1;
+    double section = 1;
     double fall = 1;
-    auto next = falling.begin();
-    for (const TempoPoint& point : curves.tempo) {
-        for (; next != falling.end() && next->tick < point.tick; ++next) {
-            fall = next->factor;
-            map.push_back({next->tick, curve * fall});
+    auto next = changes.begin();
+    const auto change_before = [&](std::int64_t tick) {
+        for (; next != changes.end() && next->point.tick < tick; ++next) {
+            (next->is_fall ? fall : section) = next->point.factor;
+            map.push_back({next->point.tick, curve * fall * section});
         }
+    };
+    for (const TempoPoint& point : curves.tempo) {
+        change_before(point.tick);
         curve = point.factor;
-        map.push_back({point.tick, curve * fall});
+        map.push_back({point.tick, curve * fall * section});
     }
-    for (; next != falling.end(); ++next) map.push_back({next->tick, curve * next->factor});
+    change_before(INT64_MAX);
     return map;
 }
 

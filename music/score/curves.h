@@ -42,7 +42,8 @@ struct Curves {
     std::span<const ControlPoint> of_voice(int voice) const;
 };
 
-/// All changes of tempo, by tick: those of the curves, and the ritardando, which falls in eight steps to 60 %.
+/// All changes of tempo, by tick: those of the curves, those of sections, and the ritardando, which falls in eight
+/// steps to 60 %.
 /// @param end  end of the score, in ticks
 std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, std::int64_t end);
 

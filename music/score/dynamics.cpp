@@ -31,19 +31,19 @@ struct BarLoudness {
     double weight = 0;  ///< ticks in which it sounds
 };
 
-std::vector<BarLoudness> loudness_of(std::span<const Note> notes, std::int64_t bar_length) {
-    std::vector<BarLoudness> bars;
+std::vector<BarLoudness> loudness_of(std::span<const Note> notes, const BarLines& bars) {
+    std::vector<BarLoudness> all;
     for (const Note& note : notes) {
-        const std::int64_t bar = note.onset / bar_length;
-        if (bars.empty() || bars.back().bar != bar) {
-            bars.push_back({bar, note.onset, 0, 0});
+        const std::int64_t bar = bars.number(note.onset);
+        if (all.empty() || all.back().bar != bar) {
+            all.push_back({bar, note.onset, 0, 0});
         }
         const auto duration = static_cast<double>(note.duration);
         const int velocity = note.velocity - note.emphasis.velocity();
-        bars.back().weight += duration;
-        bars.back().velocity += (velocity - bars.back().velocity) * duration / bars.back().weight;
+        all.back().weight += duration;
+        all.back().velocity += (velocity - all.back().velocity) * duration / all.back().weight;
     }
-    return bars;
+    return all;
 }
 
 /// Adds a hairpin that leads to a level at `to`, if it has enough notes.
@@ -64,31 +64,31 @@ void add_hairpin(DynamicMark mark, std::int64_t to, std::span<const Note> notes,
 }
 
 /// Adds the dynamics of notes that state none. @param current  level in force before them; -1: none
-void add_derived(std::span<const Note> notes, std::int64_t bar_length, int& current,
-                 std::vector<DynamicMark>& marks) {
+void add_derived(std::span<const Note> notes, const BarLines& bars, int& current, std::vector<DynamicMark>& marks) {
     using enum DynamicMark::Kind;
-    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
+    const std::vector<BarLoudness> loudness = loudness_of(notes, bars);
     std::size_t changed_at = 0;
-    for (std::size_t i = 0; i < bars.size(); ++i) {
-        const double velocity = bars[i].velocity;
+    for (std::size_t i = 0; i < loudness.size(); ++i) {
+        const double velocity = loudness[i].velocity;
         // A few notes alone do not change the level.
-        if (current >= 0 && 2 * bars[i].weight < static_cast<double>(bar_length)) continue;
+        if (current >= 0 && 2 * loudness[i].weight < static_cast<double>(bars.length(loudness[i].onset))) continue;
         if (current >= 0 && std::fabs(velocity - middle_velocity(current)) <= step / 2 + reluctance) continue;
         const int next = dynamic_level(velocity);
         if (next == current) continue;
         if (current >= 0) {
             const double side = next > current ? 1 : -1;
             std::size_t begin = i;
-            while (begin > changed_at && i - begin < longest_hairpin && bars[begin].bar == bars[begin - 1].bar + 1 &&
-                   side * (bars[begin].velocity - bars[begin - 1].velocity) >= least_slope) {
+            while (begin > changed_at && i - begin < longest_hairpin &&
+                   loudness[begin].bar == loudness[begin - 1].bar + 1 &&
+                   side * (loudness[begin].velocity - loudness[begin - 1].velocity) >= least_slope) {
                 --begin;
             }
             if (begin < i) {
-                add_hairpin({bars[begin].onset, side > 0 ? crescendo : diminuendo, current}, bars[i].onset, notes,
-                            marks);
+                add_hairpin({loudness[begin].onset, side > 0 ? crescendo : diminuendo, current}, loudness[i].onset,
+                            notes, marks);
             }
         }
-        marks.push_back({bars[i].onset, level, next});
+        marks.push_back({loudness[i].onset, level, next});
         current = next;
         changed_at = i;
     }
@@ -116,7 +116,7 @@ std::vector<StatedLevel> stated_levels(std::span<const Note> notes) {
 
 /// A balance such as loud bass notes and soft chords is printed once: of four or more bars in a row whose notes have
 /// the same levels at the same places, or some of them, the second and all that follow are marked as repeated.
-void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int64_t fresh_from,
+void find_balance(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from,
                   std::vector<StatedLevel>& stated) {
     constexpr std::size_t fewest_bars = 4;
     struct Bar {
@@ -124,14 +124,14 @@ void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int
         std::size_t end = 0;
         std::map<std::int64_t, int> levels;  // by place
     };
-    std::vector<Bar> bars;
+    std::vector<Bar> stating;
     std::int64_t last_bar = -1;
     for (std::size_t i = 0; i < stated.size(); ++i) {
         const std::int64_t onset = notes[stated[i].first].onset;
-        if (onset / bar_length != last_bar) bars.push_back({i, i, {}});
-        last_bar = onset / bar_length;
-        bars.back().end = i + 1;
-        bars.back().levels[onset % bar_length] = stated[i].level;
+        if (bars.number(onset) != last_bar) stating.push_back({i, i, {}});
+        last_bar = bars.number(onset);
+        stating.back().end = i + 1;
+        stating.back().levels[bars.place(onset)] = stated[i].level;
     }
     const auto is_balance = [](const Bar& bar) {
         const int level = bar.levels.begin()->second;
@@ -142,18 +142,18 @@ void find_balance(std::span<const Note> notes, std::int64_t bar_length, std::int
     const auto mark_repeated = [&](std::size_t begin, std::size_t end) {
         bool is_printed = false;
         for (std::size_t bar = begin; bar < end; ++bar) {
-            for (std::size_t k = bars[bar].first; k < bars[bar].end; ++k) stated[k].is_repeated = is_printed;
+            for (std::size_t k = stating[bar].first; k < stating[bar].end; ++k) stated[k].is_repeated = is_printed;
             // The first bar that is printed states it.
-            const std::int64_t onset = notes[stated[bars[bar].first].first].onset;
-            is_printed = is_printed || onset / bar_length * bar_length >= fresh_from;
+            const std::int64_t onset = notes[stated[stating[bar].first].first].onset;
+            is_printed = is_printed || bars.begin(onset) >= fresh_from;
         }
     };
-    for (std::size_t i = 0; i < bars.size();) {
-        const Bar& first = bars[i];
+    for (std::size_t i = 0; i < stating.size();) {
+        const Bar& first = stating[i];
         std::size_t end = i + 1;
         if (is_balance(first)) {
-            while (end < bars.size() && std::includes(first.levels.begin(), first.levels.end(),
-                                                      bars[end].levels.begin(), bars[end].levels.end())) {
+            while (end < stating.size() && std::includes(first.levels.begin(), first.levels.end(),
+                                                         stating[end].levels.begin(), stating[end].levels.end())) {
                 ++end;
             }
         }
@@ -174,26 +174,26 @@ int dynamic_level(double velocity) {
     return std::clamp(static_cast<int>(std::lround(velocity / step)) - 1, 0, levels - 1);
 }
 
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length, std::int64_t fresh_from) {
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from) {
     std::vector<DynamicMark> marks;
     int current = -1;
     std::size_t derived = 0;  // first note whose dynamics are still to be derived
     std::vector<StatedLevel> all = stated_levels(notes);
-    find_balance(notes, bar_length, fresh_from, all);
+    find_balance(notes, bars, fresh_from, all);
     for (const StatedLevel& stated : all) {
         if (stated.level < 0) continue;
-        add_derived(notes.subspan(derived, stated.first - derived), bar_length, current, marks);
+        add_derived(notes.subspan(derived, stated.first - derived), bars, current, marks);
         derived = stated.end;
         if (stated.level != current && !stated.is_repeated) {
             marks.push_back({notes[stated.first].onset, DynamicMark::Kind::level, stated.level});
         }
         current = stated.level;
     }
-    add_derived(notes.subspan(derived), bar_length, current, marks);
+    add_derived(notes.subspan(derived), bars, current, marks);
     return marks;
 }
 
-std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_length) {
+std::vector<bool> accents_of(std::span<const Note> notes, const BarLines& bars) {
     std::vector<bool> accents(notes.size(), false);
     const bool is_stated = std::any_of(notes.begin(), notes.end(), [](const Note& note) {
         return note.emphasis.stress != Stress::plain || note.emphasis.dynamic >= 0;
@@ -203,12 +203,12 @@ std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_lengt
                        [](const Note& note) { return note.emphasis.is_accented(); });
         return accents;
     }
-    const std::vector<BarLoudness> bars = loudness_of(notes, bar_length);
+    const std::vector<BarLoudness> loudness = loudness_of(notes, bars);
     std::size_t bar = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < notes.size(); ++i) {
-        while (bars[bar].bar != notes[i].onset / bar_length) ++bar;
-        accents[i] = notes[i].velocity >= bars[bar].velocity + accent && i > 0 &&
+        while (loudness[bar].bar != bars.number(notes[i].onset)) ++bar;
+        accents[i] = notes[i].velocity >= loudness[bar].velocity + accent && i > 0 &&
                      notes[i].velocity >= notes[i - 1].velocity + accent;
         if (accents[i]) ++count;
     }

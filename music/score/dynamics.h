@@ -23,12 +23,11 @@ int dynamic_level(double velocity);
 /// velocity apart, as in General MIDI; mf is 80. A bar has to leave the current level by 3 steps to change it.
 /// Hairpins have at least two notes, and end at a rest before the new level.
 /// @param fresh_from  tick from which the print begins: nothing before it has been read
-std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, std::int64_t bar_length,
-                                     std::int64_t fresh_from = 0);
+std::vector<DynamicMark> dynamics_of(std::span<const Note> notes, const BarLines& bars, std::int64_t fresh_from = 0);
 
 /// True for each accented note: those that the rhythm accents; or, if the pattern states neither accents nor
 /// dynamics, those 14 steps louder than the mean of their bar, after a softer one, if they are at most a third of the
 /// notes.
-std::vector<bool> accents_of(std::span<const Note> notes, std::int64_t bar_length);
+std::vector<bool> accents_of(std::span<const Note> notes, const BarLines& bars);
 
 }  // namespace sikku

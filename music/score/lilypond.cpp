@@ -345,16 +345,24 @@ private:
 
     /// The tempo in beats of the meter, as a whole number: LilyPond does not accept fractions, and truncates them in
     /// MIDI files.
-    std::string tempo_mark() const {
-        const BeatUnit beat = beat_unit(head_.meter);
-        const NotatedSymbol& first = notation_.parts.front().staves.front().voices.front().symbols.front();
-        std::string words = words_of_tempo(notation_, head_);
+    static std::string tempo_mark(double tempo, const Meter& meter, std::string words, bool slows_down) {
+        const BeatUnit beat = beat_unit(meter);
         if (!words.empty()) words = lilypond_string(words) + " ";
-        const std::string text = !first.slows_down ? words
-                                 : words.empty()   ? std::string(rit)
-                                                   : fmt::format("\\markup {{ {}{} }} ", words, rit.substr(8));
+        const std::string text = !slows_down     ? words
+                                 : words.empty() ? std::string(rit)
+                                                 : fmt::format("\\markup {{ {}{} }} ", words, rit.substr(8));
         return fmt::format("\\tempo {}{}{} = {}", text, beat.value.divisor, beat.value.dotted ? "." : "",
-                           std::max<long long>(1, std::llround(head_.tempo / beat.quarters)));
+                           std::max<long long>(1, std::llround(tempo / beat.quarters)));
+    }
+
+    /// Writes what changes where a section begins. @return true if the tempo is stated
+    bool write_frame(const FrameChange& change, bool slows_down) {
+        const Frame& frame = change.frame;
+        const Frame before = frame_at(frame_of(head_), head_.changes, change.onset - 1);
+        if (frame.meter != before.meter) put("{} ", meter_name(frame.meter));
+        const bool has_tempo = has_other_tempo(before, frame);
+        if (has_tempo) put("{} ", tempo_mark(frame.tempo, frame.meter, frame.tempo_words, slows_down));
+        return has_tempo;
     }
 
     void write_staff(const Staff& staff, const NotatedPart& part, std::string_view opening, bool has_tempo,
@@ -375,7 +383,10 @@ private:
                     put("        \\set Score.currentBarNumber = #{}\n", head_.first_bar);
                 }
                 if (part.transposition) put("        \\transposition {}\n", part.transposition->lilypond);
-                if (has_tempo) put("        {}\n", tempo_mark());
+                if (has_tempo) {
+                    put("        {}\n", tempo_mark(head_.tempo, head_.meter, words_of_tempo(notation_, head_),
+                                                   staff.voices.front().symbols.front().slows_down));
+                }
                 if (told.swing.is_on() && &staff == &part.staves.front() && !common_swing(notation_)) {
                     put("        <>^\\markup \\bold \"{}\"\n", swing_words(told.swing));
                 }
@@ -384,7 +395,8 @@ private:
             cues_ = staff.cues;
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
                         i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
-                        has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{});
+                        has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{},
+                        has_tempo && i == 0 ? std::span(head_.changes) : std::span<const FrameChange>{});
             cues_ = {};
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
@@ -431,8 +443,7 @@ private:
         skip(0, chords.front().onset);
         for (std::size_t i = 0; i < chords.size(); ++i) {
             const ChordMark& chord = chords[i];
-            const std::int64_t end =
-                i + 1 < chords.size() ? chords[i + 1].onset : notation_.bars * notation_.bar_length;
+            const std::int64_t end = i + 1 < chords.size() ? chords[i + 1].onset : notation_.end();
             const auto length = fmt::format("1*{}/{}", end - chord.onset, 4 * ticks_per_quarter);
             if (chord.quality < 0) {
                 put(" r{}", length);
@@ -449,7 +460,7 @@ private:
     void write_cue(const Cue& cue) {
         put("      \\new CueVoice {{\n        \\voiceOne s1*{}/{} <>^\\markup \\tiny {}\n", cue.from,
             4 * ticks_per_quarter, lilypond_string(cue.name));
-        write_voice(cue.voice, {}, {}, {});
+        write_voice(cue.voice, {}, {}, {}, {});
         put("\n      }}\n");
     }
 
@@ -462,7 +473,7 @@ private:
             const std::int64_t onset = marks[i].onset;
             std::string together;
             for (; i < marks.size() && marks[i].onset == onset; ++i) together += mark_text(marks[i]);
-            skip(onset, i < marks.size() ? marks[i].onset : notation_.bars * notation_.bar_length);
+            skip(onset, i < marks.size() ? marks[i].onset : notation_.end());
             put("{}", together);
         }
         put("\n");
@@ -483,9 +494,12 @@ private:
     }
 
     /// @param keys  keys after the first, which is written already
+    /// @param frames  changes of tempo and meter, which one voice of the score states
     void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
-                     std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks) {
-        const std::int64_t bar = notation_.bar_length;
+                     std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks,
+                     std::span<const FrameChange> frames) {
+        const BarLines& bar_lines = notation_.bar_lines;
+        auto frame = frames.begin();
         auto change = changes.begin();
         auto mark = marks.begin();
         auto key = keys.begin();
@@ -498,6 +512,10 @@ private:
             for (; key != keys.end() && key->onset <= symbol.onset; ++key) {
                 put("{} ", key->key ? key_name(*key->key) : "\\key c \\major");
             }
+            bool has_tempo = false;
+            for (; frame != frames.end() && frame->onset <= symbol.onset; ++frame) {
+                has_tempo = write_frame(*frame, symbol.slows_down);
+            }
             for (; change != changes.end() && change->onset <= symbol.onset; ++change) {
                 write_change(*change, clef, octaves);
             }
@@ -506,25 +524,25 @@ private:
                 put("\\tuplet {}/{} {{ ", span.actual, span.normal);
             }
             tuplet = symbol.tuplet;
-            if (symbol.slows_down && symbol.onset > 0) put("\\tempo {}", rit);
+            if (symbol.slows_down && symbol.onset > 0 && !has_tempo) put("\\tempo {}", rit);
             write_beam_counts(voice.symbols, i);
             const std::int64_t bars = notation_.bars_of(symbol);
             write_symbol(symbol, bars);
             std::string end_marks = symbol.has_fermata ? "\\fermata" : "";
             for (; mark != marks.end() && mark->onset <= symbol.onset; ++mark) end_marks += mark_text(*mark);
             put("{} ", end_marks);
-            const std::int64_t end = symbol.onset + symbol.length + (bars - 1) * bar;
+            const std::int64_t end = symbol.onset + symbol.length + (bars - 1) * bar_lines.length(symbol.onset);
             i += static_cast<std::size_t>(bars - 1);
             if (tuplet >= 0 && end == voice.tuplets[static_cast<std::size_t>(tuplet)].to) put("}} ");
-            if (end % bar != 0) continue;
-            const bool is_last = end / bar == notation_.bars;
+            if (bar_lines.place(end) != 0) continue;
+            const bool is_last = end == notation_.end();
             if (is_last && octaves != 0) put("\\ottava #0 ");
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             put("{}| % {}\n",
                 is_last && !notation_.is_cut                              ? "\\bar \"|.\" "
                 : std::binary_search(doubled.begin(), doubled.end(), end) ? "\\bar \"||\" "
                                                                           : "",
-                head_.first_bar - 1 + end / bar);
+                head_.first_bar - 1 + bar_lines.number(end));
             if (!is_last) put("        ");
         }
     }
@@ -577,8 +595,9 @@ private:
         const bool is_below = is_rest && std::any_of(cues_.begin(), cues_.end(), [&](const Cue& cue) {
                                   return cue.from <= symbol.onset && symbol.onset < cue.to;
                               });
-        put("{}{}1*{}/{}{}{}", is_below ? "\\voiceTwo " : "", is_rest ? "R" : "s", head_.meter.beats,
-            head_.meter.unit, bars > 1 ? fmt::format("*{}", bars) : "", is_below ? " \\oneVoice" : "");
+        const Meter& meter = notation_.bar_lines.meter(symbol.onset);
+        put("{}{}1*{}/{}{}{}", is_below ? "\\voiceTwo " : "", is_rest ? "R" : "s", meter.beats, meter.unit,
+            bars > 1 ? fmt::format("*{}", bars) : "", is_below ? " \\oneVoice" : "");
     }
 
     void write_symbol(const NotatedSymbol& symbol, std::int64_t bars) {

@@ -513,12 +513,12 @@ private:
             sink_.write(block);
             block.clear();
         };
-        const std::vector<TempoChange> tempos = conductor_.changes(end);
-        auto tempo = tempos.begin();
+        const std::vector<ConductorChange> changes = conductor_.changes(end);
+        auto change = changes.begin();
         const auto change_until = [&](std::int64_t tick) {
-            for (; tempo != tempos.end() && tempo->tick <= tick; ++tempo) {
-                block += delta(static_cast<std::uint64_t>(tempo->tick - now)) += tempo->event();
-                now = tempo->tick;
+            for (; change != changes.end() && change->tick <= tick; ++change) {
+                block += delta(static_cast<std::uint64_t>(change->tick - now)) += change->event();
+                now = change->tick;
             }
         };
         for (;;) {

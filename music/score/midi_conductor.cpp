@@ -7,16 +7,33 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace sikku::midi {
 namespace {
 
-void check_head(const ScoreHead& head) {
-    const Meter& meter = head.meter;
+void check_meter(const Meter& meter) {
     const bool is_power =
         meter.unit >= 1 && meter.unit <= 64 && std::has_single_bit(static_cast<unsigned>(meter.unit));
     if (meter.beats < 1 || meter.beats > 255 || !is_power) {
         throw ScoreError(fmt::format("a MIDI file cannot contain a meter of {}/{}", meter.beats, meter.unit));
+    }
+}
+
+/// @return microseconds a quarter
+double micro_of(double tempo) {
+    const double micro = std::round(60e6 / tempo);
+    if (!(tempo > 0 && micro >= 1 && micro < 0x1p24)) {
+        throw ScoreError(fmt::format("a MIDI file cannot contain a tempo of {} quarters a minute", tempo));
+    }
+    return micro;
+}
+
+void check_head(const ScoreHead& head) {
+    check_meter(head.meter);
+    for (const FrameChange& change : head.changes) {
+        check_meter(change.frame.meter);
+        micro_of(change.frame.tempo);
     }
     for (const Part& part : head.parts) {
         if (part.program < 0 || part.program > 127) {
@@ -28,10 +45,17 @@ void check_head(const ScoreHead& head) {
     }
 }
 
+std::string meter_bytes(const Meter& meter) {
+    const int power = std::countr_zero(static_cast<unsigned>(meter.unit));
+    // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
+    const int click = std::max(96 / meter.unit, 1);
+    return {static_cast<char>(meter.beats), static_cast<char>(power), static_cast<char>(click), 8};
+}
+
 }  // namespace
 
-std::string TempoChange::event() const {
-    return meta(tempo_type, big_endian(micro, 3));
+std::string ConductorChange::event() const {
+    return meter ? meta(meter_type, meter_bytes(*meter)) : meta(tempo_type, big_endian(micro, 3));
 }
 
 Conductor::Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe) : head_(&head), curves_(curves) {
@@ -40,21 +64,14 @@ Conductor::Conductor(const ScoreHead& head, const Curves* curves, bool is_mpe) :
 }
 
 std::string Conductor::make_opening(bool is_mpe) const {
-    const double tempo = std::round(60e6 / (head_->tempo * first_factor()));  // microseconds a quarter
-    if (!(head_->tempo > 0 && tempo >= 1 && tempo < 0x1p24)) {
-        throw ScoreError(fmt::format("a MIDI file cannot contain a tempo of {} quarters a minute", head_->tempo));
-    }
+    const double micro = micro_of(head_->tempo * first_factor());
     std::string bytes;
     if (!head_->title.empty()) bytes += meta_now(name_type, head_->title);
     // Texts are unnamed, so the first is always the pattern, even if it is empty.
     bytes += meta_now(text_type, head_->pattern);
     bytes += meta_now(text_type, head_->made);
-    bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(tempo), 3));
-    const int power = std::countr_zero(static_cast<unsigned>(head_->meter.unit));
-    // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
-    const int click = std::max(96 / head_->meter.unit, 1);
-    bytes += meta_now(meter_type, std::string{static_cast<char>(head_->meter.beats), static_cast<char>(power),
-                                              static_cast<char>(click), 8});
+    bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(micro), 3));
+    bytes += meta_now(meter_type, meter_bytes(head_->meter));
     if (!head_->parts.empty() && head_->parts.front().key) {
         const KeySignature key = *head_->parts.front().key;
         bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
@@ -69,15 +86,15 @@ double Conductor::first_factor() const {
     return has_curve ? curves_->tempo.front().factor : 1;
 }
 
-std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
+std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
     static const Curves nothing;
     const Curves& curves = curves_ ? *curves_ : nothing;
     // Avoids copying a long map.
-    std::vector<TempoPoint> falling;
-    if (head_->ritardando != 0) falling = tempo_map(*head_, curves, end);
-    const std::vector<TempoPoint>& map = head_->ritardando != 0 ? falling : curves.tempo;
-    std::vector<TempoChange> result;
-    result.reserve(map.size());
+    std::vector<TempoPoint> changing;
+    if (head_->changes_tempo()) changing = tempo_map(*head_, curves, end);
+    const std::vector<TempoPoint>& map = head_->changes_tempo() ? changing : curves.tempo;
+    std::vector<ConductorChange> result;
+    result.reserve(map.size() + head_->changes.size());
     std::int64_t last = 0;
     for (const TempoPoint& point : map) {
         // A delta cannot express a later tick.
@@ -88,16 +105,25 @@ std::vector<TempoChange> Conductor::changes(std::int64_t end) const {
         if (!is_late) last = point.tick;
         result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
     }
+    const Meter* before = &head_->meter;
+    for (const FrameChange& change : head_->changes) {
+        const Meter& meter = change.frame.meter;
+        if (meter == *std::exchange(before, &meter)) continue;
+        const auto after =
+            std::upper_bound(result.begin(), result.end(), change.onset,
+                             [](std::int64_t tick, const ConductorChange& other) { return tick < other.tick; });
+        result.insert(after, {change.onset, 0, &meter});
+    }
     return result;
 }
 
 std::string Conductor::closing(std::int64_t end, const std::string& last) const {
-    const std::vector<TempoChange> tempos = changes(end);
-    if (tempos.empty()) return last + meta(end_type, "");
+    const std::vector<ConductorChange> all = changes(end);
+    if (all.empty()) return last + meta(end_type, "");
     std::string bytes;
-    bytes.reserve(tempos.size() * (wide_delta(0) + TempoChange{}.event()).size() + last.size() + 16);
+    bytes.reserve(all.size() * (wide_delta(0) + ConductorChange{}.event()).size() + last.size() + 16);
     std::int64_t now = 0;
-    for (const TempoChange& change : tempos) {
+    for (const ConductorChange& change : all) {
         bytes += wide_delta(static_cast<std::uint64_t>(change.tick - now)) += change.event();
         now = change.tick;
     }

@@ -10,9 +10,11 @@
 
 namespace sikku::midi {
 
-struct TempoChange {
+/// Another tempo, or another meter.
+struct ConductorChange {
     std::int64_t tick;
-    std::uint32_t micro;  ///< microseconds a quarter
+    std::uint32_t micro = 0;       ///< microseconds a quarter
+    const Meter* meter = nullptr;  ///< of the head; null: it is a change of tempo
 
     /// The event without its delta.
     std::string event() const;
@@ -26,10 +28,10 @@ public:
 
     /// The events at the beginning of the track, all at tick 0.
     const std::string& opening() const { return opening_; }
-    /// Changes of tempo after the beginning, by tick.
-    std::vector<TempoChange> changes(std::int64_t end) const;
+    /// Changes of tempo and meter after the beginning, by tick.
+    std::vector<ConductorChange> changes(std::int64_t end) const;
     /// The bytes that end the track. Their number is the same for every `end` if `last` is.
-    /// @param last  the delta of the end of the track if the tempo does not change
+    /// @param last  the delta of the end of the track if nothing changes
     std::string closing(std::int64_t end, const std::string& last) const;
 
 private:

@@ -2,6 +2,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/text.h"
+#include "music/score/bar_lines.h"
 #include "music/score/glides.h"
 #include "music/score/labels.h"
 #include "music/score/note_order.h"
@@ -132,15 +133,34 @@ std::vector<Joint> joints(const Melody& melody) {
 
 /// Tempo, meter and parts in words.
 std::string subtitle(const ScoreHead& head, const Melody& melody) {
-    std::string text = fmt::format("{} {}, {} quarters a minute, {}/{}", melody.notes.size(),
-                                   melody.notes.size() == 1 ? "note" : "notes", number(head.tempo, 2),
-                                   head.meter.beats, head.meter.unit);
+    std::vector<std::string> tempos, meters;
+    const auto add = [](std::vector<std::string>& list, const std::string& one) {
+        if (std::find(list.begin(), list.end(), one) == list.end()) list.push_back(one);
+    };
+    const auto add_frame = [&](double tempo, const Meter& meter) {
+        add(tempos, number(tempo, 2));
+        add(meters, fmt::format("{}/{}", meter.beats, meter.unit));
+    };
+    add_frame(head.tempo, head.meter);
+    for (const FrameChange& change : head.changes) add_frame(change.frame.tempo, change.frame.meter);
+    std::string text =
+        fmt::format("{} {}, {} quarters a minute, {}", melody.notes.size(),
+                    melody.notes.size() == 1 ? "note" : "notes", fmt::join(tempos, ", "), fmt::join(meters, ", "));
     std::set<std::string> told;
     for (const Part& part : head.parts) {
         const std::string words = part.scale.empty() ? part.name : fmt::format("{}, {}", part.name, part.scale);
         if (told.insert(words).second) text += " · " + words;
     }
     return head.source.empty() ? text : fmt::format("{} · {}", shortened(head.source, 90), text);
+}
+
+/// Where the length of bars changes: [tick, length].
+std::string bars_text(const ScoreHead& head) {
+    std::string text = fmt::format("[0,{}]", std::max<std::int64_t>(head.meter.bar(), 1));
+    for (const FrameChange& change : head.changes) {
+        text += fmt::format(",[{},{}]", change.onset, change.frame.meter.bar());
+    }
+    return text;
 }
 
 /// Writes changes of tempo, and points of pan and pitch: [voice, tick, number, value].
@@ -169,8 +189,7 @@ void write_parts(TextWriter& out, const ScoreHead& head, const Melody& melody) {
             voices[static_cast<std::size_t>(note.voice)].push_back(note);
         }
     }
-    const std::vector<PrintedPart> printed =
-        share_parts(head.parts, voices, std::max<std::int64_t>(head.meter.bar(), 1));
+    const std::vector<PrintedPart> printed = share_parts(head.parts, voices, BarLines(head));
     std::vector<Part> players;
     for (const PrintedPart& one : printed) players.push_back(one.part);
     const std::vector<Label> labels = labels_of(players);
@@ -308,18 +327,19 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     }
     out.put("</g>\n<g id=\"bars\">\n");
     // Every bar, or every 2nd, 4th, 8th if lines would merge into grey; a number at most every 12 mm.
-    const auto bar = static_cast<double>(std::max<std::int64_t>(head.meter.bar(), 1)) * width_of_tick;
+    const BarLines bars(head);
+    const auto bar = static_cast<double>(bars.length(0)) * width_of_tick;
     std::int64_t every = 1;
     while (bar * static_cast<double>(every) < 3.0) every *= 2;
     std::int64_t named = every;
     while (bar * static_cast<double>(named) < 12.0) named *= 2;
-    const std::int64_t ticks = std::max<std::int64_t>(head.meter.bar(), 1);
-    for (std::int64_t i = 0; i <= melody.end / ticks; i += every) {
+    for (std::int64_t i = 0; bars.onset(i) <= melody.end; i += every) {
+        const std::int64_t onset = bars.onset(i);
         out.put("<path class=\"bar\" stroke=\"#cfcfd8\" stroke-width=\"0.12\" d=\"M{} {}V{}\"/>\n",
-                number(across(i * ticks)), number(panel.top), number(bottom));
-        if (i % named == 0 && i * ticks < melody.end) {
-            out.put("<text fill=\"#5c5c68\" font-size=\"2.8\" x=\"{}\" y=\"{}\">{}</text>\n",
-                    number(across(i * ticks)), number(bottom + 4.0), i + 1);
+                number(across(onset)), number(panel.top), number(bottom));
+        if (i % named == 0 && onset < melody.end) {
+            out.put("<text fill=\"#5c5c68\" font-size=\"2.8\" x=\"{}\" y=\"{}\">{}</text>\n", number(across(onset)),
+                    number(bottom + 4.0), i + 1);
         }
     }
     out.put("</g>\n<g id=\"roll\">\n");
@@ -469,8 +489,8 @@ void write_music_page(const ScoreHead& head, const std::vector<Note>& notes, std
     }
     out.put(
         "</main>\n<script type=\"application/json\" "
-        "id=\"score\">{{\"quarter\":{},\"bar\":{},\"end\":{},\"tempo\":{},",
-        ticks_per_quarter, std::max<std::int64_t>(head.meter.bar(), 1), melody.end, number(head.tempo, 4));
+        "id=\"score\">{{\"quarter\":{},\"bars\":[{}],\"end\":{},\"tempo\":{},",
+        ticks_per_quarter, bars_text(head), melody.end, number(head.tempo, 4));
     write_curves(out, curves, tempo_map(head, curves, end));
     write_parts(out, head, melody);
     out.put("\"drums\":[{}],\"paper\":{},\"screen\":{},\"notes\":[", fmt::join(drum_voices(head), ","),

@@ -81,7 +81,8 @@ public:
 private:
     /// Sets the ticks of a division: the largest number that divides every duration.
     void find_unit() {
-        unit_ = std::gcd(ticks_per_quarter, notation_.bar_length);
+        unit_ = std::gcd(ticks_per_quarter, head_.meter.bar());
+        for (const FrameChange& change : head_.changes) unit_ = std::gcd(unit_, change.frame.meter.bar());
         each_symbol(notation_, [&](const NotatedSymbol& symbol) { unit_ = std::gcd(unit_, symbol.length); });
     }
 
@@ -182,14 +183,20 @@ private:
             states.push_back({&staff, states.size(), staff.changes.front().clef});
         }
         std::size_t key = 0;
+        auto frame = head_.changes.begin();
+        Frame before = frame_of(head_);
         const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
             put("<measure number=\"{}\">\n", head_.first_bar + bar);
             if (bar == 0) write_attributes(part);
-            const std::int64_t begin = bar * notation_.bar_length;
-            if (key + 1 < keys.size() && keys[key + 1].onset == begin) {
+            const std::int64_t begin = notation_.bar_lines.onset(bar);
+            const bool has_key = key + 1 < keys.size() && keys[key + 1].onset == begin;
+            const bool has_frame = frame != head_.changes.end() && frame->onset == begin;
+            const bool has_meter = has_frame && frame->frame.meter != before.meter;
+            if (has_key || has_meter) {
                 put("<attributes>\n");
-                write_key(keys[++key].key);
+                if (has_key) write_key(keys[++key].key);
+                if (has_meter) write_meter(frame->frame.meter);
                 put("</attributes>\n");
             }
             if (const std::int64_t rests = notation_.bars_of_rest(begin); rests > 1) {
@@ -205,7 +212,11 @@ private:
                     "</direction-type></direction>\n",
                     xml_escaped(part.name));
             }
-            if (bar == 0 && index == 0) write_tempo();
+            if (bar == 0 && index == 0) write_tempo(before);
+            if (has_frame) {
+                if (index == 0 && has_other_tempo(before, frame->frame)) write_tempo(frame->frame);
+                before = frame++->frame;
+            }
             if (bar == 0 && part.part->part.swing.is_on()) {
                 write_swing(part.part->part.swing, index == 0 || !common_swing(notation_));
             }
@@ -220,7 +231,7 @@ private:
                 write_cues(part.staves[staff], bar);
             }
             // A bar ends where its last voice did.
-            go_to((bar + 1) * notation_.bar_length);
+            go_to(notation_.bar_lines.onset(bar + 1));
             if (bar + 1 == notation_.bars && !notation_.is_cut) {
                 put("<barline location=\"right\"><bar-style>light-heavy</bar-style></barline>\n");
             } else if (std::binary_search(doubled.begin(), doubled.end(), here_)) {
@@ -239,13 +250,17 @@ private:
     void write_attributes(const XmlPart& part) {
         put("<attributes>\n<divisions>{}</divisions>\n", ticks_per_quarter / unit_);
         write_key(part.part->keys.front().key);
-        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats_text(head_.meter), head_.meter.unit);
+        write_meter(head_.meter);
         if (part.staves.size() > 1) put("<staves>{}</staves>\n", part.staves.size());
         if (part.part->has_pedal) put("<part-symbol top-staff=\"1\" bottom-staff=\"2\">brace</part-symbol>\n");
         for (std::size_t i = 0; i < part.staves.size(); ++i) write_clef(part.staves[i].changes.front().clef, part, i);
         if (part.staves.front().lines == 1) put("<staff-details><staff-lines>1</staff-lines></staff-details>\n");
         if (const auto& by = part.part->transposition) write_transposition(*by);
         put("</attributes>\n");
+    }
+
+    void write_meter(const Meter& meter) {
+        put("<time><beats>{}</beats><beat-type>{}</beat-type></time>\n", beats_text(meter), meter.unit);
     }
 
     void write_transposition(const Transposition& by) {
@@ -267,18 +282,18 @@ private:
     }
 
     /// Writes the tempo in beats of the meter, rounded to a whole number unless beats are quarters.
-    void write_tempo() {
-        const BeatUnit beat = beat_unit(head_.meter);
+    void write_tempo(const Frame& frame) {
+        const BeatUnit beat = beat_unit(frame.meter);
         const double tempo =
-            beat.quarters == 1 ? head_.tempo : std::max(1.0, std::round(head_.tempo / beat.quarters));
+            beat.quarters == 1 ? frame.tempo : std::max(1.0, std::round(frame.tempo / beat.quarters));
         const std::string words =
-            head_.tempo_words.empty()
+            frame.tempo_words.empty()
                 ? ""
                 : fmt::format("<direction-type><words font-weight=\"bold\">{} </words></direction-type>",
-                              xml_escaped(head_.tempo_words));
+                              xml_escaped(frame.tempo_words));
         put("<direction placement=\"above\">{}<direction-type><metronome><beat-unit>{}</beat-unit>{}"
             "<per-minute>{}</per-minute></metronome></direction-type><sound tempo=\"{}\"/></direction>\n",
-            words, type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, head_.tempo);
+            words, type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, frame.tempo);
     }
 
     /// Programs play eighths and sixteenths with swing. @param has_words  prints it, too
@@ -381,7 +396,7 @@ private:
 
     /// Writes the cues of a bar, as the voice after those of the staff.
     void write_cues(const Staff& staff, std::int64_t bar) {
-        const std::int64_t begin = bar * notation_.bar_length;
+        const std::int64_t begin = notation_.bar_lines.onset(bar);
         for (const Cue& cue : staff.cues) {
             if (begin < cue.from || begin >= cue.to) continue;
             go_to(begin);
@@ -401,11 +416,11 @@ private:
 
     void write_bar(const NotatedVoice& voice, std::size_t& next, std::int64_t bar, StaffState* state,
                    const XmlPart& part) {
-        const std::int64_t end = (bar + 1) * notation_.bar_length;
+        const std::int64_t end = notation_.bar_lines.onset(bar + 1);
         for (; next < voice.symbols.size() && voice.symbols[next].onset < end; ++next) {
             const NotatedSymbol& symbol = voice.symbols[next];
             if (state) write_changes(*state, symbol.onset + symbol.length, part);
-            const bool is_empty = symbol.kind == SymbolKind::gap && symbol.length == notation_.bar_length;
+            const bool is_empty = symbol.kind == SymbolKind::gap && notation_.is_whole_rest(symbol);
             if (is_empty && !symbol.slows_down) continue;
             go_to(symbol.onset);
             if (const std::vector<int> cents = printed_cents(symbol); !cents.empty()) {
@@ -528,7 +543,7 @@ private:
         }
         if (pitch.octave < 0) {
             throw ScoreError(fmt::format("bar {} has a note below C0, the lowest that MusicXML can tell",
-                                         symbol.onset / notation_.bar_length + 1));
+                                         notation_.bar_lines.number(symbol.onset) + 1));
         }
         put("<pitch><step>{}</step>", "CDEFGAB"[pitch.letter]);
         if (pitch.quarters != 0) put("<alter>{}</alter>", 0.5 * pitch.quarters);

@@ -30,10 +30,10 @@ constexpr std::int64_t most_bars = 100'000;
 constexpr double unheard = 0.01;  // semitones
 
 /// Hides rests: a bar's rest is printed once, and only if all voices rest; rests of more than two voices do not fit.
-void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
+void hide_rests(Staff& staff, std::int64_t bars, const BarLines& bar_lines) {
     std::vector<bool> has_notes(static_cast<std::size_t>(bars), false);
     const auto bar_of = [&](const NotatedSymbol& symbol) {
-        return static_cast<std::size_t>(symbol.onset / bar_length);
+        return static_cast<std::size_t>(bar_lines.number(symbol.onset));
     };
     for (const NotatedVoice& voice : staff.voices) {
         for (const NotatedSymbol& symbol : voice.symbols) {
@@ -51,7 +51,7 @@ void hide_rests(Staff& staff, std::int64_t bars, std::int64_t bar_length) {
 }
 
 /// Gives hands that state dynamics their own, if these are fewer marks.
-void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, std::int64_t fresh_from, NotatedPart& notated) {
+void divide_dynamics(const PartPlan& plan, const BarLines& bars, std::int64_t fresh_from, NotatedPart& notated) {
     std::vector<std::vector<DynamicMark>> of_hands;
     std::size_t count = 0;
     bool is_stated = false;
@@ -63,7 +63,7 @@ void divide_dynamics(const PartPlan& plan, std::int64_t bar_length, std::int64_t
         sort_by_onset(notes);
         is_stated = is_stated || std::any_of(notes.begin(), notes.end(),
                                              [](const Note& note) { return note.emphasis.dynamic >= 0; });
-        of_hands.push_back(dynamics_of(notes, bar_length, fresh_from));
+        of_hands.push_back(dynamics_of(notes, bars, fresh_from));
         count += of_hands.back().size();
     }
     if (!is_stated || count >= notated.staves.front().dynamics.size()) return;
@@ -88,8 +88,8 @@ std::uint64_t snap(std::vector<Note>& notes, const Grid& grid) {
 /// Writes the notes and rests of one voice, one after the other.
 class VoiceWriter {
 public:
-    VoiceWriter(const Grid& grid, const Meter& meter, NotatedVoice& voice)
-        : grid_(grid), meter_(meter), bar_(meter.bar()), voice_(voice) {}
+    VoiceWriter(const Grid& grid, const BarLines& bars, NotatedVoice& voice)
+        : grid_(grid), bars_(bars), voice_(voice) {}
 
     /// Writes a stroke: the longest value that ends by `end`, and rests.
     void add_stroke(std::int64_t end, const NotatedSymbol& stroke) {
@@ -107,10 +107,11 @@ public:
     void add(std::int64_t end, const NotatedSymbol* note) {
         const std::int64_t begin = here_;
         while (here_ < end) {
-            const std::int64_t bar_begin = here_ / bar_ * bar_;
-            std::int64_t piece_end = std::min(end, bar_begin + bar_);
-            if (!note && piece_end - here_ == bar_) {
-                put({{bar_, {}}}, -1);
+            const std::int64_t bar_begin = bars_.begin(here_);
+            const std::int64_t bar = bars_.length(here_);
+            std::int64_t piece_end = std::min(end, bar_begin + bar);
+            if (!note && piece_end - here_ == bar) {
+                put({{bar, {}}}, -1);
                 voice_.symbols.back().kind = SymbolKind::bar_rest;
                 continue;
             }
@@ -126,7 +127,8 @@ public:
             } else {
                 const std::int64_t from = here_ - bar_begin;
                 const std::int64_t to = piece_end - bar_begin;
-                put(note ? written_values(from, to, meter_) : written_rests(from, to, meter_), -1);
+                const Meter& meter = bars_.meter(here_);
+                put(note ? written_values(from, to, meter) : written_rests(from, to, meter), -1);
             }
             for (std::size_t i = first; note && i < voice_.symbols.size(); ++i) {
                 NotatedSymbol& symbol = voice_.symbols[i];
@@ -164,8 +166,7 @@ private:
     }
 
     const Grid& grid_;
-    const Meter& meter_;
-    std::int64_t bar_;
+    const BarLines& bars_;
     NotatedVoice& voice_;
     std::int64_t here_ = 0;
 };
@@ -178,13 +179,13 @@ void set_on_one_line(Staff& staff) {
     }
 }
 
-void beam(NotatedVoice& voice, const Meter& meter) {
+void beam(NotatedVoice& voice, const BarLines& bars) {
     std::vector<BeamedNote> notes;
     for (const NotatedSymbol& symbol : voice.symbols) {
         notes.push_back(
             {symbol.onset, symbol.length, symbol.value, symbol.kind == SymbolKind::note, symbol.tuplet, {}});
     }
-    set_beams(notes, voice.tuplets, meter);
+    set_beams(notes, voice.tuplets, bars);
     for (std::size_t i = 0; i < notes.size(); ++i) voice.symbols[i].beams = notes[i].beams;
 }
 
@@ -219,7 +220,7 @@ struct Slur {
 
 /// Slurs over the notes of a phrase from one rest to the next: at least two, not all of one pitch, in at most four
 /// bars. Players who swing shape their phrases themselves.
-std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, std::int64_t bar_length) {
+std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, const BarLines& bars) {
     constexpr std::int64_t most_bars_of_slur = 4;
     std::vector<Slur> slurs;
     if (!part.touch.has_phrases || part.swing.is_on() || part.touch.sounding < 1 || part.touch.is_by_depth ||
@@ -234,7 +235,7 @@ std::vector<Slur> slurs_of(const Part& part, const std::vector<Note>& notes, std
             differs = differs || notes[last].key != notes[first].key;
         }
         const std::int64_t length = notes[last].onset - notes[first].onset;
-        if (differs && length < most_bars_of_slur * bar_length) slurs.push_back({first, last});
+        if (differs && length < most_bars_of_slur * bars.length(notes[first].onset)) slurs.push_back({first, last});
         first = last + 1;
     }
     return slurs;
@@ -344,7 +345,8 @@ std::array<int, 7> signs_of(const std::optional<KeySignature>& key) {
 
 Notator::Notator(const ScoreHead& head, const Bars& bars)
     : parts_(head.parts),
-      meter_(head.meter),
+      bar_lines_(head),
+      changes_(head.changes),
       is_transposed_(head.is_transposed),
       syllables_(head.syllables),
       has_chord_signs_(head.has_chord_signs),
@@ -356,7 +358,6 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         part_indices_.insert(part_indices_.end(), static_cast<std::size_t>(parts_[i].voices), i);
     }
-    notation_.bar_length = meter_.bar();
 }
 
 void Notator::notes(std::span<const Note> notes) {
@@ -386,11 +387,10 @@ void Notator::finish(std::int64_t end) {
     }
     std::int64_t last = (end + shortest_value / 2) / shortest_value * shortest_value;
     for (auto& voice : voices_) {
-        notation_.moved += snap(voice, grid_of(voice, meter_));
+        notation_.moved += snap(voice, grid_of(voice, bar_lines_));
         if (!voice.empty()) last = std::max(last, voice.back().onset + voice.back().duration);
     }
-    const std::int64_t bar = notation_.bar_length;
-    all_bars_ = std::max<std::int64_t>(1, (last + bar - 1) / bar);
+    all_bars_ = std::max<std::int64_t>(1, bar_lines_.count(last));
     if (all_bars_ > most_bars) {
         throw TooLongToPrint(fmt::format("{} bars are too many to print; at most {} are possible: limit the bars",
                                          all_bars_, most_bars));
@@ -398,9 +398,10 @@ void Notator::finish(std::int64_t end) {
     printed_bars_.first = std::min(printed_bars_.first, all_bars_ - 1);
     printed_bars_.count = std::min(printed_bars_.count, all_bars_ - printed_bars_.first);
     notation_.bars = printed_bars_.count;
+    notation_.bar_lines = bar_lines_.from(first_tick());
     notation_.is_cut = printed_bars_.first + printed_bars_.count < all_bars_;
     agree_on_swing();
-    printed_ = share_parts(parts_, voices_, bar);
+    printed_ = share_parts(parts_, voices_, bar_lines_);
     share_chords();
     std::vector<std::vector<double>> others(printed_.size());
     for (const auto& [place, keys] : chords_) {
@@ -420,6 +421,9 @@ void Notator::finish(std::int64_t end) {
         for (const KeyChange& key : part.keys) {
             if (key.onset > 0) bars.push_back(key.onset);
         }
+    }
+    for (const FrameChange& change : changes_after(changes_, first_tick())) {
+        if (change.onset < notation_.end()) bars.push_back(change.onset);
     }
     std::sort(bars.begin(), bars.end());
     bars.erase(std::unique(bars.begin(), bars.end()), bars.end());
@@ -491,8 +495,9 @@ void Notator::agree_on_swing() {
     for (Part& part : parts_) {
         const auto begin = voices_.begin() + static_cast<std::ptrdiff_t>(first_voice);
         const bool has_off_beats = std::any_of(begin, begin + part.voices, [&](const std::vector<Note>& voice) {
-            return std::any_of(voice.begin(), voice.end(),
-                               [&](const Note& note) { return common.moves(note.onset, meter_.bar()); });
+            return std::any_of(voice.begin(), voice.end(), [&](const Note& note) {
+                return common.moves(bar_lines_.place(note.onset), bar_lines_.length(note.onset));
+            });
         });
         if (!has_off_beats) part.swing = common;
         first_voice += static_cast<std::size_t>(part.voices);
@@ -513,19 +518,20 @@ void Notator::transpose_part(std::size_t index) {
 /// The chords of the score and their onsets: in each bar those of the first part that has any. One that is struck
 /// late in a bar, with nothing of the chord before it, belongs to the whole bar.
 std::vector<std::pair<std::int64_t, ChordSign>> Notator::changes_of_chords() const {
-    const std::int64_t bar = notation_.bar_length;
     std::map<std::int64_t, std::size_t> part_of_bar;
-    for (const auto& [place, chord] : chord_signs_) part_of_bar.try_emplace(place.second / bar, place.first);
+    for (const auto& [place, chord] : chord_signs_) {
+        part_of_bar.try_emplace(bar_lines_.number(place.second), place.first);
+    }
     std::map<std::int64_t, std::pair<std::int64_t, ChordSign>> chords;  // by onset
     for (const auto& [place, chord] : chord_signs_) {
-        if (part_of_bar.at(place.second / bar) == place.first) chords.emplace(place.second, chord);
+        if (part_of_bar.at(bar_lines_.number(place.second)) == place.first) chords.emplace(place.second, chord);
     }
     std::vector<std::pair<std::int64_t, ChordSign>> changes;
     std::int64_t sounds_until = 0;
     ChordSign before;
     for (const auto& [onset, chord] : chords) {
         const auto& [end, sign] = chord;
-        const std::int64_t bar_begin = onset / bar * bar;
+        const std::int64_t bar_begin = bar_lines_.begin(onset);
         if (sign != before) changes.emplace_back(sounds_until <= bar_begin ? bar_begin : onset, sign);
         sounds_until = std::max(sounds_until, end);
         before = sign;
@@ -548,7 +554,7 @@ void Notator::name_chords() {
         if (sign.bass >= 0) mark.bass = written(sign.bass);
         part.chords.push_back(mark);
     }
-    part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.bars * notation_.bar_length);
+    part.chords = cut_chords(part.chords, first_tick(), first_tick() + notation_.end());
     // A score does not begin with the end of a chord.
     while (!part.chords.empty() && part.chords.front().quality < 0) part.chords.erase(part.chords.begin());
     notation_.nameless_chords = static_cast<std::uint64_t>(std::count_if(
@@ -604,19 +610,19 @@ NotatedPart& Notator::begin_part(const PrintedPart& printed) {
 /// Keeps the printed bars of a part.
 void Notator::cut(NotatedPart& part) const {
     if (printed_bars_.first == 0 && printed_bars_.count == all_bars_) return;
-    cut_bars(part, first_tick(), first_tick() + printed_bars_.count * notation_.bar_length);
+    cut_bars(part, first_tick(), first_tick() + notation_.end());
 }
 
 void Notator::finish_staff(Staff& staff, const NotatedPart& part) const {
-    hide_rests(staff, notation_.bars, notation_.bar_length);
-    if (!part.part.is_drums) set_signs(staff, part.keys, part.part.is_accompaniment, notation_.bar_length);
+    hide_rests(staff, notation_.bars, notation_.bar_lines);
+    if (!part.part.is_drums) set_signs(staff, part.keys, part.part.is_accompaniment, notation_.bar_lines);
 }
 
 /// Drums have one staff for up to four lines.
 void Notator::notate_drums(std::size_t index) {
     const PrintedPart& printed = printed_[index];
     constexpr std::size_t lines_per_staff = 4;
-    const StrokeLines strokes = stroke_lines(printed.voices, meter_);
+    const StrokeLines strokes = stroke_lines(printed.voices, bar_lines_);
     notation_.merged += strokes.merged;
     NotatedPart& notated = begin_part(printed);
     if (strokes.lines.size() > lines_per_staff) notated.bracket = Bracket::bracket;
@@ -632,7 +638,7 @@ void Notator::notate_drums(std::size_t index) {
         }
         if (drums_of(staff).size() == 1) set_on_one_line(staff);
         sort_by_onset(together);
-        staff.dynamics = dynamics_of(together, notation_.bar_length, first_tick());
+        staff.dynamics = dynamics_of(together, bar_lines_, first_tick());
     }
     cut(notated);
     for (Staff& staff : notated.staves) finish_staff(staff, notated);
@@ -642,7 +648,7 @@ void Notator::notate_part(std::size_t index) {
     const PrintedPart& printed = printed_[index];
     const Part& part = printed.part;
     if (part.is_drums) return notate_drums(index);
-    PartPlan plan = plan_staves(part, printed.voices, printed.first_voice, notation_.bar_length);
+    PartPlan plan = plan_staves(part, printed.voices, printed.first_voice, bar_lines_);
     notation_.merged += plan.merged;
     if (plan.staves.empty()) plan.staves.push_back({{{printed.first_voice, {}}}, {}});
     NotatedPart& notated = begin_part(printed);
@@ -661,12 +667,12 @@ void Notator::notate_part(std::size_t index) {
             for (NotatedSymbol& symbol : voice.symbols)
                 symbol.syllable = staff.voices.size() > 1 ? "" : symbol.syllable;
         }
-        staff.changes = choose_clefs(part, planned.clef, staff.voices, notation_.bar_length);
+        staff.changes = choose_clefs(part, planned.clef, staff.voices, bar_lines_);
         sort_by_onset(together);
         Staff& marked = plan.bracket == Bracket::brace ? notated.staves.front() : staff;
-        marked.dynamics = dynamics_of(together, notation_.bar_length, first_tick());
+        marked.dynamics = dynamics_of(together, bar_lines_, first_tick());
     }
-    if (plan.bracket == Bracket::brace) divide_dynamics(plan, notation_.bar_length, first_tick(), notated);
+    if (plan.bracket == Bracket::brace) divide_dynamics(plan, bar_lines_, first_tick(), notated);
     if (is_without_dynamics(part.program)) {
         for (Staff& staff : notated.staves) staff.dynamics.clear();
     }
@@ -711,19 +717,19 @@ std::vector<std::vector<double>> Notator::chords_of(std::span<const Note> notes,
 NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t index,
                            std::span<const std::vector<double>> chords) {
     const PrintedPart& part = printed_[index];
-    const Grid grid = grid_of(notes, meter_);
+    const Grid grid = grid_of(notes, bar_lines_);
     // Notes that come from several voices may lie on several grids.
     notation_.moved += snap(notes, grid);
-    const std::int64_t end = all_bars_ * notation_.bar_length;
+    const std::int64_t end = bar_lines_.onset(all_bars_);
     while (!notes.empty() && notes.back().onset >= end) notes.pop_back();
     if (!notes.empty()) notes.back().duration = std::min(notes.back().duration, end - notes.back().onset);
     NotatedVoice voice;
     voice.voice = number;
     voice.tuplets = grid.tuplets();
-    VoiceWriter writer(grid, meter_, voice);
-    const std::vector<bool> accents = accents_of(notes, notation_.bar_length);
+    VoiceWriter writer(grid, bar_lines_, voice);
+    const std::vector<bool> accents = accents_of(notes, bar_lines_);
     const bool is_loud_by_touch = !is_without_dynamics(part.part.program);
-    const std::vector<Slur> slurs = slurs_of(part.part, notes, notation_.bar_length);
+    const std::vector<Slur> slurs = slurs_of(part.part, notes, bar_lines_);
     auto slur = slurs.begin();
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const Note& note = notes[i];
@@ -771,7 +777,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         writer.add(note.onset + note.duration, &symbol);
     }
     writer.add(end, nullptr);
-    beam(voice, meter_);
+    beam(voice, bar_lines_);
     return voice;
 }
 

@@ -1,6 +1,7 @@
 // music/score/notation.h: arranges notes in bars: note values, tuplets, ties, rests, staves, clefs, signs, dynamics.
 #pragma once
 
+#include "music/score/bar_lines.h"
 #include "music/score/instruments.h"
 #include "music/score/pitch.h"
 #include "music/score/rhythm.h"
@@ -157,10 +158,10 @@ struct NotatedPart {
 /// A score as it is printed; parts in the order of ScoreHead::parts, with those that take turns as one.
 struct Notation {
     std::vector<NotatedPart> parts;
-    std::vector<std::int64_t> double_bars;  ///< bar lines at which a part changes its key: ticks, ascending
+    std::vector<std::int64_t> double_bars;  ///< bar lines at which key, tempo or meter change: ticks, ascending
     bool is_held = false;                   ///< it ends with fermatas
     std::int64_t bars = 1;
-    std::int64_t bar_length = 4 * ticks_per_quarter;  ///< ticks
+    BarLines bar_lines;        ///< from the first printed bar on
     std::uint64_t moved = 0;   ///< notes that are not on the grid and were moved to the nearest point
     std::uint64_t bent = 0;    ///< notes more than a cent away from every quarter tone, and written as the nearest
     std::uint64_t merged = 0;  ///< notes left out because another voice has the same note
@@ -171,15 +172,18 @@ struct Notation {
     /// Numbers of bars of rest that are printed as one, by their first bar.
     std::map<std::int64_t, std::int64_t> gathered_rests{};
     bool is_whole_rest(const NotatedSymbol& symbol) const {
-        return symbol.kind == SymbolKind::bar_rest || (symbol.kind == SymbolKind::gap && symbol.length == bar_length);
+        return symbol.kind == SymbolKind::bar_rest ||
+               (symbol.kind == SymbolKind::gap && symbol.length == bar_lines.length(symbol.onset));
     }
+    /// The tick at which it ends.
+    std::int64_t end() const { return bar_lines.onset(bars); }
     /// Bars that a symbol stands for: several for rests and gaps of a whole bar that are gathered.
     std::int64_t bars_of(const NotatedSymbol& symbol) const {
         return is_whole_rest(symbol) ? bars_of_rest(symbol.onset) : 1;
     }
     /// Bars of rest that are printed as one from a bar line on.
     std::int64_t bars_of_rest(std::int64_t onset) const {
-        const auto found = gathered_rests.find(onset / bar_length);
+        const auto found = gathered_rests.find(bar_lines.number(onset));
         return found == gathered_rests.end() ? 1 : found->second;
     }
     /// Notes beyond the range of their instrument, by program.
@@ -228,7 +232,7 @@ private:
     using ChordPlace = std::tuple<std::size_t, std::uint64_t, std::int64_t>;
 
     void notate_part(std::size_t index);
-    std::int64_t first_tick() const { return printed_bars_.first * notation_.bar_length; }
+    std::int64_t first_tick() const { return bar_lines_.onset(printed_bars_.first); }
     void cut(NotatedPart& part) const;
     void finish_staff(Staff& staff, const NotatedPart& part) const;
     void mark_ending(std::int64_t end);
@@ -250,7 +254,8 @@ private:
     int transposed_by(const Part& part) const;
 
     std::vector<Part> parts_;
-    Meter meter_;
+    BarLines bar_lines_;  ///< of all bars that are received
+    std::vector<FrameChange> changes_;
     bool is_transposed_;
     Syllables syllables_;
     bool has_chord_signs_;

@@ -1,6 +1,26 @@
 "use strict";
 const data = JSON.parse(document.getElementById("score").textContent);
-const notes = data.notes, end = data.end, bar = data.bar;
+const notes = data.notes, end = data.end;
+/* Bars of one length: tick and number of the first, length. */
+const stretches = [];
+for (const [tick, length] of data.bars) {
+  const before = stretches[stretches.length - 1];
+  stretches.push({tick, length, first: before ? before.first + (tick - before.tick) / before.length : 0});
+}
+function stretchFor(isBefore) {
+  let i = stretches.length - 1;
+  while (i > 0 && !isBefore(stretches[i])) --i;
+  return stretches[i];
+}
+/* The bar at a tick, counted from 0, and how much of it has passed; and back. */
+function barAt(tick) {
+  const stretch = stretchFor(one => one.tick <= tick);
+  return stretch.first + (tick - stretch.tick) / stretch.length;
+}
+function tickOf(bar) {
+  const stretch = stretchFor(one => one.first <= bar);
+  return stretch.tick + (bar - stretch.first) * stretch.length;
+}
 const ONSET = 0, DURATION = 1, KEY = 2, VOICE = 3, VELOCITY = 4, X0 = 5, Y0 = 6, X1 = 7, Y1 = 8;
 const GLIDE = 9, SEMITONES = 10, RISE = 11;  // of notes that slide
 const element = id => document.getElementById(id);
@@ -321,10 +341,10 @@ function playOn() {
   begin();
 }
 function setLoop(from, to) {
-  const bars = Math.ceil(end / bar);
+  const bars = Math.ceil(barAt(end));
   const first = Math.min(Math.max(1, Math.round(from) || 1), bars);
   const last = Math.min(Math.max(first, Math.round(to) || first), bars);
-  loop = {from: (first - 1) * bar, to: Math.min(last * bar, end)};
+  loop = {from: tickOf(first - 1), to: Math.min(tickOf(last), end)};
   loopFrom.value = first; loopTo.value = last;
   loopButton.setAttribute("aria-pressed", "true");
   if (playing) {
@@ -492,7 +512,7 @@ function drawCurve(tick) {
 }
 
 /* The roll shows all of a short score; else 8 bars, and moves along. */
-const shownTicks = end <= 16 * bar ? end : 8 * bar;
+const shownTicks = end <= tickOf(16) ? end : tickOf(8);
 let lowest = Math.floor(low) - 1, highest = Math.ceil(high) + 1;
 if (notes.length === 0) { lowest = 55; highest = 67; }
 while (highest - lowest < 12) { --lowest; if (highest - lowest < 12) ++highest; }
@@ -517,15 +537,16 @@ function drawRoll(tick) {
   context.lineWidth = 1;
   context.strokeStyle = theme.line;
   context.beginPath();
-  const barWidth = bar / shownTicks * w;
+  const barWidth = stretches[0].length / shownTicks * w;
   let every = 1;
   while (barWidth * every < 7) every *= 2;
   let named = every;
   while (barWidth * named < 44) named *= 2;
   context.fillStyle = theme.faint; context.textAlign = "left";
-  for (let i = Math.ceil(rollFrom / bar / every) * every; i * bar <= rollFrom + shownTicks; i += every) {
-    context.moveTo(x(i * bar), 12); context.lineTo(x(i * bar), 12 + h);
-    if (i % named === 0 && i * bar < end && x(i * bar) < width - 30) context.fillText(i + 1, x(i * bar) + 3, height - barsHeight / 2 - 1);
+  for (let i = Math.ceil(barAt(rollFrom) / every) * every; tickOf(i) <= rollFrom + shownTicks; i += every) {
+    const tick = tickOf(i);
+    context.moveTo(x(tick), 12); context.lineTo(x(tick), 12 + h);
+    if (i % named === 0 && tick < end && x(tick) < width - 30) context.fillText(i + 1, x(tick) + 3, height - barsHeight / 2 - 1);
   }
   context.stroke();
   context.textAlign = "right";
@@ -590,7 +611,7 @@ function draw() {
   const tick = shownTick();
   drawCurve(tick);
   drawRoll(tick);
-  const bars = Math.ceil(end / bar), here = Math.min(bars, Math.floor(tick / bar) + 1);
+  const bars = Math.ceil(barAt(end)), here = Math.min(bars, Math.floor(barAt(tick)) + 1);
   const text = seconds(tick) + " / " + seconds(end);
   if (document.activeElement !== place || !dragging) place.value = tick / end * 1000;
   if (text + here !== shownText) {
@@ -647,7 +668,7 @@ if (parts.length > 1) {
   box.append(colour);
 }
 const loopButton = element("loop"), loopFrom = element("loop-from"), loopTo = element("loop-to");
-loopFrom.max = loopTo.max = loopTo.value = Math.ceil(end / bar);
+loopFrom.max = loopTo.max = loopTo.value = Math.ceil(barAt(end));
 loopButton.addEventListener("click", () => loop ? endLoop() : setLoop(Number(loopFrom.value), Number(loopTo.value)));
 for (const input of [loopFrom, loopTo]) {
   input.addEventListener("change", () => { if (loop) setLoop(Number(loopFrom.value), Number(loopTo.value)); });
@@ -676,16 +697,16 @@ document.addEventListener("keydown", event => {
   } else if (target.closest("input, pre")) {
     return;
   } else if (event.key === "ArrowLeft") {
-    seek(tickAt(clock()) - bar);
+    seek(tickOf(Math.max(0, barAt(tickAt(clock())) - 1)));
   } else if (event.key === "ArrowRight") {
-    seek(tickAt(clock()) + bar);
+    seek(tickOf(barAt(tickAt(clock())) + 1));
   } else if (event.key === "Home") {
     seek(0);
   } else if (event.key === "l" || event.key === "L") {
     if (loop) endLoop(); else setLoop(Number(loopFrom.value), Number(loopTo.value));
   } else if (event.key === "[" || event.key === "]") {
     /* The loop begins or ends with the bar that is played. */
-    const here = Math.floor(Math.min(tickAt(clock()), end - 1) / bar) + 1;
+    const here = Math.floor(barAt(Math.min(tickAt(clock()), end - 1))) + 1;
     if (event.key === "[") setLoop(here, Math.max(here, Number(loopTo.value)));
     else setLoop(Math.min(here, Number(loopFrom.value)), here);
   }

@@ -44,7 +44,7 @@ std::vector<bool> silent_bars(const NotatedPart& part, const Notation& score) {
         for (const NotatedVoice& voice : staff.voices) {
             for (const NotatedSymbol& symbol : voice.symbols) {
                 if (!score.is_whole_rest(symbol))
-                    silent[static_cast<std::size_t>(symbol.onset / score.bar_length)] = false;
+                    silent[static_cast<std::size_t>(score.bar_lines.number(symbol.onset))] = false;
             }
         }
     }
@@ -145,13 +145,13 @@ NotatedVoice copied(const NotatedVoice& source, std::int64_t from, std::int64_t 
 }
 
 void add_cue(NotatedPart& player, const Staff& own, const std::vector<Line>& lines, std::int64_t entry,
-             std::int64_t bar_length) {
-    const std::int64_t to = entry * bar_length;
-    const std::int64_t last_bar = to - bar_length;
-    std::int64_t from = to - most_cue_bars * bar_length;
+             const BarLines& bars) {
+    const std::int64_t to = bars.onset(entry);
+    const std::int64_t last_bar = bars.onset(entry - 1);
+    std::int64_t from = bars.onset(entry - most_cue_bars);
     const auto source = source_of(lines, own, from, last_bar, to);
     if (!source) return;
-    while (onsets_in(*source->voice, from, from + bar_length) == 0) from += bar_length;
+    while (onsets_in(*source->voice, from, bars.end(from)) == 0) from = bars.end(from);
     Staff& staff = player.staves.front();
     Cue cue{source->line->name, from, to, copied(*source->voice, from, to)};
     for (NotatedSymbol& symbol : cue.voice.symbols) {
@@ -163,7 +163,7 @@ void add_cue(NotatedPart& player, const Staff& own, const std::vector<Line>& lin
     for (NotatedSymbol& symbol : cue.voice.symbols) symbol.pitch.octave += octaves;
     Staff alone;
     alone.voices.push_back(std::move(cue.voice));
-    set_accidentals(alone, player.keys, bar_length);
+    set_accidentals(alone, player.keys, bars);
     cue.voice = std::move(alone.voices.front());
     staff.cues.push_back(std::move(cue));
 }
@@ -177,7 +177,7 @@ void add_cues(Notation& player, const Staff& own, const std::vector<Line>& lines
             continue;
         }
         if (rests >= fewest_rests_before_cue) {
-            add_cue(player.parts.front(), own, lines, bar, player.bar_length);
+            add_cue(player.parts.front(), own, lines, bar, player.bar_lines);
         }
         rests = 0;
     }
@@ -189,14 +189,14 @@ void add_cues(Notation& player, const Staff& own, const std::vector<Line>& lines
 std::set<std::int64_t> breaks_of(const Notation& player) {
     const NotatedPart& part = player.parts.front();
     std::set<std::int64_t> breaks;
-    const auto add = [&](std::int64_t onset) { breaks.insert(onset / player.bar_length); };
+    const auto add = [&](std::int64_t onset) { breaks.insert(player.bar_lines.number(onset)); };
     for (const std::int64_t onset : player.double_bars) add(onset);
     for (const KeyChange& key : part.keys) add(key.onset);
     for (const Staff& staff : part.staves) {
         for (const StaffChange& change : staff.changes) add(change.onset);
         for (const DynamicMark& mark : staff.dynamics) add(mark.onset);
         for (const Cue& cue : staff.cues) {
-            for (std::int64_t onset = cue.from; onset <= cue.to; onset += player.bar_length) add(onset);
+            for (std::int64_t onset = cue.from; onset <= cue.to; onset = player.bar_lines.end(onset)) add(onset);
         }
         for (const NotatedVoice& voice : staff.voices) {
             for (const NotatedSymbol& symbol : voice.symbols) {
@@ -225,16 +225,16 @@ void move_silent_chords(Notation& player) {
     const std::vector<bool> silent = silent_bars(player.parts.front(), player);
     std::vector<ChordMark> kept;
     const auto next_entry = [&](std::int64_t onset) {
-        auto bar = static_cast<std::size_t>(onset / player.bar_length);
+        auto bar = static_cast<std::size_t>(player.bar_lines.number(onset));
         while (bar < silent.size() && silent[bar]) ++bar;
-        return static_cast<std::int64_t>(bar) * player.bar_length;
+        return player.bar_lines.onset(static_cast<std::int64_t>(bar));
     };
     for (ChordMark chord : player.parts.front().chords) {
-        const bool is_silent = silent[static_cast<std::size_t>(chord.onset / player.bar_length)];
+        const bool is_silent = silent[static_cast<std::size_t>(player.bar_lines.number(chord.onset))];
         if (is_silent) chord.onset = next_entry(chord.onset);
         // The last one before an entry is in force there.
         if (!kept.empty() && kept.back().onset == chord.onset) kept.pop_back();
-        if (chord.onset < player.bars * player.bar_length) kept.push_back(chord);
+        if (chord.onset < player.end()) kept.push_back(chord);
     }
     player.parts.front().chords = std::move(kept);
 }
@@ -278,7 +278,7 @@ std::vector<PlayerPart> player_parts(const Notation& score, bool has_cues) {
             notation.double_bars = score.double_bars;
             notation.is_held = score.is_held;
             notation.bars = score.bars;
-            notation.bar_length = score.bar_length;
+            notation.bar_lines = score.bar_lines;
             notation.is_cut = score.is_cut;
             notation.is_concert = score.is_concert && transposition_of(part.part.program) && !part.part.is_drums;
             notation.is_extracted = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace sikku {
 namespace {
@@ -105,8 +106,9 @@ std::string beats_text(const Meter& meter) {
     return groups.empty() ? std::to_string(meter.beats) : groups;
 }
 
-std::int64_t beat_end(std::int64_t time, const Meter& meter) {
-    const std::int64_t begin = time / meter.bar() * meter.bar();
+std::int64_t beat_end(std::int64_t time, const BarLines& bars) {
+    const Meter& meter = bars.meter(time);
+    const std::int64_t begin = bars.begin(time);
     if (has_short_units(meter)) return begin + Bar(meter).group_end(time - begin);
     const std::int64_t beat = std::min(whole_note / meter.unit, ticks_per_quarter);
     return begin + ((time - begin) / beat + 1) * beat;
@@ -144,12 +146,12 @@ std::vector<std::int64_t> strong_beats(const Meter& meter) {
     return beats;
 }
 
-Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
-    const std::int64_t bar = meter.bar();
-    const std::vector<std::int64_t> groups = groups_of(meter);
-    const bool is_halved = is_simple(bar) && !has_groups(meter);
+Grid::Grid(std::span<const std::int64_t> times, const BarLines& bars) {
     for (std::size_t i = 0; i < times.size();) {
-        const std::int64_t begin = times[i] / bar * bar;
+        const Meter& meter = bars.meter(times[i]);
+        const std::int64_t bar = bars.length(times[i]);
+        const bool is_halved = is_simple(bar) && !has_groups(meter);
+        const std::int64_t begin = bars.begin(times[i]);
         std::size_t end = i;
         while (end < times.size() && times[end] < begin + bar) ++end;
         const std::span<const std::int64_t> inside = times.subspan(i, end - i);
@@ -159,21 +161,21 @@ Grid::Grid(std::span<const std::int64_t> times, const Meter& meter) {
             continue;
         }
         std::int64_t from = begin;
-        for (const std::int64_t group : groups) {
+        for (const std::int64_t group : groups_of(meter)) {
             divide(from, group, between(inside, from, from + group));
             from += group;
         }
     }
 }
 
-Grid grid_of(std::span<const Note> notes, const Meter& meter) {
+Grid grid_of(std::span<const Note> notes, const BarLines& bars) {
     std::vector<std::int64_t> times;
     for (const Note& note : notes) {
         if (times.empty() || times.back() != note.onset) times.push_back(note.onset);
         times.push_back(note.onset + note.duration);
     }
     std::sort(times.begin(), times.end());
-    return Grid(times, meter);
+    return Grid(times, bars);
 }
 
 /// Adds a tuplet if every time is on its grid.
@@ -429,34 +431,36 @@ std::int64_t wide_group(std::int64_t within, const Meter& meter, const Bar& bar)
 
 }  // namespace
 
-void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter) {
-    const Bar bar(meter);
+void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const BarLines& bars) {
     /// The group in which a note is beamed. Beats of x/4 that hold eighths alone share a wider one.
     const auto is_plain = [](const BeamedNote& note) {
         return note.tuplet < 0 && (!note.is_note || note.value.divisor <= 8);
     };
     std::vector<std::int64_t> group(notes.size());
-    const std::int64_t unit = std::max<std::int64_t>(whole_note / meter.unit, eighth_note);
+    std::vector<std::int64_t> wide(notes.size());  // as wide_group(), from the beginning of the score; -1: none
+    const Meter* last = nullptr;
+    Bar bar((Meter()));
     for (std::size_t i = 0; i < notes.size(); ++i) {
         const BeamedNote& note = notes[i];
-        const std::int64_t begin = note.onset / bar.length * bar.length;
+        const Meter& meter = bars.meter(note.onset);
+        if (&meter != std::exchange(last, &meter)) bar = Bar(meter);
+        const std::int64_t begin = bars.begin(note.onset);
         const std::int64_t within = note.onset - begin;
         const std::int64_t first = bar.is_grouped ? bar.group_begin(within) : 0;
+        const std::int64_t unit = std::max<std::int64_t>(whole_note / meter.unit, eighth_note);
         group[i] = begin + (has_short_units(meter) ? first : first + (within - first) / unit * unit);
+        const std::int64_t shared = wide_group(within, meter, bar);
+        wide[i] = shared < 0 ? -1 : begin + shared;
         if (note.tuplet >= 0) {
             const TupletSpan& tuplet = tuplets[static_cast<std::size_t>(note.tuplet)];
             if (tuplet.to - tuplet.from > ticks_per_quarter) group[i] = tuplet.from;
         }
     }
     for (std::size_t i = 0; i < notes.size();) {
-        const auto place = [&](std::size_t k) {
-            return std::pair(notes[k].onset / bar.length, wide_group(notes[k].onset % bar.length, meter, bar));
-        };
-        const auto here = place(i);
         std::size_t end = i + 1;
-        while (end < notes.size() && here.second >= 0 && place(end) == here) ++end;
-        const std::span<const BeamedNote> wide = notes.subspan(i, end - i);
-        if (std::all_of(wide.begin(), wide.end(), is_plain)) {
+        while (end < notes.size() && wide[i] >= 0 && wide[end] == wide[i]) ++end;
+        const std::span<const BeamedNote> together = notes.subspan(i, end - i);
+        if (std::all_of(together.begin(), together.end(), is_plain)) {
             std::fill(group.begin() + static_cast<std::ptrdiff_t>(i),
                       group.begin() + static_cast<std::ptrdiff_t>(end), group[i]);
         }

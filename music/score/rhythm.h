@@ -1,6 +1,7 @@
 // music/score/rhythm.h: writes durations with note values: groups of a meter, tuplets, beams.
 #pragma once
 
+#include "music/score/bar_lines.h"
 #include "music/score/score.h"
 
 #include <array>
@@ -57,7 +58,7 @@ BeatUnit beat_unit(const Meter& meter);
 std::string beats_text(const Meter& meter);
 
 /// The end of the beat, or the group of x/8, in which a time lies: ticks from the beginning of the score.
-std::int64_t beat_end(std::int64_t time, const Meter& meter);
+std::int64_t beat_end(std::int64_t time, const BarLines& bars);
 
 /// The times at which notes of a voice may begin and end: 64ths, and in tuplets their notes.
 class Grid {
@@ -65,7 +66,7 @@ public:
     /// Chooses tuplets so that all `times` (ascending; ticks from the beginning of the score) lie on the grid if
     /// possible. A tuplet is a bar, a half of it, a group or a beat, or a part of a beat, divided into 3, 5, 6, 10 or
     /// 12, and the largest that fits is chosen. Cost: O(times · log bar).
-    Grid(std::span<const std::int64_t> times, const Meter& meter);
+    Grid(std::span<const std::int64_t> times, const BarLines& bars);
 
     const std::vector<TupletSpan>& tuplets() const { return tuplets_; }
     /// The point of the grid nearest to a time; of two, the later one.
@@ -84,7 +85,7 @@ private:
 };
 
 /// The grid of notes of one voice.
-Grid grid_of(std::span<const Note> notes, const Meter& meter);
+Grid grid_of(std::span<const Note> notes, const BarLines& bars);
 
 /// A note value of a length.
 struct WrittenValue {
@@ -119,6 +120,6 @@ struct BeamedNote {
 /// Sets beams: one for eighths, two for 16ths, up to four. Notes are beamed within beats, or the groups of x/8;
 /// eighths alone within half of 4/4 and all of 2/4 and 3/4. Rests end beams. From 32nds on, only the first beam leads
 /// from one eighth to the next.
-void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const Meter& meter);
+void set_beams(std::span<BeamedNote> notes, std::span<const TupletSpan> tuplets, const BarLines& bars);
 
 }  // namespace sikku

@@ -115,6 +115,28 @@ struct Meter {
     bool operator==(const Meter&) const = default;
 };
 
+/// Tempo and meter.
+struct Frame {
+    double tempo = 120;       ///< quarters a minute
+    std::string tempo_words;  ///< printed before it: `Andante`; may be empty
+    Meter meter;
+    bool operator==(const Frame&) const = default;
+};
+
+/// Tempo and meter of a section, as far as it states them.
+struct SectionFrame {
+    std::optional<double> tempo;  ///< quarters a minute
+    std::string tempo_words;
+    std::optional<Meter> meter;
+};
+
+/// Another tempo or meter from a bar line on, where a section begins.
+struct FrameChange {
+    std::int64_t onset = 0;  ///< ticks
+    Frame frame;
+    bool operator==(const FrameChange&) const = default;
+};
+
 /// Spelling of a pitch class: letter 0 (C) to 6 (B), alteration in semitones.
 struct Spelling {
     int letter = 0;
@@ -191,12 +213,19 @@ struct ScoreHead {
     std::string tempo_words;      ///< printed before it: `Andante`; may be empty
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
-    std::int64_t first_bar = 1;  ///< number of the first bar
+    std::vector<FrameChange> changes;  ///< of tempo and meter, ascending, after the beginning
+    std::int64_t first_bar = 1;        ///< number of the first bar
     bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff
     std::vector<Part> parts;
 
+    /// True if it states changes of tempo.
+    bool changes_tempo() const {
+        return ritardando > 0 || std::any_of(changes.begin(), changes.end(), [this](const FrameChange& change) {
+                   return change.frame.tempo != tempo;
+               });
+    }
     /// The index of the part that contains a voice; 0 if none does.
     std::size_t part_index(int voice) const {
         for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -10,14 +10,14 @@
 namespace sikku {
 namespace {
 
-void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
+void set_cents(Staff& staff, bool is_accompaniment, const BarLines& bars) {
     for (NotatedVoice& voice : staff.voices) {
         std::int64_t current_bar = -1;
         std::map<std::pair<int, int>, int> in_force;
         for (NotatedSymbol& symbol : voice.symbols) {
             if (symbol.kind != SymbolKind::note) continue;
-            if (!is_accompaniment && symbol.onset / bar != current_bar) {
-                current_bar = symbol.onset / bar;
+            if (!is_accompaniment && bars.number(symbol.onset) != current_bar) {
+                current_bar = bars.number(symbol.onset);
                 in_force.clear();
             }
             const auto set = [&](const Pitch& pitch, int& printed) {
@@ -34,7 +34,7 @@ void set_cents(Staff& staff, bool is_accompaniment, std::int64_t bar) {
 
 }  // namespace
 
-void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t bar) {
+void set_accidentals(Staff& staff, std::span<const KeyChange> keys, const BarLines& bars) {
     struct Head {
         std::int64_t onset;
         const Pitch* pitch;
@@ -54,8 +54,8 @@ void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t
     std::array<int, 7> key{};
     std::size_t next_key = 0;
     for (const Head& note : notes) {
-        if (note.onset / bar != current_bar) {
-            current_bar = note.onset / bar;
+        if (bars.number(note.onset) != current_bar) {
+            current_bar = bars.number(note.onset);
             while (next_key < keys.size() && keys[next_key].onset <= note.onset) key = signs_of(keys[next_key++].key);
             in_force.clear();
         }
@@ -67,9 +67,9 @@ void set_accidentals(Staff& staff, std::span<const KeyChange> keys, std::int64_t
     }
 }
 
-void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, std::int64_t bar) {
-    set_accidentals(staff, keys, bar);
-    set_cents(staff, is_accompaniment, bar);
+void set_signs(Staff& staff, std::span<const KeyChange> keys, bool is_accompaniment, const BarLines& bars) {
+    set_accidentals(staff, keys, bars);
+    set_cents(staff, is_accompaniment, bars);
 }
 
 }  // namespace sikku

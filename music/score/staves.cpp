@@ -96,10 +96,10 @@ std::vector<std::size_t> cheapest(std::size_t steps, std::size_t states, Cost co
 }
 
 /// Index of the cost of a change: 0 after a rest, 1 at a bar line, 2 on a beat, 3 elsewhere.
-std::size_t place_of(std::int64_t onset, bool is_after_rest, std::int64_t bar_length) {
+std::size_t place_of(std::int64_t onset, bool is_after_rest, const BarLines& bars) {
     if (is_after_rest) return 0;
-    if (onset % bar_length == 0) return 1;
-    return onset % ticks_per_quarter == 0 ? 2 : 3;
+    if (bars.place(onset) == 0) return 1;
+    return bars.place(onset) % ticks_per_quarter == 0 ? 2 : 3;
 }
 
 // ---- hands
@@ -125,7 +125,7 @@ void sort_by_height(std::vector<StaffVoice>& voices) {
 }
 
 /// Writes a voice on two staves: phrases change hands.
-PartPlan split_by_hand(const Part& part, const std::vector<Note>& notes, int voice, std::int64_t bar_length) {
+PartPlan split_by_hand(const Part& part, const std::vector<Note>& notes, int voice, const BarLines& bars) {
     constexpr std::array<double, 4> change_cost = {4, 6, 9, 16};
     const auto cost = [&](std::size_t hand, std::size_t i) {
         const int height = height_of(part, notes[i]);
@@ -135,7 +135,7 @@ PartPlan split_by_hand(const Part& part, const std::vector<Note>& notes, int voi
     };
     const auto change = [&](std::size_t, std::size_t, std::size_t i) {
         const bool is_after_rest = notes[i - 1].onset + notes[i - 1].duration < notes[i].onset;
-        return change_cost[place_of(notes[i].onset, is_after_rest, bar_length)];
+        return change_cost[place_of(notes[i].onset, is_after_rest, bars)];
     };
     const std::vector<std::size_t> hands = cheapest(notes.size(), 2, cost, change);
     PartPlan plan;
@@ -257,7 +257,7 @@ bool is_keyboard(int program) {
 }
 
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
-                     std::int64_t bar_length) {
+                     const BarLines& bars) {
     std::vector<StaffVoice> sounding;
     for (std::size_t i = 0; i < voices.size(); ++i) {
         if (!voices[i].empty()) sounding.push_back({first_voice + static_cast<int>(i), voices[i]});
@@ -275,7 +275,7 @@ PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices
         if (sounding.size() > 2 && part.program == church_organ) return divide_organ(std::move(sounding));
         if (sounding.size() > 1) return divide_hands(std::move(sounding));
         if (!fits_one_staff(part, sounding.front().notes)) {
-            PartPlan hands = split_by_hand(part, sounding.front().notes, sounding.front().voice, bar_length);
+            PartPlan hands = split_by_hand(part, sounding.front().notes, sounding.front().voice, bars);
             if (std::none_of(hands.staves.begin(), hands.staves.end(),
                              [](const StaffPlan& staff) { return staff.voices.front().notes.empty(); })) {
                 return hands;
@@ -368,7 +368,7 @@ std::vector<State> states_of(const Part& part, std::optional<Clef> only, const s
 }  // namespace
 
 std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only,
-                                      std::span<const NotatedVoice> voices, std::int64_t bar_length) {
+                                      std::span<const NotatedVoice> voices, const BarLines& bars) {
     constexpr std::array<double, 4> clef_change = {6, 7, 11, 20};
     constexpr std::array<double, 4> octave_change = {4, 5, 6, 8};
     const std::vector<Moment> moments = moments_of(voices);
@@ -386,7 +386,7 @@ std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only
     };
     const auto change = [&](std::size_t before, std::size_t to, std::size_t i) {
         if (!moments[i].may_change) return std::numeric_limits<double>::infinity();
-        const std::size_t place = place_of(moments[i].onset, moments[i].is_after_rest, bar_length);
+        const std::size_t place = place_of(moments[i].onset, moments[i].is_after_rest, bars);
         return (states[before].clef != states[to].clef ? clef_change[place] : 0.0) +
                (states[before].octaves != states[to].octaves ? octave_change[place] : 0.0);
     };

@@ -42,12 +42,12 @@ bool is_keyboard(int program);
 /// @param first_voice  number of the first voice in the score
 /// @throws ScoreError for more than 24 notes at once
 PartPlan plan_staves(const Part& part, std::span<const std::vector<Note>> voices, int first_voice,
-                     std::int64_t bar_length);
+                     const BarLines& bars);
 
 /// Chooses clefs and lines of 8va for a staff so that ledger lines, changes and notes under 8va are fewest;
 /// phrases and bars are the best places for changes. Only times at which every voice begins a symbol and none ties
 /// one are used. Cost: O(notes).
 std::vector<StaffChange> choose_clefs(const Part& part, std::optional<Clef> only,
-                                      std::span<const NotatedVoice> voices, std::int64_t bar_length);
+                                      std::span<const NotatedVoice> voices, const BarLines& bars);
 
 }  // namespace sikku

@@ -40,7 +40,7 @@ Stress louder(Stress a, Stress b) {
 }
 
 /// Joins strokes that begin together. @param notes  in any order @param merged  incremented for each merged stroke
-StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& merged) {
+StrokeLine line_of(std::vector<Note> notes, const BarLines& bars, std::uint64_t& merged) {
     sort_by_onset(notes);
     StrokeLine line;
     for (const Note& note : notes) {
@@ -64,9 +64,9 @@ StrokeLine line_of(std::vector<Note> notes, const Meter& meter, std::uint64_t& m
     }
     for (std::size_t i = 0; i < line.strokes.size(); ++i) {
         Note& stroke = line.strokes[i];
-        const std::int64_t beat = beat_end(stroke.onset, meter);
+        const std::int64_t beat = beat_end(stroke.onset, bars);
         const std::int64_t end = stroke.onset + stroke.duration;
-        const bool lasts_for_beats = end > beat && beat_end(end - 1, meter) == end;
+        const bool lasts_for_beats = end > beat && beat_end(end - 1, bars) == end;
         const std::int64_t written = lasts_for_beats ? end : beat;
         const bool has_next = i + 1 < line.strokes.size();
         stroke.duration = (has_next ? std::min(written, line.strokes[i + 1].onset) : written) - stroke.onset;
@@ -82,10 +82,10 @@ std::int64_t shortest_of(const Grid& grid) {
 }
 
 /// @return false if the strokes together need shorter notes than each voice alone, or would be moved
-bool fits_a_grid(const StrokeLine& line, std::span<const std::vector<Note>> voices, const Meter& meter) {
-    const Grid grid = grid_of(line.strokes, meter);
+bool fits_a_grid(const StrokeLine& line, std::span<const std::vector<Note>> voices, const BarLines& bars) {
+    const Grid grid = grid_of(line.strokes, bars);
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max();
-    for (const std::vector<Note>& voice : voices) shortest = std::min(shortest, shortest_of(grid_of(voice, meter)));
+    for (const std::vector<Note>& voice : voices) shortest = std::min(shortest, shortest_of(grid_of(voice, bars)));
     return shortest_of(grid) >= shortest &&
            std::all_of(line.strokes.begin(), line.strokes.end(), [&](const Note& stroke) {
                return grid.nearest(stroke.onset) == stroke.onset &&
@@ -109,7 +109,7 @@ double mean_height(const StrokeLine& line) {
 
 }  // namespace
 
-StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter& meter) {
+StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const BarLines& bars) {
     StrokeLines result;
     const bool is_set = has_several_drums(voices);
     for (const bool are_feet : {false, true}) {
@@ -126,15 +126,15 @@ StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter&
         }
         if (all.empty()) continue;
         std::uint64_t merged = 0;
-        StrokeLine together = line_of(std::move(all), meter, merged);
-        if (fits_a_grid(together, parts, meter)) {
+        StrokeLine together = line_of(std::move(all), bars, merged);
+        if (fits_a_grid(together, parts, bars)) {
             result.lines.push_back(std::move(together));
             result.merged += merged;
             continue;
         }
         std::vector<StrokeLine> apart;
         for (std::vector<Note>& part : parts) {
-            if (!part.empty()) apart.push_back(line_of(std::move(part), meter, result.merged));
+            if (!part.empty()) apart.push_back(line_of(std::move(part), bars, result.merged));
         }
         std::stable_sort(apart.begin(), apart.end(),
                          [](const StrokeLine& a, const StrokeLine& b) { return mean_height(a) > mean_height(b); });

@@ -1,6 +1,7 @@
 // music/score/strokes.h: arranges strokes of drums in the lines of a percussion staff.
 #pragma once
 
+#include "music/score/bar_lines.h"
 #include "music/score/score.h"
 
 #include <cstdint>
@@ -26,6 +27,6 @@ struct StrokeLines {
 /// A stroke has no length of its own: it is written up to the next one of its line, the end of its beat, or, if it
 /// lasts for whole beats, its end. Dynamics that the pattern states for several drums are the balance between them,
 /// so strokes keep them only where there is a single drum. Cost: O(n log n).
-StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const Meter& meter);
+StrokeLines stroke_lines(std::span<const std::vector<Note>> voices, const BarLines& bars);
 
 }  // namespace sikku

@@ -59,6 +59,21 @@ std::string sequence(const std::vector<Note>& notes, std::int64_t end, bool is_d
     return text;
 }
 
+/// The tick at which the first tempo would be as late as the tempos of the sections are at a tick: mini-notation has
+/// one tempo.
+std::int64_t at_first_tempo(std::int64_t tick, const ScoreHead& head) {
+    double ticks = 0;
+    std::int64_t here = 0;
+    double tempo = head.tempo;
+    for (const FrameChange& change : head.changes) {
+        if (change.onset >= tick) break;
+        ticks += static_cast<double>(change.onset - here) * head.tempo / tempo;
+        here = change.onset;
+        tempo = change.frame.tempo;
+    }
+    return std::llround(ticks + static_cast<double>(tick - here) * head.tempo / tempo);
+}
+
 std::string program_of(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end) {
     const std::int64_t bar = head.meter.bar();
     const std::int64_t bars = std::max<std::int64_t>(1, (end + bar - 1) / bar);
@@ -96,7 +111,13 @@ std::string strudel_link(const std::string& program) {
 }
 
 void write_strudel(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out) {
-    const std::string program = program_of(head, notes, end);
+    std::vector<Note> timed = notes;
+    for (Note& note : timed) {
+        const std::int64_t note_end = at_first_tempo(note.onset + note.duration, head);
+        note.onset = at_first_tempo(note.onset, head);
+        note.duration = std::max<std::int64_t>(1, note_end - note.onset);
+    }
+    const std::string program = program_of(head, timed, at_first_tempo(end, head));
     out.write(fmt::format("// {}\n\n{}\n{}", strudel_link(program), head_comments(head, "//"), program));
 }
 

@@ -67,12 +67,12 @@ bool share_a_bar(const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
 }
 
 TurnSource source_of(std::size_t index, int first_voice, std::span<const std::vector<Note>> voices,
-                     std::int64_t bar) {
+                     const BarLines& bars) {
     TurnSource source{index, first_voice, voices, {}, 60};
     double sum = 0;
     for (const auto& voice : voices) {
         for (const Note& note : voice) {
-            source.bars.push_back({note.onset / bar, (note.onset + note.duration - 1) / bar});
+            source.bars.push_back({bars.number(note.onset), bars.number(note.onset + note.duration - 1)});
             sum += note.key;
         }
     }
@@ -126,12 +126,12 @@ std::vector<Turn> turns_of(const Line& line) {
 }
 
 /// True if the notes of a turn do not need signs in a key.
-bool fits(const Turn& turn, const KeyOfBars& key, std::int64_t bar) {
+bool fits(const Turn& turn, const KeyOfBars& key, const BarLines& bars) {
     const std::array<int, 7> signs = signs_of(key.key);
     for (const auto& voice : turn.source->voices) {
-        auto note = std::lower_bound(voice.begin(), voice.end(), turn.bars.first * bar,
+        auto note = std::lower_bound(voice.begin(), voice.end(), bars.onset(turn.bars.first),
                                      [](const Note& one, std::int64_t tick) { return one.onset < tick; });
-        for (; note != voice.end() && note->onset / bar <= turn.bars.last; ++note) {
+        for (; note != voice.end() && bars.number(note->onset) <= turn.bars.last; ++note) {
             const Pitch pitch = spelled(note->key, key.spelling);
             if (pitch.quarters != 2 * signs[static_cast<std::size_t>(pitch.letter)]) return false;
         }
@@ -147,7 +147,7 @@ struct DueChange {
 };
 
 /// @return the keys of a line @param due  receives the changes
-std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, std::size_t index, std::int64_t bar,
+std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, std::size_t index, const BarLines& bars,
                                std::vector<DueChange>& due) {
     const std::vector<Turn> turns = turns_of(line);
     const auto key_of = [&](const TurnSource& source, std::int64_t onset) {
@@ -156,9 +156,9 @@ std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, st
     };
     std::vector<KeyOfBars> keys = {key_of(turns.empty() ? *line.sources.front() : *turns.front().source, 0)};
     for (std::size_t i = 1; i < turns.size(); ++i) {
-        KeyOfBars next = key_of(*turns[i].source, turns[i].bars.first * bar);
+        KeyOfBars next = key_of(*turns[i].source, bars.onset(turns[i].bars.first));
         const bool is_same = signs_of(next.key) == signs_of(keys.back().key);
-        if (!is_same && fits(turns[i], keys.back(), bar)) continue;
+        if (!is_same && fits(turns[i], keys.back(), bars)) continue;
         if (is_same) {
             next.key = keys.back().key;
         } else {
@@ -170,13 +170,13 @@ std::vector<KeyOfBars> keys_of(std::span<const Part> parts, const Line& line, st
 }
 
 /// Moves changes to as few bar lines as possible.
-void gather_changes(std::vector<DueChange> due, std::int64_t bar, std::vector<PrintedPart>& printed) {
+void gather_changes(std::vector<DueChange> due, const BarLines& bars, std::vector<PrintedPart>& printed) {
     std::stable_sort(due.begin(), due.end(),
                      [](const DueChange& a, const DueChange& b) { return a.bars.last < b.bars.last; });
     std::int64_t at = -1;
     for (const DueChange& change : due) {
         if (at < change.bars.first) at = change.bars.last;
-        printed[change.part].keys[change.key].onset = at * bar;
+        printed[change.part].keys[change.key].onset = bars.onset(at);
     }
 }
 
@@ -306,13 +306,12 @@ const KeyOfBars& PrintedPart::key_at(std::int64_t onset) const {
 }
 
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
-                                     std::int64_t bar_length) {
+                                     const BarLines& bars) {
     std::vector<TurnSource> sources;
     std::size_t first_voice = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto count = static_cast<std::size_t>(parts[i].voices);
-        sources.push_back(
-            source_of(i, static_cast<int>(first_voice), voices.subspan(first_voice, count), bar_length));
+        sources.push_back(source_of(i, static_cast<int>(first_voice), voices.subspan(first_voice, count), bars));
         first_voice += count;
     }
     std::vector<PrintedPart> printed;
@@ -330,10 +329,10 @@ std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<cons
             one.sources.push_back(source->index);
             one.part.has_chords = one.part.has_chords || parts[source->index].has_chords;
         }
-        one.keys = keys_of(parts, line, printed.size(), bar_length, due);
+        one.keys = keys_of(parts, line, printed.size(), bars, due);
         printed.push_back(std::move(one));
     }
-    gather_changes(std::move(due), bar_length, printed);
+    gather_changes(std::move(due), bars, printed);
     join_hands(printed);
     return printed;
 }

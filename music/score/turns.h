@@ -1,6 +1,7 @@
 // music/score/turns.h: parts that take turns, as sections of an arrangement do, share staves in print.
 #pragma once
 
+#include "music/score/bar_lines.h"
 #include "music/score/pitch.h"
 #include "music/score/score.h"
 
@@ -37,7 +38,7 @@ struct PrintedPart {
 /// their rests allow it. Cost: O(parts^2 + notes log notes).
 /// @param voices  voices of all parts in order: notes by onset
 std::vector<PrintedPart> share_parts(std::span<const Part> parts, std::span<const std::vector<Note>> voices,
-                                     std::int64_t bar_length);
+                                     const BarLines& bars);
 
 /// Gives parts on the same tonic the same key signature, so that the staves of a score agree: of their signatures,
 /// the one with the fewest accidentals. A part on another tonic gets the signature of the first part if it then needs

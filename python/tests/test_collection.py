@@ -38,6 +38,17 @@ def test_an_arrangement_of_files(tmp_path: Path) -> None:
     assert sikku.load_arrangement(text=piece.text).notes().key.tolist() == notes.key.tolist()
 
 
+def test_sections_have_tempos_and_meters() -> None:
+    frame = '[[section]]\nname = "B"\ntempo = 60\nmeter = "3/4"\n'
+    tracks = "".join(f'[[track]]\npattern = "a"\nsection = "{letter}"\n' for letter in "AB")
+    pattern = '[[pattern]]\nname = "a"\ntext = "axiom: FF\\nheading: 0\\n"\n'
+    notes = sikku.load_arrangement(text='form = "A B A"\n' + frame + tracks + pattern).notes()
+    assert notes.changes == [(1920, 60.0, (3, 4)), (3360, 120.0, (4, 4))]
+    # Two seconds, three, and a half.
+    assert notes.seconds(3360 + 480) == 5.5
+    assert notes.seconds(numpy.array([0, 1920, 2400, 3360])).tolist() == [0, 2, 3, 5]
+
+
 def test_errors_of_arrangements(tmp_path: Path) -> None:
     with pytest.raises(sikku.NotFoundError):
         sikku.load_arrangement("no-such-piece")

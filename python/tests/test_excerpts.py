@@ -14,7 +14,7 @@ import pytest
 import sikku
 
 PIECES = [pattern.name for pattern in sikku.patterns() if pattern.kind == "melodies"]
-ARRANGEMENTS = ["blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "seven"]
+ARRANGEMENTS = ["blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "rooms", "seven"]
 PIECES += ["hilbert", "peano", "quadratic-gosper", "arrowhead", "dragon"]
 KEYS = [
     {},

@@ -78,7 +78,7 @@ def told(part: Any, has_cues: bool = False) -> list[Any]:
     ]
 
 
-@pytest.mark.parametrize("name", ["blues", "canon", "gamelan", "raga", "mohanam", "seven"])
+@pytest.mark.parametrize("name", ["blues", "canon", "gamelan", "raga", "mohanam", "rooms", "seven"])
 def test_parts_have_the_notes_of_the_score(name: str, tmp_path: pathlib.Path) -> None:
     files = saved(name, "musicxml", tmp_path)
     score = parts_of(files.pop(f"{name}.musicxml"))

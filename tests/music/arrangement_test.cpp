@@ -249,6 +249,120 @@ TEST(Arrangement, SectionsFollowTheForm) {
               12);
 }
 
+/// A of a bar of 4/4, B of one of 3/4 at half the tempo and a tone higher.
+const std::string two_frames =
+    "tempo = 120\nform = \"A B A\"\n[[section]]\nname = \"B\"\ntempo = \"60 Adagio\"\nmeter = \"3/4\"\ntonic = "
+    "\"D4\"\n" +
+    track("section = \"A\"\n") + track("section = \"B\"\n");
+
+TEST(Arrangement, SectionsHaveTheirTempoMeterAndKeys) {
+    const NoteList list = notes_of(two_frames);
+    const std::string a = "0:60/240 240:62/240 480:64/240 720:62/480";
+    EXPECT_EQ(told(list, 0), a + " 3360:60/240 3600:62/240 3840:64/240 4080:62/480");
+    EXPECT_EQ(told(list, 1), "1920:62/240 2160:64/240 2400:66/240 2640:64/480");
+    const FrameChange slow{1920, {60, "Adagio", {3, 4}}};
+    const FrameChange back{3360, {120, "", {4, 4}}};
+    EXPECT_EQ(list.changes, (std::vector{slow, back}));
+    // A track replaces the keys of its section.
+    EXPECT_EQ(told(notes_of(two_frames + "tonic = \"E4\"\n"), 1), "1920:64/240 2160:66/240 2400:68/240 2640:66/480");
+    // Options apply to all sections.
+    EXPECT_EQ(notes_of(two_frames, {{"tempo", "90"}}).changes,
+              (std::vector<FrameChange>{{1920, {90, "", {3, 4}}}, {3360, {90, "", {4, 4}}}}));
+    EXPECT_EQ(notes_of(two_frames, {{"meter", "4/4"}}).changes,
+              (std::vector<FrameChange>{{1920, {60, "Adagio", {4, 4}}}, {3840, {120, "", {4, 4}}}}));
+    // Equal neighbours change nothing.
+    EXPECT_EQ(notes_of("form = \"A B B A\"\n" + two_frames.substr(two_frames.find("[[section]]"))).changes.size(),
+              2u);
+    EXPECT_TRUE(notes_of("form = \"B B\"\n[[section]]\nname = \"B\"\ntempo = 60\n" + track("section = \"B\"\n"))
+                    .changes.empty());
+}
+
+TEST(Arrangement, ExcerptsBeginWithTheTempoAndMeterOfTheirSection) {
+    const NoteList middle = notes_of(two_frames, {{"from-bar", "2"}});
+    EXPECT_EQ(middle.tempo, 60);
+    EXPECT_EQ(middle.meter, (Meter{3, 4}));
+    EXPECT_EQ(told(middle, 1), "0:62/240 240:64/240 480:66/240 720:64/480");
+    EXPECT_EQ(middle.changes, (std::vector<FrameChange>{{1440, {120, "", {4, 4}}}}));
+    const NoteList one = notes_of(two_frames, {{"from-bar", "2"}, {"bars", "1"}});
+    EXPECT_TRUE(one.changes.empty());
+    EXPECT_EQ(one.notes.size(), 4u);
+    EXPECT_EQ(told(notes_of(two_frames, {{"from-bar", "3"}}), 0), "0:60/240 240:62/240 480:64/240 720:62/480");
+    // Two seconds of A, then one at 60.
+    EXPECT_EQ(notes_of(two_frames, {{"seconds", "3"}}).end, 1920 + 480);
+    EXPECT_EQ(notes_of(two_frames, {{"from-bar", "2"}, {"seconds", "4"}}).end, 1440 + 960);
+    EXPECT_THROW(notes_of(two_frames, {{"from-bar", "9000000000000000000"}}), std::runtime_error);
+    EXPECT_THROW(notes_of(two_frames, {{"from-bar", "9000000000000"}, {"bars", "9000000000000000000"}}), ScoreError);
+}
+
+/// `1920:3/4 1920:1000000`: what the first track of a MIDI file says of meter and tempo.
+std::string frames_of(const std::string& midi) {
+    std::string text;
+    for (const MidiEvent& event : read_midi(midi).events) {
+        const auto byte = [&](std::size_t i) { return static_cast<int>(static_cast<unsigned char>(event.data[i])); };
+        if (event.status != 0xFF) continue;
+        if (event.type == 0x51) text += fmt::format(" {}:{}", event.tick, byte(0) << 16 | byte(1) << 8 | byte(2));
+        if (event.type == 0x58) text += fmt::format(" {}:{}/{}", event.tick, byte(0), 1 << byte(1));
+    }
+    return text;
+}
+
+TEST(Arrangement, EveryFormatHasTheTempoAndMeterOfSections) {
+    const auto written = [](const std::string& format, const OptionValues& values = {}) {
+        MemoryDestination memory;
+        plan_score(read(two_frames), format, values)->make(memory, "score", {});
+        return memory.take("score");
+    };
+    const std::string frames = " 0:500000 0:4/4 1920:1000000 1920:3/4 3360:500000 3360:4/4";
+    EXPECT_EQ(frames_of(written("mid")), frames);
+    EXPECT_EQ(frames_of(written("mid", {{"midi-format", "0"}})), frames);
+    EXPECT_EQ(frames_of(written("mid", {{"from-bar", "2"}})), " 0:1000000 0:3/4 1440:500000 1440:4/4");
+    // A ritardando slows the tempo of the section down.
+    EXPECT_TRUE(
+        frames_of(written("mid", {{"ending", "ritardando"}})).ends_with(fmt::format(":{:.0f}", 500000 / 0.6)));
+    pugi::xml_document xml;
+    ASSERT_TRUE(xml.load_string(written("musicxml").c_str()));
+    std::string printed;
+    for (const auto& measure : xml.select_nodes("//part[1]/measure")) {
+        const pugi::xml_node node = measure.node();
+        printed += fmt::format("{}/{} {}{}{}; ", node.select_node("attributes/time/beats").node().text().get(),
+                               node.select_node("attributes/time/beat-type").node().text().get(),
+                               node.select_node(".//words").node().text().get(),
+                               node.select_node(".//per-minute").node().text().get(),
+                               node.select_node("barline/bar-style").node().text().get());
+    }
+    EXPECT_EQ(printed, "4/4 120light-light; 3/4 Adagio 60light-light; 4/4 120light-heavy; ");
+    const std::string ly = written("ly");
+    EXPECT_TRUE(has(ly, "\\time 3/4 \\tempo \"Adagio\" 4 = 60 ")) << ly;
+    EXPECT_TRUE(has(ly, "\\time 4/4 \\tempo 4 = 120 ")) << ly;
+    EXPECT_TRUE(has(written("abc"), " [M:3/4] [Q:\"Adagio\" 1/4=60] DEFE-E z || ")) << written("abc");
+    EXPECT_TRUE(has(written("sco"), "t 0 120 4 120 4 60 7 60 7 120\n")) << written("sco");
+    EXPECT_TRUE(has(written("html"), "\"bars\":[[0,1920],[1920,1440],[3360,1920]]"));
+    EXPECT_TRUE(has(written("html"), "\"tempos\":[[1920,0.5],[3360,1]]"));
+    // In mini-notation an eighth of B is as long as a quarter of A.
+    EXPECT_TRUE(has(written("strudel"), "~@4 d4 e4 f#4 e4@2 ~@7")) << written("strudel");
+}
+
+TEST(Arrangement, KeysOfSectionsAreChecked) {
+    const auto refusal = [](const std::string& keys, const std::string& form = "form = \"A\"\n") {
+        return error_of([&] { read(form + "[[section]]\n" + keys + track("section = \"A\"\n")); }, "none");
+    };
+    EXPECT_EQ(refusal("name = \"A\"\ntempo = 90\n"), "none");
+    EXPECT_TRUE(has(refusal("name = \"C\"\ntempo = 90\n"), "a.toml:3:1: section C is not in the form of the piece"))
+        << refusal("name = \"C\"\ntempo = 90\n");
+    EXPECT_TRUE(has(refusal("tempo = 90\n"), "this section has no name, a letter such as name = \"B\""));
+    EXPECT_TRUE(has(refusal("name = \"AB\"\n"), "name: expected a letter from A to Z"));
+    EXPECT_TRUE(has(refusal("name = \"A\"\n[[section]]\nname = \"A\"\n"), "two sections are named A"));
+    EXPECT_TRUE(has(refusal("name = \"A\"\ntempo = \"96 by y 84-108\"\n"),
+                    "only the tempo of the whole piece can follow a curve"));
+    EXPECT_TRUE(has(refusal("name = \"A\"\nending = \"fermata\"\n"), "ending belongs to the whole piece"));
+    EXPECT_TRUE(has(refusal("name = \"A\"\ntmpo = 90\n"), "unknown key 'tmpo'; did you mean 'tempo'?"))
+        << refusal("name = \"A\"\ntmpo = 90\n");
+    EXPECT_TRUE(has(refusal("name = \"A\"\ntempo = 0\n"), "tempo: ")) << refusal("name = \"A\"\ntempo = 0\n");
+    EXPECT_TRUE(has(refusal("name = \"A\"\nmeter = \"3/5\"\n"), "meter: "));
+    EXPECT_TRUE(
+        has(error_of([] { read("section = \"A\"\n" + track("")); }, "none"), "section: expected [[section]] tables"));
+}
+
 /// The remarks of a score in memory.
 std::vector<std::string> remarks_of(const std::string& text, std::string_view format = "mid") {
     MemoryDestination memory;

@@ -129,6 +129,93 @@ TEST(Sections, FollowOneAnotherAtBarLines) {
               std::string::npos);
 }
 
+/// A korvai is played three times; pauses by trial.
+TEST(Sections, LandOnTheFirstBeatAfterAKorvai) {
+    for (const char* meter : {"4/4", "3/4", "5/8", "7/8"}) {
+        const std::int64_t bar = meter[2] == '4' ? (meter[0] - '0') * 480 : (meter[0] - '0') * 240;
+        const std::string keys = fmt::format("meter: {}\n", meter);
+        for (const char* section : {"A", "B", "F"}) {
+            const Told plain = form(section, keys);
+            const std::int64_t length = std::get<1>(plain.back());
+            std::int64_t rest = bar, pause = 0;
+            for (std::int64_t tried = 240; tried < bar; tried += 240) {
+                std::int64_t before = 0;
+                while ((before + 3 * length + 2 * tried) % bar != 0) before += 240;
+                if (before < rest) std::tie(rest, pause) = std::pair(before, tried);
+            }
+            Told expected;
+            for (std::int64_t i = 0; i < 3; ++i) {
+                for (auto [onset, end, degree] : plain) {
+                    const std::int64_t later = rest + i * (length + pause);
+                    expected.emplace_back(onset + later, end + later, degree);
+                }
+            }
+            const std::int64_t end = std::get<1>(expected.back());
+            ASSERT_EQ(end % bar, 0);
+            Told landed = form(section + std::string("k"), keys);
+            ASSERT_EQ(landed.size(), expected.size() + 1);
+            // The tonic is held for a bar.
+            const auto [onset, until, degree] = landed.back();
+            EXPECT_EQ(onset, end);
+            EXPECT_EQ(until, end + bar);
+            EXPECT_EQ((degree + 70) % 7, 0);
+            EXPECT_LE(std::abs(degree - std::get<2>(expected.back())), 3);
+            landed.pop_back();
+            EXPECT_EQ(landed, expected) << meter << section;
+            // In the middle the next section follows at once.
+            const Told middle = form(section + std::string("k C"), keys);
+            EXPECT_EQ(std::get<0>(middle[expected.size()]), end);
+        }
+    }
+    EXPECT_EQ(form("Ak+2").size(), form("Ak").size());
+    EXPECT_NE(error_of([] { form("Akk"); }).find("a korvai"), std::string::npos);
+}
+
+TEST(Thinning, LeavesBeatsThenStrongBeats) {
+    for (const char* meter : {"4/4", "3/4", "2+3/8"}) {
+        const bool is_additive = meter[1] == '+';
+        const std::int64_t bar = is_additive ? 1200 : (meter[0] - '0') * 480;
+        const std::string keys = fmt::format("meter: {}\nunit: 1/16\n", meter);
+        const Told one = form("A", keys);
+        const std::int64_t length = (std::get<1>(one.back()) + bar - 1) / bar * bar;
+        for (const double share : {0.3, 0.5, 1.0}) {
+            const Told plain = form("A B", keys);
+            const Told thin = form("A B", keys + fmt::format("thinning: {}\n", share));
+            Told expected;
+            for (std::size_t i = 0; i < plain.size(); ++i) {
+                const auto& [onset, end, degree] = plain[i];
+                const bool is_second = onset >= length;
+                const std::int64_t begin = is_second ? length : 0;
+                const std::int64_t stop = is_second ? std::get<1>(plain.back()) : length;
+                const bool is_last = i + 1 == plain.size() || (!is_second && std::get<0>(plain[i + 1]) >= length);
+                const double left = static_cast<double>(stop - onset) / static_cast<double>(stop - begin);
+                const std::int64_t place = onset % bar;
+                const bool is_beat = is_additive ? place == 0 || place == 480 : place % 480 == 0;
+                const bool is_strong = is_additive ? is_beat : place == 0 || (meter[0] == '4' && place == 960);
+                if (left > share || is_last || (left > share / 2 ? is_beat : is_strong)) {
+                    expected.push_back(plain[i]);
+                } else if (!expected.empty() && std::get<1>(expected.back()) == onset &&
+                           (std::get<0>(expected.back()) >= length) == is_second) {
+                    std::get<1>(expected.back()) = end;
+                }
+            }
+            EXPECT_LE(expected.size(), share > 0.3 ? plain.size() - 1 : plain.size());
+            EXPECT_EQ(thin, expected) << meter << share;
+        }
+        EXPECT_EQ(form("A B", keys + "thinning: none\n"), form("A B", keys));
+    }
+    const auto said = [](const std::string& more) { return error_of([&] { notes_of(hilbert + more); }); };
+    EXPECT_NE(said("thinning: 2\n").find("from 0 to 1"), std::string::npos);
+    EXPECT_NE(said("thinning: 0.5\nvertical: glissando\n").find("cannot thin out"), std::string::npos);
+    EXPECT_NE(error_of([] { notes_of("axiom: F+F\nthinning: 0.5\n"); }).find("needs 'phrases:'"), std::string::npos);
+    // Chords stay.
+    const auto chords = [](const std::string& more) {
+        const NoteList list = notes_of(hilbert + "harmony: triads\n" + more);
+        return std::count_if(list.notes.begin(), list.notes.end(), [](const Note& note) { return note.voice > 0; });
+    };
+    EXPECT_EQ(chords("thinning: 0.5\n"), chords(""));
+}
+
 TEST(Sections, KeepTheDirectionOfRagas) {
     // Melodic minor: a repeated note sounds like the one before it.
     const std::string text =

@@ -52,7 +52,7 @@ std::vector<PlainNote> joined(const Notation& notation) {
 std::string words(const Notation& notation) {
     std::string text;
     for (const NotatedSymbol& symbol : notation.parts.front().staves.front().voices.front().symbols) {
-        if (symbol.onset % notation.bar_length == 0 && symbol.onset > 0) text += "| ";
+        if (notation.bar_lines.place(symbol.onset) == 0 && symbol.onset > 0) text += "| ";
         if (symbol.kind == SymbolKind::bar_rest) {
             text += "R ";
             continue;
@@ -164,6 +164,34 @@ TEST(Notation, RestsShowTheBeats) {
     }
 }
 
+TEST(Notation, BarLinesFollowTheMeters) {
+    for (unsigned seed = 1; seed < 200; seed += 2) {
+        const TestScore score = random_score(seed, false);
+        const BarLines lines(score.head);
+        const std::vector<std::int64_t> onsets = bar_onsets(score.head, score.end + 10'000);
+        for (std::int64_t bar = 0; bar + 1 < std::ssize(onsets); ++bar) {
+            const std::int64_t begin = onsets[static_cast<std::size_t>(bar)];
+            const std::int64_t end = onsets[static_cast<std::size_t>(bar) + 1];
+            EXPECT_EQ(lines.onset(bar), begin);
+            EXPECT_EQ(lines.next(begin), begin);
+            EXPECT_EQ(lines.count(begin), bar);
+            for (const std::int64_t tick : {begin, begin + 1, (begin + end) / 2, end - 1}) {
+                EXPECT_EQ(lines.number(tick), bar);
+                EXPECT_EQ(lines.begin(tick), begin);
+                EXPECT_EQ(lines.end(tick), end);
+                EXPECT_EQ(lines.length(tick), end - begin);
+                EXPECT_EQ(lines.meter(tick).bar(), end - begin);
+                EXPECT_EQ(lines.place(tick), tick - begin);
+                EXPECT_EQ(lines.next(tick), tick == begin ? begin : end);
+                EXPECT_EQ(lines.count(tick), tick == begin ? bar : bar + 1);
+            }
+            const BarLines later = lines.from(begin);
+            EXPECT_EQ(later.onset(1), end - begin);
+            EXPECT_EQ(later.number(onsets.back() - 1 - begin), lines.number(onsets.back() - 1) - bar);
+        }
+    }
+}
+
 TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
     for (unsigned seed = 0; seed < 400; ++seed) {
         const TestScore score = random_score(seed, seed % 4 == 0);
@@ -171,9 +199,15 @@ TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
         ASSERT_EQ(joined(notation), plain(score.notes)) << seed;
         EXPECT_EQ(notation.moved, 0u);
         EXPECT_EQ(notation.bent, 0u);
-        EXPECT_EQ(notation.bar_length, score.head.meter.bar());
-        EXPECT_GE(notation.bars * score.head.meter.bar(), score.end);
-        EXPECT_LT((notation.bars - 1) * score.head.meter.bar(), std::max<std::int64_t>(score.end, 1));
+        const std::vector<std::int64_t> onsets = bar_onsets(score.head, score.end + 4 * 1920);
+        const auto bars = static_cast<std::size_t>(notation.bars);
+        ASSERT_LT(bars, onsets.size());
+        EXPECT_GE(onsets[bars], score.end);
+        EXPECT_LT(onsets[bars - 1], std::max<std::int64_t>(score.end, 1));
+        const auto bar_of = [&](std::int64_t tick) {
+            return static_cast<std::size_t>(std::upper_bound(onsets.begin(), onsets.end(), tick) - onsets.begin() -
+                                            1);
+        };
         ASSERT_EQ(notation.parts.size(), score.head.parts.size());
         for (const NotatedPart& part : notation.parts) {
             ASSERT_FALSE(part.staves.empty());
@@ -181,23 +215,24 @@ TEST(Notation, RandomScoresSayTheSameAsTheirNotes) {
                 ASSERT_GE(staff.voices.size(), 1u);
                 ASSERT_LE(staff.voices.size(), 4u);
                 for (const NotatedVoice& voice : staff.voices) {
-                    std::vector<std::int64_t> sums(static_cast<std::size_t>(notation.bars), 0);
+                    std::vector<std::int64_t> sums(bars, 0);
                     std::int64_t here = 0;
                     for (const NotatedSymbol& symbol : voice.symbols) {
                         ASSERT_EQ(symbol.onset, here);
                         here += symbol.length;
-                        const std::int64_t bar = symbol.onset / notation.bar_length;
-                        sums[static_cast<std::size_t>(bar)] += symbol.length;
+                        const std::size_t bar = bar_of(symbol.onset);
+                        const std::int64_t length = onsets[bar + 1] - onsets[bar];
+                        sums[bar] += symbol.length;
                         if (symbol.kind == SymbolKind::bar_rest) {
-                            EXPECT_EQ(symbol.length, notation.bar_length);
+                            EXPECT_EQ(symbol.length, length);
                             continue;
                         }
-                        if (symbol.kind == SymbolKind::gap && symbol.length == notation.bar_length) continue;
+                        if (symbol.kind == SymbolKind::gap && symbol.length == length) continue;
                         const NoteValue value = symbol.value;
                         EXPECT_EQ(symbol.length, 1920 / value.divisor * (value.dotted ? 3 : 2) / 2);
                         EXPECT_TRUE((std::set{1, 2, 4, 8, 16, 32, 64}.contains(value.divisor)));
                     }
-                    for (const std::int64_t sum : sums) ASSERT_EQ(sum, notation.bar_length);
+                    for (std::size_t i = 0; i < bars; ++i) ASSERT_EQ(sums[i], onsets[i + 1] - onsets[i]);
                 }
             }
         }

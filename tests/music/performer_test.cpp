@@ -2,12 +2,14 @@
 
 #include "music/live/ahead.h"
 #include "music/live/voices.h"
+#include "music/scores.h"
 #include "tests/midi_tools.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -563,6 +565,102 @@ TEST(Performer, BeatsAreToldWithStartAndStop) {
         EXPECT_EQ(times_of(one.port.sent, stop_byte), std::vector<Nanoseconds>{29 * second / 4});
         EXPECT_TRUE(times_of(one.port.sent, clock_byte).empty());
     }
+}
+
+/// A bar of 4/4, one of 3/4 at half the tempo, and one of 4/4; repeated, and changed in the second bar.
+TEST(Performer, SectionsHaveTheirTempoAndMeter) {
+    MidiScore score = quarters(11);
+    score.head.changes = {{1920, {60, "", {3, 4}}}, {3360, {120, "", {4, 4}}}};
+    Performance one;
+    one.port.tells_places = true;
+    one.options.times = 2;
+    one.play(stream(score));
+    std::vector<std::pair<Nanoseconds, std::pair<std::int64_t, int>>> expected;
+    for (Nanoseconds pass = 0; pass <= 7 * second; pass += 7 * second) {
+        for (int i = 0; i < 4; ++i) expected.push_back({pass + i * second / 2, {1, i + 1}});
+        for (int i = 0; i < 3; ++i) expected.push_back({pass + 2 * second + i * second, {2, i + 1}});
+        for (int i = 0; i < 4; ++i) expected.push_back({pass + 5 * second + i * second / 2, {3, i + 1}});
+    }
+    EXPECT_EQ(one.port.places, expected);
+    const std::vector<Stroke> heard = one.heard();
+    ASSERT_EQ(heard.size(), expected.size());
+    for (std::size_t i = 0; i < heard.size(); ++i) EXPECT_EQ(heard[i].first, expected[i].first) << i;
+
+    // Another version begins at the bar line after the bar of 3/4.
+    Performance other;
+    bool is_given = false;
+    other.hooks.newer = [&]() -> std::unique_ptr<NoteStream> {
+        if (is_given || other.port.time() < 3 * second) return nullptr;
+        is_given = true;
+        return stream(quarters(16, 80));
+    };
+    other.play(stream(score));
+    const std::vector<Stroke> changed = other.heard();
+    ASSERT_EQ(changed.size(), 15u);
+    // Its third bar, as the next was to be.
+    EXPECT_EQ(changed[7], Stroke(5 * second, 80));
+}
+
+/// Compares clocks with their exact times, and measures the memory of the program.
+class CountingPort final : public Port {
+public:
+    explicit CountingPort(Clock& clock) : clock_(clock), begin_(clock.now()) {}
+    Nanoseconds ahead() const override { return 0; }
+    void send(std::span<const Message> messages, Nanoseconds) override {
+        const Nanoseconds time = clock_.now() - begin_;
+        for (const Message& message : messages) {
+            if (message.kind() == 0x90) ++sounding;
+            if (message.kind() == 0x90) ++notes;
+            if (message.kind() == 0x80) --sounding;
+            if (message.bytes[0] != clock_byte) continue;
+            // 24 a quarter at 96 quarters a minute.
+            const double exact = static_cast<double>(clocks++) * 60e9 / 96 / 24;
+            worst = std::max(worst, std::fabs(static_cast<double>(time) - exact));
+            if (time < hour) memory_at_first = used_memory();
+            memory = used_memory();
+        }
+    }
+    std::vector<Received> wait(Clock& clock, Nanoseconds until) override {
+        clock.sleep_until(until);
+        return {};
+    }
+    static constexpr Nanoseconds hour = 3600 * second;
+    int sounding = 0;
+    std::int64_t notes = 0, clocks = 0;
+    double worst = 0;
+    std::int64_t memory_at_first = 0, memory = 0;
+
+private:
+    /// Resident pages.
+    static std::int64_t used_memory() {
+        static std::int64_t count = 0, last = 0;
+        if (count++ % 10'000 != 0) return last;
+        std::ifstream file("/proc/self/statm");
+        std::int64_t all = 0;
+        file >> all >> last;
+        return last;
+    }
+    Clock& clock_;
+    Nanoseconds begin_;
+};
+
+/// Eight hours of a curve of 40 generations: each clock in time, and no growth of memory.
+TEST(Performer, PlaysForHours) {
+    const Document document = parse(
+        "h.lsys", "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nderivation length: 40\ntempo: 96\n");
+    FakeClock clock;
+    CountingPort port(clock);
+    PerformOptions options;
+    options.clock = ClockMode::send;
+    // Eight hours are 46,080 quarters.
+    perform(stream_notes({&document, 1}, {{"bars", "11520"}}, {}), clock, port, options, {});
+    EXPECT_NEAR(static_cast<double>(clock.now()) / 1e9 - 5, 8 * 3600, 1e-3);
+    EXPECT_EQ(port.sounding, 0);
+    EXPECT_GT(port.notes, 50'000);
+    EXPECT_EQ(port.clocks, 46'080 * 24 + 1);
+    EXPECT_LT(port.worst, 5);
+    constexpr std::int64_t page = 4096, most_growth = 1 << 20;
+    EXPECT_LT((port.memory - port.memory_at_first) * page, most_growth);
 }
 
 TEST(Performer, ANewVersionThatIsNotReadyWaits) {

@@ -111,7 +111,7 @@ TEST(PlayerParts, RandomScoresKeepTheirNotes) {
                 EXPECT_EQ(notes_of(voice), expected[at++]) << seed;
                 for (const NotatedSymbol& symbol : voice.symbols) {
                     for (const auto& [first, count] : player.notation.gathered_rests) {
-                        const std::int64_t place = symbol.onset / player.notation.bar_length;
+                        const std::int64_t place = player.notation.bar_lines.number(symbol.onset);
                         if (place < first || place >= first + count) continue;
                         EXPECT_NE(symbol.kind, SymbolKind::note) << seed;
                         EXPECT_NE(symbol.kind, SymbolKind::rest) << seed;

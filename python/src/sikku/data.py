@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy
@@ -139,13 +139,21 @@ class Notes:
     """Quarter notes per minute."""
     meter: tuple[int, int]
     """Beats per bar and their unit: (6, 8)."""
+    changes: list[tuple[int, float, tuple[int, int]]] = field(default_factory=list)
+    """Where sections begin with another tempo or meter: tick, quarter notes per minute, meter."""
 
     def __len__(self) -> int:
         return len(self.onset)
 
     def seconds(self, ticks: Any) -> Any:
         """Converts ticks, a number or an array such as `onset`, to seconds."""
-        return ticks * (60.0 / (self.tempo * _core.ticks_per_quarter))
+        tick = 60.0 / (self.tempo * _core.ticks_per_quarter)
+        seconds = ticks * tick
+        for onset, tempo, _ in self.changes:
+            after = 60.0 / (tempo * _core.ticks_per_quarter)
+            seconds = seconds + numpy.maximum(ticks - onset, 0) * (after - tick)
+            tick = after
+        return seconds
 
     def columns(self) -> dict[str, Any]:
         """The arrays of one dimension by name, as pandas.DataFrame and polars.DataFrame take them."""
@@ -154,8 +162,8 @@ class Notes:
 
 def notes_from(listed: tuple[Any, ...]) -> Notes:
     """Notes of the arrays that the compiled part returns."""
-    (onset, duration, key, velocity, voice, curve), end, tempo, beats, unit = listed
-    return Notes(onset, duration, key, velocity, voice, curve, end, tempo, (beats, unit))
+    (onset, duration, key, velocity, voice, curve), end, tempo, beats, unit, changes = listed
+    return Notes(onset, duration, key, velocity, voice, curve, end, tempo, (beats, unit), changes)
 
 
 def only(outputs: dict[str, Union[str, bytes]]) -> Union[str, bytes]:

@@ -1,0 +1,67 @@
+// music/score/bar_lines.h: where the bars of a score begin, whose meter may change.
+#pragma once
+
+#include "music/score/score.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace sikku {
+
+/// The bar lines of a score. Bars are counted from 0, and ticks from the beginning of the score or the excerpt. Cost
+/// of each question: O(log changes).
+class BarLines {
+public:
+    /// Bars of one meter.
+    BarLines(const Meter& meter = {});  // NOLINT(google-explicit-constructor): a meter is the common case
+    /// Bars of the meters of a score. @param changes  ascending, at bar lines of the meters before them
+    BarLines(const Meter& meter, const std::vector<FrameChange>& changes);
+    explicit BarLines(const ScoreHead& head) : BarLines(head.meter, head.changes) {}
+
+    /// The meter of the bar in which a tick lies.
+    const Meter& meter(std::int64_t tick) const { return at(tick).meter; }
+    /// The length of the bar in which a tick lies.
+    std::int64_t length(std::int64_t tick) const { return at(tick).bar; }
+    /// The number of the bar in which a tick lies.
+    std::int64_t number(std::int64_t tick) const;
+    /// The ticks at which this bar begins and ends.
+    std::int64_t begin(std::int64_t tick) const { return tick - place(tick); }
+    std::int64_t end(std::int64_t tick) const { return begin(tick) + length(tick); }
+    /// Ticks from the beginning of the bar.
+    std::int64_t place(std::int64_t tick) const {
+        const Stretch& stretch = at(tick);
+        return (tick - stretch.onset) % stretch.bar;
+    }
+    /// The first bar line from a tick on.
+    std::int64_t next(std::int64_t tick) const { return place(tick) == 0 ? tick : end(tick); }
+    /// The tick at which a bar begins.
+    std::int64_t onset(std::int64_t number) const;
+    /// The number of bars that have begun before a tick.
+    std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
+    /// These bar lines, counted from one of them.
+    BarLines from(std::int64_t tick) const;
+
+private:
+    /// Bars of the same meter.
+    struct Stretch {
+        std::int64_t onset = 0;
+        std::int64_t number = 0;  ///< of its first bar
+        std::int64_t bar = 1;     ///< ticks
+        Meter meter;
+    };
+    void add(std::int64_t onset, const Meter& meter);
+    const Stretch& at(std::int64_t tick) const;
+
+    std::vector<Stretch> stretches_;  ///< ascending, the first at 0
+};
+
+/// The tempo and meter with which a score begins.
+Frame frame_of(const ScoreHead& head);
+/// True if the tempo is to be printed at a change: for another tempo, other words, or beats of another length.
+bool has_other_tempo(const Frame& before, const Frame& after);
+/// The tempo and meter of a score from a tick on. @param first  tempo and meter before the first change
+Frame frame_at(const Frame& first, const std::vector<FrameChange>& changes, std::int64_t tick);
+/// The changes after a tick, counted from it.
+std::vector<FrameChange> changes_after(const std::vector<FrameChange>& changes, std::int64_t tick);
+
+}  // namespace sikku
