@@ -194,7 +194,7 @@ void report_notation(const Notation& notation, const Ensemble& ensemble, Made& m
     if (notation.moved > 0) {
         const bool is_one = notation.moved == 1;
         made.warn(
-            fmt::format("{} not begin or end at a 64th or in a tuplet of 3, 5, 6, 10 or 12 and {} written at the "
+            fmt::format("{} not begin or end at a 64th or in a tuplet of 3, 5, 6, 7, 10 or 12 and {} written at the "
                         "nearest 64th{}",
                         is_one ? "1 note does" : counted(notation.moved, "note") + " do", is_one ? "is" : "are",
                         remedy_for_moved(ensemble)));

@@ -234,10 +234,11 @@ private:
         const bool good = fraction(*key, above, below) && above > 0 && below > 0;
         const std::int64_t whole_note = 4 * ticks_per_quarter;
         if (good && above * whole_note % below != 0) {
-            diagnostics_.error(key->value,
-                               fmt::format("{}/{} is not a whole number of ticks, of which a whole note has {}; "
-                                           "expected a divisor such as 4, 6, 8, 10, 12, 16, 20, 24, 32 or 64",
-                                           above, below, whole_note));
+            diagnostics_.error(
+                key->value,
+                fmt::format("{}/{} is not a whole number of ticks, of which a whole note has {}; "
+                            "expected a divisor such as 4, 6, 8, 10, 12, 16, 20, 24, 32 or 64{}",
+                            above, below, whole_note, below % 7 == 0 ? "; `speed: 7:4` makes septuplets" : ""));
             return;
         }
         if (!good || above * whole_note / below > 16 * whole_note) {

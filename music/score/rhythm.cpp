@@ -180,11 +180,13 @@ Grid grid_of(std::span<const Note> notes, const BarLines& bars) {
 
 /// Adds a tuplet if every time is on its grid.
 bool Grid::add(std::int64_t from, std::int64_t length, int actual, int normal, std::span<const std::int64_t> times) {
-    const bool fits = length % actual == 0 && length % normal == 0 && length / normal >= shortest_value &&
+    const TupletSpan span{from, from + length, actual, normal, static_cast<int>(whole_note * normal / length)};
+    // Quarters have no whole seventh.
+    const bool fits = (length % actual == 0 || actual == 7) && length % normal == 0 &&
+                      length / normal >= shortest_value &&
                       std::all_of(times.begin(), times.end(),
-                                  [&](std::int64_t time) { return (time - from) % (length / actual) == 0; });
-    if (fits)
-        tuplets_.push_back({from, from + length, actual, normal, static_cast<int>(whole_note * normal / length)});
+                                  [&](std::int64_t time) { return span.tick(span.note_at(time)) == time; });
+    if (fits) tuplets_.push_back(span);
     return fits;
 }
 
@@ -209,7 +211,8 @@ bool Grid::divide(std::int64_t from, std::int64_t length, std::span<const std::i
         }
         return false;
     }
-    if (add(from, length, 3, 2, times) || add(from, length, 5, 4, times)) return true;
+    if (add(from, length, 3, 2, times) || add(from, length, 5, 4, times) || add(from, length, 7, 4, times))
+        return true;
     if (length < 2 * shortest_value) return false;
     const std::size_t before = tuplets_.size();
     const bool is_exact = divide_parts(from, length, 2, times);
@@ -235,14 +238,14 @@ std::size_t Grid::tuplet_from(std::int64_t time) const {
 std::int64_t Grid::nearest(std::int64_t time) const {
     const std::size_t at = tuplet_from(time);
     const bool is_inside = at < tuplets_.size() && tuplets_[at].from <= time;
-    const std::int64_t origin = is_inside ? tuplets_[at].from : 0;
-    const std::int64_t step = is_inside ? tuplets_[at].step() : shortest_value;
-    return origin + (time - origin + step / 2) / step * step;
+    if (is_inside) return tuplets_[at].tick(tuplets_[at].note_at(time));
+    return (time + shortest_value / 2) / shortest_value * shortest_value;
 }
 
 std::int64_t Grid::after(std::int64_t time) const {
     const std::size_t at = tuplet_from(time);
-    return time + (at < tuplets_.size() && tuplets_[at].from <= time ? tuplets_[at].step() : shortest_value);
+    const bool is_inside = at < tuplets_.size() && tuplets_[at].from <= time;
+    return is_inside ? tuplets_[at].tick(tuplets_[at].note_at(time) + 1) : time + shortest_value;
 }
 
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const Meter& meter) {
@@ -329,24 +332,23 @@ std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, cons
 }
 
 std::vector<WrittenValue> written_rests(std::int64_t from, std::int64_t to, const TupletSpan& tuplet) {
-    const std::int64_t step = tuplet.step();
-    std::int64_t at = (from - tuplet.from) / step;
-    const std::int64_t end = (to - tuplet.from) / step;
+    std::int64_t at = tuplet.note_at(from);
+    const std::int64_t end = tuplet.note_at(to);
     std::vector<WrittenValue> result;
     while (at < end) {
         std::int64_t count = 4;
         while (at % count != 0 || at + count > end || tuplet.divisor < count) count /= 2;
-        result.push_back({count * step, {static_cast<int>(tuplet.divisor / count), false}});
+        result.push_back(
+            {tuplet.tick(at + count) - tuplet.tick(at), {static_cast<int>(tuplet.divisor / count), false}});
         at += count;
     }
     return result;
 }
 
 std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, const TupletSpan& tuplet) {
-    const std::int64_t step = tuplet.step();
     const bool is_odd = tuplet.actual % 2 != 0;
-    std::int64_t at = (from - tuplet.from) / step;
-    const std::int64_t end = (to - tuplet.from) / step;
+    std::int64_t at = tuplet.note_at(from);
+    const std::int64_t end = tuplet.note_at(to);
     std::vector<WrittenValue> result;
     while (at < end) {
         std::int64_t count = 1;
@@ -361,8 +363,8 @@ std::vector<WrittenValue> written_values(std::int64_t from, std::int64_t to, con
             }
         }
         const bool is_dotted = count % 3 == 0;
-        result.push_back(
-            {count * step, {static_cast<int>(tuplet.divisor / (is_dotted ? count / 3 * 2 : count)), is_dotted}});
+        result.push_back({tuplet.tick(at + count) - tuplet.tick(at),
+                          {static_cast<int>(tuplet.divisor / (is_dotted ? count / 3 * 2 : count)), is_dotted}});
         // Dots on the shortest value of a tuplet do not occur: their count would be a fraction.
         at += count;
     }

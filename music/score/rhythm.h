@@ -35,7 +35,14 @@ struct TupletSpan {
     int actual = 3;
     int normal = 2;
     int divisor = 8;
+    /// The length of its notes, rounded down.
     std::int64_t step() const { return (to - from) / actual; }
+    /// The tick at which a note begins, from 0; those of seven notes are rounded to the nearest.
+    std::int64_t tick(std::int64_t note) const { return from + (2 * note * (to - from) + actual) / (2 * actual); }
+    /// The note that begins nearest to a tick; of two, the later one.
+    std::int64_t note_at(std::int64_t tick) const {
+        return (2 * (tick - from) * actual + (to - from)) / (2 * (to - from));
+    }
 };
 
 /// Groups of a bar in ticks: those of the meter; in x/8, x/16, …: threes for multiples of three, 3+3+2 for eight,
@@ -64,8 +71,8 @@ std::int64_t beat_end(std::int64_t time, const BarLines& bars);
 class Grid {
 public:
     /// Chooses tuplets so that all `times` (ascending; ticks from the beginning of the score) lie on the grid if
-    /// possible. A tuplet is a bar, a half of it, a group or a beat, or a part of a beat, divided into 3, 5, 6, 10 or
-    /// 12, and the largest that fits is chosen. Cost: O(times · log bar).
+    /// possible. A tuplet is a bar, a half of it, a group or a beat, or a part of a beat, divided into 3, 5, 6, 7, 10
+    /// or 12, and the largest that fits is chosen. Cost: O(times · log bar).
     Grid(std::span<const std::int64_t> times, const BarLines& bars);
 
     const std::vector<TupletSpan>& tuplets() const { return tuplets_; }

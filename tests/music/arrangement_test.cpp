@@ -138,7 +138,8 @@ TEST(Arrangement, CanonsFollowBySemitonesAndDegrees) {
 
 /// Two tempos in print: tuplets notate the rhythm exactly.
 TEST(Arrangement, PartsWithTheirOwnTempoArePrinted) {
-    for (const auto& [speed, actual] : {std::pair{"3:2", "3"}, {"5:4", "5"}, {"2:1", ""}, {"1:2", ""}}) {
+    for (const auto& [speed, actual] :
+         {std::pair{"3:2", "3"}, {"5:4", "5"}, {"7:4", "7"}, {"7:8", "7"}, {"2:1", ""}, {"1:2", ""}}) {
         const std::string text = track("instrument = \"Violin\"\n") +
                                  track(fmt::format("speed = \"{}\"\ninstrument = \"Cello\"\n", speed));
         MemoryDestination memory;
@@ -551,7 +552,7 @@ TEST(Arrangement, RemarksAboutMovedNotesNameWhatHelps) {
         return warnings;
     };
     const std::string moved =
-        " not begin or end at a 64th or in a tuplet of 3, 5, 6, 10 or 12 and are written at the nearest 64th";
+        " not begin or end at a 64th or in a tuplet of 3, 5, 6, 7, 10 or 12 and are written at the nearest 64th";
     const std::string sloped = "heading: 0\nangle increment: 22.5\naxiom: F+F+F-F\n";
     const std::string advice = "; the curve leaves the square grid, where `rhythm: x` makes each step last one unit";
     EXPECT_EQ(remark(sloped, {{"unit", "1/8"}}), "3 notes do" + moved + advice);

@@ -401,10 +401,13 @@ TEST(Notation, ShortNotesAreBeamedByEighths) {
 }
 
 TEST(Notation, WhatFallsOnNoGridIsMovedAndCounted) {
-    // Sevenths of a beat.
-    const Notation sevenths = notate(line({4, 4}, {69, 68, 69, 274}));
-    EXPECT_EQ(sevenths.moved, 4u);
-    EXPECT_EQ(joined(sevenths), (std::vector<PlainNote>{{0, 60, 72}, {60, 90, 72}, {150, 60, 72}, {210, 270, 72}}));
+    // Sevenths of a beat are rounded to ticks.
+    const TestScore sevenths = line({4, 4}, {69, 68, 69, 274});
+    EXPECT_EQ(notate(sevenths).moved, 0u);
+    EXPECT_EQ(joined(notate(sevenths)), plain(sevenths.notes));
+    const Notation thirteenths = notate(line({4, 4}, {37, 37, 37, 369}));
+    EXPECT_EQ(thirteenths.moved, 4u);
+    EXPECT_EQ(joined(thirteenths), (std::vector<PlainNote>{{0, 30, 72}, {30, 30, 72}, {60, 60, 72}, {120, 360, 72}}));
     // Too short for any sign: one 64th each, in order.
     const Notation crumbs = notate(line({4, 4}, {1, 1, 1, 477}));
     EXPECT_EQ(crumbs.moved, 4u);
