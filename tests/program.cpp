@@ -82,7 +82,9 @@ Child::~Child() {
 }
 
 void Child::send(int signal) const {
-    kill(process_, signal);
+    // A process of -1 would stand for all processes.
+    const pid_t process = process_;
+    if (process > 0) kill(process, signal);
 }
 
 void Child::await_handler(int signal) const {

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -56,6 +57,7 @@ public:
     Child& operator=(const Child&) = delete;
     ~Child();
 
+    /// Does nothing once it has ended.
     void send(int signal) const;
     /// Waits until it has a handler for the signal, and a little longer, so that it is at work.
     void await_handler(int signal) const;
@@ -64,7 +66,7 @@ public:
 
 private:
     Surroundings surroundings_;
-    pid_t process_ = -1;
+    std::atomic<pid_t> process_ = -1;  // other threads send signals while one waits
     int input_ = -1;
     int output_ = -1;
     int errors_ = -1;

@@ -56,9 +56,23 @@ std::string_view view_of(std::span<const char> bytes) {
     return {bytes.data(), bytes.size()};
 }
 
+/// A number of a message. Values lie at multiples of four bytes, and a lo_arg would have to lie at one of eight.
+template <class Number>
+Number number_at(const lo_arg* place) {
+    Number value{};
+    std::memcpy(&value, place, sizeof value);
+    return value;
+}
+
+const char* text_at(const lo_arg* place) {
+    return reinterpret_cast<const char*>(place);
+}
+
 /// The value of a key: a text or a number.
-std::string text_of(char type, const lo_arg& value) {
-    return type == 's' ? &value.s : type == 'i' ? fmt::format("{}", value.i) : fmt::format("{}", value.f);
+std::string text_of(char type, const lo_arg* place) {
+    return type == 's'   ? text_at(place)
+           : type == 'i' ? fmt::format("{}", number_at<std::int32_t>(place))
+                         : fmt::format("{}", number_at<float>(place));
 }
 
 class OscReader {
@@ -97,13 +111,15 @@ private:
         if (name == "start" && types.empty()) return add(Kind::start);
         if (name == "continue" && types.empty()) return add(Kind::resume);
         if (name == "stop" && types.empty()) return add(Kind::stop);
-        if (name == "position" && types == "i" && values[0]->i >= 0 && values[0]->i <= most_position) {
-            return add(Kind::position, values[0]->i);
+        if (name == "position" && types == "i") {
+            const auto position = number_at<std::int32_t>(values[0]);
+            if (position >= 0 && position <= most_position) add(Kind::position, position);
+            return;
         }
         if (!change_) return;
-        if (name == "pattern" && types == "s") return change_({{}, &values[0]->s});
-        if (name == "set" && (types == "ss" || types == "si" || types == "sf") && values[0]->s != '\0') {
-            change_({&values[0]->s, text_of(types[1], *values[1])});
+        if (name == "pattern" && types == "s") return change_({{}, text_at(values[0])});
+        if (name == "set" && (types == "ss" || types == "si" || types == "sf") && *text_at(values[0]) != '\0') {
+            change_({text_at(values[0]), text_of(types[1], values[1])});
         }
     }
 
