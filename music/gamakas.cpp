@@ -41,6 +41,11 @@ void Bender::bend(Note* before, Note& note, const Note* after, std::vector<Contr
         const std::int64_t within = (degree % size + size) % size;
         const auto& degrees = gamaka.degrees;
         if (!degrees.empty() && std::find(degrees.begin(), degrees.end(), within) == degrees.end()) continue;
+        using enum Gamaka::Approach;
+        const bool is_approached =
+            gamaka.approach == any ||
+            (before && (gamaka.approach == rising ? before->key < note.key : before->key > note.key));
+        if (!is_approached) continue;
         switch (gamaka.kind) {
             case Gamaka::Kind::kampita:
                 if (swing(note, degree, points)) return;

@@ -151,8 +151,9 @@ constexpr KeyInfo language[] = {
     {"pan", music, "by x, by y, by level, …; by x 14-114; none", "none",
      "Place of notes between left, 0, and right, 127"},
     {"controller", music, "74 by y, 1 by depth 0-100; none", "none", "Controller of MIDI that follows the curve"},
-    {"gamaka", music, "kampita 2 6, jaru 1, meend all; none", "none",
-     "Ornaments of degrees by pitch bend: swings, slides from the note before and to the next"},
+    {"gamaka", music, "kampita 2 6, jaru 1 falling, meend all; none", "none",
+     "Ornaments of degrees by pitch bend: swings, slides from the note before and to the next; perhaps only of notes "
+     "that are reached rising or falling"},
     {"mapping", music, "runs, counterpoint, symbols", "runs", "Reading of the curve as notes"},
     {"note SYMBOL", music, "C4 1/8 mf; degree 3 1/4; nothing", "",
      "Note that a symbol sounds: a pitch, a note value, a velocity"},

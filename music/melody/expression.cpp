@@ -103,14 +103,18 @@ private:
         std::string_view rest = text;
         const auto refuse = [&] {
             fail(key,
-                 "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, such "
-                 "as kampita 2 6, meend all");
+                 "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, and "
+                 "perhaps rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
         };
         for (;;) {
             const std::size_t comma = std::min(rest.find(','), rest.size());
-            const std::vector<std::string_view> words = split_words(rest.substr(0, comma));
-            if (words.size() < 2) return refuse();
+            std::vector<std::string_view> words = split_words(rest.substr(0, comma));
             Gamaka gamaka;
+            if (!words.empty() && (words.back() == "rising" || words.back() == "falling")) {
+                gamaka.approach = words.back() == "rising" ? Gamaka::Approach::rising : Gamaka::Approach::falling;
+                words.pop_back();
+            }
+            if (words.size() < 2) return refuse();
             if (words[0] == "jaru") {
                 gamaka.kind = Gamaka::Kind::jaru;
             } else if (words[0] == "meend") {

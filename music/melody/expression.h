@@ -45,8 +45,14 @@ struct Gamaka {
         jaru,     ///< slides from the note before
         meend     ///< slides to the note after
     };
+    enum class Approach {
+        any,
+        rising,  ///< only after a lower note
+        falling  ///< only after a higher note
+    };
     Kind kind = Kind::kampita;
     std::vector<std::int64_t> degrees;  ///< within a period, 0 is the tonic; empty: all
+    Approach approach = Approach::any;
 };
 
 struct MelodicExpression {

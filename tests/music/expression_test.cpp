@@ -280,6 +280,27 @@ TEST(Expression, SlidesMeetTheirNeighbours) {
     EXPECT_FALSE(has(play(parse("e.lsys", text + "gamaka: kampita all\n"), "ly"), "gliss"));
 }
 
+TEST(Expression, GamakasDependOnTheApproach) {
+    // C E D: the second note rises, the third falls, the first has none before it.
+    const std::string text =
+        "mapping: symbols\ntempo: 60\nnote A: degree 0 1/2\nnote B: degree 2 1/2\nnote C: degree 1 1/2\naxiom: ABC\n";
+    const auto bent_notes = [&](const std::string& gamaka) {
+        std::set<std::int64_t> notes;
+        for (const Point& point : bends(midi_of(text + "gamaka: " + gamaka + "\n"))) {
+            if (point.value != 0) notes.insert(point.tick / 960);
+        }
+        return notes;
+    };
+    using Numbers = std::set<std::int64_t>;
+    EXPECT_EQ(bent_notes("kampita all"), (Numbers{0, 1, 2}));
+    EXPECT_EQ(bent_notes("kampita all rising"), Numbers{1});
+    EXPECT_EQ(bent_notes("kampita all falling"), Numbers{2});
+    EXPECT_EQ(bent_notes("jaru 1 falling, kampita 2 rising"), (Numbers{1, 2}));
+    EXPECT_EQ(bent_notes("jaru 1 rising"), Numbers());
+    // The first rule that applies counts.
+    EXPECT_LT(bends(midi_of(text + "gamaka: jaru all rising, kampita all\n")).front().tick, 960);
+}
+
 TEST(Expression, AllFormsOfMidiHaveTheCurves) {
     const std::string text = steps + "scale: 31-edo\npan: by x 0-100\n";
     const std::vector<Point> pan = controller(midi_of(text), 10);
@@ -409,9 +430,13 @@ TEST(Expression, ErrorsSayWhatIsExpected) {
               "controller 101 has a fixed use; expected another such as 1 (modulation), 11 (expression) or 74 "
               "(brightness)");
     EXPECT_EQ(error_of("gamaka: kampita 7\n"), "degree 7 is not in the scale; expected 0 to 6");
-    EXPECT_EQ(error_of("gamaka: shake 2\n"),
-              "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, such as "
-              "kampita 2 6, meend all");
+    EXPECT_EQ(
+        error_of("gamaka: shake 2\n"),
+        "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, and perhaps "
+        "rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
+    for (const char* bad : {"kampita rising", "rising", "kampita falling 2", "kampita all rising falling"}) {
+        EXPECT_NE(error_of(std::string("gamaka: ") + bad + "\n"), "none") << bad;
+    }
     EXPECT_THROW(play(parse("e.lsys", steps + "gamaka: meend all\n"), "mid", {{"tuning", "mts"}}), SettingError);
 }
 
