@@ -126,7 +126,7 @@ public:
         add_remarks();
         check_sections(*tracks, form);
         throw_if_any();
-        read_frames();
+        read_section_tempos();
         return std::move(result_);
     }
 
@@ -221,7 +221,8 @@ private:
             if (one.type != FileValue::Type::table) fail(value, "section: expected [[section]] tables");
             const auto name = std::find_if(one.table.begin(), one.table.end(),
                                            [](const auto& entry) { return entry.key == "name"; });
-            if (name == one.table.end()) fail(one, "this section has no name, a letter such as name = \"B\"");
+            if (name == one.table.end())
+                fail(one, "this section has no name; expected a letter such as name = \"B\"");
             const char letter = section_of("name", name->value);
             const auto [section, is_new] = sections_.try_emplace(letter);
             if (!is_new) fail(one, fmt::format("two sections are named {}", letter));
@@ -345,7 +346,7 @@ private:
             collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
         std::vector<PlacedSetting> settings = shared_;
-        // The tempo of a section is that of the score.
+        // The tempo of a section applies to the score, not to its tracks.
         if (const auto section = sections_.find(track.section); section != sections_.end()) {
             std::copy_if(section->second.settings.begin(), section->second.settings.end(),
                          std::back_inserter(settings),
@@ -451,37 +452,38 @@ private:
     }
 
     /// Tempo and meter, as far as settings state them.
-    static SectionFrame frame_of(const std::vector<PlacedSetting>& settings) {
-        static const Document plain = parse("frame", "axiom: F\n");
-        SectionFrame frame;
+    static SectionTempo tempo_of(const std::vector<PlacedSetting>& settings) {
+        static const Document plain = parse("plain", "axiom: F\n");
+        SectionTempo stated;
         for (const PlacedSetting& one : settings) {
             const std::string& key = one.setting.key;
             if (key != "tempo" && key != "meter") continue;
             Diagnostics diagnostics;
             const Melody melody = read_melody(with(plain, one).pattern(), {}, diagnostics);
             if (key == "meter") {
-                frame.meter = melody.meter;
+                stated.meter = melody.meter;
             } else {
-                frame.tempo = melody.tempo;
-                frame.tempo_words = melody.tempo_words;
+                stated.tempo = melody.tempo;
+                stated.tempo_words = melody.tempo_words;
             }
         }
-        return frame;
+        return stated;
     }
 
     /// Reads tempo and meter of the piece and its sections.
-    void read_frames() {
-        const SectionFrame piece = frame_of(shared_);
+    void read_section_tempos() {
+        const SectionTempo piece = tempo_of(shared_);
         result_.tempo = piece.tempo;
         result_.tempo_words = piece.tempo_words;
         result_.meter = piece.meter;
         for (const auto& [letter, section] : sections_) {
             for (const PlacedSetting& one : section.settings) {
-                const bool follows = one.setting.key == "tempo" && one.setting.value.find(" by ") != std::string::npos;
+                const bool follows =
+                    one.setting.key == "tempo" && one.setting.value.find(" by ") != std::string::npos;
                 if (follows) fail(*one.value, "tempo: only the tempo of the whole piece can follow a curve");
             }
-            const SectionFrame frame = frame_of(section.settings);
-            if (frame.tempo || frame.meter) result_.frames.emplace(letter, frame);
+            const SectionTempo stated = tempo_of(section.settings);
+            if (stated.tempo || stated.meter) result_.section_tempos.emplace(letter, stated);
         }
     }
 

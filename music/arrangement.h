@@ -35,7 +35,7 @@ struct Arrangement {
     std::string tempo_words;      ///< printed before it; may be empty
     std::optional<Meter> meter;   ///< nullopt: that of the first track
     std::vector<FormSection> form;
-    std::map<char, SectionFrame> frames{};  ///< of sections that state a tempo or a meter
+    std::map<char, SectionTempo> section_tempos{};  ///< of sections that state a tempo or a meter
     std::vector<Track> tracks;
     std::vector<std::string> remarks{};  ///< for the user: keys of the piece that replace those of patterns within it
 };

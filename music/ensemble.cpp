@@ -185,17 +185,17 @@ public:
         return report_;
     }
 
-    std::vector<FrameChange> changes() {
+    std::vector<SectionChange> changes() {
         read();
         repeat();
-        std::vector<FrameChange> changes;
+        std::vector<SectionChange> changes;
         std::int64_t at = 0;
-        Frame before = ensemble_.frame(0);
+        TempoAndMeter before = ensemble_.tempo_and_meter(0);
         for (const FormSection& section : ensemble_.form) {
             const auto letter = static_cast<char>('A' + section.letter);
-            const Frame frame = ensemble_.frame_of_section(letter);
-            if (at > 0 && frame != before) changes.push_back({at, frame});
-            before = frame;
+            const TempoAndMeter next = ensemble_.of_section(letter);
+            if (at > 0 && next != before) changes.push_back({at, next});
+            before = next;
             at += section_length(letter);
         }
         return changes;
@@ -312,7 +312,7 @@ private:
             end =
                 std::max(end, std::min(part.until, part.repeats > 1 ? part.last() : part.start + part.block.length));
         }
-        const std::int64_t bar = ensemble_.frame_of_section(section).meter.bar();
+        const std::int64_t bar = ensemble_.of_section(section).meter.bar();
         return (end + bar - 1) / bar * bar;
     }
 
@@ -460,20 +460,20 @@ PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOp
     return options;
 }
 
-Frame Ensemble::frame_of_section(char section) const {
-    Frame frame{tempo, tempo_words, meter};
-    const auto stated = frames.find(section);
-    if (stated == frames.end()) return frame;
+TempoAndMeter Ensemble::of_section(char section) const {
+    TempoAndMeter result{tempo, tempo_words, meter};
+    const auto stated = section_tempos.find(section);
+    if (stated == section_tempos.end()) return result;
     if (stated->second.tempo) {
-        frame.tempo = *stated->second.tempo;
-        frame.tempo_words = stated->second.tempo_words;
+        result.tempo = *stated->second.tempo;
+        result.tempo_words = stated->second.tempo_words;
     }
-    if (stated->second.meter) frame.meter = *stated->second.meter;
-    return frame;
+    if (stated->second.meter) result.meter = *stated->second.meter;
+    return result;
 }
 
-std::vector<FrameChange> frame_changes(const Ensemble& ensemble, const PlayOptions& whole) {
-    return ensemble.frames.empty() ? std::vector<FrameChange>() : WholeScore(ensemble, whole).changes();
+std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayOptions& whole) {
+    return ensemble.section_tempos.empty() ? std::vector<SectionChange>() : WholeScore(ensemble, whole).changes();
 }
 
 bool Ensemble::needs_whole() const {
@@ -513,19 +513,19 @@ bool Ensemble::has_tempo_ratio() const {
 
 namespace {
 
-/// The ticks that last some seconds from a tick on.
+/// Converts seconds, counted from a tick, to ticks.
 double ticks_after(const Ensemble& ensemble, std::int64_t from, double seconds) {
     const auto ticks_in = [](double time, double tempo) {
         return time * tempo / 60 * static_cast<double>(ticks_per_quarter);
     };
-    double tempo = ensemble.frame(from).tempo;
+    double tempo = ensemble.tempo_and_meter(from).tempo;
     double ticks = 0;
-    for (const FrameChange& change : changes_after(ensemble.changes, from)) {
+    for (const SectionChange& change : changes_after(ensemble.changes, from)) {
         const double until = static_cast<double>(change.onset) - ticks;
         if (ticks_in(seconds, tempo) <= until) break;
         seconds -= until / ticks_in(1, tempo);
         ticks = static_cast<double>(change.onset);
-        tempo = change.frame.tempo;
+        tempo = change.to.tempo;
     }
     return ticks + ticks_in(seconds, tempo);
 }
@@ -558,7 +558,7 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
     if (!ensemble.changes.empty()) {
         const BarLines bars = ensemble.bar_lines();
         std::int64_t longest = bar;
-        for (const FrameChange& change : ensemble.changes) longest = std::max(longest, change.frame.meter.bar());
+        for (const SectionChange& change : ensemble.changes) longest = std::max(longest, change.to.meter.bar());
         const std::int64_t most_bars = (INT64_MAX / 8) / longest;
         const std::int64_t first = std::min(options.from_bar - 1, most_bars);
         playing.from = bars.onset(first);

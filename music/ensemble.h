@@ -19,20 +19,22 @@ struct Ensemble {
     double tempo = 120;             ///< quarters a minute
     std::string tempo_words;        ///< printed before it; may be empty
     Meter meter;
-    std::map<char, SectionFrame> frames{};  ///< tempo and meter of sections that state them
-    std::vector<FrameChange> changes{};     ///< of tempo and meter, at the bar lines where sections begin
+    std::map<char, SectionTempo> section_tempos{};  ///< tempo and meter of sections that state them
+    std::vector<SectionChange> changes{};           ///< of tempo and meter, at the bar lines where sections begin
     Close close = Close::none;
     bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole
 
     BarLines bar_lines() const { return {meter, changes}; }
     /// Tempo and meter from a tick on.
-    Frame frame(std::int64_t tick) const { return frame_at({tempo, tempo_words, meter}, changes, tick); }
+    TempoAndMeter tempo_and_meter(std::int64_t tick) const {
+        return tempo_and_meter_at({tempo, tempo_words, meter}, changes, tick);
+    }
     /// Tempo and meter of a section; 0: those of the score.
-    Frame frame_of_section(char section) const;
+    TempoAndMeter of_section(char section) const;
     /// The meter in which the bars of a player are counted.
-    Meter meter_of(const Player& player) const { return frame_of_section(player.section).meter; }
+    Meter meter_of(const Player& player) const { return of_section(player.section).meter; }
     /// Ticks before the end in which the tempo falls: two bars.
-    std::int64_t ritardando() const { return 2 * (changes.empty() ? meter : changes.back().frame.meter).bar(); }
+    std::int64_t ritardando() const { return 2 * (changes.empty() ? meter : changes.back().to.meter).bar(); }
     /// True if what is played ends with `close`, whatever it contains.
     bool has_ending(const PlayOptions& playing) const;
     /// True if whole parts must be known before the first note is played.
@@ -61,9 +63,9 @@ struct EnsembleReport : PlayReport {
     bool has_own_ranges = false;
 };
 
-/// The changes of tempo and meter in a score of sections. The parts are read for it, whose lengths it depends on, if
-/// sections state any. @param whole  the whole score. @throws as play_all()
-std::vector<FrameChange> frame_changes(const Ensemble& ensemble, const PlayOptions& whole);
+/// Lists the changes of tempo and meter between sections. If a section states either, reads all parts, because their
+/// lengths determine where sections begin. @param whole  the whole score. @throws as play_all()
+std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayOptions& whole);
 
 /// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);

@@ -90,7 +90,7 @@ ExcerptContext bars_around(const Ensemble& ensemble, const PlayOptions& excerpt)
 }
 
 ExcerptContext context_of(const Ensemble& ensemble, const PlayOptions& excerpt, double most_symbols) {
-    // The bars of sections are known only with the whole.
+    // The bar lines of sections are known only after the whole score was read.
     const bool has_sections = !ensemble.changes.empty();
     if (!has_sections && (excerpt.ahead != 0 || !is_soon_played(ensemble, most_symbols))) {
         return bars_around(ensemble, excerpt);

@@ -31,6 +31,10 @@ void add(const Note& note, std::int64_t begin, std::int64_t end, Offset offset, 
     }
 }
 
+std::int16_t to_cents(double semitones) {
+    return static_cast<std::int16_t>(std::lround(100 * semitones));
+}
+
 }  // namespace
 
 void Bender::bend(Note* before, Note& note, const Note* after, std::vector<ControlPoint>& points) const {
@@ -52,7 +56,10 @@ void Bender::bend(Note* before, Note& note, const Note* after, std::vector<Contr
                 break;
             case Gamaka::Kind::jaru:
                 if (before && before->onset + before->duration == note.onset && before->glide.ticks == 0) {
-                    before->is_sliding = slide(note, before->key - note.key, true, points) || before->is_sliding;
+                    if (slide(note, before->key - note.key, true, points)) {
+                        before->is_sliding = true;
+                        note.grace = to_cents(before->key - note.key);
+                    }
                     return;
                 }
                 break;
@@ -81,7 +88,7 @@ std::int64_t Bender::degree_of(double key) const {
 }
 
 /// Swings up and back so that a whole number of swings fills the note. @return false for notes that are too short
-bool Bender::swing(const Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const {
+bool Bender::swing(Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const {
     constexpr double swings_per_second = 5;
     const double seconds = static_cast<double>(note.duration) / ticks_per_second_;
     const double swings = std::floor(seconds * swings_per_second + 0.25);
@@ -93,6 +100,7 @@ bool Bender::swing(const Note& note, std::int64_t degree, std::vector<ControlPoi
         return width * smooth(1 - std::fabs(2 * within - 1));
     };
     add(note, 0, note.duration, offset, points);
+    note.grace = to_cents(width);
     return true;
 }
 

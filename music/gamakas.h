@@ -17,14 +17,14 @@ public:
     Bender(const Melody& melody, double tempo)
         : melody_(melody), ticks_per_second_(tempo * static_cast<double>(ticks_per_quarter) / 60) {}
 
-    /// Adds the bends of a note to `points`, by tick, and marks notes that slide.
+    /// Adds the bends of a note to `points`, by tick, and marks notes that slide or have a grace note.
     /// @param before, after  neighbours in the same voice, or null. Notes are bent in order.
     /// @throws ScoreError for a note that is too long
     void bend(Note* before, Note& note, const Note* after, std::vector<ControlPoint>& points) const;
 
 private:
     std::int64_t degree_of(double key) const;
-    bool swing(const Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const;
+    bool swing(Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const;
     bool slide(const Note& note, double offset, bool from, std::vector<ControlPoint>& points) const;
 
     const Melody& melody_;

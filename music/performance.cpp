@@ -93,7 +93,7 @@ ExpressionSink::ExpressionSink(const Ensemble& ensemble, Use use) : ensemble_(en
         follow(expression.velocity, velocity);
         auto& bender = benders_.emplace_back();
         if (!expression.gamakas.empty()) {
-            bender.emplace(player.melody, ensemble.frame_of_section(player.section).tempo);
+            bender.emplace(player.melody, ensemble.of_section(player.section).tempo);
         }
         if (use == Use::print) continue;
         follow(expression.pan, ControlPoint::pan);
@@ -401,7 +401,7 @@ double seconds_of(const Ensemble& ensemble, const PlayOptions& playing, std::int
     if (ensemble.has_ending(playing) && use != ExpressionSink::Use::print) {
         times.ritardando = ensemble.ritardando();
     }
-    times.tempo = ensemble.frame(playing.from).tempo;
+    times.tempo = ensemble.tempo_and_meter(playing.from).tempo;
     times.changes = changes_after(ensemble.changes, playing.from);
     return seconds_at(end, times.tempo, tempo_map(times, {curve, {}}, end));
 }

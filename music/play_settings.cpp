@@ -92,6 +92,11 @@ std::vector<Option<S>> make_table() {
           .help = "name the chords of triads and progressions above the first staff of a print",
           .kind = flag},
          [](S& s, Text t) { s.has_chord_signs = t == "true"; }},
+        {{.name = "grace-notes",
+          .help =
+              "print kampitas and jarus as grace notes: the degree above, or the note from which the pitch slides",
+          .kind = flag},
+         [](S& s, Text t) { s.has_graces = t == "true"; }},
         {{.name = "parts",
           .help = "also print a part for each player, in files beside the score such as NAME-1-flute.pdf",
           .kind = flag,

@@ -61,7 +61,7 @@ Notation Rendition::print_within(const ExcerptContext& context) const {
     const std::int64_t length =
         context.playing.to < INT64_MAX ? context.playing.to - context.playing.from : INT64_MAX;
     ScoreHead whole_head = head;
-    whole_head.meter = ensemble.frame(context.playing.from).meter;
+    whole_head.meter = ensemble.tempo_and_meter(context.playing.from).meter;
     whole_head.changes = changes_after(ensemble.changes, context.playing.from);
     if (ensemble.close != Close::none) {
         NullSink nobody;

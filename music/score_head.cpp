@@ -112,19 +112,20 @@ void add_parts(Player& player, const PlayOptions& playing, VoiceCount& voices, s
 ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrangement* arrangement,
                   const PlayOptions& playing, int most) {
     ScoreHead head;
-    const Frame frame = ensemble.frame(playing.from);
-    head.tempo = frame.tempo;
-    head.tempo_words = frame.tempo_words;
-    head.meter = frame.meter;
+    const TempoAndMeter first = ensemble.tempo_and_meter(playing.from);
+    head.tempo = first.tempo;
+    head.tempo_words = first.tempo_words;
+    head.meter = first.meter;
     head.changes = changes_after(ensemble.changes, playing.from);
     if (playing.to < INT64_MAX) {
         std::erase_if(head.changes,
-                      [&](const FrameChange& change) { return change.onset >= playing.to - playing.from; });
+                      [&](const SectionChange& change) { return change.onset >= playing.to - playing.from; });
     }
     head.ritardando = ensemble.has_ending(playing) ? ensemble.ritardando() : 0;
     head.is_transposed = settings.is_transposed;
     head.syllables = settings.syllables;
     head.has_chord_signs = settings.has_chord_signs;
+    head.has_graces = settings.has_graces;
     head.first_bar = settings.from_bar;
     head.made = made_with(settings, ensemble.players.front().document, arrangement != nullptr);
     if (arrangement) {

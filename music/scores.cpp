@@ -101,12 +101,12 @@ public:
     }
 
 private:
-    /// Finds where sections begin. @return the requested piece
+    /// Sets the changes of tempo and meter. @return the requested piece
     PlayOptions begin(const Monitor& monitor) {
-        if (!ensemble_.frames.empty()) {
+        if (!ensemble_.section_tempos.empty()) {
             PlaySettings whole;
             whole.budget = settings_.budget;
-            ensemble_.changes = frame_changes(ensemble_, piece_of(whole, ensemble_, monitor));
+            ensemble_.changes = section_changes(ensemble_, piece_of(whole, ensemble_, monitor));
         }
         return piece_of(settings_, ensemble_, monitor);
     }
@@ -122,6 +122,7 @@ private:
         if (writer_.medium != ScoreMedium::notation) {
             if (settings_.syllables != Syllables::none) warn("syllables", "it applies only to print");
             if (settings_.has_chord_signs) warn("chord-symbols", "it applies only to print");
+            if (settings_.has_graces) warn("grace-notes", "it applies only to print");
         }
         if (settings_.has_parts && writer_.medium != ScoreMedium::notation) warn("parts", "it applies only to print");
         if (settings_.tuning != Tuning::bend && !writer_.has_channels()) {
@@ -133,7 +134,8 @@ private:
         for (const Setting& key : settings_.keys) {
             if (!writer_.is_printed) break;
             if (key.key == "pan" || key.key == "controller") warn(key.key, "it is heard, not printed");
-            if (key.key == "gamaka") warn(key.key, "gamakas are heard, not printed");
+            if (key.key == "gamaka" && !settings_.has_graces)
+                warn(key.key, "gamakas are heard, not printed; 'grace-notes' prints kampitas and jarus");
         }
     }
     /// Reports keys of the piece that replace those of patterns within it.
@@ -219,10 +221,10 @@ private:
             ensemble_.tempo_words = arrangement_->tempo_words;
         }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
-        if (arrangement_) ensemble_.frames = arrangement_->frames;
-        for (auto& [section, frame] : ensemble_.frames) {
-            if (is_option("tempo")) frame.tempo.reset();
-            if (is_option("meter")) frame.meter.reset();
+        if (arrangement_) ensemble_.section_tempos = arrangement_->section_tempos;
+        for (auto& [section, stated] : ensemble_.section_tempos) {
+            if (is_option("tempo")) stated.tempo.reset();
+            if (is_option("meter")) stated.meter.reset();
         }
         for (const Player& player : ensemble_.players) {
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
@@ -290,8 +292,12 @@ void ScoreWork::report_marks(const Notation& notation, Made& made) const {
             notation.nameless_chords == 1 ? "1 chord has" : counted(notation.nameless_chords, "chord") + " have"));
     }
     bool has_syllables = false;
-    each_symbol(notation,
-                [&](const NotatedSymbol& symbol) { has_syllables = has_syllables || !symbol.syllable.empty(); });
+    bool has_graces = false;
+    each_symbol(notation, [&](const NotatedSymbol& symbol) {
+        has_syllables = has_syllables || !symbol.syllable.empty();
+        has_graces = has_graces || symbol.grace;
+    });
+    if (settings_.has_graces && !has_graces) made.warn_of_unused("grace-notes", "no note has a kampita or a jaru");
     if (settings_.syllables != Syllables::none && !has_syllables) {
         made.warn_of_unused("syllables", "no staff has a single voice with pitches");
     }

@@ -51,7 +51,7 @@ struct NoteList {
     std::int64_t end = 0;     ///< end of the score in ticks, rests included
     double tempo = 120.0;     ///< quarter notes per minute
     Meter meter;
-    std::vector<FrameChange> changes;  ///< of tempo and meter after the beginning
+    std::vector<SectionChange> changes;  ///< of tempo and meter after the beginning
     std::vector<Part> parts;
 };
 

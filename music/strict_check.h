@@ -14,7 +14,7 @@ namespace sikku {
 /// the deviations of a player. Memory: O(notes).
 class StrictCheck : public NoteSink {
 public:
-    /// `ensemble` has to outlive it. @param bars  counted as the notes are
+    /// `ensemble` has to outlive it. @param bars  with the same origin as the notes
     StrictCheck(const Ensemble& ensemble, BarLines bars, NoteSink& sink)
         : ensemble_(ensemble), bars_(std::move(bars)), sink_(sink) {}
     void curves(const Curves& curves) override { sink_.curves(curves); }

@@ -112,9 +112,9 @@ py::array to_array(DrawnPixels pixels) {
 
 py::tuple to_tuple(const NoteList& list) {
     py::list changes;
-    for (const FrameChange& change : list.changes) {
-        const Meter& meter = change.frame.meter;
-        changes.append(py::make_tuple(change.onset, change.frame.tempo, py::make_tuple(meter.beats, meter.unit)));
+    for (const SectionChange& change : list.changes) {
+        const Meter& meter = change.to.meter;
+        changes.append(py::make_tuple(change.onset, change.to.tempo, py::make_tuple(meter.beats, meter.unit)));
     }
     return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit, changes);
 }

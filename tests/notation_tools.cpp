@@ -63,8 +63,8 @@ std::vector<std::int64_t> bar_onsets(const ScoreHead& head, std::int64_t end) {
     std::vector<std::int64_t> onsets;
     Meter meter = head.meter;
     for (std::int64_t at = 0; at <= end; at += meter.bar()) {
-        for (const FrameChange& change : head.changes) {
-            if (change.onset == at) meter = change.frame.meter;
+        for (const SectionChange& change : head.changes) {
+            if (change.onset == at) meter = change.to.meter;
         }
         onsets.push_back(at);
     }
@@ -118,7 +118,7 @@ TestScore random_score(unsigned seed, bool quarter_tones) {
     }
     if (seed % 2 == 0) return score;
     std::int64_t at = 0;
-    Frame frame{score.head.tempo, {}, score.head.meter};
+    TempoAndMeter frame{score.head.tempo, {}, score.head.meter};
     for (std::size_t i = 0; i < below(4); ++i) {
         at += frame.meter.bar() * static_cast<std::int64_t>(1 + below(6));
         if (at >= score.end) break;

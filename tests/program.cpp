@@ -82,7 +82,7 @@ Child::~Child() {
 }
 
 void Child::send(int signal) const {
-    // A process of -1 would stand for all processes.
+    // kill(-1, …) would signal every process.
     const pid_t process = process_;
     if (process > 0) kill(process, signal);
 }

@@ -57,7 +57,7 @@ public:
     Child& operator=(const Child&) = delete;
     ~Child();
 
-    /// Does nothing once it has ended.
+    /// Sends a signal, unless the process has ended.
     void send(int signal) const;
     /// Waits until it has a handler for the signal, and a little longer, so that it is at work.
     void await_handler(int signal) const;

@@ -152,8 +152,8 @@ constexpr KeyInfo language[] = {
      "Place of notes between left, 0, and right, 127"},
     {"controller", music, "74 by y, 1 by depth 0-100; none", "none", "Controller of MIDI that follows the curve"},
     {"gamaka", music, "kampita 2 6, jaru 1 falling, meend all; none", "none",
-     "Ornaments of degrees by pitch bend: swings, slides from the note before and to the next; perhaps only of notes "
-     "that are reached rising or falling"},
+     "Ornaments of degrees by pitch bend: oscillations, slides from the note before and to the next; with rising or "
+     "falling, only after a lower or a higher note"},
     {"mapping", music, "runs, counterpoint, symbols", "runs", "Reading of the curve as notes"},
     {"note SYMBOL", music, "C4 1/8 mf; degree 3 1/4; nothing", "",
      "Note that a symbol sounds: a pitch, a note value, a velocity"},
@@ -195,10 +195,11 @@ constexpr KeyInfo language[] = {
     {"excerpt", music, "bars such as 1-8 or 9-, all", "all", "Bars of the melody that are played"},
     {"form", music, "AABA, A1 A2 B A2, A A+1 Ai Ar A*2 Ak, AB order 2; curve", "curve",
      "Order of the sub-curves; 1 ends on the fifth, 2 on the tonic; +1 moves a section by degrees, i inverts it, r "
-     "reverses it, *2 and /2 make its notes longer or shorter, k plays it three times before a first beat"},
+     "reverses it, *2 and /2 make its notes longer or shorter, k plays it three times, so that it ends at a bar "
+     "line"},
     {"thinning", music, "a share of the phrase, 0 to 1; none", "none",
-     "Last part of each phrase or section, in which only notes on beats remain, and in its second half only those on "
-     "strong beats"},
+     "Share of each phrase or section, at its end, that keeps only notes on beats, and in its second half only those "
+     "on strong beats"},
     {"climax", music, "a share of the part, 0 to 1; none", "none",
      "Place of the phrase or section with the highest note: all are moved up by degrees, less the farther they are "
      "from it"},

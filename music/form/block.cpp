@@ -282,9 +282,9 @@ void move_notes(std::vector<FormNote>& notes, const Melody& melody, const Degree
     }
 }
 
-/// Plays a section three times, with equal pauses after the first and the second, as short as possible from the unit
-/// on, so that the third ends at a bar line; if no pause does that, after a rest. Chords are repeated, too.
-/// Source: P. Sambamoorthy, "South Indian Music", book 4: korvai.
+/// Plays a section three times, with equal pauses between them. Chooses the shortest pause, a multiple of the unit,
+/// for which the third time ends at a bar line; if there is none, the one that needs the shortest rest before the
+/// first time. Repeats chords, too.
 void repeat_as_korvai(Block& piece, const Melody& melody) {
     constexpr int times = 3;
     const std::int64_t bar = melody.meter.bar();
@@ -313,7 +313,7 @@ void repeat_as_korvai(Block& piece, const Melody& melody) {
     piece.length = rest + times * sounding + (times - 1) * pause;
 }
 
-/// Ends a korvai with the tonic on the first beat of the next bar, held for a bar.
+/// Ends a korvai with the tonic on the downbeat, held for a bar.
 void land(Block& piece, const Melody& melody) {
     const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
                                    [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
@@ -483,7 +483,7 @@ void thin_out(Block& block, const Melody& melody, double share) {
     for (const std::int64_t tick : strong_beats(melody.meter)) strong.insert(tick);
     std::int64_t group_begin = 0;
     for (const std::int64_t group : groups_of(melody.meter)) {
-        // Beats of additive meters begin with their groups.
+        // In additive meters, each group is one beat.
         for (std::int64_t tick = 0; tick < group; tick += std::max<std::int64_t>(beat, 1)) {
             if (tick == 0 || !has_groups(melody.meter)) beats.insert(group_begin + tick);
         }

@@ -51,9 +51,9 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
               std::span<const std::int64_t> ends = {});
 
 /// Removes notes towards the end of each phrase or section: those off the beat, and near the end those off the strong
-/// beats. The note before one that is removed lasts as long as both. The last note of a phrase, chords, and notes
-/// without a degree stay.
-/// @param share  of each phrase, at its end, above 0, at most 1; in its second half only strong beats remain
+/// beats. The note before a removed note is extended over it. Keeps the last note of each phrase, chords, and notes
+/// without a degree.
+/// @param share  of each phrase, at its end, above 0, at most 1; in its second half only notes on strong beats remain
 void thin_out(Block& block, const Melody& melody, double share);
 
 /// Moves phrases or sections up by degrees, so that one near a place has the highest note: that one by as little as

@@ -56,7 +56,7 @@ std::string_view view_of(std::span<const char> bytes) {
     return {bytes.data(), bytes.size()};
 }
 
-/// A number of a message. Values lie at multiples of four bytes, and a lo_arg would have to lie at one of eight.
+/// Copies a number out of a message. OSC aligns values to 4 bytes, lo_arg to 8.
 template <class Number>
 Number number_at(const lo_arg* place) {
     Number value{};

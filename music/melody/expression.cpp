@@ -103,8 +103,8 @@ private:
         std::string_view rest = text;
         const auto refuse = [&] {
             fail(key,
-                 "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, and "
-                 "perhaps rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
+                 "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, "
+                 "optionally followed by rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
         };
         for (;;) {
             const std::size_t comma = std::min(rest.find(','), rest.size());

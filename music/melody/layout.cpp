@@ -101,7 +101,7 @@ public:
         read_excerpt();
         read_flag("retrograde", {"no", "yes"}, layout_.is_retrograde);
         read_form_key();
-        if (const auto share = read_share("thinning", "each phrase, at its end, in which notes thin out")) {
+        if (const auto share = read_share("thinning", "each phrase, at its end, in which notes are removed")) {
             layout_.thinning = *share;
         }
         layout_.climax = read_share("climax", "the part before its highest phrase");
@@ -165,8 +165,8 @@ private:
         read_key(
             "form",
             "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending; "
-            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 and Ak (a korvai) change one; "
-            "perhaps `order 2` after it",
+            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 (shorter) and Ak (a korvai) "
+            "change a section; `order 2` may follow",
             [&](std::string_view text) {
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");

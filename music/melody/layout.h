@@ -31,7 +31,7 @@ struct FormSection {
     bool is_inverted = false;  ///< mirrored at its first note
     bool is_retrograde = false;
     Ratio augmentation;
-    bool is_korvai = false;  ///< played three times, so that the next section begins on the first beat of a bar
+    bool is_korvai = false;  ///< played three times, ending at a bar line
     bool has_other_degrees() const { return is_inverted || degrees != 0; }
     bool is_changed() const { return has_other_degrees() || is_retrograde || !augmentation.is_one() || is_korvai; }
 };

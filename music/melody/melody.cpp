@@ -238,7 +238,7 @@ private:
                 key->value,
                 fmt::format("{}/{} is not a whole number of ticks, of which a whole note has {}; "
                             "expected a divisor such as 4, 6, 8, 10, 12, 16, 20, 24, 32 or 64{}",
-                            above, below, whole_note, below % 7 == 0 ? "; `speed: 7:4` makes septuplets" : ""));
+                            above, below, whole_note, below % 7 == 0 ? "; for septuplets use `speed: 7:4`" : ""));
             return;
         }
         if (!good || above * whole_note / below > 16 * whole_note) {
@@ -384,7 +384,8 @@ private:
             const Key& thinning = *pattern_.find("thinning");
             if (melody_.vertical == Vertical::glissando) {
                 fail(thinning,
-                     "phrases with `vertical: glissando` cannot thin out: the goals of slides would be missing");
+                     "'thinning:' cannot be combined with `vertical: glissando`: slides would lose their target "
+                     "notes");
             } else if (melody_.phrase_order == 0 && layout.form.empty()) {
                 fail(thinning, "'thinning:' needs 'phrases:' or 'form:'");
             }

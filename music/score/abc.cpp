@@ -142,12 +142,12 @@ private:
     }
 
     /// Writes what changes where a section begins; the tempo in the first voice.
-    void write_frame(const FrameChange& change, bool is_first) {
-        const Frame& frame = change.frame;
-        const Frame before = frame_at(frame_of(head_), head_.changes, change.onset - 1);
-        if (frame.meter != before.meter) put("[M:{}] ", meter_name(frame.meter));
-        if (!is_first || !has_other_tempo(before, frame)) return;
-        put("[Q:{}] ", tempo_mark(frame.tempo, frame.meter, frame.tempo_words));
+    void write_section_change(const SectionChange& change, bool is_first) {
+        const TempoAndMeter& after = change.to;
+        const TempoAndMeter before = tempo_and_meter_at(tempo_and_meter_of(head_), head_.changes, change.onset - 1);
+        if (after.meter != before.meter) put("[M:{}] ", meter_name(after.meter));
+        if (!is_first || !needs_tempo_mark(before, after)) return;
+        put("[Q:{}] ", tempo_mark(after.tempo, after.meter, after.tempo_words));
     }
 
     static std::string quoted(std::string_view text) {
@@ -250,7 +250,7 @@ private:
         const NotatedVoice& voice = staff.voices[index];
         const BarLines& bar_lines = notation_.bar_lines;
         const bool is_first_of_score = &voice == &notation_.parts.front().staves.front().voices.front();
-        auto frame = head_.changes.begin();
+        auto section = head_.changes.begin();
         std::array<int, 7> signs = signs_of(keys.front().key);
         auto key = keys.begin() + 1;
         const bool is_first = index == 0;
@@ -268,8 +268,8 @@ private:
                 signs = signs_of(key->key);
                 put("[K:{} clef={}] ", key_name(key->key), clef_name(clef));
             }
-            for (; frame != head_.changes.end() && frame->onset <= symbol.onset; ++frame) {
-                write_frame(*frame, is_first_of_score);
+            for (; section != head_.changes.end() && section->onset <= symbol.onset; ++section) {
+                write_section_change(*section, is_first_of_score);
             }
             for (; is_first && change < staff.changes.size() && staff.changes[change].onset <= symbol.onset;
                  ++change) {
@@ -399,6 +399,7 @@ private:
         if (symbol.begins_slide) put("!~(!");
         if (symbol.leaves != 0) put("\"^gliss.\"");
         for (const int cents : printed_cents(symbol)) put("\"^{:+}\"", cents);
+        if (symbol.grace) put("{{/{}}}", head_of(symbol.grace->pitch, 0, octaves, signs, altered));
         std::string text = head_of(pitch, symbol.drum, octaves, signs, altered);
         for (const ChordNote& note : symbol.chord) text += head_of(note.pitch, note.drum, octaves, signs, altered);
         put("{}{}{}", symbol.chord.empty() ? text : "[" + text + "]", length, symbol.tied_forward ? "-" : "");

@@ -10,8 +10,8 @@ BarLines::BarLines(const Meter& meter) {
     add(0, meter);
 }
 
-BarLines::BarLines(const Meter& meter, const std::vector<FrameChange>& changes) : BarLines(meter) {
-    for (const FrameChange& change : changes) add(change.onset, change.frame.meter);
+BarLines::BarLines(const Meter& meter, const std::vector<SectionChange>& changes) : BarLines(meter) {
+    for (const SectionChange& change : changes) add(change.onset, change.to.meter);
 }
 
 void BarLines::add(std::int64_t onset, const Meter& meter) {
@@ -49,24 +49,26 @@ BarLines BarLines::from(std::int64_t tick) const {
     return result;
 }
 
-Frame frame_of(const ScoreHead& head) {
+TempoAndMeter tempo_and_meter_of(const ScoreHead& head) {
     return {head.tempo, head.tempo_words, head.meter};
 }
 
-bool has_other_tempo(const Frame& before, const Frame& after) {
+bool needs_tempo_mark(const TempoAndMeter& before, const TempoAndMeter& after) {
     return before.tempo != after.tempo || before.tempo_words != after.tempo_words ||
            beat_unit(before.meter).quarters != beat_unit(after.meter).quarters;
 }
 
-Frame frame_at(const Frame& first, const std::vector<FrameChange>& changes, std::int64_t tick) {
-    const auto next = std::upper_bound(changes.begin(), changes.end(), tick,
-                                       [](std::int64_t one, const FrameChange& other) { return one < other.onset; });
-    return next == changes.begin() ? first : (next - 1)->frame;
+TempoAndMeter tempo_and_meter_at(const TempoAndMeter& first, const std::vector<SectionChange>& changes,
+                                 std::int64_t tick) {
+    const auto next =
+        std::upper_bound(changes.begin(), changes.end(), tick,
+                         [](std::int64_t one, const SectionChange& other) { return one < other.onset; });
+    return next == changes.begin() ? first : (next - 1)->to;
 }
 
-std::vector<FrameChange> changes_after(const std::vector<FrameChange>& changes, std::int64_t tick) {
-    std::vector<FrameChange> result;
-    for (FrameChange change : changes) {
+std::vector<SectionChange> changes_after(const std::vector<SectionChange>& changes, std::int64_t tick) {
+    std::vector<SectionChange> result;
+    for (SectionChange change : changes) {
         if (change.onset <= tick) continue;
         change.onset -= tick;
         result.push_back(std::move(change));

@@ -1,4 +1,4 @@
-// music/score/bar_lines.h: where the bars of a score begin, whose meter may change.
+// music/score/bar_lines.h: bar lines of a score whose meter may change.
 #pragma once
 
 #include "music/score/score.h"
@@ -8,14 +8,14 @@
 
 namespace sikku {
 
-/// The bar lines of a score. Bars are counted from 0, and ticks from the beginning of the score or the excerpt. Cost
-/// of each question: O(log changes).
+/// The bar lines of a score. Bars are counted from 0, and ticks from the beginning of the score or the excerpt. Each
+/// lookup costs O(log changes).
 class BarLines {
 public:
     /// Bars of one meter.
     BarLines(const Meter& meter = {});  // NOLINT(google-explicit-constructor): a meter is the common case
     /// Bars of the meters of a score. @param changes  ascending, at bar lines of the meters before them
-    BarLines(const Meter& meter, const std::vector<FrameChange>& changes);
+    BarLines(const Meter& meter, const std::vector<SectionChange>& changes);
     explicit BarLines(const ScoreHead& head) : BarLines(head.meter, head.changes) {}
 
     /// The meter of the bar in which a tick lies.
@@ -36,9 +36,9 @@ public:
     std::int64_t next(std::int64_t tick) const { return place(tick) == 0 ? tick : end(tick); }
     /// The tick at which a bar begins.
     std::int64_t onset(std::int64_t number) const;
-    /// The number of bars that have begun before a tick.
+    /// The number of bars that begin before a tick.
     std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
-    /// These bar lines, counted from one of them.
+    /// The same bar lines, with ticks and bars counted from the one at `tick`.
     BarLines from(std::int64_t tick) const;
 
 private:
@@ -56,12 +56,13 @@ private:
 };
 
 /// The tempo and meter with which a score begins.
-Frame frame_of(const ScoreHead& head);
-/// True if the tempo is to be printed at a change: for another tempo, other words, or beats of another length.
-bool has_other_tempo(const Frame& before, const Frame& after);
+TempoAndMeter tempo_and_meter_of(const ScoreHead& head);
+/// True if a change needs a tempo mark: tempo, words or beat unit differ.
+bool needs_tempo_mark(const TempoAndMeter& before, const TempoAndMeter& after);
 /// The tempo and meter of a score from a tick on. @param first  tempo and meter before the first change
-Frame frame_at(const Frame& first, const std::vector<FrameChange>& changes, std::int64_t tick);
+TempoAndMeter tempo_and_meter_at(const TempoAndMeter& first, const std::vector<SectionChange>& changes,
+                                 std::int64_t tick);
 /// The changes after a tick, counted from it.
-std::vector<FrameChange> changes_after(const std::vector<FrameChange>& changes, std::int64_t tick);
+std::vector<SectionChange> changes_after(const std::vector<SectionChange>& changes, std::int64_t tick);
 
 }  // namespace sikku

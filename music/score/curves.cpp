@@ -37,11 +37,11 @@ std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, s
     if (!head.changes_tempo()) return curves.tempo;
     struct Change {
         TempoPoint point;
-        bool is_fall;  ///< of the ritardando, else of a section
+        bool is_ritardando;
     };
     std::vector<Change> changes;
-    for (const FrameChange& change : head.changes) {
-        changes.push_back({{change.onset, change.frame.tempo / head.tempo}, false});
+    for (const SectionChange& change : head.changes) {
+        changes.push_back({{change.onset, change.to.tempo / head.tempo}, false});
     }
     const std::int64_t begin = std::max<std::int64_t>(0, end - head.ritardando);
     for (int step = 0; step < steps && head.ritardando > 0; ++step) {
@@ -57,7 +57,7 @@ std::vector<TempoPoint> tempo_map(const ScoreHead& head, const Curves& curves, s
     auto next = changes.begin();
     const auto change_before = [&](std::int64_t tick) {
         for (; next != changes.end() && next->point.tick < tick; ++next) {
-            (next->is_fall ? fall : section) = next->point.factor;
+            (next->is_ritardando ? fall : section) = next->point.factor;
             map.push_back({next->point.tick, curve * fall * section});
         }
     };

@@ -356,12 +356,12 @@ private:
     }
 
     /// Writes what changes where a section begins. @return true if the tempo is stated
-    bool write_frame(const FrameChange& change, bool slows_down) {
-        const Frame& frame = change.frame;
-        const Frame before = frame_at(frame_of(head_), head_.changes, change.onset - 1);
-        if (frame.meter != before.meter) put("{} ", meter_name(frame.meter));
-        const bool has_tempo = has_other_tempo(before, frame);
-        if (has_tempo) put("{} ", tempo_mark(frame.tempo, frame.meter, frame.tempo_words, slows_down));
+    bool write_section_change(const SectionChange& change, bool slows_down) {
+        const TempoAndMeter& after = change.to;
+        const TempoAndMeter before = tempo_and_meter_at(tempo_and_meter_of(head_), head_.changes, change.onset - 1);
+        if (after.meter != before.meter) put("{} ", meter_name(after.meter));
+        const bool has_tempo = needs_tempo_mark(before, after);
+        if (has_tempo) put("{} ", tempo_mark(after.tempo, after.meter, after.tempo_words, slows_down));
         return has_tempo;
     }
 
@@ -396,7 +396,7 @@ private:
             write_voice(staff.voices[i], i == 0 ? staff.changes : std::vector<StaffChange>{},
                         i == 0 ? std::span(part.keys).subspan(1) : std::span<const KeyChange>{},
                         has_dynamics && is_single ? staff.dynamics : std::vector<DynamicMark>{},
-                        has_tempo && i == 0 ? std::span(head_.changes) : std::span<const FrameChange>{});
+                        has_tempo && i == 0 ? std::span(head_.changes) : std::span<const SectionChange>{});
             cues_ = {};
             put("{}      }}\n", told.is_drums ? "        }\n" : "");
         }
@@ -494,12 +494,12 @@ private:
     }
 
     /// @param keys  keys after the first, which is written already
-    /// @param frames  changes of tempo and meter, which one voice of the score states
+    /// @param sections  changes of tempo and meter; empty for all voices but one
     void write_voice(const NotatedVoice& voice, const std::vector<StaffChange>& changes,
                      std::span<const KeyChange> keys, const std::vector<DynamicMark>& marks,
-                     std::span<const FrameChange> frames) {
+                     std::span<const SectionChange> sections) {
         const BarLines& bar_lines = notation_.bar_lines;
-        auto frame = frames.begin();
+        auto section = sections.begin();
         auto change = changes.begin();
         auto mark = marks.begin();
         auto key = keys.begin();
@@ -513,8 +513,8 @@ private:
                 put("{} ", key->key ? key_name(*key->key) : "\\key c \\major");
             }
             bool has_tempo = false;
-            for (; frame != frames.end() && frame->onset <= symbol.onset; ++frame) {
-                has_tempo = write_frame(*frame, symbol.slows_down);
+            for (; section != sections.end() && section->onset <= symbol.onset; ++section) {
+                has_tempo = write_section_change(*section, symbol.slows_down);
             }
             for (; change != changes.end() && change->onset <= symbol.onset; ++change) {
                 write_change(*change, clef, octaves);
@@ -604,6 +604,7 @@ private:
         if (notation_.is_whole_rest(symbol)) return write_bars(symbol, bars);
         switch (symbol.kind) {
             case SymbolKind::note:
+                if (symbol.grace) put("\\acciaccatura {}8 ", pitch_name(symbol.grace->pitch));
                 write_heads(symbol);
                 put("{}", length_name(symbol.value));
                 if (symbol.tied_forward) put("~");

@@ -31,9 +31,9 @@ double micro_of(double tempo) {
 
 void check_head(const ScoreHead& head) {
     check_meter(head.meter);
-    for (const FrameChange& change : head.changes) {
-        check_meter(change.frame.meter);
-        micro_of(change.frame.tempo);
+    for (const SectionChange& change : head.changes) {
+        check_meter(change.to.meter);
+        micro_of(change.to.tempo);
     }
     for (const Part& part : head.parts) {
         if (part.program < 0 || part.program > 127) {
@@ -106,8 +106,8 @@ std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
         result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
     }
     const Meter* before = &head_->meter;
-    for (const FrameChange& change : head_->changes) {
-        const Meter& meter = change.frame.meter;
+    for (const SectionChange& change : head_->changes) {
+        const Meter& meter = change.to.meter;
         if (meter == *std::exchange(before, &meter)) continue;
         const auto after =
             std::upper_bound(result.begin(), result.end(), change.onset,

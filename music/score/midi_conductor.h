@@ -10,11 +10,11 @@
 
 namespace sikku::midi {
 
-/// Another tempo, or another meter.
+/// A change of tempo or of meter.
 struct ConductorChange {
     std::int64_t tick;
     std::uint32_t micro = 0;       ///< microseconds a quarter
-    const Meter* meter = nullptr;  ///< of the head; null: it is a change of tempo
+    const Meter* meter = nullptr;  ///< the new meter, owned by the head; null for a change of tempo
 
     /// The event without its delta.
     std::string event() const;

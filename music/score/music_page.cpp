@@ -142,7 +142,7 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
         add(meters, fmt::format("{}/{}", meter.beats, meter.unit));
     };
     add_frame(head.tempo, head.meter);
-    for (const FrameChange& change : head.changes) add_frame(change.frame.tempo, change.frame.meter);
+    for (const SectionChange& change : head.changes) add_frame(change.to.tempo, change.to.meter);
     std::string text =
         fmt::format("{} {}, {} quarters a minute, {}", melody.notes.size(),
                     melody.notes.size() == 1 ? "note" : "notes", fmt::join(tempos, ", "), fmt::join(meters, ", "));
@@ -157,8 +157,8 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
 /// Where the length of bars changes: [tick, length].
 std::string bars_text(const ScoreHead& head) {
     std::string text = fmt::format("[0,{}]", std::max<std::int64_t>(head.meter.bar(), 1));
-    for (const FrameChange& change : head.changes) {
-        text += fmt::format(",[{},{}]", change.onset, change.frame.meter.bar());
+    for (const SectionChange& change : head.changes) {
+        text += fmt::format(",[{},{}]", change.onset, change.to.meter.bar());
     }
     return text;
 }

@@ -82,7 +82,7 @@ private:
     /// Sets the ticks of a division: the largest number that divides every duration.
     void find_unit() {
         unit_ = std::gcd(ticks_per_quarter, head_.meter.bar());
-        for (const FrameChange& change : head_.changes) unit_ = std::gcd(unit_, change.frame.meter.bar());
+        for (const SectionChange& change : head_.changes) unit_ = std::gcd(unit_, change.to.meter.bar());
         each_symbol(notation_, [&](const NotatedSymbol& symbol) { unit_ = std::gcd(unit_, symbol.length); });
     }
 
@@ -183,20 +183,20 @@ private:
             states.push_back({&staff, states.size(), staff.changes.front().clef});
         }
         std::size_t key = 0;
-        auto frame = head_.changes.begin();
-        Frame before = frame_of(head_);
+        auto change = head_.changes.begin();
+        TempoAndMeter before = tempo_and_meter_of(head_);
         const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
             put("<measure number=\"{}\">\n", head_.first_bar + bar);
             if (bar == 0) write_attributes(part);
             const std::int64_t begin = notation_.bar_lines.onset(bar);
             const bool has_key = key + 1 < keys.size() && keys[key + 1].onset == begin;
-            const bool has_frame = frame != head_.changes.end() && frame->onset == begin;
-            const bool has_meter = has_frame && frame->frame.meter != before.meter;
+            const bool has_change = change != head_.changes.end() && change->onset == begin;
+            const bool has_meter = has_change && change->to.meter != before.meter;
             if (has_key || has_meter) {
                 put("<attributes>\n");
                 if (has_key) write_key(keys[++key].key);
-                if (has_meter) write_meter(frame->frame.meter);
+                if (has_meter) write_meter(change->to.meter);
                 put("</attributes>\n");
             }
             if (const std::int64_t rests = notation_.bars_of_rest(begin); rests > 1) {
@@ -213,9 +213,9 @@ private:
                     xml_escaped(part.name));
             }
             if (bar == 0 && index == 0) write_tempo(before);
-            if (has_frame) {
-                if (index == 0 && has_other_tempo(before, frame->frame)) write_tempo(frame->frame);
-                before = frame++->frame;
+            if (has_change) {
+                if (index == 0 && needs_tempo_mark(before, change->to)) write_tempo(change->to);
+                before = change++->to;
             }
             if (bar == 0 && part.part->part.swing.is_on()) {
                 write_swing(part.part->part.swing, index == 0 || !common_swing(notation_));
@@ -282,18 +282,17 @@ private:
     }
 
     /// Writes the tempo in beats of the meter, rounded to a whole number unless beats are quarters.
-    void write_tempo(const Frame& frame) {
-        const BeatUnit beat = beat_unit(frame.meter);
-        const double tempo =
-            beat.quarters == 1 ? frame.tempo : std::max(1.0, std::round(frame.tempo / beat.quarters));
+    void write_tempo(const TempoAndMeter& now) {
+        const BeatUnit beat = beat_unit(now.meter);
+        const double tempo = beat.quarters == 1 ? now.tempo : std::max(1.0, std::round(now.tempo / beat.quarters));
         const std::string words =
-            frame.tempo_words.empty()
+            now.tempo_words.empty()
                 ? ""
                 : fmt::format("<direction-type><words font-weight=\"bold\">{} </words></direction-type>",
-                              xml_escaped(frame.tempo_words));
+                              xml_escaped(now.tempo_words));
         put("<direction placement=\"above\">{}<direction-type><metronome><beat-unit>{}</beat-unit>{}"
             "<per-minute>{}</per-minute></metronome></direction-type><sound tempo=\"{}\"/></direction>\n",
-            words, type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, frame.tempo);
+            words, type_name(beat.value.divisor), beat.value.dotted ? "<beat-unit-dot/>" : "", tempo, now.tempo);
     }
 
     /// Programs play eighths and sixteenths with swing. @param has_words  prints it, too
@@ -430,6 +429,7 @@ private:
             }
             if (symbol.slows_down) write_direction("<words font-style=\"italic\">rit.</words>", "above");
             if (is_empty) continue;
+            if (symbol.grace) write_grace(*symbol.grace, symbol.onset);
             write_symbol(symbol, voice);
             for (const ChordNote& note : symbol.chord) write_chord_note(symbol, note, voice);
             here_ += symbol.length;
@@ -493,6 +493,19 @@ private:
         if (!symbol.syllable.empty() && !is_chord) {
             put("<lyric><syllabic>single</syllabic><text>{}</text></lyric>", symbol.syllable);
         }
+        put("</note>\n");
+    }
+
+    /// Writes a note before the beat, with a stroke through its stem.
+    void write_grace(const ChordNote& grace, std::int64_t onset) {
+        NotatedSymbol symbol;
+        symbol.onset = onset;
+        symbol.pitch = grace.pitch;
+        put("<note><grace slash=\"yes\"/>");
+        write_pitch(symbol);
+        put("<voice>{}</voice><type>eighth</type>", voice_);
+        if (grace.has_sign) put("<accidental>{}</accidental>", accidental_name(grace.pitch.quarters));
+        if (staff_ > 0) put("<staff>{}</staff>", staff_);
         put("</note>\n");
     }
 

@@ -149,6 +149,7 @@ public:
                 symbol.ends_slur = note->ends_slur && !symbol.tied_forward;
                 symbol.is_staccato = note->is_staccato && !symbol.tied_back && !symbol.tied_forward;
                 if (!symbol.tied_back) symbol.syllable = note->syllable;
+                if (!symbol.tied_back) symbol.grace = note->grace;
             }
         }
     }
@@ -350,6 +351,7 @@ Notator::Notator(const ScoreHead& head, const Bars& bars)
       is_transposed_(head.is_transposed),
       syllables_(head.syllables),
       has_chord_signs_(head.has_chord_signs),
+      has_graces_(head.has_graces),
       ritardando_(head.ritardando),
       printed_bars_(bars) {
     std::size_t voices = 0;
@@ -422,7 +424,7 @@ void Notator::finish(std::int64_t end) {
             if (key.onset > 0) bars.push_back(key.onset);
         }
     }
-    for (const FrameChange& change : changes_after(changes_, first_tick())) {
+    for (const SectionChange& change : changes_after(changes_, first_tick())) {
         if (change.onset < notation_.end()) bars.push_back(change.onset);
     }
     std::sort(bars.begin(), bars.end());
@@ -738,8 +740,12 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         symbol.is_ghost = note.emphasis.is_ghost();
         symbol.has_fermata = note.has_fermata;
         const auto meets = [&](std::size_t one) {
-            return one + 1 < notes.size() && notes[one].is_sliding &&
-                   notes[one].onset + notes[one].duration == notes[one + 1].onset;
+            if (one + 1 >= notes.size() || !notes[one].is_sliding) return false;
+            const Note& next = notes[one + 1];
+            // A slide that is printed as a grace note has no line.
+            const bool is_grace =
+                has_graces_ && next.grace != 0 && std::fabs(100 * (notes[one].key - next.key) - next.grace) < 1;
+            return notes[one].onset + notes[one].duration == next.onset && !is_grace;
         };
         symbol.begins_slide = meets(i);
         if (note.glide.semitones != 0 && !symbol.begins_slide) symbol.leaves = note.glide.semitones > 0 ? 1 : -1;
@@ -769,6 +775,7 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         symbol.begins_slur = slur != slurs.end() && slur->first == i;
         symbol.ends_slur = slur != slurs.end() && slur->last == i;
         symbol.cents = cents_above(note.key, symbol.pitch);
+        if (has_graces_ && note.grace != 0) symbol.grace = {written(note.key + 0.01 * note.grace), 0, 0, false};
         for (const double key : chords[i]) {
             const Pitch pitch = written(key);
             symbol.chord.push_back({pitch, 0, cents_above(key, pitch)});

@@ -62,8 +62,9 @@ struct NotatedSymbol {
     Pitch pitch;      ///< pitch of a note; for drums the place on the staff, as in treble clef
     int drum = 0;     ///< the key of a drum: see drums.h; 0: none
     std::array<Beam, 4> beams{};
-    std::string_view syllable{};   ///< under the note; static
-    std::vector<ChordNote> chord;  ///< notes above `pitch` that sound with it
+    std::string_view syllable{};       ///< under the note; static
+    std::optional<ChordNote> grace{};  ///< before it
+    std::vector<ChordNote> chord;      ///< notes above `pitch` that sound with it
 };
 
 /// Clefs with an octave are for instruments that are written an octave away from their sound.
@@ -254,11 +255,12 @@ private:
     int transposed_by(const Part& part) const;
 
     std::vector<Part> parts_;
-    BarLines bar_lines_;  ///< of all bars that are received
-    std::vector<FrameChange> changes_;
+    BarLines bar_lines_;  ///< of the whole score, not only of its printed bars
+    std::vector<SectionChange> changes_;
     bool is_transposed_;
     Syllables syllables_;
     bool has_chord_signs_;
+    bool has_graces_;
     std::int64_t ritardando_;  ///< ticks before the end; 0: none
     Bars printed_bars_;
     std::int64_t all_bars_ = 1;

@@ -12,7 +12,7 @@ function stretchFor(isBefore) {
   while (i > 0 && !isBefore(stretches[i])) --i;
   return stretches[i];
 }
-/* The bar at a tick, counted from 0, and how much of it has passed; and back. */
+/* Converts a tick to bars, counted from 0, with a fraction; tickOf() converts back. */
 function barAt(tick) {
   const stretch = stretchFor(one => one.tick <= tick);
   return stretch.first + (tick - stretch.tick) / stretch.length;

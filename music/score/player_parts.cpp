@@ -132,6 +132,7 @@ NotatedVoice copied(const NotatedVoice& source, std::int64_t from, std::int64_t 
         NotatedSymbol& cue = copy.symbols.emplace_back(symbol);
         cue.begins_slur = cue.ends_slur = cue.is_staccato = false;
         cue.syllable = {};
+        cue.grace.reset();
         cue.is_accented = cue.is_ghost = cue.begins_slide = cue.ends_slide = cue.has_fermata = cue.slows_down = false;
         cue.leaves = cue.cents = 0;
         if (cue.kind == SymbolKind::bar_rest) cue.kind = SymbolKind::gap;

@@ -181,7 +181,7 @@ Grid grid_of(std::span<const Note> notes, const BarLines& bars) {
 /// Adds a tuplet if every time is on its grid.
 bool Grid::add(std::int64_t from, std::int64_t length, int actual, int normal, std::span<const std::int64_t> times) {
     const TupletSpan span{from, from + length, actual, normal, static_cast<int>(whole_note * normal / length)};
-    // Quarters have no whole seventh.
+    // The ticks of a quarter are not divisible by 7, so septuplets are rounded.
     const bool fits = (length % actual == 0 || actual == 7) && length % normal == 0 &&
                       length / normal >= shortest_value &&
                       std::all_of(times.begin(), times.end(),

@@ -37,7 +37,7 @@ struct TupletSpan {
     int divisor = 8;
     /// The length of its notes, rounded down.
     std::int64_t step() const { return (to - from) / actual; }
-    /// The tick at which a note begins, from 0; those of seven notes are rounded to the nearest.
+    /// The tick at which a note, counted from 0, begins; in septuplets rounded to the nearest.
     std::int64_t tick(std::int64_t note) const { return from + (2 * note * (to - from) + actual) / (2 * actual); }
     /// The note that begins nearest to a tick; of two, the later one.
     std::int64_t note_at(std::int64_t tick) const {

@@ -71,7 +71,8 @@ struct Note {
     Glide glide{};             ///< slide of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
     Emphasis emphasis{};
-    ChordSign chord{};  ///< chord that the note of an accompaniment belongs to
+    ChordSign chord{};       ///< chord that the note of an accompaniment belongs to
+    std::int16_t grace = 0;  ///< cents from its key to the grace note that prints its gamaka; 0: none
 
     /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }
@@ -116,25 +117,25 @@ struct Meter {
 };
 
 /// Tempo and meter.
-struct Frame {
+struct TempoAndMeter {
     double tempo = 120;       ///< quarters a minute
     std::string tempo_words;  ///< printed before it: `Andante`; may be empty
     Meter meter;
-    bool operator==(const Frame&) const = default;
+    bool operator==(const TempoAndMeter&) const = default;
 };
 
-/// Tempo and meter of a section, as far as it states them.
-struct SectionFrame {
+/// The tempo and meter that a section states.
+struct SectionTempo {
     std::optional<double> tempo;  ///< quarters a minute
     std::string tempo_words;
     std::optional<Meter> meter;
 };
 
-/// Another tempo or meter from a bar line on, where a section begins.
-struct FrameChange {
+/// A change of tempo or meter at the bar line where a section begins.
+struct SectionChange {
     std::int64_t onset = 0;  ///< ticks
-    Frame frame;
-    bool operator==(const FrameChange&) const = default;
+    TempoAndMeter to;
+    bool operator==(const SectionChange&) const = default;
 };
 
 /// Spelling of a pitch class: letter 0 (C) to 6 (B), alteration in semitones.
@@ -213,17 +214,18 @@ struct ScoreHead {
     std::string tempo_words;      ///< printed before it: `Andante`; may be empty
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
-    std::vector<FrameChange> changes;  ///< of tempo and meter, ascending, after the beginning
-    std::int64_t first_bar = 1;        ///< number of the first bar
+    std::vector<SectionChange> changes;  ///< of tempo and meter, ascending, after the beginning
+    std::int64_t first_bar = 1;          ///< number of the first bar
     bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff
+    bool has_graces = false;                ///< print: gamakas are grace notes
     std::vector<Part> parts;
 
-    /// True if it states changes of tempo.
+    /// True if a section or the ritardando changes the tempo.
     bool changes_tempo() const {
-        return ritardando > 0 || std::any_of(changes.begin(), changes.end(), [this](const FrameChange& change) {
-                   return change.frame.tempo != tempo;
+        return ritardando > 0 || std::any_of(changes.begin(), changes.end(), [this](const SectionChange& change) {
+                   return change.to.tempo != tempo;
                });
     }
     /// The index of the part that contains a voice; 0 if none does.

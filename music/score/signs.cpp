@@ -44,6 +44,7 @@ void set_accidentals(Staff& staff, std::span<const KeyChange> keys, const BarLin
     for (NotatedVoice& voice : staff.voices) {
         for (NotatedSymbol& symbol : voice.symbols) {
             if (symbol.kind != SymbolKind::note || symbol.tied_back) continue;
+            if (symbol.grace) notes.push_back({symbol.onset, &symbol.grace->pitch, &symbol.grace->has_sign});
             notes.push_back({symbol.onset, &symbol.pitch, &symbol.has_sign});
             for (ChordNote& other : symbol.chord) notes.push_back({symbol.onset, &other.pitch, &other.has_sign});
         }

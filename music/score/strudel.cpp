@@ -59,17 +59,17 @@ std::string sequence(const std::vector<Note>& notes, std::int64_t end, bool is_d
     return text;
 }
 
-/// The tick at which the first tempo would be as late as the tempos of the sections are at a tick: mini-notation has
-/// one tempo.
+/// Converts a tick to the one that sounds at the same time in the first tempo, because mini-notation has a single
+/// tempo.
 std::int64_t at_first_tempo(std::int64_t tick, const ScoreHead& head) {
     double ticks = 0;
     std::int64_t here = 0;
     double tempo = head.tempo;
-    for (const FrameChange& change : head.changes) {
+    for (const SectionChange& change : head.changes) {
         if (change.onset >= tick) break;
         ticks += static_cast<double>(change.onset - here) * head.tempo / tempo;
         here = change.onset;
-        tempo = change.frame.tempo;
+        tempo = change.to.tempo;
     }
     return std::llround(ticks + static_cast<double>(tick - here) * head.tempo / tempo);
 }

@@ -44,7 +44,7 @@ def test_sections_have_tempos_and_meters() -> None:
     pattern = '[[pattern]]\nname = "a"\ntext = "axiom: FF\\nheading: 0\\n"\n'
     notes = sikku.load_arrangement(text='form = "A B A"\n' + frame + tracks + pattern).notes()
     assert notes.changes == [(1920, 60.0, (3, 4)), (3360, 120.0, (4, 4))]
-    # Two seconds, three, and a half.
+    # A lasts 2 s, B 3 s; half a second of the second A follows.
     assert notes.seconds(3360 + 480) == 5.5
     assert notes.seconds(numpy.array([0, 1920, 2400, 3360])).tolist() == [0, 2, 3, 5]
 

@@ -251,52 +251,54 @@ TEST(Arrangement, SectionsFollowTheForm) {
 }
 
 /// A of a bar of 4/4, B of one of 3/4 at half the tempo and a tone higher.
-const std::string two_frames =
+const std::string two_sections =
     "tempo = 120\nform = \"A B A\"\n[[section]]\nname = \"B\"\ntempo = \"60 Adagio\"\nmeter = \"3/4\"\ntonic = "
     "\"D4\"\n" +
     track("section = \"A\"\n") + track("section = \"B\"\n");
 
-TEST(Arrangement, SectionsHaveTheirTempoMeterAndKeys) {
-    const NoteList list = notes_of(two_frames);
+TEST(Arrangement, SectionsHaveTheirOwnTempoMeterAndKeys) {
+    const NoteList list = notes_of(two_sections);
     const std::string a = "0:60/240 240:62/240 480:64/240 720:62/480";
     EXPECT_EQ(told(list, 0), a + " 3360:60/240 3600:62/240 3840:64/240 4080:62/480");
     EXPECT_EQ(told(list, 1), "1920:62/240 2160:64/240 2400:66/240 2640:64/480");
-    const FrameChange slow{1920, {60, "Adagio", {3, 4}}};
-    const FrameChange back{3360, {120, "", {4, 4}}};
+    const SectionChange slow{1920, {60, "Adagio", {3, 4}}};
+    const SectionChange back{3360, {120, "", {4, 4}}};
     EXPECT_EQ(list.changes, (std::vector{slow, back}));
     // A track replaces the keys of its section.
-    EXPECT_EQ(told(notes_of(two_frames + "tonic = \"E4\"\n"), 1), "1920:64/240 2160:66/240 2400:68/240 2640:66/480");
+    EXPECT_EQ(told(notes_of(two_sections + "tonic = \"E4\"\n"), 1),
+              "1920:64/240 2160:66/240 2400:68/240 2640:66/480");
     // Options apply to all sections.
-    EXPECT_EQ(notes_of(two_frames, {{"tempo", "90"}}).changes,
-              (std::vector<FrameChange>{{1920, {90, "", {3, 4}}}, {3360, {90, "", {4, 4}}}}));
-    EXPECT_EQ(notes_of(two_frames, {{"meter", "4/4"}}).changes,
-              (std::vector<FrameChange>{{1920, {60, "Adagio", {4, 4}}}, {3840, {120, "", {4, 4}}}}));
-    // Equal neighbours change nothing.
-    EXPECT_EQ(notes_of("form = \"A B B A\"\n" + two_frames.substr(two_frames.find("[[section]]"))).changes.size(),
+    EXPECT_EQ(notes_of(two_sections, {{"tempo", "90"}}).changes,
+              (std::vector<SectionChange>{{1920, {90, "", {3, 4}}}, {3360, {90, "", {4, 4}}}}));
+    EXPECT_EQ(notes_of(two_sections, {{"meter", "4/4"}}).changes,
+              (std::vector<SectionChange>{{1920, {60, "Adagio", {4, 4}}}, {3840, {120, "", {4, 4}}}}));
+    // Neighbouring sections with equal tempo and meter yield no change.
+    EXPECT_EQ(notes_of("form = \"A B B A\"\n" + two_sections.substr(two_sections.find("[[section]]"))).changes.size(),
               2u);
     EXPECT_TRUE(notes_of("form = \"B B\"\n[[section]]\nname = \"B\"\ntempo = 60\n" + track("section = \"B\"\n"))
                     .changes.empty());
 }
 
 TEST(Arrangement, ExcerptsBeginWithTheTempoAndMeterOfTheirSection) {
-    const NoteList middle = notes_of(two_frames, {{"from-bar", "2"}});
+    const NoteList middle = notes_of(two_sections, {{"from-bar", "2"}});
     EXPECT_EQ(middle.tempo, 60);
     EXPECT_EQ(middle.meter, (Meter{3, 4}));
     EXPECT_EQ(told(middle, 1), "0:62/240 240:64/240 480:66/240 720:64/480");
-    EXPECT_EQ(middle.changes, (std::vector<FrameChange>{{1440, {120, "", {4, 4}}}}));
-    const NoteList one = notes_of(two_frames, {{"from-bar", "2"}, {"bars", "1"}});
+    EXPECT_EQ(middle.changes, (std::vector<SectionChange>{{1440, {120, "", {4, 4}}}}));
+    const NoteList one = notes_of(two_sections, {{"from-bar", "2"}, {"bars", "1"}});
     EXPECT_TRUE(one.changes.empty());
     EXPECT_EQ(one.notes.size(), 4u);
-    EXPECT_EQ(told(notes_of(two_frames, {{"from-bar", "3"}}), 0), "0:60/240 240:62/240 480:64/240 720:62/480");
+    EXPECT_EQ(told(notes_of(two_sections, {{"from-bar", "3"}}), 0), "0:60/240 240:62/240 480:64/240 720:62/480");
     // Two seconds of A, then one at 60.
-    EXPECT_EQ(notes_of(two_frames, {{"seconds", "3"}}).end, 1920 + 480);
-    EXPECT_EQ(notes_of(two_frames, {{"from-bar", "2"}, {"seconds", "4"}}).end, 1440 + 960);
-    EXPECT_THROW(notes_of(two_frames, {{"from-bar", "9000000000000000000"}}), std::runtime_error);
-    EXPECT_THROW(notes_of(two_frames, {{"from-bar", "9000000000000"}, {"bars", "9000000000000000000"}}), ScoreError);
+    EXPECT_EQ(notes_of(two_sections, {{"seconds", "3"}}).end, 1920 + 480);
+    EXPECT_EQ(notes_of(two_sections, {{"from-bar", "2"}, {"seconds", "4"}}).end, 1440 + 960);
+    EXPECT_THROW(notes_of(two_sections, {{"from-bar", "9000000000000000000"}}), std::runtime_error);
+    EXPECT_THROW(notes_of(two_sections, {{"from-bar", "9000000000000"}, {"bars", "9000000000000000000"}}),
+                 ScoreError);
 }
 
-/// `1920:3/4 1920:1000000`: what the first track of a MIDI file says of meter and tempo.
-std::string frames_of(const std::string& midi) {
+/// `1920:3/4 1920:1000000`: the meter and tempo events of the first track.
+std::string tempos_and_meters(const std::string& midi) {
     std::string text;
     for (const MidiEvent& event : read_midi(midi).events) {
         const auto byte = [&](std::size_t i) { return static_cast<int>(static_cast<unsigned char>(event.data[i])); };
@@ -310,16 +312,16 @@ std::string frames_of(const std::string& midi) {
 TEST(Arrangement, EveryFormatHasTheTempoAndMeterOfSections) {
     const auto written = [](const std::string& format, const OptionValues& values = {}) {
         MemoryDestination memory;
-        plan_score(read(two_frames), format, values)->make(memory, "score", {});
+        plan_score(read(two_sections), format, values)->make(memory, "score", {});
         return memory.take("score");
     };
-    const std::string frames = " 0:500000 0:4/4 1920:1000000 1920:3/4 3360:500000 3360:4/4";
-    EXPECT_EQ(frames_of(written("mid")), frames);
-    EXPECT_EQ(frames_of(written("mid", {{"midi-format", "0"}})), frames);
-    EXPECT_EQ(frames_of(written("mid", {{"from-bar", "2"}})), " 0:1000000 0:3/4 1440:500000 1440:4/4");
+    const std::string expected = " 0:500000 0:4/4 1920:1000000 1920:3/4 3360:500000 3360:4/4";
+    EXPECT_EQ(tempos_and_meters(written("mid")), expected);
+    EXPECT_EQ(tempos_and_meters(written("mid", {{"midi-format", "0"}})), expected);
+    EXPECT_EQ(tempos_and_meters(written("mid", {{"from-bar", "2"}})), " 0:1000000 0:3/4 1440:500000 1440:4/4");
     // A ritardando slows the tempo of the section down.
-    EXPECT_TRUE(
-        frames_of(written("mid", {{"ending", "ritardando"}})).ends_with(fmt::format(":{:.0f}", 500000 / 0.6)));
+    EXPECT_TRUE(tempos_and_meters(written("mid", {{"ending", "ritardando"}}))
+                    .ends_with(fmt::format(":{:.0f}", 500000 / 0.6)));
     pugi::xml_document xml;
     ASSERT_TRUE(xml.load_string(written("musicxml").c_str()));
     std::string printed;
@@ -350,7 +352,7 @@ TEST(Arrangement, KeysOfSectionsAreChecked) {
     EXPECT_EQ(refusal("name = \"A\"\ntempo = 90\n"), "none");
     EXPECT_TRUE(has(refusal("name = \"C\"\ntempo = 90\n"), "a.toml:3:1: section C is not in the form of the piece"))
         << refusal("name = \"C\"\ntempo = 90\n");
-    EXPECT_TRUE(has(refusal("tempo = 90\n"), "this section has no name, a letter such as name = \"B\""));
+    EXPECT_TRUE(has(refusal("tempo = 90\n"), "this section has no name; expected a letter such as name = \"B\""));
     EXPECT_TRUE(has(refusal("name = \"AB\"\n"), "name: expected a letter from A to Z"));
     EXPECT_TRUE(has(refusal("name = \"A\"\n[[section]]\nname = \"A\"\n"), "two sections are named A"));
     EXPECT_TRUE(has(refusal("name = \"A\"\ntempo = \"96 by y 84-108\"\n"),
@@ -428,6 +430,11 @@ TEST(ScoreOptions, AreAppliedOrReported) {
     const OptionValues options = {
         {"midi-format", "0"}, {"tuning", "mts"}, {"humanise", "0.5"}, {"pan", "by x"}, {"controller", "74 by y"}};
     EXPECT_EQ(warnings_of("mid", {{"score", "concert"}}), "'score' has no effect: it applies only to print\n");
+    EXPECT_EQ(warnings_of("mid", {{"grace-notes", "true"}}),
+              "'grace-notes' has no effect: it applies only to print\n");
+    EXPECT_EQ(warnings_of("ly", {{"grace-notes", "true"}, {"gamaka", "kampita all"}}), "");
+    EXPECT_EQ(warnings_of("ly", {{"grace-notes", "true"}}),
+              "'grace-notes' has no effect: no note has a kampita or a jaru\n");
     for (const char* format : {"musicxml", "ly", "abc"}) {
         EXPECT_EQ(warnings_of(format, {{"score", "concert"}, {"instrument", "clarinet"}}), "");
         EXPECT_EQ(warnings_of(format, {{"score", "concert"}}),

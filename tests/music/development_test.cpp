@@ -129,8 +129,8 @@ TEST(Sections, FollowOneAnotherAtBarLines) {
               std::string::npos);
 }
 
-/// A korvai is played three times; pauses by trial.
-TEST(Sections, LandOnTheFirstBeatAfterAKorvai) {
+/// A korvai is played three times; the test finds the pause by trying all.
+TEST(Sections, EndAKorvaiOnTheDownbeat) {
     for (const char* meter : {"4/4", "3/4", "5/8", "7/8"}) {
         const std::int64_t bar = meter[2] == '4' ? (meter[0] - '0') * 480 : (meter[0] - '0') * 240;
         const std::string keys = fmt::format("meter: {}\n", meter);
@@ -171,7 +171,7 @@ TEST(Sections, LandOnTheFirstBeatAfterAKorvai) {
     EXPECT_NE(error_of([] { form("Akk"); }).find("a korvai"), std::string::npos);
 }
 
-TEST(Thinning, LeavesBeatsThenStrongBeats) {
+TEST(Thinning, KeepsBeatsThenStrongBeats) {
     for (const char* meter : {"4/4", "3/4", "2+3/8"}) {
         const bool is_additive = meter[1] == '+';
         const std::int64_t bar = is_additive ? 1200 : (meter[0] - '0') * 480;
@@ -206,7 +206,7 @@ TEST(Thinning, LeavesBeatsThenStrongBeats) {
     }
     const auto said = [](const std::string& more) { return error_of([&] { notes_of(hilbert + more); }); };
     EXPECT_NE(said("thinning: 2\n").find("from 0 to 1"), std::string::npos);
-    EXPECT_NE(said("thinning: 0.5\nvertical: glissando\n").find("cannot thin out"), std::string::npos);
+    EXPECT_NE(said("thinning: 0.5\nvertical: glissando\n").find("cannot be combined"), std::string::npos);
     EXPECT_NE(error_of([] { notes_of("axiom: F+F\nthinning: 0.5\n"); }).find("needs 'phrases:'"), std::string::npos);
     // Chords stay.
     const auto chords = [](const std::string& more) {

@@ -297,8 +297,44 @@ TEST(Expression, GamakasDependOnTheApproach) {
     EXPECT_EQ(bent_notes("kampita all falling"), Numbers{2});
     EXPECT_EQ(bent_notes("jaru 1 falling, kampita 2 rising"), (Numbers{1, 2}));
     EXPECT_EQ(bent_notes("jaru 1 rising"), Numbers());
-    // The first rule that applies counts.
+    // Only the first rule that applies is used.
     EXPECT_LT(bends(midi_of(text + "gamaka: jaru all rising, kampita all\n")).front().tick, 960);
+}
+
+TEST(Expression, GamakasArePrintedAsGraceNotes) {
+    // C E D, and F sharp in between, whose neighbours need signs.
+    const std::string text =
+        "mapping: symbols\ntempo: 60\nnote A: degree 0 1/2\nnote B: degree 2 1/2\nnote C: degree 1 1/2\n"
+        "scale: lydian\nnote G: degree 3 1/2\nnote H: degree 4 1/2\naxiom: ABCHG\n";
+    const auto printed = [&](const std::string& gamaka, const std::string& format, bool has_graces = true) {
+        return play(parse("e.lsys", text + "gamaka: " + gamaka + "\n"), format,
+                    has_graces ? OptionValues{{"grace-notes", "true"}} : OptionValues());
+    };
+    const std::string ly = printed("jaru 1, kampita 2", "ly");
+    EXPECT_TRUE(has(ly, "c'2\\mf \\acciaccatura fis'8 e'2")) << ly;
+    EXPECT_TRUE(has(ly, "\\acciaccatura e'8 d'2 ")) << ly;
+    EXPECT_FALSE(has(ly, "\\glissando")) << ly;
+    const std::string lines = printed("jaru 1, kampita 2", "ly", false);
+    EXPECT_FALSE(has(lines, "\\acciaccatura"));
+    EXPECT_TRUE(has(lines, "e'2\\glissando d'2")) << lines;
+    EXPECT_TRUE(has(printed("meend 0, kampita 2", "ly"), "c'2\\glissando\\mf \\acciaccatura fis'8 e'2"));
+    EXPECT_TRUE(has(printed("jaru 1, kampita 2", "abc"), "{/F}E4 | {/E}D4")) << printed("jaru 1, kampita 2", "abc");
+    pugi::xml_document xml;
+    ASSERT_TRUE(xml.load_string(printed("jaru 1, kampita 2", "musicxml").c_str()));
+    std::string notes;
+    for (const auto& found : xml.select_nodes("//note[pitch]")) {
+        const pugi::xml_node note = found.node();
+        notes += fmt::format("{}{} ", note.child("pitch").child_value("step"), note.child("grace") ? "/" : "");
+        EXPECT_EQ(note.child("duration").empty(), !note.child("grace").empty());
+    }
+    EXPECT_EQ(notes, "C F/ E E/ D G F ");
+    // An accidental of a grace note applies to the end of the bar.
+    const std::string signs =
+        "mapping: symbols\nnote A: degree 2 1/4\nnote B: degree 3 1/4\naxiom: AB\nscale: lydian\n"
+        "tonic: D4\ngamaka: kampita 2\ntempo: 60\n";
+    ASSERT_TRUE(xml.load_string(play(parse("e.lsys", signs), "musicxml", {{"grace-notes", "true"}}).c_str()));
+    EXPECT_EQ(xml.select_nodes("//note[grace]").size(), 1u);
+    EXPECT_LE(xml.select_nodes("//accidental").size(), 1u);
 }
 
 TEST(Expression, AllFormsOfMidiHaveTheCurves) {
@@ -432,8 +468,8 @@ TEST(Expression, ErrorsSayWhatIsExpected) {
     EXPECT_EQ(error_of("gamaka: kampita 7\n"), "degree 7 is not in the scale; expected 0 to 6");
     EXPECT_EQ(
         error_of("gamaka: shake 2\n"),
-        "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, and perhaps "
-        "rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
+        "expected none, or kampita, jaru or meend with degrees of the scale, 0 for the tonic, or all, optionally "
+        "followed by rising or falling, such as kampita 2 6, jaru 1 falling, meend all");
     for (const char* bad : {"kampita rising", "rising", "kampita falling 2", "kampita all rising falling"}) {
         EXPECT_NE(error_of(std::string("gamaka: ") + bad + "\n"), "none") << bad;
     }

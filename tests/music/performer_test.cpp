@@ -597,7 +597,7 @@ TEST(Performer, SectionsHaveTheirTempoAndMeter) {
     other.play(stream(score));
     const std::vector<Stroke> changed = other.heard();
     ASSERT_EQ(changed.size(), 15u);
-    // Its third bar, as the next was to be.
+    // It continues with its third bar.
     EXPECT_EQ(changed[7], Stroke(5 * second, 80));
 }
 
@@ -645,7 +645,7 @@ private:
 };
 
 /// Eight hours of a curve of 40 generations: each clock in time, and no growth of memory.
-TEST(Performer, PlaysForHours) {
+TEST(Performer, PlaysEightHoursOnTimeInConstantMemory) {
     const Document document = parse(
         "h.lsys", "axiom: X\nX --> -YF+XFX+FY-\nY --> +XF-YFY-FX+\nheading: 0\nderivation length: 40\ntempo: 96\n");
     FakeClock clock;

@@ -149,7 +149,7 @@ TEST(Play, ValuesAreRefused) {
         {{{"meter", "4"}}, "expected a meter"},
         {{{"unit", "0"}}, "expected a note value"},
         {{{"unit", "1/7"}}, "1/7 is not a whole number of ticks"},
-        {{{"unit", "1/28"}}, "`speed: 7:4` makes septuplets"},
+        {{{"unit", "1/28"}}, "for septuplets use `speed: 7:4`"},
         {{{"velocity", "mf"}}, "or by x, y, depth, turn, length or level"},
         {{{"articulation", "staccato"}}, "5 to 100 percent"},
         {{{"articulation", "0%"}}, "from 5 to 100"},
