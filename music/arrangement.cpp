@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <string>
@@ -190,7 +191,7 @@ private:
         } else if (music_key(name)) {
             shared_.push_back({part_setting(name, text_of(name, value)), &value});
         } else {
-            refuse_key(value, key, true);
+            refuse_key(value, key, Place::piece);
         }
     }
 
@@ -204,14 +205,36 @@ private:
         fail(form, "form: expected sections such as A A B A, or A1 A2 B A2 with open (1) and closed (2) endings");
     }
 
-    [[noreturn]] static void refuse_key(const FileValue& value, const std::string& key, bool is_head) {
-        std::vector<std::string_view> known = {"n",       "seed", "variant",   "set",        "pattern",
-                                               "section", "name", "transpose", "tempo ratio"};
-        for (const std::string_view name : keys_of(KeyOwner::music)) known.push_back(name);
-        if (is_head) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
+    /// Where a key stands.
+    enum class Place { piece, section, track };
+
+    [[noreturn]] static void refuse_key(const FileValue& value, const std::string& key, Place place) {
+        static constexpr std::array<std::string_view, 6> of_track = {"n",   "seed",    "variant",
+                                                                     "set", "pattern", "section"};
         const std::string name = folded(key);
+        if (place == Place::section && std::find(of_track.begin(), of_track.end(), name) != of_track.end()) {
+            fail(value, fmt::format("'{}' belongs to a track", name));
+        }
+        std::vector<std::string_view> known = {"name", "transpose", "tempo ratio"};
+        if (place != Place::section) known.insert(known.end(), of_track.begin(), of_track.end());
+        for (const std::string_view one : keys_of(KeyOwner::music)) known.push_back(one);
+        if (place == Place::piece) known.insert(known.end(), {"title", "composer", "source", "form", "track"});
         const std::string_view near = name == "bpm" ? "tempo" : name == "key" ? "tonic" : nearest(name, known);
         fail(value, fmt::format("unknown key '{}'{}", printable(key), did_you_mean(near)));
+    }
+
+    /// Keys of a section.
+    struct Section {
+        std::vector<PlacedSetting> settings;
+        const FileValue* place = nullptr;
+    };
+
+    static void read_key_of_section(const std::string& key, const FileValue& value, Section& section) {
+        const std::string known = folded(key);
+        if (known == "name") return;
+        if (known == "ending") fail(value, "ending belongs to the whole piece, above the first track");
+        if (!music_key(known)) refuse_key(value, key, Place::section);
+        section.settings.push_back({part_setting(known, text_of(known, value)), &value});
     }
 
     /// Reads the keys of sections.
@@ -228,11 +251,7 @@ private:
             if (!is_new) fail(one, fmt::format("two sections are named {}", letter));
             section->second.place = &name->value;
             for (const auto& [key, inner] : one.table) {
-                const std::string known = folded(key);
-                if (key == "name") continue;
-                if (known == "ending") fail(inner, "ending belongs to the whole piece, above the first track");
-                if (!music_key(known)) refuse_key(inner, key, false);
-                section->second.settings.push_back({part_setting(known, text_of(known, inner)), &inner});
+                collect([&, &key = key, &inner = inner] { read_key_of_section(key, inner, section->second); });
             }
         }
     }
@@ -334,7 +353,7 @@ private:
         } else if (known == "n" || known == "seed" || music_key(known)) {
             track.settings.push_back({part_setting(known, text_of(known, value)), &value});
         } else {
-            refuse_key(value, key, false);
+            refuse_key(value, key, Place::track);
         }
     }
 
@@ -345,6 +364,7 @@ private:
         for (const auto& [key, one] : value.table) {
             collect([&, &key = key, &one = one] { read_key(key, one, track); });
         }
+        const std::vector<PlacedSetting> own = track.settings;
         std::vector<PlacedSetting> settings = shared_;
         // The tempo of a section applies to the score, not to its tracks.
         if (const auto section = sections_.find(track.section); section != sections_.end()) {
@@ -368,10 +388,12 @@ private:
         }
         diagnostics.throw_if_errors();
         if (std::find(inner_.begin(), inner_.end(), track.pattern) != inner_.end()) note_replaced(document, track);
+        const Document stated = document;
         for (const PlacedSetting& one : track.settings) {
             collect([&] { document = with(document, one); });
         }
         if (errors_.size() > before) return;
+        if (result_.tracks.empty()) first_meter_ = tempo_of(own).meter.value_or(meter_of(stated));
         require_turtle(document, "it has no melody");
         Diagnostics unplayable;
         check_phrases(document.pattern(), document.grammar(), unplayable);
@@ -465,9 +487,15 @@ private:
             } else {
                 stated.tempo = melody.tempo;
                 stated.tempo_words = melody.tempo_words;
+                stated.follows_curve = melody.expression.tempo.is_on();
             }
         }
         return stated;
+    }
+
+    static Meter meter_of(const Document& document) {
+        Diagnostics diagnostics;
+        return read_melody(document.pattern(), {}, diagnostics).meter;
     }
 
     /// Reads tempo and meter of the piece and its sections.
@@ -476,13 +504,15 @@ private:
         result_.tempo = piece.tempo;
         result_.tempo_words = piece.tempo_words;
         result_.meter = piece.meter;
+        // That of the first track, but not of its section.
+        if (!result_.meter && !sections_.empty()) result_.meter = first_meter_;
         for (const auto& [letter, section] : sections_) {
-            for (const PlacedSetting& one : section.settings) {
-                const bool follows =
-                    one.setting.key == "tempo" && one.setting.value.find(" by ") != std::string::npos;
-                if (follows) fail(*one.value, "tempo: only the tempo of the whole piece can follow a curve");
-            }
             const SectionTempo stated = tempo_of(section.settings);
+            const auto tempo = std::find_if(section.settings.begin(), section.settings.end(),
+                                            [](const PlacedSetting& one) { return one.setting.key == "tempo"; });
+            if (stated.follows_curve) {
+                fail(*tempo->value, "tempo: only the tempo of the whole piece can follow a curve");
+            }
             if (stated.tempo || stated.meter) result_.section_tempos.emplace(letter, stated);
         }
     }
@@ -494,11 +524,8 @@ private:
     std::vector<std::string> inner_;
     std::map<std::string, std::vector<std::string>> replaced_;  ///< keys by pattern
     std::vector<PlacedSetting> shared_;
-    struct Section {
-        std::vector<PlacedSetting> settings;
-        const FileValue* place = nullptr;
-    };
     std::map<char, Section> sections_;
+    Meter first_meter_;
     std::vector<FileError> errors_;
     Arrangement result_;
 };

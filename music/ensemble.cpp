@@ -460,8 +460,14 @@ PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOp
     return options;
 }
 
+std::int64_t Ensemble::ritardando(const PlayOptions& playing) const {
+    const std::int64_t last = playing.to < INT64_MAX ? playing.to - 1 : INT64_MAX;
+    return 2 * tempo_and_meter(last).meter.bar();
+}
+
 TempoAndMeter Ensemble::of_section(char section) const {
-    TempoAndMeter result{tempo, tempo_words, meter};
+    if (section == 0 || section_tempos.empty()) return {tempo, tempo_words, meter};
+    TempoAndMeter result = piece;
     const auto stated = section_tempos.find(section);
     if (stated == section_tempos.end()) return result;
     if (stated->second.tempo) {

@@ -12,13 +12,14 @@
 
 namespace sikku {
 
-/// The parts of a score, with the tempo and meter that they share.
+/// The parts of a score, with the tempo and meter with which it begins.
 struct Ensemble {
     std::vector<Player> players;
     std::vector<FormSection> form;  ///< sections of the score; empty: all parts play from the beginning
     double tempo = 120;             ///< quarters a minute
     std::string tempo_words;        ///< printed before it; may be empty
     Meter meter;
+    TempoAndMeter piece{};                          ///< those of sections that state none
     std::map<char, SectionTempo> section_tempos{};  ///< tempo and meter of sections that state them
     std::vector<SectionChange> changes{};           ///< of tempo and meter, at the bar lines where sections begin
     Close close = Close::none;
@@ -29,12 +30,14 @@ struct Ensemble {
     TempoAndMeter tempo_and_meter(std::int64_t tick) const {
         return tempo_and_meter_at({tempo, tempo_words, meter}, changes, tick);
     }
-    /// Tempo and meter of a section; 0: those of the score.
+    /// Tempo and meter of a section; 0: those with which the score begins.
     TempoAndMeter of_section(char section) const;
     /// The meter in which the bars of a player are counted.
     Meter meter_of(const Player& player) const { return of_section(player.section).meter; }
-    /// Ticks before the end in which the tempo falls: two bars.
-    std::int64_t ritardando() const { return 2 * (changes.empty() ? meter : changes.back().to.meter).bar(); }
+    /// Quarters a minute at a tick.
+    double tempo_at(std::int64_t tick) const { return changes.empty() ? tempo : tempo_and_meter(tick).tempo; }
+    /// Ticks before the end in which the tempo falls: two bars of the last meter.
+    std::int64_t ritardando(const PlayOptions& playing) const;
     /// True if what is played ends with `close`, whatever it contains.
     bool has_ending(const PlayOptions& playing) const;
     /// True if whole parts must be known before the first note is played.

@@ -31,13 +31,18 @@ void add(const Note& note, std::int64_t begin, std::int64_t end, Offset offset, 
     }
 }
 
+double ticks_per_second(double tempo) {
+    return tempo * static_cast<double>(ticks_per_quarter) / 60;
+}
+
 std::int16_t to_cents(double semitones) {
     return static_cast<std::int16_t>(std::lround(100 * semitones));
 }
 
 }  // namespace
 
-void Bender::bend(Note* before, Note& note, const Note* after, std::vector<ControlPoint>& points) const {
+void Bender::bend(Note* before, Note& note, const Note* after, double tempo,
+                  std::vector<ControlPoint>& points) const {
     if (note.glide.ticks > 0) return;
     const std::int64_t degree = degree_of(note.key);
     for (const Gamaka& gamaka : melody_.expression.gamakas) {
@@ -52,11 +57,11 @@ void Bender::bend(Note* before, Note& note, const Note* after, std::vector<Contr
         if (!is_approached) continue;
         switch (gamaka.kind) {
             case Gamaka::Kind::kampita:
-                if (swing(note, degree, points)) return;
+                if (swing(note, degree, tempo, points)) return;
                 break;
             case Gamaka::Kind::jaru:
                 if (before && before->onset + before->duration == note.onset && before->glide.ticks == 0) {
-                    if (slide(note, before->key - note.key, true, points)) {
+                    if (slide(note, before->key - note.key, true, tempo, points)) {
                         before->is_sliding = true;
                         note.grace = to_cents(before->key - note.key);
                     }
@@ -65,7 +70,7 @@ void Bender::bend(Note* before, Note& note, const Note* after, std::vector<Contr
                 break;
             case Gamaka::Kind::meend:
                 if (after && note.onset + note.duration == after->onset) {
-                    note.is_sliding = slide(note, after->key - note.key, false, points);
+                    note.is_sliding = slide(note, after->key - note.key, false, tempo, points);
                     return;
                 }
                 break;
@@ -88,28 +93,29 @@ std::int64_t Bender::degree_of(double key) const {
 }
 
 /// Swings up and back so that a whole number of swings fills the note. @return false for notes that are too short
-bool Bender::swing(Note& note, std::int64_t degree, std::vector<ControlPoint>& points) const {
+bool Bender::swing(Note& note, std::int64_t degree, double tempo, std::vector<ControlPoint>& points) const {
     constexpr double swings_per_second = 5;
-    const double seconds = static_cast<double>(note.duration) / ticks_per_second_;
+    const double seconds = static_cast<double>(note.duration) / ticks_per_second(tempo);
     const double swings = std::floor(seconds * swings_per_second + 0.25);
     if (swings < 1) return false;
-    const double width =
-        std::min(2.0, (melody_.scale.cents(degree + 1, false) - melody_.scale.cents(degree, false)) / 100);
+    const double above = (melody_.scale.cents(degree + 1, false) - melody_.scale.cents(degree, false)) / 100;
+    const double width = std::min(2.0, above);
     const auto offset = [&](double part) {
         const double within = part * swings - std::floor(part * swings);
         return width * smooth(1 - std::fabs(2 * within - 1));
     };
     add(note, 0, note.duration, offset, points);
-    note.grace = to_cents(width);
+    note.grace = to_cents(above);
     return true;
 }
 
 /// @param from  true if it begins, instead of ending, with the offset
 /// @return false for unisons, intervals that are too wide, and notes that are too short
-bool Bender::slide(const Note& note, double offset, bool from, std::vector<ControlPoint>& points) const {
+bool Bender::slide(const Note& note, double offset, bool from, double tempo,
+                   std::vector<ControlPoint>& points) const {
     constexpr double longest = 0.25;  // seconds
     if (offset == 0 || std::fabs(offset) > widest_bend) return false;
-    const auto length = std::min(note.duration / 2, static_cast<std::int64_t>(longest * ticks_per_second_));
+    const auto length = std::min(note.duration / 2, static_cast<std::int64_t>(longest * ticks_per_second(tempo)));
     if (length < 2 * bend_ticks) return false;
     if (from) {
         add(

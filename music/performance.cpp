@@ -92,9 +92,7 @@ ExpressionSink::ExpressionSink(const Ensemble& ensemble, Use use) : ensemble_(en
         };
         follow(expression.velocity, velocity);
         auto& bender = benders_.emplace_back();
-        if (!expression.gamakas.empty()) {
-            bender.emplace(player.melody, ensemble.of_section(player.section).tempo);
-        }
+        if (!expression.gamakas.empty()) bender.emplace(player.melody);
         if (use == Use::print) continue;
         follow(expression.pan, ControlPoint::pan);
         follow(expression.control, expression.controller);
@@ -240,7 +238,8 @@ void ExpressionSink::bend(Line& line, const Note* after) {
     Note* const before = line.held.size() == held_back ? &line.held.front().note : nullptr;
     bends_.clear();
     benders_[line.player]->bend(before && is_of_curve(*before) ? before : nullptr, note,
-                                after && is_of_curve(*after) ? after : nullptr, bends_);
+                                after && is_of_curve(*after) ? after : nullptr, ensemble_.tempo_at(note.onset),
+                                bends_);
     if (use_ != Use::print) points.insert(points.begin(), bends_.begin(), bends_.end());
 }
 
@@ -329,7 +328,7 @@ EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& co
     const bool slows = whole.close != Close::none && use != ExpressionSink::Use::print &&
                        (context.playing.to == INT64_MAX || end < context.playing.to - context.playing.from);
     ScoreHead head;
-    head.ritardando = slows ? whole.ritardando() : 0;
+    head.ritardando = slows ? whole.ritardando(context.playing) : 0;
     curves.tempo = cut_tempo(tempo_map(head, {expressive.tempos(end), {}}, end), from, to);
     if (!curves.tempo.empty()) sink.curves(curves);
 
@@ -399,7 +398,7 @@ double seconds_of(const Ensemble& ensemble, const PlayOptions& playing, std::int
                   const std::vector<TempoPoint>& curve) {
     ScoreHead times;
     if (ensemble.has_ending(playing) && use != ExpressionSink::Use::print) {
-        times.ritardando = ensemble.ritardando();
+        times.ritardando = ensemble.ritardando(playing);
     }
     times.tempo = ensemble.tempo_and_meter(playing.from).tempo;
     times.changes = changes_after(ensemble.changes, playing.from);

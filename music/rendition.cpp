@@ -66,7 +66,7 @@ Notation Rendition::print_within(const ExcerptContext& context) const {
     if (ensemble.close != Close::none) {
         NullSink nobody;
         const bool has_end = context.is_whole || play_parts(whole, context.playing, nobody).end < length;
-        if (has_end) whole_head.ritardando = ensemble.ritardando();
+        if (has_end) whole_head.ritardando = ensemble.ritardando(context.playing);
     }
     const BarLines lines = ensemble.bar_lines();
     Notator::Bars bars;

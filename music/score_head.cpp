@@ -121,7 +121,7 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
         std::erase_if(head.changes,
                       [&](const SectionChange& change) { return change.onset >= playing.to - playing.from; });
     }
-    head.ritardando = ensemble.has_ending(playing) ? ensemble.ritardando() : 0;
+    head.ritardando = ensemble.has_ending(playing) ? ensemble.ritardando(playing) : 0;
     head.is_transposed = settings.is_transposed;
     head.syllables = settings.syllables;
     head.has_chord_signs = settings.has_chord_signs;

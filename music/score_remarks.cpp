@@ -183,7 +183,7 @@ void report_notes(const Ensemble& ensemble, const PlayOptions& playing, const En
         if (player.is_bass || player.is_follower) continue;
         const Meter meter = ensemble.meter_of(player);
         const bool has_meter = melody.meter.beats == meter.beats && melody.meter.unit == meter.unit;
-        if (melody.tempo != ensemble.tempo || (!has_meter && !player.document.has_override("meter"))) {
+        if (melody.tempo != ensemble.piece.tempo || (!has_meter && !player.document.has_override("meter"))) {
             made.warn(printable(player.document.text("title")) +
                       " is played in the tempo and meter of the first pattern");
         }

@@ -19,8 +19,7 @@ template <AudioFormat format>
 void write_sound(Rendition& rendition, Output& output) {
     OutputFile score(output.temporary().string() + ".mid", rendition.name);  // never committed
     rendition.write_midi(score);
-    const double seconds = static_cast<double>(rendition.report.end) / static_cast<double>(ticks_per_quarter) * 60 /
-                           rendition.head.tempo;
+    const double seconds = rendition.report.seconds;
     if (seconds > most_audio_seconds) {
         throw ScoreError(
             fmt::format("{} of sound are too long: a WAV file can contain 6 hours 45 minutes; limit the bars or "

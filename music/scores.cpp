@@ -226,6 +226,14 @@ private:
             if (is_option("tempo")) stated.tempo.reset();
             if (is_option("meter")) stated.meter.reset();
         }
+        ensemble_.piece = ensemble_.tempo_and_meter(0);
+        if (!ensemble_.form.empty()) {
+            const auto letter = static_cast<char>('A' + ensemble_.form.front().letter);
+            const TempoAndMeter opening = ensemble_.of_section(letter);
+            ensemble_.tempo = opening.tempo;
+            ensemble_.tempo_words = opening.tempo_words;
+            ensemble_.meter = opening.meter;
+        }
         for (const Player& player : ensemble_.players) {
             midi_.microtonal = midi_.microtonal || player.melody.is_microtonal();
         }

@@ -210,21 +210,17 @@ std::vector<std::int64_t> begins_of(const Block& block) {
 /// The phrases or sections of a block.
 class Phrases {
 public:
-    explicit Phrases(const Block& block) : begins_(begins_of(block)), end_(block.length) {}
+    explicit Phrases(const Block& block) : begins_(begins_of(block)) {}
     std::size_t count() const { return begins_.size(); }
     /// The phrase in which a tick lies.
     std::size_t at(std::int64_t tick) const {
         return static_cast<std::size_t>(std::upper_bound(begins_.begin(), begins_.end(), tick) - begins_.begin()) - 1;
     }
-    /// The ticks at which a phrase begins and ends.
-    std::pair<std::int64_t, std::int64_t> span(std::size_t phrase) const {
-        return {begins_[phrase],
-                phrase + 1 < begins_.size() ? begins_[phrase + 1] : std::max(end_, begins_[phrase] + 1)};
-    }
+    /// The tick at which a phrase begins.
+    std::int64_t begin(std::size_t phrase) const { return begins_[phrase]; }
 
 private:
     std::vector<std::int64_t> begins_;
-    std::int64_t end_;
 };
 
 /// Reverses a section, whose breath stays at its end.
@@ -491,8 +487,12 @@ void thin_out(Block& block, const Melody& melody, double share) {
     }
     const auto moves = [&](const FormNote& one) { return one.has_degree && !is_chord(one, block, melody); };
     std::map<std::pair<int, std::size_t>, std::int64_t> last;  // onset of the last note of a voice in a phrase
+    std::vector<std::int64_t> ends(phrases.count(), 0);        // of the last notes, without the rests after them
     for (const FormNote& one : block.notes) {
-        if (moves(one)) last[{one.note.voice, phrases.at(one.note.onset)}] = one.note.onset;
+        if (!moves(one)) continue;
+        const std::size_t phrase = phrases.at(one.note.onset);
+        last[{one.note.voice, phrase}] = one.note.onset;
+        ends[phrase] = std::max(ends[phrase], one.note.onset + one.note.duration);
     }
     std::map<int, std::pair<std::size_t, std::size_t>> before;  // by voice: note kept before, its phrase
     std::vector<FormNote> kept;
@@ -503,7 +503,8 @@ void thin_out(Block& block, const Melody& melody, double share) {
         }
         const Note& note = one.note;
         const std::size_t phrase = phrases.at(note.onset);
-        const auto [begin, end] = phrases.span(phrase);
+        const std::int64_t begin = phrases.begin(phrase);
+        const std::int64_t end = ends[phrase];
         const double left = static_cast<double>(end - note.onset) / static_cast<double>(end - begin);
         const bool stays = left > share || note.onset == last[{note.voice, phrase}] ||
                            (left > share / 2 ? beats : strong).contains(note.onset % bar);

@@ -380,6 +380,11 @@ private:
             fail(*pattern_.find("form"), "the notes would be no whole numbers of ticks; a larger `unit` helps");
             break;
         }
+        const bool has_korvai = std::any_of(layout.form.begin(), layout.form.end(),
+                                            [](const FormSection& section) { return section.is_korvai; });
+        if (has_korvai && melody_.harmony == Harmony::bass) {
+            fail(*pattern_.find("form"), "a korvai cannot be combined with `harmony: bass`, whose notes are longer");
+        }
         if (layout.thinning > 0) {
             const Key& thinning = *pattern_.find("thinning");
             if (melody_.vertical == Vertical::glissando) {

@@ -147,7 +147,11 @@ private:
         const TempoAndMeter before = tempo_and_meter_at(tempo_and_meter_of(head_), head_.changes, change.onset - 1);
         if (after.meter != before.meter) put("[M:{}] ", meter_name(after.meter));
         if (!is_first || !needs_tempo_mark(before, after)) return;
-        put("[Q:{}] ", tempo_mark(after.tempo, after.meter, after.tempo_words));
+        // A bracket would end the field.
+        std::string words = after.tempo_words;
+        std::replace(words.begin(), words.end(), '[', '(');
+        std::replace(words.begin(), words.end(), ']', ')');
+        put("[Q:{}] ", tempo_mark(after.tempo, after.meter, words));
     }
 
     static std::string quoted(std::string_view text) {

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,6 +77,9 @@ public:
         : TextWriter(sink), notation_(notation), head_(head) {}
 
     void write() {
+        each_symbol(notation_, [&](const NotatedSymbol& symbol) {
+            if (symbol.grace) graces_.insert(symbol.onset);
+        });
         put("\\version \"2.24.0\"\n\n");
         put("{}", head_comments(head_, "%"));
         put("\n\\header {{\n");
@@ -525,6 +529,8 @@ private:
             }
             tuplet = symbol.tuplet;
             if (symbol.slows_down && symbol.onset > 0 && !has_tempo) put("\\tempo {}", rit);
+            // Staves without it would print bar lines, clefs and meters before those that have it.
+            if (!symbol.grace && graces_.contains(symbol.onset)) put("\\grace s8 ");
             write_beam_counts(voice.symbols, i);
             const std::int64_t bars = notation_.bars_of(symbol);
             write_symbol(symbol, bars);
@@ -630,7 +636,8 @@ private:
 
     const Notation& notation_;
     const ScoreHead& head_;
-    std::span<const Cue> cues_;  ///< of the staff that is written
+    std::span<const Cue> cues_;      ///< of the staff that is written
+    std::set<std::int64_t> graces_;  ///< onsets of grace notes in any voice
 };
 
 }  // namespace

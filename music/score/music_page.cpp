@@ -328,7 +328,9 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     out.put("</g>\n<g id=\"bars\">\n");
     // Every bar, or every 2nd, 4th, 8th if lines would merge into grey; a number at most every 12 mm.
     const BarLines bars(head);
-    const auto bar = static_cast<double>(bars.length(0)) * width_of_tick;
+    std::int64_t shortest = bars.length(0);
+    for (const SectionChange& change : head.changes) shortest = std::min(shortest, change.to.meter.bar());
+    const auto bar = static_cast<double>(shortest) * width_of_tick;
     std::int64_t every = 1;
     while (bar * static_cast<double>(every) < 3.0) every *= 2;
     std::int64_t named = every;

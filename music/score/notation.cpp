@@ -775,7 +775,11 @@ NotatedVoice Notator::fill(int number, std::vector<Note> notes, std::size_t inde
         symbol.begins_slur = slur != slurs.end() && slur->first == i;
         symbol.ends_slur = slur != slurs.end() && slur->last == i;
         symbol.cents = cents_above(note.key, symbol.pitch);
-        if (has_graces_ && note.grace != 0) symbol.grace = {written(note.key + 0.01 * note.grace), 0, 0, false};
+        if (has_graces_ && note.grace != 0) {
+            const Pitch grace = written(note.key + 0.01 * note.grace);
+            // The degree above may be nearer than a quarter tone.
+            if (grace.key() != symbol.pitch.key()) symbol.grace = {grace, 0, 0, false};
+        }
         for (const double key : chords[i]) {
             const Pitch pitch = written(key);
             symbol.chord.push_back({pitch, 0, cents_above(key, pitch)});

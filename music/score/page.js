@@ -2,24 +2,24 @@
 const data = JSON.parse(document.getElementById("score").textContent);
 const notes = data.notes, end = data.end;
 /* Bars of one length: tick and number of the first, length. */
-const stretches = [];
+const spans = [];
 for (const [tick, length] of data.bars) {
-  const before = stretches[stretches.length - 1];
-  stretches.push({tick, length, first: before ? before.first + (tick - before.tick) / before.length : 0});
+  const before = spans[spans.length - 1];
+  spans.push({tick, length, first: before ? before.first + (tick - before.tick) / before.length : 0});
 }
-function stretchFor(isBefore) {
-  let i = stretches.length - 1;
-  while (i > 0 && !isBefore(stretches[i])) --i;
-  return stretches[i];
+function spanFor(isBefore) {
+  let i = spans.length - 1;
+  while (i > 0 && !isBefore(spans[i])) --i;
+  return spans[i];
 }
 /* Converts a tick to bars, counted from 0, with a fraction; tickOf() converts back. */
 function barAt(tick) {
-  const stretch = stretchFor(one => one.tick <= tick);
-  return stretch.first + (tick - stretch.tick) / stretch.length;
+  const span = spanFor(one => one.tick <= tick);
+  return span.first + (tick - span.tick) / span.length;
 }
 function tickOf(bar) {
-  const stretch = stretchFor(one => one.first <= bar);
-  return stretch.tick + (bar - stretch.first) * stretch.length;
+  const span = spanFor(one => one.first <= bar);
+  return span.tick + (bar - span.first) * span.length;
 }
 const ONSET = 0, DURATION = 1, KEY = 2, VOICE = 3, VELOCITY = 4, X0 = 5, Y0 = 6, X1 = 7, Y1 = 8;
 const GLIDE = 9, SEMITONES = 10, RISE = 11;  // of notes that slide
@@ -537,7 +537,7 @@ function drawRoll(tick) {
   context.lineWidth = 1;
   context.strokeStyle = theme.line;
   context.beginPath();
-  const barWidth = stretches[0].length / shownTicks * w;
+  const barWidth = Math.min(...spans.map(one => one.length)) / shownTicks * w;
   let every = 1;
   while (barWidth * every < 7) every *= 2;
   let named = every;

@@ -129,6 +129,7 @@ struct SectionTempo {
     std::optional<double> tempo;  ///< quarters a minute
     std::string tempo_words;
     std::optional<Meter> meter;
+    bool follows_curve = false;
 };
 
 /// A change of tempo or meter at the bar line where a section begins.

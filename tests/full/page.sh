@@ -12,3 +12,5 @@ here=$(realpath "$(dirname "$0")")
 timeout 120 node "$here/page.mjs" "$folder" "$browser" x.html $screenshot
 "$program" --quiet play blues -o blues.html
 timeout 120 node "$here/parts.mjs" "$folder" "$browser" blues.html
+"$program" --quiet play rooms -o rooms.html
+timeout 120 node "$here/bars.mjs" "$folder" "$browser" rooms.html

@@ -250,6 +250,16 @@ TEST(Arrangement, SectionsFollowTheForm) {
               12);
 }
 
+/// The remarks of a score in memory.
+std::vector<std::string> remarks_of(const std::string& text, std::string_view format = "mid") {
+    MemoryDestination memory;
+    std::vector<std::string> remarks;
+    for (const Remark& remark : plan_score(read(text), format, {})->make(memory, "score", {}).remarks) {
+        if (remark.is_warning) remarks.push_back(remark.text);
+    }
+    return remarks;
+}
+
 /// A of a bar of 4/4, B of one of 3/4 at half the tempo and a tone higher.
 const std::string two_sections =
     "tempo = 120\nform = \"A B A\"\n[[section]]\nname = \"B\"\ntempo = \"60 Adagio\"\nmeter = \"3/4\"\ntonic = "
@@ -277,6 +287,25 @@ TEST(Arrangement, SectionsHaveTheirOwnTempoMeterAndKeys) {
               2u);
     EXPECT_TRUE(notes_of("form = \"B B\"\n[[section]]\nname = \"B\"\ntempo = 60\n" + track("section = \"B\"\n"))
                     .changes.empty());
+}
+
+TEST(Arrangement, TheFirstSectionHasItsOwnTempoAndMeter) {
+    // 5/8 at 90; the piece, and B, are in 4/4 at 120.
+    const std::string first = "[[section]]\nname = \"A\"\ntempo = \"90 Moderato\"\nmeter = \"5/8\"\n";
+    const std::string tracks = track("section = \"A\"\n") + track("section = \"B\"\n");
+    const NoteList list = notes_of("form = \"A B A A\"\n" + first + tracks);
+    EXPECT_EQ(list.tempo, 90);
+    EXPECT_EQ(list.meter, (Meter{5, 8}));
+    EXPECT_EQ(list.changes,
+              (std::vector<SectionChange>{{1200, {120, "", {4, 4}}}, {3120, {90, "Moderato", {5, 8}}}}));
+    EXPECT_EQ(told(list, 1), "1200:60/240 1440:62/240 1680:64/240 1920:62/480");
+    EXPECT_EQ(list.end, 3120 + 2400);
+    const NoteList alone = notes_of("form = \"A\"\n" + first + track("section = \"A\"\n"));
+    EXPECT_EQ(alone.tempo, 90);
+    EXPECT_EQ(alone.meter, (Meter{5, 8}));
+    EXPECT_TRUE(alone.changes.empty());
+    EXPECT_EQ(notes_of("form = \"A B\"\n" + first + tracks, {{"from-bar", "2"}}).meter, (Meter{4, 4}));
+    EXPECT_TRUE(remarks_of("form = \"A B\"\n" + first + tracks).empty());
 }
 
 TEST(Arrangement, ExcerptsBeginWithTheTempoAndMeterOfTheirSection) {
@@ -360,20 +389,12 @@ TEST(Arrangement, KeysOfSectionsAreChecked) {
     EXPECT_TRUE(has(refusal("name = \"A\"\nending = \"fermata\"\n"), "ending belongs to the whole piece"));
     EXPECT_TRUE(has(refusal("name = \"A\"\ntmpo = 90\n"), "unknown key 'tmpo'; did you mean 'tempo'?"))
         << refusal("name = \"A\"\ntmpo = 90\n");
+    EXPECT_TRUE(has(refusal("name = \"A\"\nn = 3\nfoo = 1\n"), "'n' belongs to a track"));
+    EXPECT_TRUE(has(refusal("name = \"A\"\nn = 3\nfoo = 1\n"), "unknown key 'foo'")) << "both";
     EXPECT_TRUE(has(refusal("name = \"A\"\ntempo = 0\n"), "tempo: ")) << refusal("name = \"A\"\ntempo = 0\n");
     EXPECT_TRUE(has(refusal("name = \"A\"\nmeter = \"3/5\"\n"), "meter: "));
     EXPECT_TRUE(
         has(error_of([] { read("section = \"A\"\n" + track("")); }, "none"), "section: expected [[section]] tables"));
-}
-
-/// The remarks of a score in memory.
-std::vector<std::string> remarks_of(const std::string& text, std::string_view format = "mid") {
-    MemoryDestination memory;
-    std::vector<std::string> remarks;
-    for (const Remark& remark : plan_score(read(text), format, {})->make(memory, "score", {}).remarks) {
-        if (remark.is_warning) remarks.push_back(remark.text);
-    }
-    return remarks;
 }
 
 TEST(Arrangement, RemarksNameTheRangeOfTheTrack) {

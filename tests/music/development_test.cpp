@@ -186,7 +186,7 @@ TEST(Thinning, KeepsBeatsThenStrongBeats) {
                 const auto& [onset, end, degree] = plain[i];
                 const bool is_second = onset >= length;
                 const std::int64_t begin = is_second ? length : 0;
-                const std::int64_t stop = is_second ? std::get<1>(plain.back()) : length;
+                const std::int64_t stop = std::get<1>(is_second ? plain.back() : one.back());
                 const bool is_last = i + 1 == plain.size() || (!is_second && std::get<0>(plain[i + 1]) >= length);
                 const double left = static_cast<double>(stop - onset) / static_cast<double>(stop - begin);
                 const std::int64_t place = onset % bar;
@@ -208,6 +208,7 @@ TEST(Thinning, KeepsBeatsThenStrongBeats) {
     EXPECT_NE(said("thinning: 2\n").find("from 0 to 1"), std::string::npos);
     EXPECT_NE(said("thinning: 0.5\nvertical: glissando\n").find("cannot be combined"), std::string::npos);
     EXPECT_NE(error_of([] { notes_of("axiom: F+F\nthinning: 0.5\n"); }).find("needs 'phrases:'"), std::string::npos);
+    EXPECT_NE(said("form: Ak\nharmony: bass 1\n").find("a korvai cannot be combined"), std::string::npos);
     // Chords stay.
     const auto chords = [](const std::string& more) {
         const NoteList list = notes_of(hilbert + "harmony: triads\n" + more);

@@ -316,7 +316,7 @@ TEST(Expression, GamakasArePrintedAsGraceNotes) {
     EXPECT_FALSE(has(ly, "\\glissando")) << ly;
     const std::string lines = printed("jaru 1, kampita 2", "ly", false);
     EXPECT_FALSE(has(lines, "\\acciaccatura"));
-    EXPECT_TRUE(has(lines, "e'2\\glissando d'2")) << lines;
+    EXPECT_TRUE(has(lines, "e'2\\glissando | % 1")) << lines;
     EXPECT_TRUE(has(printed("meend 0, kampita 2", "ly"), "c'2\\glissando\\mf \\acciaccatura fis'8 e'2"));
     EXPECT_TRUE(has(printed("jaru 1, kampita 2", "abc"), "{/F}E4 | {/E}D4")) << printed("jaru 1, kampita 2", "abc");
     pugi::xml_document xml;
@@ -328,6 +328,18 @@ TEST(Expression, GamakasArePrintedAsGraceNotes) {
         EXPECT_EQ(note.child("duration").empty(), !note.child("grace").empty());
     }
     EXPECT_EQ(notes, "C F/ E E/ D G F ");
+    // Other staves leave room, so that bar lines and clefs stay in line.
+    const std::string staves =
+        "mapping: symbols\ntempo: 60\ninstrument: violin\nnote A: degree 0 1/2\nnote B: degree 4 1/2\n"
+        "axiom: [AABA][BBAB]\ngamaka: kampita 0\n";
+    const std::string both = play(parse("e.lsys", staves), "ly", {{"grace-notes", "true"}});
+    EXPECT_EQ(count_of(both, "\\acciaccatura"), 4u) << both;
+    EXPECT_EQ(count_of(both, "\\grace s8 g'2"), 4u) << both;
+    // The degree above may be more than a tone away.
+    const std::string wide =
+        "mapping: symbols\ntempo: 60\naxiom: A\nnote A: degree 2 1/2\nscale: major pentatonic\n"
+        "gamaka: kampita all\n";
+    EXPECT_TRUE(has(play(parse("e.lsys", wide), "ly", {{"grace-notes", "true"}}), "\\acciaccatura g'8 e'2"));
     // An accidental of a grace note applies to the end of the bar.
     const std::string signs =
         "mapping: symbols\nnote A: degree 2 1/4\nnote B: degree 3 1/4\naxiom: AB\nscale: lydian\n"
