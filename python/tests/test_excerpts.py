@@ -14,7 +14,7 @@ import pytest
 import sikku
 
 PIECES = [pattern.name for pattern in sikku.patterns() if pattern.kind == "melodies"]
-ARRANGEMENTS = ["blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "rooms", "seven"]
+ARRANGEMENTS = ["blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "seven"]  # of one meter each
 PIECES += ["hilbert", "peano", "quadratic-gosper", "arrowhead", "dragon"]
 KEYS = [
     {},
