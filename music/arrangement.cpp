@@ -247,11 +247,12 @@ private:
             if (name == one.table.end())
                 fail(one, "this section has no name; expected a letter such as name = \"B\"");
             const char letter = section_of("name", name->value);
-            const auto [section, is_new] = sections_.try_emplace(letter);
-            if (!is_new) fail(one, fmt::format("two sections are named {}", letter));
-            section->second.place = &name->value;
+            const auto found = sections_.try_emplace(letter);
+            if (!found.second) fail(one, fmt::format("two sections are named {}", letter));
+            Section& section = found.first->second;
+            section.place = &name->value;
             for (const auto& [key, inner] : one.table) {
-                collect([&, &key = key, &inner = inner] { read_key_of_section(key, inner, section->second); });
+                collect([&, &key = key, &inner = inner] { read_key_of_section(key, inner, section); });
             }
         }
     }
