@@ -141,7 +141,8 @@ TEST(ArrangementProgram, TheBundledOnesAreCleanAndPlayOneToTwoMinutes) {
     const ScratchFolder folder;
     const Outcome names = run(Arguments{"patterns", "arrangements", "--names"});
     EXPECT_EQ(names.output, "blues\ncanon\nfugue\ngamelan\ninvention\nmohanam\nraga\nrooms\nseven\n");
-    for (const char* name : {"blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "rooms", "seven"}) {
+    for (const char* name :
+         {"blues", "canon", "fugue", "gamelan", "invention", "mohanam", "raga", "rooms", "seven"}) {
         const std::string score = folder.file(std::string(name) + ".mid");
         const Outcome played = run(Arguments{"play", name, "-o", score});
         EXPECT_EQ(played.status, 0) << played.errors;
