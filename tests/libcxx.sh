@@ -10,6 +10,7 @@ for needed in "$library" /usr/include/fast_float; do
 done
 command -v clang++ > /dev/null || { echo "skipped: compiling with libc++ 13 (clang is not installed)"; exit 0; }
 options=(-std=c++20 -fsyntax-only -nostdinc++ -isystem "$library" -I. "-I$build/art" "-I$build/music")
+for folder in harfbuzz fribidi; do options+=(-isystem "/usr/include/$folder"); done
 for name in VERSION MODULES_FROM_DATA {DATA,PATTERNS,MODULES,STUDIO}_{RELATIVE,INSTALLED}; do
     options+=("-DSIKKU_$name=\"\"")
 done
