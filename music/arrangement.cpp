@@ -389,12 +389,13 @@ private:
         }
         diagnostics.throw_if_errors();
         if (std::find(inner_.begin(), inner_.end(), track.pattern) != inner_.end()) note_replaced(document, track);
-        const Document stated = document;
+        const bool is_first = result_.tracks.empty() && !sections_.empty();
+        const Meter stated = is_first ? meter_of(document) : Meter();
         for (const PlacedSetting& one : track.settings) {
             collect([&] { document = with(document, one); });
         }
         if (errors_.size() > before) return;
-        if (result_.tracks.empty()) first_meter_ = tempo_of(own).meter.value_or(meter_of(stated));
+        if (is_first) first_meter_ = tempo_of(own).meter.value_or(stated);
         require_turtle(document, "it has no melody");
         Diagnostics unplayable;
         check_phrases(document.pattern(), document.grammar(), unplayable);
@@ -447,12 +448,16 @@ private:
         return document;
     }
 
+    /// True if a section is in the form of the piece.
+    bool is_played(char letter) const {
+        return std::any_of(result_.form.begin(), result_.form.end(),
+                           [&](const FormSection& one) { return one.letter == letter - 'A'; });
+    }
+
     void check_sections(const FileValue& tracks, const FileValue* form) const {
         for (std::size_t i = 0; i < result_.tracks.size(); ++i) {
             const char section = result_.tracks[i].section;
-            const bool is_played = std::any_of(result_.form.begin(), result_.form.end(),
-                                               [&](const FormSection& one) { return one.letter == section - 'A'; });
-            if (section != 0 && !is_played) {
+            if (section != 0 && !is_played(section)) {
                 fail(tracks.list[i],
                      result_.form.empty()
                          ? fmt::format("section {} needs a form above the first track, such as form = \"A B A\"",
@@ -461,10 +466,8 @@ private:
             }
         }
         for (const auto& [letter, section] : sections_) {
-            const bool is_played =
-                std::any_of(result_.form.begin(), result_.form.end(),
-                            [&, &letter = letter](const FormSection& one) { return one.letter == letter - 'A'; });
-            if (!is_played) fail(*section.place, fmt::format("section {} is not in the form of the piece", letter));
+            if (!is_played(letter))
+                fail(*section.place, fmt::format("section {} is not in the form of the piece", letter));
         }
         for (const FormSection& one : result_.form) {
             const bool has_tracks =

@@ -198,6 +198,22 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     sort(block.notes);
 }
 
+/// The end of the last note that is not part of a chord; 0 if there is none.
+std::int64_t end_of_melody(const Block& block, const Melody& melody) {
+    std::int64_t end = 0;
+    for (const FormNote& one : block.notes) {
+        if (!is_chord(one, block, melody)) end = std::max(end, one.note.onset + one.note.duration);
+    }
+    return end;
+}
+
+/// The last note of the first voice that has a degree, or null.
+const FormNote* last_with_degree(const Block& block) {
+    const auto last = std::find_if(block.notes.rbegin(), block.notes.rend(),
+                                   [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
+    return last == block.notes.rend() ? nullptr : &*last;
+}
+
 /// The ticks at which sub-curves begin.
 std::vector<std::int64_t> begins_of(const Block& block) {
     std::vector<std::int64_t> begins = {0};
@@ -226,11 +242,7 @@ private:
 /// Reverses a section, whose breath stays at its end.
 void reverse_section(Block& piece, const Melody& melody) {
     const std::int64_t length = piece.length;
-    std::int64_t end = 0;  // end of the melody
-    for (const FormNote& one : piece.notes) {
-        if (!is_chord(one, piece, melody)) end = std::max(end, one.note.onset + one.note.duration);
-    }
-    piece = cut(piece, 0, end);
+    piece = cut(piece, 0, end_of_melody(piece, melody));
     reverse(piece);
     piece.length = length;
 }
@@ -284,10 +296,7 @@ void move_notes(std::vector<FormNote>& notes, const Melody& melody, const Degree
 void repeat_as_korvai(Block& piece, const Melody& melody) {
     constexpr int times = 3;
     const std::int64_t bar = melody.meter.bar();
-    std::int64_t sounding = 0;
-    for (const FormNote& one : piece.notes) {
-        if (!is_chord(one, piece, melody)) sounding = std::max(sounding, one.note.onset + one.note.duration);
-    }
+    const std::int64_t sounding = end_of_melody(piece, melody);
     if (sounding == 0) return;
     std::int64_t pause = 0;
     std::int64_t rest = bar;
@@ -311,9 +320,8 @@ void repeat_as_korvai(Block& piece, const Melody& melody) {
 
 /// Ends a korvai with the tonic on the downbeat, held for a bar.
 void land(Block& piece, const Melody& melody) {
-    const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
-                                   [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
-    if (last == piece.notes.rend()) return;
+    const FormNote* const last = last_with_degree(piece);
+    if (!last) return;
     FormNote goal = *last;
     const auto period = static_cast<std::int64_t>(melody.scale.size());
     goal.degree = mapping::goal_near(last->degree, 0, period, bounds_of(melody), melody.answer);
@@ -344,9 +352,8 @@ void change_section(Block& piece, const Melody& melody, const FormSection& secti
 /// The ending of a section; the last of a form ends on the tonic if cadences alternate.
 Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
     if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
-    const auto last = std::find_if(piece.notes.rbegin(), piece.notes.rend(),
-                                   [](const FormNote& one) { return one.has_degree && one.note.voice == 0; });
-    if (last == piece.notes.rend()) return Ending::none;
+    const FormNote* const last = last_with_degree(piece);
+    if (!last) return Ending::none;
     const bool is_tonic = (last->degree - melody.answer) % static_cast<std::int64_t>(melody.scale.size()) == 0;
     return is_tonic ? Ending::none : Ending::closed;
 }
