@@ -80,7 +80,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
     all.past = true;
     for (const Player& player : ensemble.players) {
         std::uint64_t& moved = all.moved_of.emplace_back();
-        const std::int64_t start = start_of(player, ensemble.meter);
+        const std::int64_t start = start_of(player, ensemble.meter, ensemble);
         const std::int64_t later = std::max<std::int64_t>(0, start - playing.from);
         PartSink part(sink, player.first_voice, later, to_score(player));
         PlayOptions options = playing;
@@ -90,7 +90,7 @@ EnsembleReport stream(const Ensemble& ensemble, const PlayOptions& playing, Note
             if (all.end == 0) continue;
             options.to = std::min(playing.to, playing.from + all.end);
         }
-        options = piece_of_part(player, ensemble.meter, options);
+        options = piece_of_part(player, ensemble, options);
         if (options.from >= options.to) continue;
         PlayReport report = player.play(part, options);
         report.end = to_score(player).of(std::min(report.end, std::int64_t{1} << 50));
@@ -209,16 +209,18 @@ private:
             const Layout& layout = player.melody.layout;
             WholePart part;
             part.player = &player;
-            part.start = start_of(player, ensemble_.meter_of(player));
+            part.start = start_of(player, ensemble_.meter_of(player), ensemble_);
             PlayOptions options = playing_;
             options.drums_from = player.drums_from;
             options.chords_from = player.chords_from;
-            options.from = 0;
-            options.to = player.is_bass ? leading : INT64_MAX;
+            const std::int64_t begin = player.melody.begin();
+            options.from = begin;
+            options.to = player.is_bass ? begin + leading : INT64_MAX;
             if (!layout.needs_whole() && player.section == 0 && playing_.to < INT64_MAX) {
                 options.to = std::min(
-                    options.to, std::max<std::int64_t>(
-                                    1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
+                    options.to,
+                    begin + std::max<std::int64_t>(
+                                1, layout.tempo.of(std::max<std::int64_t>(0, playing_.to - part.start)) + 1));
             }
             cut_excerpt(player, options);
             // A drone continues evenly, independently of the form of the melody.
@@ -438,13 +440,14 @@ private:
 
 }  // namespace
 
-std::int64_t start_of(const Player& player, const Meter& meter) {
-    return std::llround(player.melody.layout.start * static_cast<double>(meter.bar()));
+std::int64_t start_of(const Player& player, const Meter& meter, const Ensemble& ensemble) {
+    const std::int64_t before = ensemble.upbeat - player.melody.layout.opening();
+    return std::llround(player.melody.layout.start * static_cast<double>(meter.bar())) + before;
 }
 
-PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOptions& playing) {
+PlayOptions piece_of_part(const Player& player, const Ensemble& ensemble, const PlayOptions& playing) {
     const Layout& layout = player.melody.layout;
-    const std::int64_t start = start_of(player, meter);
+    const std::int64_t start = start_of(player, ensemble.meter, ensemble);
     PlayOptions options = playing;
     options.from = std::max<std::int64_t>(0, playing.from - start);
     if (playing.to <= start) {
@@ -456,6 +459,8 @@ PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOp
         options.from = layout.tempo.of(options.from);
         if (options.to < INT64_MAX) options.to = layout.tempo.of(options.to);
     }
+    options.from += player.melody.begin();
+    if (options.to < INT64_MAX) options.to += player.melody.begin();
     cut_excerpt(player, options);
     return options;
 }
@@ -545,6 +550,8 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
     playing.watch = [monitor](std::uint64_t symbols) { monitor.advance(symbols); };
     const std::int64_t bar = ensemble.meter.bar();
     Integer from = Integer(options.from_bar - 1) * bar;
+    // The first bar includes its upbeat.
+    if (from > 0) from += ensemble.upbeat;
     const Integer farthest = Integer(1) << 60;
     if (from > farthest) {
         Integer periods = 1;
@@ -571,6 +578,7 @@ PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, cons
         if (options.bars > 0) playing.to = bars.onset(first + std::min(options.bars, most_bars));
     } else if (options.bars > 0) {
         playing.to = playing.from + std::min(options.bars, (INT64_MAX / 4) / bar) * bar;
+        if (playing.from == 0) playing.to += ensemble.upbeat;
     }
     if (options.seconds > 0) {
         const double ticks = ticks_after(ensemble, playing.from, options.seconds);

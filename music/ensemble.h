@@ -19,13 +19,14 @@ struct Ensemble {
     double tempo = 120;             ///< quarters a minute
     std::string tempo_words;        ///< printed before it; may be empty
     Meter meter;
+    std::int64_t upbeat = 0;                        ///< ticks before the first bar line; 0: it begins at a bar line
     TempoAndMeter piece{};                          ///< those of sections that state none
     std::map<char, SectionTempo> section_tempos{};  ///< tempo and meter of sections that state them
     std::vector<SectionChange> changes{};           ///< of tempo and meter, at the bar lines where sections begin
     Close close = Close::none;
     bool ends_excerpts = false;  ///< excerpts end with `close`, too, not only the whole
 
-    BarLines bar_lines() const { return {meter, changes}; }
+    BarLines bar_lines() const { return {meter, changes, upbeat}; }
     /// Tempo and meter from a tick on.
     TempoAndMeter tempo_and_meter(std::int64_t tick) const {
         return tempo_and_meter_at({tempo, tempo_words, meter}, changes, tick);
@@ -73,11 +74,11 @@ std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayO
 /// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);
 
-/// Tick of the score, or of its section, at which a part begins. @param meter  of the score or the section
-std::int64_t start_of(const Player& player, const Meter& meter);
+/// Tick of the score, or of its section, at which a part begins. @param meter  of the section
+std::int64_t start_of(const Player& player, const Meter& meter, const Ensemble& ensemble);
 
 /// The piece of the score in ticks of a part. If `from` is not below `to`, the part is silent there.
-PlayOptions piece_of_part(const Player& player, const Meter& meter, const PlayOptions& playing);
+PlayOptions piece_of_part(const Player& player, const Ensemble& ensemble, const PlayOptions& playing);
 
 /// Plays all parts into `sink` like play_all(), but accepts silence and does not call finish().
 EnsembleReport play_parts(const Ensemble& ensemble, const PlayOptions& playing, NoteSink& sink);

@@ -13,7 +13,7 @@ namespace sikku {
 namespace {
 
 /// Replaces `anchor: piece` by the height of the first note of the excerpt.
-void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) {
+void fix_anchor(Player& player, const Ensemble& ensemble, const PlayOptions& playing) {
     Melody& melody = player.melody;
     if (melody.anchor != Anchor::piece) return;
     Melody plain = melody;
@@ -25,8 +25,8 @@ void fix_anchor(Player& player, const Meter& meter, const PlayOptions& playing) 
     // Degrees are not changed, even far from the tonic.
     plain.lowest = -std::numeric_limits<double>::infinity();
     plain.highest = std::numeric_limits<double>::infinity();
-    const PlayOptions whole = piece_of_part(player, meter, playing);
-    for (std::int64_t length = meter.bar(); whole.from < whole.to; length *= 2) {
+    const PlayOptions whole = piece_of_part(player, ensemble, playing);
+    for (std::int64_t length = ensemble.meter.bar(); whole.from < whole.to; length *= 2) {
         PlayOptions options = whole;
         options.to = whole.to - whole.from > length ? whole.from + length : whole.to;
         const auto first_degree = [&](Anchor anchor) {
@@ -103,7 +103,7 @@ ExcerptContext context_of(const Ensemble& ensemble, const PlayOptions& excerpt, 
 Ensemble with_fixed_anchors(Ensemble ensemble, const PlayOptions& excerpt) {
     // Scores that are read as a whole begin at their first note in any case.
     if (ensemble.needs_whole()) return ensemble;
-    for (Player& player : ensemble.players) fix_anchor(player, ensemble.meter, excerpt);
+    for (Player& player : ensemble.players) fix_anchor(player, ensemble, excerpt);
     return ensemble;
 }
 

@@ -336,8 +336,9 @@ private:
     }
 
     bool has_later_part(std::int64_t tick) const {
-        return std::any_of(ensemble_.players.begin(), ensemble_.players.end(),
-                           [&](const Player& player) { return start_of(player, ensemble_.meter) >= tick; });
+        return std::any_of(ensemble_.players.begin(), ensemble_.players.end(), [&](const Player& player) {
+            return start_of(player, ensemble_.meter, ensemble_) >= tick;
+        });
     }
 
     std::optional<ExpressionSink> measured_;
@@ -364,7 +365,7 @@ std::int64_t grid_of(const Ensemble& ensemble, const PlayOptions& playing) {
         const Ratio tempo = player.melody.layout.tempo;
         if (tempo.is_one()) continue;
         const std::int64_t part = tempo.below / std::gcd(tempo.above, tempo.below);
-        if ((playing.from - start_of(player, ensemble.meter)) % part != 0) return 0;
+        if ((playing.from - start_of(player, ensemble.meter, ensemble)) % part != 0) return 0;
         if (part > most_grid) return 0;
         grid = std::lcm(grid, part);
         if (grid > most_grid) return 0;

@@ -234,10 +234,12 @@ bool has_excerpt(const Player& player) {
 void cut_excerpt(const Player& player, PlayOptions& options) {
     const Layout& layout = player.melody.layout;
     const std::int64_t bar = player.melody.meter.bar();
-    const std::int64_t first = (layout.first_bar - 1) * bar;
+    // The bar of an upbeat has no number, and belongs to the first.
+    const std::int64_t before = layout.first_bar - 1 + (layout.upbeat > 0 ? 1 : 0);
+    const std::int64_t first = layout.first_bar > 1 ? before * bar : 0;
     options.from += first;
     if (options.to < INT64_MAX) options.to += first;
-    if (layout.bars > 0) options.to = std::min(options.to, first + layout.bars * bar);
+    if (layout.bars > 0) options.to = std::min(options.to, (before + layout.bars) * bar);
 }
 
 Integer bars_of(const Integer& ticks, const Meter& meter) {
@@ -279,6 +281,8 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         const auto known = is_all ? census(player.document.grammar(), melody) : std::nullopt;
         std::optional<PlayReport> played;
         PlayOptions of_part = playing;
+        of_part.from += player.melody.begin();
+        if (of_part.to < INT64_MAX) of_part.to += player.melody.begin();
         cut_excerpt(player, of_part);
         try {
             NullSink nobody;
@@ -291,7 +295,7 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         const std::string notes = played              ? std::to_string(played->notes)
                                   : known->has_chance ? "at most " + known->notes.str()
                                                       : known->notes.str();
-        const Integer ticks = played ? Integer(played->end) : known->ticks;
+        const Integer ticks = played ? Integer(played->end) : known->ticks - melody.lead();
         // Several parts slow down together.
         const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(

@@ -63,6 +63,7 @@ Notation Rendition::print_within(const ExcerptContext& context) const {
     ScoreHead whole_head = head;
     whole_head.meter = ensemble.tempo_and_meter(context.playing.from).meter;
     whole_head.changes = changes_after(ensemble.changes, context.playing.from);
+    whole_head.upbeat = context.playing.from == 0 && context.playing.ahead == 0 ? ensemble.upbeat : 0;
     if (ensemble.close != Close::none) {
         NullSink nobody;
         const bool has_end = context.is_whole || play_parts(whole, context.playing, nobody).end < length;

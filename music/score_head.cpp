@@ -116,6 +116,7 @@ ScoreHead head_of(const PlaySettings& settings, Ensemble& ensemble, const Arrang
     head.tempo = first.tempo;
     head.tempo_words = first.tempo_words;
     head.meter = first.meter;
+    if (playing.from == 0 && playing.ahead == 0) head.upbeat = ensemble.upbeat;
     head.changes = changes_after(ensemble.changes, playing.from);
     if (playing.to < INT64_MAX) {
         std::erase_if(head.changes,

@@ -129,7 +129,7 @@ std::string bars_with_faults(const std::vector<std::int64_t>& ticks, const BarLi
     constexpr std::size_t most_named = 4;
     std::vector<std::int64_t> bars;
     for (const std::int64_t tick : ticks) {
-        const std::int64_t bar = lines.number(tick) + 1;
+        const std::int64_t bar = lines.printed_number(tick);
         if (bars.empty() || bars.back() != bar) bars.push_back(bar);
     }
     if (bars.empty()) return "";

@@ -57,7 +57,8 @@ public:
         const ScoreHead head = make_head(playing, most_voices);  // numbers the voices of the parts
         NoteCollector collector(static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)));
         perform(ensemble_, playing, use(), human(), collector);
-        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter, head.changes, head.parts};
+        NoteList result{collector.notes(), collector.end(), head.tempo, head.meter,
+                        head.upbeat,       head.changes,    head.parts};
         sort_by_time(result.notes);
         return result;
     }
@@ -221,7 +222,16 @@ private:
             ensemble_.tempo_words = arrangement_->tempo_words;
         }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
+        for (const Player& player : ensemble_.players) {
+            ensemble_.upbeat = std::max(ensemble_.upbeat, player.melody.layout.opening());
+        }
         if (arrangement_) ensemble_.section_tempos = arrangement_->section_tempos;
+        if (ensemble_.upbeat > 0 && !ensemble_.section_tempos.empty()) {
+            throw ScoreError("'upbeat:' cannot be combined with sections that state tempo or meter");
+        }
+        if (ensemble_.upbeat >= ensemble_.meter.bar()) {
+            throw ScoreError("the upbeat of a part is not shorter than a bar of the score");
+        }
         for (auto& [section, stated] : ensemble_.section_tempos) {
             if (is_option("tempo")) stated.tempo.reset();
             if (is_option("meter")) stated.meter.reset();

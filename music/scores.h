@@ -51,6 +51,7 @@ struct NoteList {
     std::int64_t end = 0;     ///< end of the score in ticks, rests included
     double tempo = 120.0;     ///< quarter notes per minute
     Meter meter;
+    std::int64_t upbeat = 0;             ///< ticks before the first bar line; 0: it begins at a bar line
     std::vector<SectionChange> changes;  ///< of tempo and meter after the beginning
     std::vector<Part> parts;
 };

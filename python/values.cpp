@@ -116,7 +116,8 @@ py::tuple to_tuple(const NoteList& list) {
         const Meter& meter = change.to.meter;
         changes.append(py::make_tuple(change.onset, change.to.tempo, py::make_tuple(meter.beats, meter.unit)));
     }
-    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit, changes);
+    return py::make_tuple(to_arrays(list.notes), list.end, list.tempo, list.meter.beats, list.meter.unit, changes,
+                          list.upbeat);
 }
 
 py::tuple to_arrays(const std::vector<Note>& notes) {

@@ -189,7 +189,8 @@ void close_chords(Block& block, const Melody& melody, const Note& last, Ending e
     std::erase_if(block.notes, [](const FormNote& one) { return one.note.duration <= 0; });
     const Chord chord = triad_on(melody.scale, is_open ? fifth_degree(melody.scale) : 0);
     const std::int64_t bar = melody.meter.bar();
-    for (Note note : mapping::Accompaniment(melody).bar(last.onset / bar * bar, &chord, nullptr, true)) {
+    for (Note note :
+         mapping::Accompaniment(melody).bar((last.onset + melody.begin()) / bar * bar, &chord, nullptr, true)) {
         note.onset = last.onset;
         note.duration = end - last.onset;
         note.voice = static_cast<std::int16_t>(note.voice + block.chords_from);
@@ -301,7 +302,7 @@ void repeat_as_korvai(Block& piece, const Melody& melody) {
     std::int64_t pause = 0;
     std::int64_t rest = bar;
     for (std::int64_t tried = melody.unit; tried < std::max(bar, 2 * melody.unit) && rest > 0; tried += melody.unit) {
-        const std::int64_t over = (times * sounding + (times - 1) * tried) % bar;
+        const std::int64_t over = (times * sounding + (times - 1) * tried + melody.begin()) % bar;
         const std::int64_t needed = (bar - over) % bar;
         if (needed >= rest) continue;
         rest = needed;
@@ -334,10 +335,26 @@ void land(Block& piece, const Melody& melody) {
     piece.length += goal.note.duration;
 }
 
+/// Keeps the last two bars of a section, and repeats the last one with notes twice as long.
+void make_coda(Block& piece, const Melody& melody) {
+    const std::int64_t bar = melody.meter.bar();
+    const std::int64_t end = (end_of_melody(piece, melody) + bar - 1) / bar * bar;
+    const std::int64_t last = std::max<std::int64_t>(0, end - bar);
+    Block again = cut(piece, last, end);
+    scale_times(again, {2, 1});
+    piece = cut(piece, std::max<std::int64_t>(0, end - 2 * bar), end);
+    for (FormNote& one : again.notes) {
+        one.note.onset += piece.length;
+        piece.notes.push_back(one);
+    }
+    piece.length = end_of_melody(piece, melody);
+}
+
 /// Applies the changes that a form states for a section.
 void change_section(Block& piece, const Melody& melody, const FormSection& section) {
     if (section.is_retrograde) reverse_section(piece, melody);
     scale_times(piece, section.augmentation);
+    if (section.is_coda) make_coda(piece, melody);
     if (section.is_korvai) repeat_as_korvai(piece, melody);
     if (!section.has_other_degrees()) return;
     const auto first =
@@ -351,6 +368,8 @@ void change_section(Block& piece, const Melody& melody, const FormSection& secti
 
 /// The ending of a section; the last of a form ends on the tonic if cadences alternate.
 Ending ending_of(const Block& piece, const Melody& melody, const FormSection& section, bool is_last) {
+    // A coda ends on the tonic.
+    if (section.is_coda && section.ending == Ending::none) return Ending::closed;
     if (!is_last || section.ending != Ending::none || melody.cadence != Cadence::alternate) return section.ending;
     const FormNote* const last = last_with_degree(piece);
     if (!last) return Ending::none;
@@ -514,7 +533,7 @@ void thin_out(Block& block, const Melody& melody, double share) {
         const std::int64_t end = ends[phrase];
         const double left = static_cast<double>(end - note.onset) / static_cast<double>(end - begin);
         const bool stays = left > share || note.onset == last[{note.voice, phrase}] ||
-                           (left > share / 2 ? beats : strong).contains(note.onset % bar);
+                           (left > share / 2 ? beats : strong).contains((note.onset + melody.begin()) % bar);
         const auto held = before.find(note.voice);
         const bool continues = held != before.end() && held->second.second == phrase;
         if (!stays && continues) {
@@ -592,16 +611,18 @@ void add_drone(Block& block, const Melody& melody, int first_voice) {
     if (first_voice == 0) first_voice = melody.own_voices();
     const mapping::Accompaniment drone(melody);
     const std::int64_t bar = melody.meter.bar();
-    for (std::int64_t begin = 0; begin < block.length; begin += bar) {
+    block.length = (block.length + bar - 1) / bar * bar;
+    for (std::int64_t begin = melody.layout.opening(); begin < block.length; begin += bar) {
         if (block.notes.size() >= most_block_notes) {
             throw ScoreError(fmt::format("the drone would have more than {} notes", most_block_notes));
         }
         for (Note note : drone.bar(begin, nullptr)) {
             note.voice = static_cast<std::int16_t>(note.voice + first_voice);
+            if (note.onset >= block.length) continue;
+            note.duration = std::min(note.duration, block.length - note.onset);
             block.notes.push_back({note, 0, false});
         }
     }
-    block.length = (block.length + bar - 1) / bar * bar;
     sort(block.notes);
 }
 

@@ -20,7 +20,7 @@ struct FormNote {
     bool has_degree = false;
 };
 
-/// Notes of one part from its first tick.
+/// Notes of one part from its first tick, that of its upbeat if it has one.
 struct Block {
     std::vector<FormNote> notes;     ///< by onset, then by voice
     std::vector<std::int64_t> ends;  ///< ticks at which sub-curves end and the next ones begin, if they are marked
@@ -43,7 +43,7 @@ void reverse(Block& block);
 
 /// Puts sub-curves in the order of the form: A is the first of the curve, B the second. In retrograde, each
 /// sub-curve and their order are reversed; cadences and breaths stay at the ends of the sections. Sections begin at
-/// bar lines, after a rest if need be.
+/// bar lines, or with the upbeat before them, after a rest if need be.
 /// @param grammar  grammar of the block, to suggest a derivation length if sub-curves are missing
 /// @param ends  ticks at which sections end, taken from another part; empty: those of the curve
 /// @throws ScoreError if the curve has too few sub-curves

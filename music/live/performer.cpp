@@ -465,8 +465,8 @@ private:
         if (!tells_places_ || beat_tick_ > tick) return;
         const std::int64_t place = beat_tick_ - pass_;
         const BarLines& bars = version_->bars();
-        port_.send_place({bars.number(place) + 1, static_cast<int>(bars.place(place) / version_->beat(place)) + 1},
-                         due());
+        port_.send_place(
+            {bars.printed_number(place), static_cast<int>(bars.place(place) / version_->beat(place)) + 1}, due());
         aim_at_beat(tick + 1);
     }
 

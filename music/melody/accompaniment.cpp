@@ -57,11 +57,11 @@ std::vector<Note> Accompaniment::bar(std::int64_t begin, const Chord* chord, con
     std::vector<Note> notes;
     if (!chord) return notes;
     const std::int64_t length = melody_.meter.bar();
-    const Voicing keys = voicing_of(begin / length, *chord);
+    const Voicing keys = voicing_of(melody_.bar_number(begin), *chord);
     if (is_last || melody_.figure.layers.empty()) {
         strike({}, {begin, length, 60, 0, soft}, *chord, keys, silent, notes);
     } else {
-        const double next_bass = next ? voicing_of(begin / length + 1, *next)[0] : silent;
+        const double next_bass = next ? voicing_of(melody_.bar_number(begin) + 1, *next)[0] : silent;
         for (const Figure::Layer& layer : melody_.figure.layers) {
             const std::int64_t slot = length / layer.slots;
             for (const Figure::Stroke& stroke : layer.strokes) {

@@ -18,7 +18,7 @@ class Clock {
 public:
     using Number = typename Walk::Number;
     explicit Clock(const Melody& melody)
-        : melody_(melody), rhythm_(&melody.rhythm), has_rhythm_(!melody.rhythm.empty()) {}
+        : melody_(melody), rhythm_(&melody.rhythm), has_rhythm_(!melody.rhythm.empty()), breaths_(melody.lead()) {}
 
     std::int64_t ticks(Number steps) const {
         if (has_rhythm_) return slot_ticks(steps - begin_, false) + breaths_;
@@ -30,7 +30,7 @@ public:
     }
     /// Maximum duration of a number of steps and phrases, in ticks.
     Integer longest(const Integer& steps, const Integer& phrases) const {
-        return (steps / hits() + 1) * cycle() + phrases * melody_.breath;
+        return (steps / hits() + 1) * cycle() + phrases * melody_.breath + melody_.lead();
     }
     /// Advances by a number of steps and phrases, which do not begin at bar lines, and subtracts as many of their
     /// ticks from `ahead` as possible: later notes come that much earlier, on the same hits of the rhythm.
@@ -82,12 +82,13 @@ public:
             breaths_ += (phrases * breath).convert_to<std::int64_t>();
             return;
         }
-        // The next phrase begins with its rhythm, perhaps at a bar line.
+        // The next phrase begins with its rhythm, perhaps at a bar line or with its upbeat.
         const std::int64_t bar = melody_.breathes_to_bar ? melody_.meter.bar() : 1;
         std::int64_t end = end_ticks(steps) + breath;
         // Without a bar line, rests of the rhythm before its next note count.
         if (!melody_.breathes_to_bar) end = std::max(end, ticks(steps));
-        breaths_ = (end + bar - 1) / bar * bar;
+        const std::int64_t lead = melody_.lead();
+        breaths_ = (end - lead + bar - 1) / bar * bar + lead;
         begin_ = steps;
         if (melody_.rhythms.empty()) return;
         if (melody_.has_rhythms_by_level) return choose_rhythm(above);
@@ -140,8 +141,8 @@ private:
     const RhythmTemplate* rhythm_;  // of the phrase
     std::size_t rhythm_number_ = 0;
     bool has_rhythm_;
-    std::int64_t breaths_ = 0;  // ticks
-    Number begin_ = 0;          // step from which times count: the start of the phrase if it begins at a bar line
+    std::int64_t breaths_;  // ticks of rests so far, with that before an upbeat
+    Number begin_ = 0;      // step from which times count: the start of the phrase if it begins at a bar line
     int phrases_ = 0;
 };
 

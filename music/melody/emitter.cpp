@@ -107,7 +107,7 @@ void Emitter::finish(std::int64_t end) {
 }
 
 void Emitter::accompany(std::int64_t begin, const Chord* chord, const Chord* next, bool is_last) {
-    if (!accompaniment_) return;
+    if (!accompaniment_ || begin < melody_.lead()) return;
     for (Note note : accompaniment_->bar(begin, chord, next, is_last)) {
         const std::int64_t from = std::max(note.onset, options_.from);
         const std::int64_t to = std::min(note.onset + note.duration, options_.to);

@@ -70,6 +70,8 @@ bool change(FormSection& section, char sign, std::string_view text, std::size_t&
             return !std::exchange(section.is_retrograde, true);
         case 'k':
             return !std::exchange(section.is_korvai, true);
+        case 'c':
+            return !std::exchange(section.is_coda, true);
         case '+':
         case '-':
             if (section.degrees != 0) return false;
@@ -165,8 +167,9 @@ private:
         read_key(
             "form",
             "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending; "
-            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 (shorter) and Ak (a korvai) "
-            "change a section; `order 2` may follow",
+            "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 (shorter), Ak (a korvai) and "
+            "Ac "
+            "(a coda) change a section; `order 2` may follow",
             [&](std::string_view text) {
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");

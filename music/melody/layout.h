@@ -23,7 +23,8 @@ struct Ratio {
 enum class Ending { none, open, closed };
 
 /// A section of a form: `A`, `A1` with an open ending, `A2` with a closed one; `A+2` in sequence, two degrees higher;
-/// `Ai` inverted, `Ar` reversed; `A*2` and `A/2` with longer or shorter notes; `Ak` three times, as a korvai.
+/// `Ai` inverted, `Ar` reversed; `A*2` and `A/2` with longer or shorter notes; `Ak` three times, as a korvai; `Ac` as
+/// a coda.
 struct FormSection {
     int letter = 0;  ///< 0 is A
     Ending ending = Ending::none;
@@ -32,8 +33,11 @@ struct FormSection {
     bool is_retrograde = false;
     Ratio augmentation;
     bool is_korvai = false;  ///< played three times, ending at a bar line
+    bool is_coda = false;    ///< only its last two bars, and the last of them again with notes twice as long
     bool has_other_degrees() const { return is_inverted || degrees != 0; }
-    bool is_changed() const { return has_other_degrees() || is_retrograde || !augmentation.is_one() || is_korvai; }
+    bool is_changed() const {
+        return has_other_degrees() || is_retrograde || !augmentation.is_one() || is_korvai || is_coda;
+    }
 };
 
 /// A voice that repeats a part.
@@ -49,6 +53,7 @@ enum class Loop { none, times, fill, common };
 /// Where and how a part is played.
 struct Layout {
     double start = 0;            ///< bars of the score before it
+    std::int64_t upbeat = 0;     ///< ticks before its first bar line, less than a bar; 0: it begins at a bar line
     Ratio tempo;                 ///< speed, compared with the score
     Ratio augmentation;          ///< factor of all durations
     std::int64_t first_bar = 1;  ///< first bar of the melody to play, counted from 1
@@ -64,6 +69,8 @@ struct Layout {
     std::vector<Follower> canon;
     bool is_strict = false;  ///< notes yield to earlier parts: see counterpoint.h
 
+    /// Ticks before its first bar line; an excerpt that begins later has none.
+    std::int64_t opening() const { return first_bar > 1 ? 0 : upbeat; }
     /// True if all notes must be known before the first one is played.
     bool needs_whole() const {
         return is_retrograde || !form.empty() || thinning > 0 || climax || loop != Loop::none || is_strict;

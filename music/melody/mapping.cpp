@@ -426,6 +426,7 @@ std::optional<MelodyCensus> census(const Grammar& given, const Melody& melody) {
         result.ticks = slots * melody.unit;
     }
     if (whole.marks > 0) result.ticks += (whole.marks - 1) * melody.breath;
+    result.ticks += melody.lead();
     if (whole.crossings[0]) {
         result.height = whole.crossings[0]->high - whole.crossings[0]->low;
     }

@@ -467,8 +467,27 @@ private:
             return is_good;
         });
         melody_.layout = read_layout(pattern_, diagnostics_);
+        read_upbeat();
         augment();
         read_sections();
+    }
+
+    void read_upbeat() {
+        const Key* key = pattern_.find("upbeat");
+        if (!key || lower_case(key->value.view()) == "none") return;
+        constexpr std::int64_t finest = ticks_per_quarter / 16;
+        const std::int64_t whole_note = 4 * ticks_per_quarter;
+        std::int64_t above = 0;
+        std::int64_t below = 1;
+        const bool is_good = fraction(*key, above, below) && above > 0 && below > 0 && above <= 64 * below &&
+                             above * whole_note % (below * finest) == 0;
+        const std::int64_t ticks = is_good ? above * whole_note / below : 0;
+        if (!is_good || ticks >= melody_.meter.bar()) {
+            return fail(*key, "expected a note value shorter than a bar, in 64ths, such as 1/8, 1/4 or 3/8, or none");
+        }
+        if (!melody_.layout.tempo.is_one()) return fail(*key, "'upbeat:' cannot be combined with 'speed:'");
+        if (melody_.layout.is_retrograde) return fail(*key, "'upbeat:' cannot be combined with 'retrograde:'");
+        melody_.layout.upbeat = ticks;
     }
 
     /// Multiplies the unit and the breath by the augmentation.

@@ -106,6 +106,12 @@ struct Melody {
     Layout layout;               ///< its place in the score
     MelodicExpression expression;  ///< how velocity, tempo, pan and pitch follow the curve
 
+    /// Ticks of the melody before its first note: the part of the first bar that its upbeat leaves out.
+    std::int64_t lead() const { return layout.upbeat > 0 ? meter.bar() - layout.upbeat : 0; }
+    /// The tick of the melody at which the part begins.
+    std::int64_t begin() const { return layout.opening() > 0 ? lead() : 0; }
+    /// The number of the bar in which a tick of the melody lies, from 0; that of an upbeat is -1.
+    std::int64_t bar_number(std::int64_t tick) const { return tick / meter.bar() - (layout.upbeat > 0 ? 1 : 0); }
     /// True if a phrase begins with its rhythm, perhaps at a bar line.
     bool restarts_rhythm() const { return breathes_to_bar || !rhythms.empty(); }
     /// True if a phrase depends on all phrases before it.

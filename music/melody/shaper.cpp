@@ -119,8 +119,9 @@ void Shaper::cadence(std::vector<Draft>& notes, bool is_odd) const {
 const Chord* Shaper::given_chord(std::int64_t tick) const {
     if (melody_.progression.empty()) return nullptr;
     if (last_bar_ >= 0 && tick >= last_bar_) return &melody_.progression.front();
-    const auto bar = static_cast<std::uint64_t>(tick / melody_.meter.bar());
-    return &melody_.progression[bar % melody_.progression.size()];
+    const auto size = static_cast<std::int64_t>(melody_.progression.size());
+    // An upbeat belongs to the last chord.
+    return &melody_.progression[static_cast<std::size_t>((melody_.bar_number(tick) + size) % size)];
 }
 
 bool Shaper::is_strong(const Draft& note) const {

@@ -316,7 +316,8 @@ private:
             }
             altered.clear();
             const bool is_last = end == notation_.end();
-            const bool ends_line = is_last || bar_lines.number(end) % bars_on_a_line_ == 0;
+            const std::int64_t full_bars = bar_lines.printed_number(end) - 1;
+            const bool ends_line = is_last || (full_bars > 0 && full_bars % bars_on_a_line_ == 0);
             if (is_last) put("{}", line_of_octaves(octaves, ')'));
             const std::vector<std::int64_t>& doubled = notation_.double_bars;
             const bool is_double = std::binary_search(doubled.begin(), doubled.end(), end);
@@ -388,7 +389,7 @@ private:
     void write_symbol(const NotatedSymbol& symbol, int octaves, const std::array<int, 7>& signs,
                       std::set<int>& altered) {
         const bool is_bar =
-            symbol.length == notation_.bar_lines.length(symbol.onset) && symbol.kind != SymbolKind::note;
+            symbol.length == notation_.bar_lines.written(symbol.onset) && symbol.kind != SymbolKind::note;
         const std::string length = length_of(is_bar ? symbol.length : symbol.value.ticks());
         if (symbol.slows_down) put("\"^rit.\"");
         if (symbol.has_fermata) put("!fermata!");

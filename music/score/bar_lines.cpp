@@ -10,7 +10,9 @@ BarLines::BarLines(const Meter& meter) {
     add(0, meter);
 }
 
-BarLines::BarLines(const Meter& meter, const std::vector<SectionChange>& changes) : BarLines(meter) {
+BarLines::BarLines(const Meter& meter, const std::vector<SectionChange>& changes, std::int64_t upbeat)
+    : BarLines(meter) {
+    if (upbeat > 0) stretches_.front().onset = upbeat - stretches_.front().bar;
     for (const SectionChange& change : changes) add(change.onset, change.to.meter);
 }
 
@@ -38,10 +40,11 @@ std::int64_t BarLines::onset(std::int64_t number) const {
     const auto next = std::upper_bound(stretches_.begin() + 1, stretches_.end(), number,
                                        [](std::int64_t one, const Stretch& other) { return one < other.number; });
     const Stretch& stretch = *(next - 1);
-    return stretch.onset + (number - stretch.number) * stretch.bar;
+    return std::max<std::int64_t>(0, stretch.onset + (number - stretch.number) * stretch.bar);
 }
 
 BarLines BarLines::from(std::int64_t tick) const {
+    if (tick == 0) return *this;
     BarLines result(meter(tick));
     for (const Stretch& stretch : stretches_) {
         if (stretch.onset > tick) result.add(stretch.onset - tick, stretch.meter);

@@ -3,27 +3,36 @@
 
 #include "music/score/score.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 namespace sikku {
 
 /// The bar lines of a score. Bars are counted from 0, and ticks from the beginning of the score or the excerpt. Each
-/// lookup costs O(log changes).
+/// lookup costs O(log changes). With an upbeat, the first bar begins before the score: places, lengths and begin()
+/// are those of a full bar.
 class BarLines {
 public:
     /// Bars of one meter.
     BarLines(const Meter& meter = {});  // NOLINT(google-explicit-constructor): a meter is the common case
     /// Bars of the meters of a score. @param changes  ascending, at bar lines of the meters before them
-    BarLines(const Meter& meter, const std::vector<SectionChange>& changes);
-    explicit BarLines(const ScoreHead& head) : BarLines(head.meter, head.changes) {}
+    /// @param upbeat  ticks before the first bar line, less than a bar; 0: none
+    BarLines(const Meter& meter, const std::vector<SectionChange>& changes, std::int64_t upbeat = 0);
+    explicit BarLines(const ScoreHead& head) : BarLines(head.meter, head.changes, head.upbeat) {}
 
     /// The meter of the bar in which a tick lies.
     const Meter& meter(std::int64_t tick) const { return at(tick).meter; }
     /// The length of the bar in which a tick lies.
     std::int64_t length(std::int64_t tick) const { return at(tick).bar; }
+    /// Ticks of the bar in which a tick lies that are part of the score: fewer than its length in an upbeat.
+    std::int64_t written(std::int64_t tick) const { return end(tick) - std::max<std::int64_t>(0, begin(tick)); }
     /// The number of the bar in which a tick lies.
     std::int64_t number(std::int64_t tick) const;
+    /// The number by which readers know this bar: from 1, or from 0 with an upbeat.
+    std::int64_t printed_number(std::int64_t tick) const { return number(tick) + (upbeat() > 0 ? 0 : 1); }
+    /// Ticks before the first bar line; 0 without an upbeat.
+    std::int64_t upbeat() const { return stretches_.front().onset < 0 ? end(0) : 0; }
     /// The ticks at which this bar begins and ends.
     std::int64_t begin(std::int64_t tick) const { return tick - place(tick); }
     std::int64_t end(std::int64_t tick) const { return begin(tick) + length(tick); }
@@ -32,9 +41,9 @@ public:
         const Stretch& stretch = at(tick);
         return (tick - stretch.onset) % stretch.bar;
     }
-    /// The first bar line from a tick on.
-    std::int64_t next(std::int64_t tick) const { return place(tick) == 0 ? tick : end(tick); }
-    /// The tick at which a bar begins.
+    /// The first bar line from a tick on; the beginning of the score is one.
+    std::int64_t next(std::int64_t tick) const { return tick == 0 || place(tick) == 0 ? tick : end(tick); }
+    /// The tick at which a bar begins in the score.
     std::int64_t onset(std::int64_t number) const;
     /// The number of bars that begin before a tick.
     std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
@@ -52,7 +61,7 @@ private:
     void add(std::int64_t onset, const Meter& meter);
     const Stretch& at(std::int64_t tick) const;
 
-    std::vector<Stretch> stretches_;  ///< ascending, the first at 0
+    std::vector<Stretch> stretches_;  ///< ascending, the first at 0, or before it with an upbeat
 };
 
 /// The tempo and meter with which a score begins.

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -36,6 +37,12 @@ std::string pitch_name(const Pitch& pitch) {
     // c without a mark is C3.
     const int marks = pitch.octave - 3;
     return name.append(static_cast<std::size_t>(std::abs(marks)), marks > 0 ? '\'' : ',');
+}
+
+/// A length in ticks as a fraction of a whole note.
+std::string part_of_whole(std::int64_t ticks) {
+    const std::int64_t common = std::gcd(ticks, 4 * ticks_per_quarter);
+    return fmt::format("{}/{}", ticks / common, 4 * ticks_per_quarter / common);
 }
 
 std::string length_name(NoteValue value) {
@@ -383,6 +390,9 @@ private:
                 const std::optional<KeySignature>& key = part.keys.front().key;
                 put("        \\clef {} {}{}{}\n", clef_name(staff.changes.front().clef), key ? key_name(*key) : "",
                     key ? " " : "", meter_name(head_.meter));
+                if (const std::int64_t upbeat = notation_.bar_lines.upbeat(); upbeat > 0) {
+                    put("        \\partial 1*{}\n", part_of_whole(upbeat));
+                }
                 if (has_tempo && head_.first_bar > 1 && head_.first_bar < INT32_MAX) {
                     put("        \\set Score.currentBarNumber = #{}\n", head_.first_bar);
                 }
@@ -548,7 +558,7 @@ private:
                 is_last && !notation_.is_cut                              ? "\\bar \"|.\" "
                 : std::binary_search(doubled.begin(), doubled.end(), end) ? "\\bar \"||\" "
                                                                           : "",
-                head_.first_bar - 1 + bar_lines.number(end));
+                head_.first_bar - 2 + bar_lines.printed_number(end));
             if (!is_last) put("        ");
         }
     }
@@ -602,7 +612,9 @@ private:
                                   return cue.from <= symbol.onset && symbol.onset < cue.to;
                               });
         const Meter& meter = notation_.bar_lines.meter(symbol.onset);
-        put("{}{}1*{}/{}{}{}", is_below ? "\\voiceTwo " : "", is_rest ? "R" : "s", meter.beats, meter.unit,
+        const bool is_short = symbol.length < meter.bar();
+        put("{}{}1*{}{}{}", is_below ? "\\voiceTwo " : "", is_rest ? "R" : "s",
+            is_short ? part_of_whole(symbol.length) : fmt::format("{}/{}", meter.beats, meter.unit),
             bars > 1 ? fmt::format("*{}", bars) : "", is_below ? " \\oneVoice" : "");
     }
 

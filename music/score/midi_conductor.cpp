@@ -45,6 +45,15 @@ void check_head(const ScoreHead& head) {
     }
 }
 
+/// The meter of a bar of some ticks, a multiple of 30, in a meter.
+Meter short_meter(std::int64_t ticks, const Meter& meter) {
+    const std::int64_t whole_note = 4 * ticks_per_quarter;
+    Meter result{0, meter.unit, {}};
+    while (ticks % (whole_note / result.unit) != 0) result.unit *= 2;
+    result.beats = static_cast<int>(ticks / (whole_note / result.unit));
+    return result;
+}
+
 std::string meter_bytes(const Meter& meter) {
     const int power = std::countr_zero(static_cast<unsigned>(meter.unit));
     // The metronome clicks with every unit, in 24ths of a quarter; a quarter has eight 32nds.
@@ -71,7 +80,8 @@ std::string Conductor::make_opening(bool is_mpe) const {
     bytes += meta_now(text_type, head_->pattern);
     bytes += meta_now(text_type, head_->made);
     bytes += meta_now(tempo_type, big_endian(static_cast<std::uint64_t>(micro), 3));
-    bytes += meta_now(meter_type, meter_bytes(head_->meter));
+    const bool has_upbeat = head_->upbeat > 0;
+    bytes += meta_now(meter_type, meter_bytes(has_upbeat ? short_meter(head_->upbeat, head_->meter) : head_->meter));
     if (!head_->parts.empty() && head_->parts.front().key) {
         const KeySignature key = *head_->parts.front().key;
         bytes += meta_now(key_type, std::string{static_cast<char>(key.fifths), static_cast<char>(key.minor)});
@@ -105,14 +115,17 @@ std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
         if (!is_late) last = point.tick;
         result.push_back({last, static_cast<std::uint32_t>(std::min(std::round(60e6 / tempo), 0x1p24 - 1))});
     }
+    const auto add_meter = [&](std::int64_t onset, const Meter& meter) {
+        const auto after =
+            std::upper_bound(result.begin(), result.end(), onset,
+                             [](std::int64_t tick, const ConductorChange& other) { return tick < other.tick; });
+        result.insert(after, {onset, 0, &meter});
+    };
+    if (head_->upbeat > 0) add_meter(head_->upbeat, head_->meter);
     const Meter* before = &head_->meter;
     for (const SectionChange& change : head_->changes) {
         const Meter& meter = change.to.meter;
-        if (meter == *std::exchange(before, &meter)) continue;
-        const auto after =
-            std::upper_bound(result.begin(), result.end(), change.onset,
-                             [](std::int64_t tick, const ConductorChange& other) { return tick < other.tick; });
-        result.insert(after, {change.onset, 0, &meter});
+        if (meter != *std::exchange(before, &meter)) add_meter(change.onset, meter);
     }
     return result;
 }

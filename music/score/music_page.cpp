@@ -154,9 +154,10 @@ std::string subtitle(const ScoreHead& head, const Melody& melody) {
     return head.source.empty() ? text : fmt::format("{} · {}", shortened(head.source, 90), text);
 }
 
-/// Where the length of bars changes: [tick, length].
+/// Where the length of bars changes: [tick, length]. The bar of an upbeat begins before the score.
 std::string bars_text(const ScoreHead& head) {
-    std::string text = fmt::format("[0,{}]", std::max<std::int64_t>(head.meter.bar(), 1));
+    const std::int64_t bar = std::max<std::int64_t>(head.meter.bar(), 1);
+    std::string text = fmt::format("[{},{}]", head.upbeat > 0 ? head.upbeat - bar : 0, bar);
     for (const SectionChange& change : head.changes) {
         text += fmt::format(",[{},{}]", change.onset, change.to.meter.bar());
     }
@@ -335,13 +336,14 @@ void write_roll(const ScoreHead& head, const Melody& melody, const Panel& panel,
     while (bar * static_cast<double>(every) < 3.0) every *= 2;
     std::int64_t named = every;
     while (bar * static_cast<double>(named) < 12.0) named *= 2;
-    for (std::int64_t i = 0; bars.onset(i) <= melody.end; i += every) {
+    const std::int64_t first = bars.upbeat() > 0 ? 1 : 0;
+    for (std::int64_t i = first; bars.onset(i) <= melody.end; i += every) {
         const std::int64_t onset = bars.onset(i);
         out.put("<path class=\"bar\" stroke=\"#cfcfd8\" stroke-width=\"0.12\" d=\"M{} {}V{}\"/>\n",
                 number(across(onset)), number(panel.top), number(bottom));
-        if (i % named == 0 && onset < melody.end) {
+        if ((i - first) % named == 0 && onset < melody.end) {
             out.put("<text fill=\"#5c5c68\" font-size=\"2.8\" x=\"{}\" y=\"{}\">{}</text>\n", number(across(onset)),
-                    number(bottom + 4.0), i + 1);
+                    number(bottom + 4.0), i - first + 1);
         }
     }
     out.put("</g>\n<g id=\"roll\">\n");

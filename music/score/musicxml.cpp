@@ -187,7 +187,10 @@ private:
         TempoAndMeter before = tempo_and_meter_of(head_);
         const std::vector<std::int64_t>& doubled = notation_.double_bars;
         for (std::int64_t bar = 0; bar < notation_.bars; ++bar) {
-            put("<measure number=\"{}\">\n", head_.first_bar + bar);
+            const bool is_upbeat = bar == 0 && notation_.bar_lines.upbeat() > 0;
+            put("<measure number=\"{}\"{}>\n",
+                head_.first_bar - 1 + notation_.bar_lines.printed_number(notation_.bar_lines.onset(bar)),
+                is_upbeat ? " implicit=\"yes\"" : "");
             if (bar == 0) write_attributes(part);
             const std::int64_t begin = notation_.bar_lines.onset(bar);
             const bool has_key = key + 1 < keys.size() && keys[key + 1].onset == begin;
@@ -556,7 +559,7 @@ private:
         }
         if (pitch.octave < 0) {
             throw ScoreError(fmt::format("bar {} has a note below C0, the lowest that MusicXML can tell",
-                                         notation_.bar_lines.number(symbol.onset) + 1));
+                                         notation_.bar_lines.printed_number(symbol.onset)));
         }
         put("<pitch><step>{}</step>", "CDEFGAB"[pitch.letter]);
         if (pitch.quarters != 0) put("<alter>{}</alter>", 0.5 * pitch.quarters);

@@ -108,8 +108,8 @@ public:
         const std::int64_t begin = here_;
         while (here_ < end) {
             const std::int64_t bar_begin = bars_.begin(here_);
-            const std::int64_t bar = bars_.length(here_);
-            std::int64_t piece_end = std::min(end, bar_begin + bar);
+            const std::int64_t bar = bars_.written(here_);
+            std::int64_t piece_end = std::min(end, bars_.end(here_));
             if (!note && piece_end - here_ == bar) {
                 put({{bar, {}}}, -1);
                 voice_.symbols.back().kind = SymbolKind::bar_rest;
@@ -533,7 +533,7 @@ std::vector<std::pair<std::int64_t, ChordSign>> Notator::changes_of_chords() con
     ChordSign before;
     for (const auto& [onset, chord] : chords) {
         const auto& [end, sign] = chord;
-        const std::int64_t bar_begin = bar_lines_.begin(onset);
+        const std::int64_t bar_begin = std::max<std::int64_t>(0, bar_lines_.begin(onset));
         if (sign != before) changes.emplace_back(sounds_until <= bar_begin ? bar_begin : onset, sign);
         sounds_until = std::max(sounds_until, end);
         before = sign;

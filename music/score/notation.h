@@ -174,7 +174,7 @@ struct Notation {
     std::map<std::int64_t, std::int64_t> gathered_rests{};
     bool is_whole_rest(const NotatedSymbol& symbol) const {
         return symbol.kind == SymbolKind::bar_rest ||
-               (symbol.kind == SymbolKind::gap && symbol.length == bar_lines.length(symbol.onset));
+               (symbol.kind == SymbolKind::gap && symbol.length == bar_lines.written(symbol.onset));
     }
     /// The tick at which it ends.
     std::int64_t end() const { return bar_lines.onset(bars); }

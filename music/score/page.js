@@ -1,11 +1,11 @@
 "use strict";
 const data = JSON.parse(document.getElementById("score").textContent);
 const notes = data.notes, end = data.end;
-/* Bars of one length: tick and number of the first, length. */
+/* Bars of one length: tick and number of the first, length. That of an upbeat has number -1. */
 const spans = [];
 for (const [tick, length] of data.bars) {
   const before = spans[spans.length - 1];
-  spans.push({tick, length, first: before ? before.first + (tick - before.tick) / before.length : 0});
+  spans.push({tick, length, first: before ? before.first + (tick - before.tick) / before.length : tick < 0 ? -1 : 0});
 }
 function spanFor(isBefore) {
   let i = spans.length - 1;

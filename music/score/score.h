@@ -215,8 +215,9 @@ struct ScoreHead {
     std::string tempo_words;      ///< printed before it: `Andante`; may be empty
     std::int64_t ritardando = 0;  ///< ticks before the end in which the tempo falls to 60 %; 0: none
     Meter meter;
+    std::int64_t upbeat = 0;             ///< ticks before the first bar line, less than a bar; 0: none
     std::vector<SectionChange> changes;  ///< of tempo and meter, ascending, after the beginning
-    std::int64_t first_bar = 1;          ///< number of the first bar
+    std::int64_t first_bar = 1;          ///< number of the first bar; that of an upbeat is one less
     bool is_transposed = false;  ///< print: parts of transposing instruments are written as their players read them
     Syllables syllables = Syllables::none;  ///< print: under the notes
     bool has_chord_signs = false;           ///< print: chords are named above the first staff

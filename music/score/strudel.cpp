@@ -111,13 +111,16 @@ std::string strudel_link(const std::string& program) {
 }
 
 void write_strudel(const ScoreHead& head, const std::vector<Note>& notes, std::int64_t end, Output& out) {
+    // The first cycle begins with rests before an upbeat.
+    const std::int64_t lead = head.upbeat > 0 ? head.meter.bar() - head.upbeat : 0;
     std::vector<Note> timed = notes;
     for (Note& note : timed) {
         const std::int64_t note_end = at_first_tempo(note.onset + note.duration, head);
         note.onset = at_first_tempo(note.onset, head);
         note.duration = std::max<std::int64_t>(1, note_end - note.onset);
+        note.onset += lead;
     }
-    const std::string program = program_of(head, timed, at_first_tempo(end, head));
+    const std::string program = program_of(head, timed, at_first_tempo(end, head) + lead);
     out.write(fmt::format("// {}\n\n{}\n{}", strudel_link(program), head_comments(head, "//"), program));
 }
 

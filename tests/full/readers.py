@@ -37,6 +37,7 @@ CHOICES = {
     "breath": ["1/8 by level", "bar"],
     "climax": ["0.6"],
     "tempo": ["84 Andante con moto", "Allegro"],
+    "upbeat": ["1/8", "1/4", "3/16", "5/8"],
 }
 FLAGS = {"syllables": ["degrees", "sargam"], "score": ["concert"]}
 

@@ -130,6 +130,38 @@ TEST(Sections, FollowOneAnotherAtBarLines) {
 }
 
 /// A korvai is played three times; the test finds the pause by trying all.
+TEST(Sections, CloseWithACoda) {
+    for (const char* section : {"A", "B", "D"}) {
+        const std::string slow = "unit: 1/4\n";
+        const Told plain = form(section, slow);
+        const std::int64_t bars = (std::get<1>(plain.back()) + 1919) / 1920;
+        ASSERT_GE(bars, 2);
+        Told expected;
+        for (const auto& [onset, end, degree] : plain) {
+            const std::int64_t first = (bars - 2) * 1920, last = (bars - 1) * 1920;
+            if (end > first) expected.emplace_back(std::max<std::int64_t>(0, onset - first), end - first, degree);
+            if (end <= last) continue;
+            expected.emplace_back(2 * 1920 + 2 * std::max<std::int64_t>(0, onset - last), 2 * 1920 + 2 * (end - last),
+                                  degree);
+        }
+        std::sort(expected.begin(), expected.end());
+        const Told coda = form(std::string(section) + "c", slow);
+        // The last notes lead to the tonic.
+        EXPECT_EQ((std::get<2>(coda.back()) + 70) % 7, 0) << section;
+        ASSERT_EQ(coda.size(), expected.size()) << section;
+        for (std::size_t i = 0; i < coda.size(); ++i) {
+            EXPECT_EQ(std::get<0>(coda[i]), std::get<0>(expected[i])) << section << i;
+            EXPECT_EQ(std::get<1>(coda[i]), std::get<1>(expected[i])) << section << i;
+            if (i + 3 < coda.size()) {
+                EXPECT_EQ(std::get<2>(coda[i]), std::get<2>(expected[i])) << section << i;
+            }
+        }
+        // It begins at the bar line after the section.
+        EXPECT_EQ(std::get<0>(form(std::string(section) + section + "c", slow)[plain.size()]), bars * 1920)
+            << section;
+    }
+}
+
 TEST(Sections, EndAKorvaiOnTheDownbeat) {
     for (const char* meter : {"4/4", "3/4", "5/8", "7/8"}) {
         const std::int64_t bar = meter[2] == '4' ? (meter[0] - '0') * 480 : (meter[0] - '0') * 240;

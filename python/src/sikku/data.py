@@ -141,6 +141,8 @@ class Notes:
     """Beats per bar and their unit: (6, 8)."""
     changes: list[tuple[int, float, tuple[int, int]]] = field(default_factory=list)
     """Where sections begin with another tempo or meter: tick, quarter notes per minute, meter."""
+    upbeat: int = 0
+    """Ticks before the first bar line; 0: the score begins at one."""
 
     def __len__(self) -> int:
         return len(self.onset)
@@ -162,8 +164,8 @@ class Notes:
 
 def notes_from(listed: tuple[Any, ...]) -> Notes:
     """Notes of the arrays that the compiled part returns."""
-    (onset, duration, key, velocity, voice, curve), end, tempo, beats, unit, changes = listed
-    return Notes(onset, duration, key, velocity, voice, curve, end, tempo, (beats, unit), changes)
+    (onset, duration, key, velocity, voice, curve), end, tempo, beats, unit, changes, upbeat = listed
+    return Notes(onset, duration, key, velocity, voice, curve, end, tempo, (beats, unit), changes, upbeat)
 
 
 def only(outputs: dict[str, Union[str, bytes]]) -> Union[str, bytes]:
