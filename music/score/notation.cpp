@@ -29,6 +29,23 @@ constexpr std::size_t most_notes = 200'000;
 constexpr std::int64_t most_bars = 100'000;
 constexpr double unheard = 0.01;  // semitones
 
+/// An upbeat has rests of its length, once if all voices rest.
+void hide_rests_of_upbeat(Staff& staff, std::int64_t upbeat) {
+    const auto sounds = [&](const NotatedVoice& voice) {
+        return std::any_of(voice.symbols.begin(), voice.symbols.end(), [&](const NotatedSymbol& symbol) {
+            return symbol.kind == SymbolKind::note && symbol.onset < upbeat;
+        });
+    };
+    bool is_shown = std::any_of(staff.voices.begin(), staff.voices.end(), sounds);
+    for (NotatedVoice& voice : staff.voices) {
+        if (sounds(voice)) continue;
+        for (NotatedSymbol& symbol : voice.symbols) {
+            if (is_shown && symbol.onset < upbeat) symbol.kind = SymbolKind::gap;
+        }
+        is_shown = true;
+    }
+}
+
 /// Hides rests: a bar's rest is printed once, and only if all voices rest; rests of more than two voices do not fit.
 void hide_rests(Staff& staff, std::int64_t bars, const BarLines& bar_lines) {
     std::vector<bool> has_notes(static_cast<std::size_t>(bars), false);
@@ -48,6 +65,7 @@ void hide_rests(Staff& staff, std::int64_t bars, const BarLines& bar_lines) {
             if (symbol.kind == SymbolKind::rest && i > 1) symbol.kind = SymbolKind::gap;
         }
     }
+    if (bar_lines.upbeat() > 0) hide_rests_of_upbeat(staff, bar_lines.upbeat());
 }
 
 /// Gives hands that state dynamics their own, if these are fewer marks.
@@ -108,7 +126,7 @@ public:
         const std::int64_t begin = here_;
         while (here_ < end) {
             const std::int64_t bar_begin = bars_.begin(here_);
-            const std::int64_t bar = bars_.written(here_);
+            const std::int64_t bar = bars_.length(here_);
             std::int64_t piece_end = std::min(end, bars_.end(here_));
             if (!note && piece_end - here_ == bar) {
                 put({{bar, {}}}, -1);

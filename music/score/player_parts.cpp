@@ -192,7 +192,6 @@ std::set<std::int64_t> breaks_of(const Notation& player) {
     std::set<std::int64_t> breaks;
     const auto add = [&](std::int64_t onset) { breaks.insert(player.bar_lines.number(onset)); };
     for (const std::int64_t onset : player.double_bars) add(onset);
-    if (player.bar_lines.upbeat() > 0) breaks.insert(1);
     for (const KeyChange& key : part.keys) add(key.onset);
     for (const Staff& staff : part.staves) {
         for (const StaffChange& change : staff.changes) add(change.onset);

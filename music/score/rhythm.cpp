@@ -182,7 +182,8 @@ Grid grid_of(std::span<const Note> notes, const BarLines& bars) {
 bool Grid::add(std::int64_t from, std::int64_t length, int actual, int normal, std::span<const std::int64_t> times) {
     const TupletSpan span{from, from + length, actual, normal, static_cast<int>(whole_note * normal / length)};
     // The ticks of a quarter are not divisible by 7, so septuplets are rounded.
-    const bool fits = (length % actual == 0 || actual == 7) && length % normal == 0 &&
+    // A tuplet cannot begin before an upbeat.
+    const bool fits = from >= 0 && (length % actual == 0 || actual == 7) && length % normal == 0 &&
                       length / normal >= shortest_value &&
                       std::all_of(times.begin(), times.end(),
                                   [&](std::int64_t time) { return span.tick(span.note_at(time)) == time; });
