@@ -347,7 +347,7 @@ void make_coda(Block& piece, const Melody& melody) {
         one.note.onset += piece.length;
         piece.notes.push_back(one);
     }
-    piece.length = end_of_melody(piece, melody);
+    piece = cut(piece, 0, end_of_melody(piece, melody));
 }
 
 /// Applies the changes that a form states for a section.

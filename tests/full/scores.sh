@@ -64,8 +64,8 @@ print(f"{sys.argv[2]}: {len(ours)} notes as in {sys.argv[1]}{shared}")
 END
 
 # Durations of five units, seven flats, a descent of its own, blues, voices from branches, tuplets, groups, a melody for
-# two hands, two parts.
-scores=(hilbert peano keys bilahari blues voices parts triplets quintuplets sextuplets groups hands)
+# two hands, two parts, upbeats.
+scores=(hilbert peano keys bilahari blues voices parts triplets quintuplets sextuplets groups hands upbeat swung)
 hilbert() { "$program" play hilbert -n 3 -o "$1"; }
 peano() { "$program" play peano-pentatonic -n 3 --unit 1/16 --meter 7/8 -o "$1"; }
 keys() { "$program" play hilbert-in-c -n 4 --tonic Cb4 --meter 5/8 -o "$1"; }
@@ -80,6 +80,8 @@ quintuplets() { "$program" play hilbert-in-c -n 4 --unit 1/20 --meter 3/4 -o "$1
 sextuplets() { "$program" play hilbert-in-c -n 4 --unit 1/24 --meter 6/8 -o "$1"; }
 groups() { "$program" play hilbert-todi --meter 3+2+2/8 -o "$1"; }
 hands() { "$program" play hilbert -n 5 --range "fold C1-C8" --velocity "by length" -o "$1"; }
+upbeat() { "$program" play hilbert-in-c -n 4 --upbeat 3/8 --meter 3/4 --harmony triads --phrases 2 --form "A B Ac" -o "$1"; }
+swung() { "$program" play dragon-drums -n 7 --upbeat 1/4 -o "$1"; }
 parts() { "$program" play hilbert-in-c peano-pentatonic -n 3 -o "$1"; }
 for score in "${scores[@]}"; do
     for ending in mid musicxml ly; do "$score" "$score.$ending" > log 2>&1 || { cat log; exit 1; }; done

@@ -156,6 +156,13 @@ TEST(Sections, CloseWithACoda) {
                 EXPECT_EQ(std::get<2>(coda[i]), std::get<2>(expected[i])) << section << i;
             }
         }
+        // Chords end with the melody.
+        const NoteList chords = notes_of(hilbert + slow + "harmony: triads\nform: A " + section + "c\n");
+        std::int64_t melody_end = 0;
+        for (const Note& note : chords.notes) {
+            if (note.voice == 0) melody_end = std::max(melody_end, note.onset + note.duration);
+        }
+        EXPECT_EQ(chords.end, melody_end) << section;
         // It begins at the bar line after the section.
         EXPECT_EQ(std::get<0>(form(std::string(section) + section + "c", slow)[plain.size()]), bars * 1920)
             << section;
