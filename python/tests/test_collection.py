@@ -38,6 +38,13 @@ def test_an_arrangement_of_files(tmp_path: Path) -> None:
     assert sikku.load_arrangement(text=piece.text).notes().key.tolist() == notes.key.tolist()
 
 
+def test_upbeats_are_told() -> None:
+    pattern = sikku.load(text="axiom: FF\nheading: 0\n")
+    assert pattern.notes().upbeat == 0
+    assert pattern.notes(upbeat="1/8").upbeat == 240
+    assert pattern.notes(upbeat="1/8", from_bar=2, bars=1, loop=9).upbeat == 0
+
+
 def test_sections_have_tempos_and_meters() -> None:
     frame = '[[section]]\nname = "B"\ntempo = 60\nmeter = "3/4"\n'
     tracks = "".join(f'[[track]]\npattern = "a"\nsection = "{letter}"\n' for letter in "AB")
