@@ -1,5 +1,7 @@
 #include "art/reading/picture.h"
 
+#include "engine/base/threads.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,7 @@
 namespace sikku {
 namespace {
 
-/// Averages over 2 r + 1 values along columns; values outside continue the border.
+/// Averages over 2 r + 1 values along columns, for strips of columns in parallel; values outside continue the border.
 void average_columns(const GreyPicture& from, GreyPicture& to, std::size_t r) {
     to.width = from.width;
     to.height = from.height;
@@ -18,31 +20,36 @@ void average_columns(const GreyPicture& from, GreyPicture& to, std::size_t r) {
     const std::size_t width = from.width;
     const auto row = [&](std::size_t y) { return from.values.data() + y * width; };
     const float share = 1.0F / static_cast<float>(2 * r + 1);
-    std::vector<float> sums(width);
-    for (std::size_t x = 0; x < width; ++x) {
-        double sum = static_cast<double>(r + 1) * row(0)[x];
-        for (std::size_t i = 1; i <= r; ++i) sum += row(std::min(i, last))[x];
-        sums[x] = static_cast<float>(sum);
-    }
-    for (std::size_t y = 0; y <= last; ++y) {
-        const float* enters = row(std::min(y + r + 1, last));
-        const float* leaves = row(y > r ? y - r : 0);
-        float* here = to.values.data() + y * width;
-        float* sum = sums.data();
-        for (std::size_t x = 0; x < width; ++x) {
-            here[x] = sum[x] * share;
-            sum[x] += enters[x] - leaves[x];
+    constexpr std::size_t strip = 512;
+    for_each_index((width + strip - 1) / strip, [&](std::size_t number) {
+        const std::size_t left = number * strip;
+        const std::size_t columns = std::min(strip, width - left);
+        std::array<float, strip> sums{};
+        for (std::size_t x = 0; x < columns; ++x) {
+            double sum = static_cast<double>(r + 1) * row(0)[left + x];
+            for (std::size_t i = 1; i <= r; ++i) sum += row(std::min(i, last))[left + x];
+            sums[x] = static_cast<float>(sum);
         }
-    }
+        for (std::size_t y = 0; y <= last; ++y) {
+            const float* enters = row(std::min(y + r + 1, last)) + left;
+            const float* leaves = row(y > r ? y - r : 0) + left;
+            float* here = to.values.data() + y * width + left;
+            for (std::size_t x = 0; x < columns; ++x) {
+                here[x] = sums[x] * share;
+                sums[x] += enters[x] - leaves[x];
+            }
+        }
+    });
 }
 
-/// Turns rows into columns, in blocks that fit into the cache.
+/// Turns rows into columns, in blocks that fit into the cache, and in parallel.
 void transpose(const GreyPicture& from, GreyPicture& to) {
     to.width = from.height;
     to.height = from.width;
     to.values.resize(from.values.size());
     constexpr std::size_t block = 32;
-    for (std::size_t top = 0; top < from.height; top += block) {
+    for_each_index((from.height + block - 1) / block, [&](std::size_t number) {
+        const std::size_t top = number * block;
         const std::size_t bottom = std::min(top + block, from.height);
         for (std::size_t left = 0; left < from.width; left += block) {
             const std::size_t right = std::min(left + block, from.width);
@@ -51,7 +58,7 @@ void transpose(const GreyPicture& from, GreyPicture& to) {
                 for (std::size_t y = top; y < bottom; ++y) column[y] = from.values[y * from.width + x];
             }
         }
-    }
+    });
 }
 
 /// The half widths of three averages that are nearly a Gaussian of a standard deviation, without those of 0.

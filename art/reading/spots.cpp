@@ -1,5 +1,7 @@
 #include "art/reading/spots.h"
 
+#include "engine/base/threads.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -149,38 +151,47 @@ void SpotFinder::find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor
     }
 }
 
-std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
-    std::vector<InkSpot> all;
-    find_pieces(all, monitor);
-    for (std::size_t scale = 0; scale < radii_.size(); ++scale) {
-        monitor.check();
-        const GreyPicture& picture = blurred_[scale];
-        const std::size_t w = picture.width;
-        for (std::size_t y = 1; y + 1 < picture.height; ++y) {
-            const float* row = &picture.values[y * w];
-            const float* above = row - w;
-            const float* below = row + w;
-            for (std::size_t x = 1; x + 1 < w; ++x) {
-                const float value = row[x];
-                if (value < 0.25F || value <= row[x - 1] || value < row[x + 1] || value <= above[x] ||
-                    value < below[x] || value <= above[x - 1] || value < below[x + 1] || value <= above[x + 1] ||
-                    value < below[x - 1]) {
-                    continue;
-                }
-                const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
-                const double found = strength(scale, at, 0.2);
-                if (found <= 0.2) continue;
-                // The top of a parabola through three values.
-                const auto offset = [](double before, double here, double after) {
-                    const double bend = before - 2 * here + after;
-                    return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-                };
-                all.push_back(
-                    {at + glm::dvec2(offset(row[x - 1], value, row[x + 1]), offset(above[x], value, below[x])),
-                     radii_[scale], found});
+void SpotFinder::find_peaks(std::size_t scale, std::vector<InkSpot>& spots) const {
+    const GreyPicture& picture = blurred_[scale];
+    const std::size_t w = picture.width;
+    for (std::size_t y = 1; y + 1 < picture.height; ++y) {
+        const float* row = &picture.values[y * w];
+        const float* above = row - w;
+        const float* below = row + w;
+        for (std::size_t x = 1; x + 1 < w; ++x) {
+            const float value = row[x];
+            if (value < 0.25F || value <= row[x - 1] || value < row[x + 1] || value <= above[x] || value < below[x] ||
+                value <= above[x - 1] || value < below[x + 1] || value <= above[x + 1] || value < below[x - 1]) {
+                continue;
             }
+            const glm::dvec2 at(static_cast<double>(x), static_cast<double>(y));
+            const double found = strength(scale, at, 0.2);
+            if (found <= 0.2) continue;
+            // The top of a parabola through three values.
+            const auto offset = [](double before, double here, double after) {
+                const double bend = before - 2 * here + after;
+                return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+            };
+            spots.push_back(
+                {at + glm::dvec2(offset(row[x - 1], value, row[x + 1]), offset(above[x], value, below[x])),
+                 radii_[scale], found});
         }
     }
+}
+
+std::vector<InkSpot> SpotFinder::find(const Monitor& monitor) const {
+    // The first list is of pieces, the others of peaks at a scale.
+    std::vector<std::vector<InkSpot>> lists(radii_.size() + 1);
+    for_each_index(lists.size(), [&](std::size_t number) {
+        monitor.check();
+        if (number == 0) {
+            find_pieces(lists[0], monitor);
+        } else {
+            find_peaks(number - 1, lists[number]);
+        }
+    });
+    std::vector<InkSpot> all;
+    for (const std::vector<InkSpot>& list : lists) all.insert(all.end(), list.begin(), list.end());
     std::sort(all.begin(), all.end(), [](const InkSpot& a, const InkSpot& b) {
         if (a.strength != b.strength) return a.strength > b.strength;
         return a.at.y != b.at.y ? a.at.y < b.at.y : a.at.x < b.at.x;

@@ -38,6 +38,8 @@ private:
     double strength(std::size_t scale, glm::dvec2 at, double limit) const;
     /// Pieces of ink that are small and round, however near other ink is.
     void find_pieces(std::vector<InkSpot>& spots, const Monitor& monitor) const;
+    /// Peaks of the ink at a scale that are higher than the ink around them.
+    void find_peaks(std::size_t scale, std::vector<InkSpot>& spots) const;
     std::vector<double> radii_;
     std::vector<GreyPicture> blurred_;
 };
