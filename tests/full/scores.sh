@@ -70,7 +70,7 @@ hilbert() { "$program" play hilbert -n 3 -o "$1"; }
 peano() { "$program" play peano-pentatonic -n 3 --unit 1/16 --meter 7/8 -o "$1"; }
 keys() { "$program" play hilbert-in-c -n 4 --tonic Cb4 --meter 5/8 -o "$1"; }
 bilahari() { "$program" play sierpinski-bilahari -n 4 --meter 3/4 -o "$1"; }
-blues() { "$program" play dragon-blues -n 7 --swing 50 -o "$1"; }
+blues() { "$program" play dragon-blues --swing 50 -o "$1"; }
 voices() {
     "$program" play tree-in-voices -n 2 --brackets voices --form curve --rhythm curve --phrases none --canon none \
         --counterpoint free -o "$1"
