@@ -66,11 +66,16 @@ void add(PlayReport& all, const PlayReport& one) {
     }
 }
 
+/// Ticks of whole or partial bars before the first bar of a part.
+std::int64_t ticks_before(const Player& player, const Meter& meter) {
+    return std::llround(player.melody.layout.start * static_cast<double>(meter.bar()));
+}
+
 /// @throws ScoreError always: the melody ends before its excerpt
 [[noreturn]] void refuse_excerpt(const Player& player) {
     const auto known = census(player.document.grammar(), player.melody);
     throw ScoreError(fmt::format("the excerpt contains no notes: the melody ends {}",
-                                 known ? "at bar " + bars_of(known->ticks, player.melody.meter).str()
+                                 known ? "at bar " + last_bar(known->ticks, player.melody).str()
                                        : fmt::format("before bar {}", player.melody.layout.first_bar)));
 }
 
@@ -151,12 +156,18 @@ struct WholePart {
     const Player* player = nullptr;
     Block block;
     std::int64_t start = 0;   ///< ticks of the score, or of its section
+    std::int64_t later = 0;   ///< of them, those that the upbeat of the score is longer than its own
     std::int64_t period = 0;  ///< ticks from one repetition to the next
     std::int64_t repeats = 1;
     std::int64_t until = INT64_MAX;  ///< tick at which repetitions are cut off
     std::vector<FormNote> notes;     ///< in ticks of the score, with the voices of the score
     std::int64_t end = 0;
     std::int64_t last() const { return start + repeats * period; }
+    /// The tick at which it ends, in bars from its first bar line: those of other parts may have another upbeat.
+    std::int64_t end_in_bars() const {
+        const std::int64_t own = player->melody.layout.opening() > 0 ? block.melody_end : block.length;
+        return (repeats > 1 ? last() : start + own) - later;
+    }
 };
 
 /// Plays whole parts and combines them.
@@ -204,6 +215,7 @@ public:
 private:
     void read() {
         std::int64_t leading = 0;            // length of the last part other than a bass, in its own ticks
+        std::int64_t arranged = 0;           // the same, in its form and without chords after the end
         std::vector<std::int64_t> sections;  // ends of the sections in its form
         for (const Player& player : ensemble_.players) {
             const Layout& layout = player.melody.layout;
@@ -255,8 +267,10 @@ private:
             if (!player.is_bass) sections = part.block.ends;
             if (has_drone) add_drone(part.block, player.melody, options.chords_from);
             const std::int64_t bar = player.melody.meter.bar();
-            const std::int64_t length = player.is_bass ? leading : part.block.length;
-            part.period = to_score(player).of((length + bar - 1) / bar * bar);
+            // The chords of a bar may last until the end of the next upbeat.
+            if (!player.is_bass) arranged = layout.opening() > 0 ? part.block.melody_end : part.block.length;
+            part.period = to_score(player).of((arranged + bar - 1) / bar * bar);
+            part.later = upbeat_rest(player, ensemble_);
             scale_times(part.block, to_score(player));
             parts_.push_back(std::move(part));
         }
@@ -272,17 +286,18 @@ private:
             std::int64_t& end = longest[part.player->section];
             if (layout.loop == Loop::fill) continue;
             if (layout.loop == Loop::common && part.period > 0) {
-                common[part.player->section].meet(part.start, part.period, ensemble_.meter_of(*part.player).bar());
+                common[part.player->section].meet(part.start - part.later, part.period,
+                                                  ensemble_.meter_of(*part.player).bar());
                 continue;
             }
-            end = std::max(end, part.repeats > 1 ? part.last() : part.start + part.block.length);
+            end = std::max(end, part.end_in_bars());
         }
         for (WholePart& part : parts_) {
             const char section = part.player->section;
             const Loop loop = part.player->melody.layout.loop;
             if (loop == Loop::common && part.period > 0) {
-                part.repeats = (common[section].first() - part.start) / part.period;
-                longest[section] = std::max(longest[section], part.last());
+                part.repeats = (common[section].first() + part.later - part.start) / part.period;
+                longest[section] = std::max(longest[section], part.last() - part.later);
             }
         }
         for (WholePart& part : parts_) {
@@ -291,7 +306,7 @@ private:
             if (section == 0 && !ensemble_.form.empty()) {
                 longest[0] = std::max(longest[0], form_length());
             }
-            part.until = longest[section];
+            part.until = longest[section] + part.later;
             if (part.until <= part.start) part.until = part.last();
             part.repeats = (part.until - part.start + part.period - 1) / part.period;
         }
@@ -311,8 +326,8 @@ private:
         std::int64_t end = 0;
         for (const WholePart& part : parts_) {
             if (part.player->section != section) continue;
-            end =
-                std::max(end, std::min(part.until, part.repeats > 1 ? part.last() : part.start + part.block.length));
+            end = std::max(end, part.until < INT64_MAX ? std::min(part.until - part.later, part.end_in_bars())
+                                                       : part.end_in_bars());
         }
         const std::int64_t bar = ensemble_.of_section(section).meter.bar();
         return (end + bar - 1) / bar * bar;
@@ -350,6 +365,7 @@ private:
                 end_on(block, part.player->melody, ending);
             }
             for (FormNote one : block.notes.empty() ? part.block.notes : block.notes) {
+                if (!is_last) hold_through_upbeat(one, part);
                 one.note.onset += from;
                 if (one.note.onset >= part.until) continue;
                 sikku::cut(one.note, one.note.onset, part.until);
@@ -360,6 +376,14 @@ private:
         }
         const std::int64_t last = part.start + (part.repeats - 1) * part.period + part.block.length;
         part.end = std::max(part.end, at + std::min(part.until, last));
+    }
+
+    /// A drone that is repeated continues during the next upbeat.
+    static void hold_through_upbeat(FormNote& one, const WholePart& part) {
+        const Melody& melody = part.player->melody;
+        const bool is_drone = melody.harmony == Harmony::drone && one.note.voice >= part.block.chords_from;
+        if (!is_drone || is_drum(part, one) || one.note.onset + one.note.duration < part.period) return;
+        one.note.duration += to_score(*part.player).of(melody.layout.opening());
     }
 
     static bool is_drum(const WholePart& part, const FormNote& note) {
@@ -417,16 +441,15 @@ private:
 /// Explains why there are no notes. @throws ScoreError always
 [[noreturn]] void refuse_silence(const Ensemble& ensemble, const PlayOptions& playing, const PlayReport& all) {
     if (playing.from > 0 && all.past) {
-        Integer ticks = 0;
+        Integer bars = 0;
         for (const Player& player : ensemble.players) {
             const auto known = census(player.document.grammar(), player.melody);
             if (!known || player.melody.layout.needs_whole()) {
                 throw ScoreError("the requested bars contain no notes: the melody ends before them");
             }
-            ticks = std::max(ticks, known->ticks);
+            bars = std::max(bars, last_bar(known->ticks, player.melody));
         }
-        throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}",
-                                     bars_of(ticks, ensemble.meter).str()));
+        throw ScoreError(fmt::format("the requested bars contain no notes: the melody ends at bar {}", bars.str()));
     }
     const Layout& layout = ensemble.players.front().melody.layout;
     if (all.past && layout.first_bar > 1) refuse_excerpt(ensemble.players.front());
@@ -440,9 +463,21 @@ private:
 
 }  // namespace
 
+std::int64_t upbeat_rest(const Player& player, const Ensemble& ensemble) {
+    return ensemble.upbeat - player.melody.layout.opening();
+}
+
 std::int64_t start_of(const Player& player, const Meter& meter, const Ensemble& ensemble) {
-    const std::int64_t before = ensemble.upbeat - player.melody.layout.opening();
-    return std::llround(player.melody.layout.start * static_cast<double>(meter.bar())) + before;
+    return ticks_before(player, meter) + upbeat_rest(player, ensemble);
+}
+
+std::int64_t upbeat_of(const std::vector<Player>& players, const Meter& meter, std::optional<char> first_section) {
+    std::int64_t upbeat = 0;
+    for (const Player& player : players) {
+        if (player.section != 0 && player.section != first_section) continue;
+        upbeat = std::max(upbeat, player.melody.layout.opening() - ticks_before(player, meter));
+    }
+    return upbeat;
 }
 
 PlayOptions piece_of_part(const Player& player, const Ensemble& ensemble, const PlayOptions& playing) {

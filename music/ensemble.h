@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,13 @@ std::vector<SectionChange> section_changes(const Ensemble& ensemble, const PlayO
 
 /// The requested piece, in ticks. @throws SettingError
 PlayOptions piece_of(const PlaySettings& options, const Ensemble& ensemble, const Monitor& monitor);
+
+/// Ticks before the first bar line of a score, from the beginning of the part that begins first.
+/// @param first_section  letter of the section with which a form begins
+std::int64_t upbeat_of(const std::vector<Player>& players, const Meter& meter, std::optional<char> first_section);
+
+/// Ticks that the upbeat of the score is longer than that of a part; negative if it is shorter.
+std::int64_t upbeat_rest(const Player& player, const Ensemble& ensemble);
 
 /// Tick of the score, or of its section, at which a part begins. @param meter  of the section
 std::int64_t start_of(const Player& player, const Meter& meter, const Ensemble& ensemble);

@@ -118,9 +118,15 @@ Player bass_of(const Player& player) {
     bass.melody.highest = std::max(0.0, melody.highest - two_octaves);
     // If both breathe, they breathe equally often.
     Melody whole = melody;
-    if (bass.melody.phrase_order > 0) whole.breath = 0;
+    whole.layout.upbeat = 0;
+    if (bass.melody.phrase_order > 0) {
+        whole.breath = 0;
+        whole.breathes_to_bar = false;
+    }
     Melody plain = bass.melody;
+    plain.layout.upbeat = 0;
     plain.breath = 0;
+    plain.breathes_to_bar = false;
     const Integer own = length_of(player.document.grammar(), whole);
     const Integer coarse = length_of(bass.document.grammar(), plain);
     if (coarse == 0) throw ScoreError("`harmony: bass`: the curve of the lower order has no notes");
@@ -246,6 +252,10 @@ Integer bars_of(const Integer& ticks, const Meter& meter) {
     return (ticks + meter.bar() - 1) / meter.bar();
 }
 
+Integer last_bar(const Integer& ticks, const Melody& melody) {
+    return bars_of(ticks, melody.meter) - (melody.layout.upbeat > 0 ? 1 : 0);
+}
+
 std::string time_of(const Integer& ticks, double tempo) {
     return time_text(ticks.convert_to<double>() / static_cast<double>(ticks_per_quarter) * 60 / tempo);
 }
@@ -295,12 +305,14 @@ std::string description(const std::vector<Player>& players, const PlayOptions& p
         const std::string notes = played              ? std::to_string(played->notes)
                                   : known->has_chance ? "at most " + known->notes.str()
                                                       : known->notes.str();
-        const Integer ticks = played ? Integer(played->end) : known->ticks - melody.lead();
+        const Integer ticks = played ? Integer(played->end) : known->ticks - melody.begin();
+        // The bar of an upbeat has no number.
+        const std::int64_t upbeat = piece.from == 0 ? melody.layout.opening() : 0;
         // Several parts slow down together.
         const bool slows = melody.close != Close::none && players.size() == 1 && ticks < (Integer(1) << 50);
         fmt::format_to(
             out, "scale     {}\nnotes     {}\nbars      {}\ntime      {}\n", scale_of(melody), notes,
-            bars_of(ticks, melody.meter).str(),
+            bars_of(ticks - upbeat, melody.meter).str(),
             slows ? slowing_time_of(ticks.convert_to<std::int64_t>(), melody) : time_of(ticks, melody.tempo));
         if (played && played->notes > 0) fmt::format_to(out, "range     {}\n", range_of(*played, melody));
         if (played && played->notes == 0) {

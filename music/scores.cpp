@@ -222,24 +222,25 @@ private:
             ensemble_.tempo_words = arrangement_->tempo_words;
         }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
-        for (const Player& player : ensemble_.players) {
-            ensemble_.upbeat = std::max(ensemble_.upbeat, player.melody.layout.opening());
-        }
         if (arrangement_) ensemble_.section_tempos = arrangement_->section_tempos;
-        if (ensemble_.upbeat > 0 && !ensemble_.section_tempos.empty()) {
+        const bool has_upbeat = std::any_of(ensemble_.players.begin(), ensemble_.players.end(),
+                                            [](const Player& player) { return player.melody.layout.opening() > 0; });
+        if (has_upbeat && !ensemble_.section_tempos.empty()) {
             throw ScoreError("'upbeat:' cannot be combined with sections that state tempo or meter");
         }
+        std::optional<char> first_section;
+        if (!ensemble_.form.empty()) first_section = static_cast<char>('A' + ensemble_.form.front().letter);
+        ensemble_.upbeat = upbeat_of(ensemble_.players, ensemble_.meter, first_section);
         if (ensemble_.upbeat >= ensemble_.meter.bar()) {
-            throw ScoreError("the upbeat of a part is not shorter than a bar of the score");
+            throw ScoreError("an upbeat is not shorter than a bar of the score");
         }
         for (auto& [section, stated] : ensemble_.section_tempos) {
             if (is_option("tempo")) stated.tempo.reset();
             if (is_option("meter")) stated.meter.reset();
         }
         ensemble_.piece = ensemble_.tempo_and_meter(0);
-        if (!ensemble_.form.empty()) {
-            const auto letter = static_cast<char>('A' + ensemble_.form.front().letter);
-            const TempoAndMeter opening = ensemble_.of_section(letter);
+        if (first_section) {
+            const TempoAndMeter opening = ensemble_.of_section(*first_section);
             ensemble_.tempo = opening.tempo;
             ensemble_.tempo_words = opening.tempo_words;
             ensemble_.meter = opening.meter;

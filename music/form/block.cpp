@@ -51,17 +51,25 @@ void sort(std::vector<FormNote>& notes) {
 }
 
 /// The notes of `block` from `begin` to `end`, moved to tick 0.
-Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
+/// @param begin_of  of a note; its end is as much later
+template <class BeginOf>
+Block cut(const Block& block, std::int64_t begin, std::int64_t end, const BeginOf& begin_of) {
     Block piece;
     piece.length = end - begin;
     piece.chords_from = block.chords_from;
     for (FormNote one : block.notes) {
-        if (std::max(one.note.onset, begin) >= std::min(one.note.onset + one.note.duration, end)) continue;
-        sikku::cut(one.note, begin, end);
+        const std::int64_t from = begin_of(one);
+        const std::int64_t to = from + piece.length;
+        if (std::max(one.note.onset, from) >= std::min(one.note.onset + one.note.duration, to)) continue;
+        sikku::cut(one.note, from, to);
         one.note.onset -= begin;
         piece.notes.push_back(one);
     }
     return piece;
+}
+
+Block cut(const Block& block, std::int64_t begin, std::int64_t end) {
+    return cut(block, begin, end, [begin](const FormNote&) { return begin; });
 }
 
 /// Sets the length of a section: its last notes are held or cut off.
@@ -167,6 +175,14 @@ void trim_chords(Block& piece, const Melody& melody) {
     sort(piece.notes);
 }
 
+/// The notes of a section, moved to tick 0. Chords begin at the bar line after its upbeat, and last until the bar
+/// line after that of the next section.
+Block cut_section(const Block& block, std::int64_t begin, std::int64_t end, const Melody& melody) {
+    const std::int64_t opening = melody.layout.opening();
+    return cut(block, begin, end,
+               [&](const FormNote& one) { return begin + (is_chord(one, block, melody) ? opening : 0); });
+}
+
 /// Changes the chord from the last note of an ending on to that of its goal.
 void close_chords(Block& block, const Melody& melody, const Note& last, Ending ending) {
     if (!melody.has_chords() || melody.accompanying_voices() == 0) return;
@@ -206,6 +222,11 @@ std::int64_t end_of_melody(const Block& block, const Melody& melody) {
         if (!is_chord(one, block, melody)) end = std::max(end, one.note.onset + one.note.duration);
     }
     return end;
+}
+
+/// The tick at which the last sub-curve ends. Chords fill the last bar, in which more can begin with its upbeat.
+std::int64_t end_of_sections(const Block& block, const Melody& melody) {
+    return melody.layout.opening() > 0 ? block.melody_end : block.length;
 }
 
 /// The last note of the first voice that has a degree, or null.
@@ -335,14 +356,15 @@ void land(Block& piece, const Melody& melody) {
     piece.length += goal.note.duration;
 }
 
-/// Keeps the last two bars of a section, and repeats the last one with notes twice as long.
+/// Keeps the last two bars of a section, with their upbeat, and repeats the last one with notes twice as long.
 void make_coda(Block& piece, const Melody& melody) {
     const std::int64_t bar = melody.meter.bar();
-    const std::int64_t end = (end_of_melody(piece, melody) + bar - 1) / bar * bar;
+    const std::int64_t upbeat = melody.layout.opening();
+    const std::int64_t end = (end_of_melody(piece, melody) - upbeat + bar - 1) / bar * bar + upbeat;
     const std::int64_t last = std::max<std::int64_t>(0, end - bar);
     Block again = cut(piece, last, end);
     scale_times(again, {2, 1});
-    piece = cut(piece, std::max<std::int64_t>(0, end - 2 * bar), end);
+    piece = cut(piece, std::max<std::int64_t>(0, end - 2 * bar - upbeat), end);
     for (FormNote& one : again.notes) {
         one.note.onset += piece.length;
         piece.notes.push_back(one);
@@ -350,10 +372,21 @@ void make_coda(Block& piece, const Melody& melody) {
     piece = cut(piece, 0, end_of_melody(piece, melody));
 }
 
+/// Moves a section so that the bar line after its upbeat, which is longer or shorter now, is a bar line of the score.
+void put_on_bar_line(Block& piece, const Melody& melody, Ratio augmentation) {
+    const std::int64_t bar = melody.meter.bar();
+    const std::int64_t upbeat = melody.layout.opening();
+    const std::int64_t late = (upbeat - augmentation.of(upbeat)) % bar;
+    const std::int64_t rest = late < 0 ? late + bar : late;
+    for (FormNote& one : piece.notes) one.note.onset += rest;
+    piece.length += rest;
+}
+
 /// Applies the changes that a form states for a section.
 void change_section(Block& piece, const Melody& melody, const FormSection& section) {
     if (section.is_retrograde) reverse_section(piece, melody);
     scale_times(piece, section.augmentation);
+    put_on_bar_line(piece, melody, section.augmentation);
     if (section.is_coda) make_coda(piece, melody);
     if (section.is_korvai) repeat_as_korvai(piece, melody);
     if (!section.has_other_degrees()) return;
@@ -409,13 +442,14 @@ Block play_block(PlayableMelody& playable, const Melody& melody, const PlayOptio
     recording.phrase_ends = &block.ends;
     BlockSink sink(block, degrees);
     report = playable.play(melody, sink, recording);
+    block.melody_end = report.melody_end;
     sort(block.notes);
     block.chords_from = options.chords_from > 0 ? options.chords_from : melody.own_voices();
     const bool is_whole = block.length < options.to - options.from;
     // The notes after the last sub-curve end with a breath, too.
     const std::int64_t bar = melody.breathes_to_bar ? melody.meter.bar() : 1;
     const std::int64_t breath = is_whole && melody.phrase_order > 0 ? melody.breath : 0;
-    block.next = (block.length + breath + bar - 1) / bar * bar;
+    block.next = (end_of_sections(block, melody) + breath + bar - 1) / bar * bar;
     while (!block.ends.empty() && block.ends.back() >= block.length) {
         if (is_whole) block.next = block.ends.back();
         block.ends.pop_back();
@@ -465,7 +499,7 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     for (const FormSection& section : order) {
         const auto at = static_cast<std::size_t>(section.letter);
         if (at + 1 >= borders.size()) refuse_section(grammar, melody, form, section, borders.size() - 1);
-        Block piece = cut(block, borders[at], borders[at + 1]);
+        Block piece = cut_section(block, borders[at], borders[at + 1], melody);
         if (melody.layout.is_retrograde) reverse_section(piece, melody);
         change_section(piece, melody, section);
         if (!ends.empty()) fit(piece, ends[result.ends.size()] - result.length);
@@ -490,10 +524,13 @@ Block in_form(const Block& block, const Grammar& grammar, const Melody& melody, 
     }
     const std::size_t last = borders.size() - 2;
     if (ends.empty() && static_cast<std::size_t>(order.back().letter) == last && !order.back().is_korvai) {
-        const std::int64_t rest = std::max<std::int64_t>(0, borders.back() - block.length);
+        const std::int64_t rest = std::max<std::int64_t>(0, borders.back() - end_of_sections(block, melody));
         result.length -= order.back().augmentation.of(rest);
         result.ends.back() = result.length;
     }
+    result.melody_end = result.length;
+    for (const FormNote& one : result.notes)
+        result.length = std::max(result.length, one.note.onset + one.note.duration);
     return result;
 }
 
@@ -664,6 +701,7 @@ void scale_times(Block& block, Ratio by) {
     for (FormNote& one : block.notes) scale_times(one.note, by);
     for (std::int64_t& end : block.ends) end = by.of(end);
     block.length = by.of(block.length);
+    block.melody_end = by.of(block.melody_end);
 }
 
 double key_within(const Melody& melody, std::int64_t degree, bool falling) {

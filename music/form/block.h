@@ -25,6 +25,7 @@ struct Block {
     std::vector<FormNote> notes;     ///< by onset, then by voice
     std::vector<std::int64_t> ends;  ///< ticks at which sub-curves end and the next ones begin, if they are marked
     std::int64_t length = 0;         ///< ticks, rests included
+    std::int64_t melody_end = 0;     ///< ticks, rests included, without chords that last longer
     int chords_from = 0;             ///< first voice of drone or chords, if there are any
     std::int64_t next = 0;           ///< tick at which more would begin, after the breath of the last sub-curve
 };

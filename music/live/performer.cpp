@@ -234,7 +234,7 @@ private:
 
     void set_end(std::int64_t end) {
         end_ = end;
-        length_ = version_->bars().next(end);
+        length_ = version_->bars().next_pass(end);
         falls_ = tempo_map(version_->head(), {}, end);
         fall_ = 0;
     }
@@ -396,8 +396,8 @@ private:
         const BarLines& bars = version_->bars();
         const std::int64_t line = bars.next(std::max<std::int64_t>(0, tick - pass_));
         change_ = pass_ + line;
-        next_bar_ = bars.number(line);
-        next_->stream().seek(next_->bars().onset(next_bar_));
+        next_bar_ = bars.printed_number(line);
+        next_->stream().seek(next_->bars().printed_onset(next_bar_));
     }
 
     void change_version(std::int64_t tick) {
@@ -419,11 +419,11 @@ private:
         ends_.clear();
         pitches_.clear();
         forget_window();
-        pass_ = tick - version_->bars().onset(next_bar_);
+        pass_ = tick - version_->bars().printed_onset(next_bar_);
         version_->voices().prepare(messages_);
         reset_tempo(tick);
         aim_at_beat(tick);
-        if (hooks_.changed) hooks_.changed(next_bar_ + 1);
+        if (hooks_.changed) hooks_.changed(next_bar_);
         take(std::move(first));
         fill();
         // A shorter version may have ended already.
@@ -531,7 +531,7 @@ private:
     std::unique_ptr<Version> next_;     // replaces the current one at change_
     std::unique_ptr<Version> retired_;  // its thread ends after the notes of the change are sent
     std::int64_t change_ = 0;
-    std::int64_t next_bar_ = 0;  // its bar there, counted from 0
+    std::int64_t next_bar_ = 0;  // its bar there, as it is printed
     std::int64_t patience_ = 1;
     Clock& clock_;
     Port& port_;

@@ -99,6 +99,7 @@ void Emitter::finish(std::int64_t end) {
     for (const std::int64_t busy : busy_until_) {
         end = std::max(end, std::min(busy, options_.to) - options_.from);
     }
+    report.melody_end = end;
     end = std::max(end, accompanied_);
     report.end = end;
     report.past = past;

@@ -168,8 +168,7 @@ private:
             "form",
             "expected the order of sub-curves such as AABA or A1 A2 B A2, where 1 is an open and 2 a closed ending; "
             "A+2 (two degrees higher), Ai (inverted), Ar (reversed), A*2 (longer), A/2 (shorter), Ak (a korvai) and "
-            "Ac "
-            "(a coda) change a section; `order 2` may follow",
+            "Ac (a coda) change a section; `order 2` may follow",
             [&](std::string_view text) {
                 if (lower_case(text) == "curve") return true;
                 const std::size_t word = lower_case(text).find("order");

@@ -39,9 +39,10 @@ struct PlayReport {
     std::uint64_t moved = 0;  ///< notes that were beyond the keys of MIDI
     std::uint64_t lost = 0;   ///< notes shorter than a tick, or whose degree a key map leaves out
     int voices = 0;
-    std::int64_t end = 0;   ///< ticks
-    bool past = false;      ///< the score ended before the piece began
-    double lowest = 127.0;  ///< keys, without drums; above `highest` if there are only drums
+    std::int64_t end = 0;         ///< ticks
+    std::int64_t melody_end = 0;  ///< ticks, without chords that last longer
+    bool past = false;            ///< the score ended before the piece began
+    double lowest = 127.0;        ///< keys, without drums; above `highest` if there are only drums
     double highest = 0.0;
     std::map<std::string, std::uint64_t> skipped;  ///< symbols that neither the table nor the mapping reads
     std::vector<std::string> unused;               ///< symbols of the table that the grammar does not contain

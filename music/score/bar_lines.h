@@ -45,6 +45,15 @@ public:
     std::int64_t next(std::int64_t tick) const { return tick == 0 || place(tick) == 0 ? tick : end(tick); }
     /// The tick at which a bar begins in the score.
     std::int64_t onset(std::int64_t number) const;
+    /// The same for a bar with a printed number; that of the first bar for earlier ones.
+    std::int64_t printed_onset(std::int64_t number) const {
+        return onset(std::max<std::int64_t>(0, number - (upbeat() > 0 ? 0 : 1)));
+    }
+    /// The tick at which a score that ends at a tick can begin again: a bar line, or the upbeat before it.
+    std::int64_t next_pass(std::int64_t end) const {
+        const std::int64_t pass = next(end) - upbeat();
+        return pass >= end ? pass : pass + length(end);
+    }
     /// The number of bars that begin before a tick.
     std::int64_t count(std::int64_t tick) const { return number(next(tick)); }
     /// The same bar lines, with ticks and bars counted from the one at `tick`.

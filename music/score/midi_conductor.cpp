@@ -51,6 +51,7 @@ Meter short_meter(std::int64_t ticks, const Meter& meter) {
     Meter result{0, meter.unit, {}};
     while (ticks % (whole_note / result.unit) != 0) result.unit *= 2;
     result.beats = static_cast<int>(ticks / (whole_note / result.unit));
+    for (; result.beats > 255 && result.beats % 2 == 0; result.beats /= 2) result.unit /= 2;
     return result;
 }
 
@@ -121,7 +122,7 @@ std::vector<ConductorChange> Conductor::changes(std::int64_t end) const {
                              [](std::int64_t tick, const ConductorChange& other) { return tick < other.tick; });
         result.insert(after, {onset, 0, &meter});
     };
-    if (head_->upbeat > 0) add_meter(head_->upbeat, head_->meter);
+    if (head_->upbeat > 0) add_meter(std::min(head_->upbeat, end), head_->meter);
     const Meter* before = &head_->meter;
     for (const SectionChange& change : head_->changes) {
         const Meter& meter = change.to.meter;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -154,6 +155,126 @@ TEST(Upbeat, ExcerptsAreCutOutByTheBarsOfPrint) {
     }
 }
 
+/// Eight quarters.
+const std::string word = "axiom: CDEFGABC\nmapping: symbols\nnamed notes: yes\nunit: 1/4\n";
+
+TEST(Upbeat, BassesAndRepeatedNotesHaveTheirTimesWithoutIt) {
+    for (const std::string keys :
+         {"harmony: bass\n", "harmony: bass 1\nphrases: 2\n", "harmony: bass 1\nphrases: 2\nform: A B A\n",
+          "harmony: bass 1\nphrases: 2\nbreath: bar\n", "harmony: bass 1\nloop: 2\n"}) {
+        EXPECT_EQ(told(notes_of(curve + keys + "upbeat: 1/4\n").notes), told(notes_of(curve + keys).notes)) << keys;
+    }
+    const auto melody = [](const NoteList& list) {
+        std::vector<Note> notes;
+        std::copy_if(list.notes.begin(), list.notes.end(), std::back_inserter(notes),
+                     [](const Note& note) { return note.voice == 0; });
+        return told(notes);
+    };
+    for (const std::string harmony : {"", "harmony: triads\n", "harmony: drone\n", "harmony: progression I-IV-V-I\n",
+                                      "harmony: progression I-IV-V-I\naccompaniment: walking bass\n"}) {
+        const std::string text = word + harmony + "loop: 3\n";
+        EXPECT_EQ(melody(notes_of(text + "upbeat: 1/4\n")), melody(notes_of(word + "loop: 3\n"))) << harmony;
+    }
+}
+
+TEST(Upbeat, ADroneIsHeldThroughTheUpbeatsOfRepetitions) {
+    const NoteList list = notes_of(word + "harmony: drone\nloop: 3\nupbeat: 1/4\n");
+    std::int64_t held_until = 480;
+    for (const Note& note : list.notes) {
+        if (note.voice != 1) continue;
+        EXPECT_EQ(note.onset, held_until);
+        held_until = note.onset + note.duration;
+    }
+    EXPECT_EQ(held_until, 3 * 3840);
+}
+
+TEST(Upbeat, ChordsChangeAtBarLines) {
+    for (const std::string form : {"A B A", "A Ac", "A A*2 B", "A A/2 B"}) {
+        const std::string text = curve + "phrases: 2\nharmony: progression I-IV-V-I\nform: " + form + "\n";
+        for (const Note& note : notes_of(text + "upbeat: 1/4\n").notes) {
+            if (note.voice > 0) {
+                EXPECT_EQ((note.onset - 480) % bar, 0) << form << note.onset;
+            }
+        }
+    }
+}
+
+/// Each note of an augmented section keeps its place from the bar line, stretched.
+TEST(Upbeat, AugmentedSectionsStayOnTheBeats) {
+    for (const auto& [change, times] : {std::pair("*2", 2.0), std::pair("/2", 0.5)}) {
+        const std::string text = curve + "phrases: 2\nupbeat: 1/4\nform: A";
+        const Told plain = told(notes_of(text + " A\n").notes);
+        const Told changed = told(notes_of(text + " A" + change + "\n").notes);
+        ASSERT_EQ(plain.size(), changed.size());
+        const std::size_t half = plain.size() / 2;
+        for (std::size_t i = 0; i < half; ++i) {
+            const std::int64_t line = 480;
+            const double from_line = times * static_cast<double>(std::get<0>(plain[i]) - line);
+            const double found = static_cast<double>(std::get<0>(changed[half + i]) - line) - from_line;
+            EXPECT_EQ(std::fmod(found, bar), 0) << change << i;
+            EXPECT_EQ(std::get<3>(changed[half + i]), std::get<3>(plain[i]));
+        }
+    }
+}
+
+NoteList piece_of(const std::string& text) {
+    return list_notes(
+        read_arrangement("p.toml", text, [](const std::string&) -> NamedPattern { throw ScoreError("none"); }), {},
+        {});
+}
+
+/// An upbeat that is in some parts and sections only moves all that begins at bar lines together, and nothing else.
+TEST(Upbeat, SectionsHaveTheirLengthsWithoutIt) {
+    const std::string words = "[[pattern]]\nname = \"a\"\ntext = \"\"\"\n" + word + "\"\"\"\n";
+    const auto track = [](const std::string& keys) { return "[[track]]\npattern = \"a\"\n" + keys; };
+    const std::string upbeat = "upbeat = \"1/4\"\n";
+    struct Case {
+        std::string form, first, second, third;  // keys of three tracks besides the upbeats
+        int with_upbeat;                         // bits of the tracks that have an upbeat
+        std::int64_t opening;                    // ticks before the first bar line
+    };
+    const std::string a = "section = \"A\"\n", b = "section = \"B\"\n", fill = "loop = \"fill\"\n";
+    const std::string common = "loop = \"common\"\n";
+    for (const Case& one : {Case{"form = \"ABA\"\n", a, a, b, 1, 480}, Case{"form = \"ABA\"\n", a, a, b, 5, 480},
+                            Case{"form = \"ABA\"\n", a, a + fill, b, 1, 480}, Case{"form = \"AB\"\n", a, a, b, 4, 0},
+                            Case{"form = \"AB\"\n", a, a + "loop = 2\n", b, 4, 0},
+                            Case{"", common, common, common, 1, 480}, Case{"", "", "start = 2\n", "loop = 2\n", 2, 0},
+                            Case{"", "start = 2\n", "start = 1\n", "loop = 2\n", 3, 0}}) {
+        std::string plain = one.form + words, moved = plain;
+        const std::vector<std::string> tracks = {one.first, one.second, one.third};
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            plain += track(tracks[i]);
+            moved += track(tracks[i] + ((one.with_upbeat >> i & 1) != 0 ? upbeat : ""));
+        }
+        // Parts with an upbeat begin that much before the bar line at which they began.
+        Told expected;
+        for (const auto& [begin, end, voice, key, velocity] : told(piece_of(plain).notes)) {
+            const bool is_early = (one.with_upbeat >> voice & 1) != 0;
+            const std::int64_t later = one.opening - (is_early ? 480 : 0);
+            expected.emplace_back(begin + later, end + later, voice, key, 0);
+        }
+        Told found;
+        for (const auto& [begin, end, voice, key, velocity] : told(piece_of(moved).notes))
+            found.emplace_back(begin, end, voice, key, 0);
+        std::sort(expected.begin(), expected.end());
+        EXPECT_EQ(found, expected) << moved;
+        EXPECT_FALSE(found.empty());
+    }
+}
+
+TEST(Upbeat, RepetitionsOnStageKeepTheMeter) {
+    const BarLines bars({4, 4, {}}, {}, 480);
+    EXPECT_EQ(bars.next_pass(8 * 480), 8 * 480);
+    EXPECT_EQ(bars.next_pass(7 * 480), 8 * 480);
+    // The last bar is full: the upbeat follows a bar later.
+    EXPECT_EQ(bars.next_pass(9 * 480), 12 * 480);
+    EXPECT_EQ(BarLines({4, 4, {}}).next_pass(9 * 480), 12 * 480);
+    EXPECT_EQ(bars.printed_onset(0), 0);
+    EXPECT_EQ(bars.printed_onset(2), 480 + bar);
+    EXPECT_EQ(BarLines({4, 4, {}}).printed_onset(2), bar);
+    EXPECT_EQ(BarLines({4, 4, {}}).printed_onset(0), 0);
+}
+
 TEST(Upbeat, PartsMeetAtTheFirstBarLine) {
     const auto piece = [](const std::string& keys) {
         return "[[pattern]]\nname = \"a\"\ntext = \"\"\"\naxiom: F+F\n\"\"\"\n[[track]]\npattern = \"a\"\nupbeat = "
@@ -213,6 +334,8 @@ TEST(Upbeat, OtherValuesAreRefused) {
         EXPECT_NE(said("upbeat: " + value + "\n").find("expected a note value shorter than a bar"), std::string::npos)
             << value;
     }
+    EXPECT_NE(said("meter: 5/1\nupbeat: 257/64\n").find("above 255"), std::string::npos);
+    EXPECT_EQ(said("meter: 5/1\nupbeat: 4/1\n"), "");
     EXPECT_NE(said("upbeat: 1/4\nspeed: 3:2\n").find("cannot be combined"), std::string::npos);
     EXPECT_NE(said("upbeat: 1/4\nretrograde: yes\n").find("cannot be combined"), std::string::npos);
     EXPECT_EQ(said("upbeat: none\n"), "");
