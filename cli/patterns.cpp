@@ -9,6 +9,7 @@
 #include "engine/language/arrangement_library.h"
 #include "music/scale/scale.h"
 #include "music/score/midi_texts.h"
+#include "music/scores.h"
 
 #include <fmt/format.h>
 
@@ -118,15 +119,18 @@ void show(const std::string& what, bool quiet) {
     std::fwrite(source->text().data(), 1, source->text().size(), stdout);
 }
 
-/// True if the arrangement and its patterns are free of errors.
+/// True if the arrangement and its patterns are free of errors, and can be played together.
 bool check_arrangement(const std::string& file) {
     try {
-        read_arrangement_argument(file);
+        const auto [arrangement, folder] = read_arrangement_argument(file);
+        plan_score(arrangement, "mid", {}, folder);
         return true;
     } catch (const FileError& error) {
         fmt::print("{}\n", error.what());
     } catch (const PatternError& error) {
         for (const Diagnostic& diagnostic : error.diagnostics()) fmt::print("{}\n", diagnostic.text());
+    } catch (const ScoreError& error) {
+        fmt::print("{}: {}\n", file, error.what());
     }
     return false;
 }
@@ -226,8 +230,7 @@ void add_check(CLI::App& app, bool& /*quiet*/) {
         ->required();
     command->footer(
         "Exits with 0 and prints at most warnings if the files have no errors. Errors in MIDI files exit with 1, "
-        "other errors "
-        "with 2.\n\n"
+        "other errors with 2.\n\n"
         "Examples:\n  sikku check my.lsys patterns/*/*.lsys");
     command->callback([files] {
         bool good = true;

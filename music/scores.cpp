@@ -223,6 +223,12 @@ private:
         }
         if (arrangement_ && arrangement_->meter && !is_option("meter")) ensemble_.meter = *arrangement_->meter;
         if (arrangement_) ensemble_.section_tempos = arrangement_->section_tempos;
+        for (auto& [section, stated] : ensemble_.section_tempos) {
+            if (is_option("tempo")) stated.tempo.reset();
+            if (is_option("meter")) stated.meter.reset();
+        }
+        std::erase_if(ensemble_.section_tempos,
+                      [](const auto& one) { return !one.second.tempo && !one.second.meter; });
         const bool has_upbeat = std::any_of(ensemble_.players.begin(), ensemble_.players.end(),
                                             [](const Player& player) { return player.melody.layout.opening() > 0; });
         if (has_upbeat && !ensemble_.section_tempos.empty()) {
@@ -233,10 +239,6 @@ private:
         ensemble_.upbeat = upbeat_of(ensemble_.players, ensemble_.meter, first_section);
         if (ensemble_.upbeat >= ensemble_.meter.bar()) {
             throw ScoreError("an upbeat is not shorter than a bar of the score");
-        }
-        for (auto& [section, stated] : ensemble_.section_tempos) {
-            if (is_option("tempo")) stated.tempo.reset();
-            if (is_option("meter")) stated.meter.reset();
         }
         ensemble_.piece = ensemble_.tempo_and_meter(0);
         if (first_section) {

@@ -75,6 +75,10 @@ TEST(ArrangementProgram, MistakesWriteNothing) {
     refused("[[track]]\npattern = \"hilbet\"\n", "bad.toml:2:1: no file or pattern named 'hilbet'");
     refused("[[track]]\npattern = \"bad.toml\"\n", "not another arrangement");
     refused("[[track]]\npattern = hilbert\n", "text values need quotes");
+    refused(
+        "form = \"A\"\n[[section]]\nname = \"A\"\nmeter = \"3/4\"\n[[track]]\npattern = \"hilbert\"\n"
+        "section = \"A\"\nupbeat = \"1/4\"\n",
+        "'upbeat:' cannot be combined with sections that state tempo or meter");
     const Outcome two = run(Arguments{"play", "invention", "hilbert"});
     EXPECT_EQ(two.status, 2);
     EXPECT_TRUE(has(two.errors, "played alone"));
