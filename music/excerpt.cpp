@@ -152,8 +152,11 @@ void ExcerptSink::notes(std::span<const Note> notes) {
     for (const Note& note : notes) {
         const auto number = static_cast<std::size_t>(note.voice);
         if (number < voices_.size()) pass_controls(voices_[number], note);
+        const bool begins_before = note.onset < from_;
+        if (begins_before && before_) before_->add(note);
         if (note.onset + note.duration <= from_ || note.onset >= to_) continue;
         Note& piece = cut_.emplace_back(note);
+        piece.is_remainder = begins_before;
         if (note.onset + note.duration > to_) piece.has_fermata = false;
         cut(piece, from_, to_);
         piece.onset -= from_;

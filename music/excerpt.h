@@ -3,6 +3,7 @@
 
 #include "music/ensemble.h"
 #include "music/score/curves.h"
+#include "music/score/unisons.h"
 
 #include <cstdint>
 #include <map>
@@ -46,7 +47,9 @@ std::vector<TempoPoint> cut_tempo(std::span<const TempoPoint> tempo, std::int64_
 /// with the values in effect. Curves are ignored, see cut_tempo(). Memory: O(voices).
 class ExcerptSink : public NoteSink {
 public:
-    ExcerptSink(NoteSink& sink, std::int64_t from, std::int64_t to) : sink_(sink), from_(from), to_(to) {}
+    /// @param before  receives the notes that begin before the excerpt; may be null
+    ExcerptSink(NoteSink& sink, std::int64_t from, std::int64_t to, LastStrokes* before = nullptr)
+        : sink_(sink), from_(from), to_(to), before_(before) {}
     void controls(std::span<const ControlPoint> points) override;
     void notes(std::span<const Note> notes) override;
     void finish(std::int64_t end) override;
@@ -65,6 +68,7 @@ private:
     NoteSink& sink_;
     std::int64_t from_;
     std::int64_t to_;
+    LastStrokes* before_;
     std::vector<Voice> voices_;
     std::uint64_t count_ = 0;
     double lowest_ = 127;

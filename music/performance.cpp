@@ -310,7 +310,7 @@ void take_whole_ranges(const Ensemble& ensemble, ExpressionSink::Use use, Expres
 
 /// Plays an excerpt within its context, in which curves of expression have their ranges and the end slows down.
 EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& context, const PlayOptions& playing,
-                              ExpressionSink::Use use, const Human& human, NoteSink& sink) {
+                              ExpressionSink::Use use, const Human& human, NoteSink& sink, LastStrokes* before) {
     NullSink nobody;
     EnsembleReport report = play_parts(ensemble, playing, nobody);  // for the counts
     Ensemble whole = with_fixed_anchors(ensemble, playing);
@@ -336,7 +336,7 @@ EnsembleReport perform_within(const Ensemble& ensemble, const ExcerptContext& co
     NoteSink& human_or_not = human.amount > 0 ? static_cast<NoteSink&>(humaniser) : sink;
     HeldEnding ending(ensemble, human_or_not);
     const bool is_held = ensemble.ends_excerpts && ensemble.close == Close::fermata;
-    ExcerptSink excerpt(is_held ? static_cast<NoteSink&>(ending) : human_or_not, from, to);
+    ExcerptSink excerpt(is_held ? static_cast<NoteSink&>(ending) : human_or_not, from, to, before);
     expressive.write_to(excerpt);
     const EnsembleReport around = play_parts(whole, context.playing, expressive);
     report.end = std::max<std::int64_t>(0, std::min(around.end, to) - from);
@@ -381,10 +381,11 @@ EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing,
 }
 
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
-                       const Human& human, NoteSink& sink) {
+                       const Human& human, NoteSink& sink, LastStrokes* before) {
+    const bool merges_before = before && playing.from > 0;
     const auto play_into = [&](NoteSink& to) {
-        return playing.is_excerpt() && depends_on_whole(ensemble)
-                   ? perform_within(ensemble, context_of(ensemble, playing), playing, use, human, to)
+        return playing.is_excerpt() && (depends_on_whole(ensemble) || merges_before)
+                   ? perform_within(ensemble, context_of(ensemble, playing), playing, use, human, to, before)
                    : perform_all(ensemble, playing, use, human, to);
     };
     if (!ensemble.is_strict()) return play_into(sink);

@@ -4,6 +4,7 @@
 #include "music/ensemble.h"
 #include "music/gamakas.h"
 #include "music/score/curves.h"
+#include "music/score/unisons.h"
 #include "music/tempo_curve.h"
 
 #include <cstddef>
@@ -106,9 +107,10 @@ struct Human {
 /// controllers, tempo and held notes that it has within the whole (see context_of()), and the ending of the whole
 /// only as far as it contains it, unless Ensemble::ends_excerpts. The seconds of the report include all changes of
 /// tempo.
+/// @param before  receives the notes before an excerpt whose unisons are merged; may be null
 /// @throws as play_all()
 EnsembleReport perform(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,
-                       const Human& human, NoteSink& sink);
+                       const Human& human, NoteSink& sink, LastStrokes* before = nullptr);
 
 /// Plays a score as it is, an excerpt without its context.
 EnsembleReport perform_all(const Ensemble& ensemble, const PlayOptions& playing, ExpressionSink::Use use,

@@ -88,7 +88,7 @@ void Rendition::write_midi(Output& output) {
     }
     UnisonMerger merger(*writer, head, static_cast<std::size_t>(available_memory() / 4 / sizeof(Note)),
                         midi.share_channels);
-    report = perform(ensemble, playing, use, human, merger);
+    report = perform(ensemble, playing, use, human, merger, &merger.strokes_before());
 }
 
 }  // namespace sikku

@@ -71,8 +71,9 @@ struct Note {
     Glide glide{};             ///< slide of `vertical: glissando`
     bool has_fermata = false;  ///< it is held at the end
     Emphasis emphasis{};
-    ChordSign chord{};       ///< chord that the note of an accompaniment belongs to
-    std::int16_t grace = 0;  ///< cents from its key to the grace note that prints its gamaka; 0: none
+    ChordSign chord{};          ///< chord that the note of an accompaniment belongs to
+    std::int16_t grace = 0;     ///< cents from its key to the grace note that prints its gamaka; 0: none
+    bool is_remainder = false;  ///< of a note that began before an excerpt
 
     /// The end of the piece of the curve that the note comes from.
     glm::dvec2 end_point() const { return {to.x, to.y + static_cast<double>(glide.rise)}; }

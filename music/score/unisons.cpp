@@ -11,17 +11,33 @@
 
 namespace sikku {
 
-UnisonMerger::UnisonMerger(NoteSink& sink, const ScoreHead& head, std::size_t most, bool merges_all)
-    : sink_(sink), most_(most) {
+std::vector<std::size_t> unison_parts(const ScoreHead& head, bool merges_all) {
+    std::vector<std::size_t> parts;
     const std::vector<int> slots = merges_all ? channel_slots(head) : std::vector<int>(head.parts.size());
     constexpr std::size_t drums = 0;  // all drum parts are one, on one channel
     for (std::size_t i = 0; i < head.parts.size(); ++i) {
         for (int voice = 0; voice < head.parts[i].voices; ++voice) {
-            const std::size_t own = merges_all ? static_cast<std::size_t>(slots[i]) : parts_.size();
-            parts_.push_back(head.parts[i].is_drums ? drums : own + 1);
+            const std::size_t own = merges_all ? static_cast<std::size_t>(slots[i]) : parts.size();
+            parts.push_back(head.parts[i].is_drums ? drums : own + 1);
         }
     }
+    return parts;
 }
+
+void LastStrokes::add(const Note& note) {
+    Stroke& last = last_[{parts_.at(static_cast<std::size_t>(note.voice)), note.key}];
+    if (last.velocity > 0 && last.onset > note.onset) return;
+    const bool is_together = last.velocity > 0 && last.onset == note.onset;
+    last = {note.onset, is_together ? std::max(last.velocity, note.velocity) : note.velocity};
+}
+
+std::optional<std::uint8_t> LastStrokes::velocity(const Note& note) const {
+    const auto found = last_.find({parts_.at(static_cast<std::size_t>(note.voice)), note.key});
+    return found == last_.end() ? std::nullopt : std::optional(found->second.velocity);
+}
+
+UnisonMerger::UnisonMerger(NoteSink& sink, const ScoreHead& head, std::size_t most, bool merges_all)
+    : sink_(sink), most_(most), parts_(unison_parts(head, merges_all)), before_(parts_) {}
 
 void UnisonMerger::notes(std::span<const Note> notes) {
     if (notes.size() > most_ - notes_.size()) {
@@ -35,13 +51,17 @@ void UnisonMerger::notes(std::span<const Note> notes) {
 
 void UnisonMerger::finish(std::int64_t end) {
     const auto part_of = [&](const Note& note) { return parts_.at(static_cast<std::size_t>(note.voice)); };
+    for (Note& note : notes_) {
+        if (note.is_remainder) note.velocity = before_.velocity(note).value_or(note.velocity);
+    }
     std::sort(notes_.begin(), notes_.end(), [](const Note& a, const Note& b) {
-        return std::tuple(a.onset, -a.duration, a.voice) < std::tuple(b.onset, -b.duration, b.voice);
+        return std::tuple(a.onset, !a.is_remainder, -a.duration, a.voice) <
+               std::tuple(b.onset, !b.is_remainder, -b.duration, b.voice);
     });
     std::map<std::pair<std::size_t, double>, Note*> sounding;
     for (Note& note : notes_) {
         Note*& last = sounding[{part_of(note), note.key}];
-        if (last && last->onset == note.onset) {
+        if (last && last->onset == note.onset && last->is_remainder == note.is_remainder) {
             last->velocity = std::max(last->velocity, note.velocity);
             note.duration = 0;
             continue;

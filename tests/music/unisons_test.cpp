@@ -1,9 +1,12 @@
 #include "music/score/unisons.h"
 
+#include "music/excerpt.h"
 #include "music/score/midi.h"
+#include "music/scores.h"
 #include "tests/midi_reader.h"
 #include "tests/midi_tools.h"
 #include "tests/notation_tools.h"
+#include "tests/works.h"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +136,69 @@ TEST(Unisons, PartsHaveChannelsOfTheirOwnAsFarAsTheyGo) {
     for (std::size_t i = 0; i < 18; ++i) head.parts[i].program = i == 16 ? 7 : static_cast<int>(i % 2);
     head.parts[3].is_drums = true;
     EXPECT_EQ(channel_slots(head), (std::vector<int>{0, 1, 2, 0, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 1, 14, 1}));
+}
+
+/// What sounds of some notes between two ticks, as (part, key, onset, duration, velocity).
+using Strokes = std::set<std::tuple<int, double, std::int64_t, std::int64_t, int>>;
+Strokes strokes_within(const std::vector<Note>& notes, int voices, std::int64_t from, std::int64_t to) {
+    Strokes result;
+    for (const Note& note : notes) {
+        const std::int64_t begin = std::max(note.onset, from);
+        const std::int64_t end = std::min(note.onset + note.duration, to);
+        if (begin < end) result.emplace(note.voice / voices, note.key, begin - from, end - begin, note.velocity);
+    }
+    return result;
+}
+
+TEST(Unisons, ExcerptsAreCutOutsOfTheWhole) {
+    std::size_t most = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const TestScore score = random_voices(seed, 2, 5);
+        Collector whole;
+        UnisonMerger merger(whole, score.head, 10'000);
+        merger.notes(score.notes);
+        merger.finish(score.end);
+        for (std::int64_t from = 60; from < score.end; from += 300) {
+            const std::int64_t to = from + 720;
+            Collector excerpt;
+            UnisonMerger late(excerpt, score.head, 10'000);
+            ExcerptSink cutter(late, from, to, &late.strokes_before());
+            cutter.notes(score.notes);
+            cutter.finish(score.end);
+            const Strokes expected = strokes_within(whole.list, 5, from, to);
+            ASSERT_EQ(strokes_within(excerpt.list, 5, 0, INT64_MAX), expected) << seed << " from " << from;
+            most = std::max(most, expected.size());
+        }
+    }
+    EXPECT_GT(most, 10u);
+}
+
+/// Two lines of one drum: strokes of three quarters at 110, and of one quarter at 60 in the first two bars.
+TEST(Unisons, DrumsOfAnExcerptAreAsLoudAsInTheWhole) {
+    const Document document = parse("drums.lsys",
+                                    "axiom: [kkkkkkkk][HHHH]\nmapping: symbols\ntempo: 120\n"
+                                    "drum k: closed hi-hat 1/4 60\ndrum H: closed hi-hat 3/4 110\n");
+    const auto struck = [&](const OptionValues& values) {
+        std::vector<std::tuple<std::int64_t, std::int64_t, int>> result;
+        for (const MidiNote& note : read_midi(play(document, "mid", values)).notes)
+            result.emplace_back(note.onset / 480, note.duration / 480, note.velocity);
+        std::sort(result.begin(), result.end());
+        return result;
+    };
+    using Struck = decltype(struck({}));
+    EXPECT_EQ(struck({}), (Struck{{0, 1, 110},
+                                  {1, 1, 60},
+                                  {2, 1, 60},
+                                  {3, 1, 110},
+                                  {4, 1, 60},
+                                  {5, 1, 60},
+                                  {6, 1, 110},
+                                  {7, 2, 60},
+                                  {9, 3, 110}}));
+    // The remainder of the stroke at 3 gives way to the one at 4; the stroke at 7 continues, though its own note
+    // ends.
+    EXPECT_EQ(struck({{"from-bar", "2"}, {"bars", "1"}}), (Struck{{0, 1, 60}, {1, 1, 60}, {2, 1, 110}, {3, 1, 60}}));
+    EXPECT_EQ(struck({{"from-bar", "3"}}), (Struck{{0, 1, 60}, {1, 3, 110}}));
 }
 
 TEST(Unisons, HasALimit) {
